@@ -1,0 +1,1 @@
+//! The attribute `lie_poisson`.

@@ -1,0 +1,51 @@
+//! From a generating function to maps: Poisson on 𝔤\*, symplectic on T\*G.
+
+use crate::chart::Chart;
+use crate::error::StepError;
+use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::group::LieGroup;
+use crate::phase::Phase;
+use crate::solve::solve;
+
+/// How the solve of one step went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport<T> {
+    /// Newton iterations made.
+    pub iterations: u32,
+    /// An estimate of the residual left in J_L(x, p) = μ, relative to the largest coordinate of μ.
+    pub residual: T,
+}
+
+/// The Poisson map μ′ → μ″ = Ad\*_{τ(x)⁻¹} μ′ of 𝔤\* that `generating` induces.
+///
+/// The momentum moves by the group action, so Casimirs are kept whatever residual the solve
+/// leaves.
+///
+/// # Errors
+/// As [`solve`].
+#[inline(always)]
+pub fn poisson_map<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+) -> Result<VectorOf<S>, StepError> {
+    let solution = solve(generating, mu)?;
+    Ok(generating.chart().transport(generating.group(), &solution.x, mu).1)
+}
+
+/// Advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′): Algorithm 1 of the paper. Symplectic,
+/// G-equivariant, and J_L-preserving.
+///
+/// # Errors
+/// As [`solve`]; `phase` is then left as it was.
+#[inline(always)]
+pub fn advance<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    phase: &mut Phase<S::Group>,
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
+    let group = generating.group();
+    let solution = solve(generating, &phase.momentum)?;
+    let (increment, momentum) = generating.chart().transport(group, &solution.x, &phase.momentum);
+    phase.group_element = group.compose(&phase.group_element, &increment);
+    phase.momentum = momentum;
+    Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
+}

@@ -1,0 +1,241 @@
+//! SO(3): rotations of space, as unit quaternions.
+
+mod kernel;
+
+use core::marker::PhantomData;
+
+use nalgebra::{Matrix3, Quaternion, SimdBool, UnitQuaternion, Vector3};
+
+use crate::group::{CayleyGroup, LieGroup};
+use crate::scalar::Scalar;
+
+/// The rotation group SO(3), elements as unit quaternions.
+///
+/// Basis: the generators of rotations about the three axes, [e₁, e₂] = e₃ and cyclic, so that
+/// [x, y] = x × y, Ad_R x = Rx, Ad\*_R μ = Rμ, ad\*_x μ = μ × x. Casimir: |μ|². Both charts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SO3<T = f64>(PhantomData<T>);
+
+impl<T> SO3<T> {
+    /// The group; there is nothing to choose.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+type V<T> = Vector3<T>;
+
+#[inline(always)]
+fn cross<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    V::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+}
+
+#[inline(always)]
+fn dot<T: Scalar>(a: &V<T>, b: &V<T>) -> T {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+/// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
+#[inline(always)]
+fn rotate_back<T: Scalar>(w: T, u: &V<T>, v: &V<T>) -> V<T> {
+    let twice = cross(v, u) * T::of(2.0);
+    v + twice * w + cross(&twice, u)
+}
+
+#[inline(always)]
+fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
+    UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
+}
+
+impl<T: Scalar> LieGroup for SO3<T> {
+    type Scalar = T;
+    type Vector = Vector3<T>;
+    type Element = UnitQuaternion<T>;
+
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        3
+    }
+
+    #[inline(always)]
+    fn identity(&self) -> Self::Element {
+        quaternion(T::of(1.0), &V::repeat(T::of(0.0)))
+    }
+
+    /// The product, pulled back onto the unit sphere to first order so that rounding does not
+    /// accumulate in the norm over many steps.
+    #[inline(always)]
+    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
+        let product = g.as_ref() * h.as_ref();
+        let c = &product.coords;
+        let norm_squared = (c.x * c.x + c.y * c.y) + (c.z * c.z + c.w * c.w);
+        let factor = T::of(1.5) - T::of(0.5) * norm_squared;
+        UnitQuaternion::new_unchecked(product * factor)
+    }
+
+    #[inline(always)]
+    fn inverse(&self, g: &Self::Element) -> Self::Element {
+        g.conjugate()
+    }
+
+    #[inline(always)]
+    fn exp(&self, x: &Self::Vector) -> Self::Element {
+        let half = kernel::half_angle(dot(x, x));
+        quaternion(half.cosine, &(x * half.sine_over_angle))
+    }
+
+    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
+        // q and −q are the same rotation; the one with w ≥ 0 has the smaller angle.
+        let q = g.as_ref();
+        let sign = T::of(1.0).simd_copysign(q.w);
+        let u = V::new(q.i, q.j, q.k) * sign;
+        let factor = kernel::log_factor(q.w * sign, dot(&u, &u));
+        Some(u * factor)
+    }
+
+    #[inline(always)]
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
+        cross(x, y)
+    }
+
+    #[inline(always)]
+    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        cross(mu, x)
+    }
+
+    #[inline(always)]
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
+        let q = g.as_ref();
+        rotate_back(q.w, &V::new(-q.i, -q.j, -q.k), x)
+    }
+
+    #[inline(always)]
+    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        self.adjoint(g, mu)
+    }
+
+    #[inline(always)]
+    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
+        let half = kernel::half_angle(dot(x, x));
+        let u = x * half.sine_over_angle;
+        (quaternion(half.cosine, &u), rotate_back(half.cosine, &u, mu))
+    }
+
+    #[inline(always)]
+    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        let k = kernel::dexp(dot(x, x));
+        let once = cross(mu, x);
+        mu + once * k.b + cross(&once, x) * k.c
+    }
+
+    #[inline(always)]
+    fn dexp_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        let k = kernel::dexp(dot(x, x));
+        let once = cross(mu, x);
+        let twice = cross(&once, x);
+        let value = mu + once * k.b + twice * k.c;
+        // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
+        // with (μ×v)×x = v (μ·x) − μ (v·x).
+        let two = T::of(2.0);
+        let along = (once * k.b_slope + twice * k.c_slope) * two - mu * k.c;
+        let turn = mu * k.b + once * k.c;
+        let diagonal = k.c * dot(mu, x);
+        let derivative = Matrix3::new(
+            along.x.times_plus(x.x, diagonal),
+            along.x.times_plus(x.y, -turn.z),
+            along.x.times_plus(x.z, turn.y),
+            along.y.times_plus(x.x, turn.z),
+            along.y.times_plus(x.y, diagonal),
+            along.y.times_plus(x.z, -turn.x),
+            along.z.times_plus(x.x, -turn.y),
+            along.z.times_plus(x.y, turn.x),
+            along.z.times_plus(x.z, diagonal),
+        );
+        (value, derivative)
+    }
+
+    #[inline(always)]
+    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        let c = kernel::dexp_inverse(dot(x, x));
+        let once = cross(x, p);
+        p + once * T::of(0.5) + cross(x, &once) * c
+    }
+
+    #[inline(always)]
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn casimir(&self, _index: usize, mu: &Self::Vector) -> T {
+        dot(mu, mu)
+    }
+
+    #[inline(always)]
+    fn matrix_size(&self) -> usize {
+        3
+    }
+
+    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
+        let mut unit = V::repeat(T::of(0.0));
+        unit[column] = T::of(1.0);
+        self.adjoint(g, &unit)[row]
+    }
+}
+
+impl<T: Scalar> CayleyGroup for SO3<T> {
+    #[inline(always)]
+    fn cayley_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
+        let half = x * T::of(0.5);
+        let w = T::of(1.0) / (T::of(1.0) + dot(&half, &half)).simd_sqrt();
+        let u = half * w;
+        (quaternion(w, &u), rotate_back(w, &u, mu))
+    }
+
+    fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
+        let q = g.as_ref();
+        if q.w.simd_abs().simd_le(T::epsilon()).any() {
+            return None; // a half turn: cay never reaches it
+        }
+        let factor = T::of(2.0) / q.w;
+        Some(V::new(q.i, q.j, q.k) * factor)
+    }
+
+    #[inline(always)]
+    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
+        let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
+        (mu + cross(mu, x) * T::of(0.5)) * factor
+    }
+
+    #[inline(always)]
+    fn dcay_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
+        let value = (mu + cross(mu, x) * T::of(0.5)) * factor;
+        let turn = mu * (T::of(0.5) * factor);
+        let along = value * (T::of(-0.5) * factor);
+        let zero = T::of(0.0);
+        let turn_matrix =
+            Matrix3::new(zero, -turn.z, turn.y, turn.z, zero, -turn.x, -turn.y, turn.x, zero);
+        (value, turn_matrix + along * x.transpose())
+    }
+
+    #[inline(always)]
+    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        p + cross(x, p) * T::of(0.5) + x * (dot(x, p) * T::of(0.25))
+    }
+}

@@ -1,0 +1,198 @@
+//! The functions of t = θ² = |x|² that exp and its differential on so(3) need.
+//!
+//! Each is entire in t (or analytic up to θ = 2π), so near 0 a polynomial reaches rounding; beyond
+//! [`NEAR`] the trigonometric form does, where nothing cancels any more. Both agree to rounding at
+//! the seam, and lanes choose by mask.
+
+use nalgebra::SimdBool;
+
+use crate::scalar::Scalar;
+
+/// Up to this t (θ = 1.5) the polynomials below are exact to rounding.
+const NEAR: f64 = 2.25;
+
+/// 1/n! with the sign of a cosine-like series: `alternating(k, n)` = (−1)ᵏ/n!.
+const fn alternating(k: usize, n: usize) -> f64 {
+    let mut factorial = 1.0;
+    let mut i = 2;
+    while i <= n {
+        factorial *= i as f64;
+        i += 1;
+    }
+    if k.is_multiple_of(2) { 1.0 / factorial } else { -1.0 / factorial }
+}
+
+/// Evaluates Σ cₖ tᵏ for ten coefficients, in pairs (Estrin) to keep the chain short.
+#[inline(always)]
+fn polynomial<T: Scalar>(c: &[f64; 10], t: T) -> T {
+    let pair = |k: usize| T::of(c[k + 1]).times_plus(t, T::of(c[k]));
+    let t2 = t * t;
+    let t4 = t2 * t2;
+    let low = pair(2).times_plus(t2, pair(0));
+    let high = pair(6).times_plus(t2, pair(4));
+    let top = pair(8).times_plus(t4, high);
+    top.times_plus(t4, low)
+}
+
+/// Coefficient tables, each Σ cₖ tᵏ.
+mod table {
+    use super::alternating;
+
+    macro_rules! coefficients {
+        ($(#[$doc:meta])* $name:ident, $k:ident => $value:expr) => {
+            $(#[$doc])*
+            pub const $name: [f64; 10] = {
+                let mut c = [0.0; 10];
+                let mut $k = 0;
+                while $k < 10 {
+                    c[$k] = $value;
+                    $k += 1;
+                }
+                c
+            };
+        };
+    }
+
+    const fn quarter_power(k: usize) -> f64 {
+        let mut result = 1.0;
+        let mut i = 0;
+        while i < k {
+            result *= 0.25;
+            i += 1;
+        }
+        result
+    }
+
+    coefficients!(
+        /// sin(θ/2)/θ = Σ ½ (−t/4)ᵏ/(2k+1)!
+        SINE, k => 0.5 * quarter_power(k) * alternating(k, 2 * k + 1)
+    );
+    coefficients!(
+        /// cos(θ/2) = Σ (−t/4)ᵏ/(2k)!
+        COSINE, k => quarter_power(k) * alternating(k, 2 * k)
+    );
+    coefficients!(
+        /// b = (1 − cos θ)/θ² = Σ (−t)ᵏ/(2k+2)!
+        B, k => alternating(k, 2 * k + 2)
+    );
+    coefficients!(
+        /// c = (θ − sin θ)/θ³ = Σ (−t)ᵏ/(2k+3)!
+        C, k => alternating(k, 2 * k + 3)
+    );
+    coefficients!(
+        /// db/dt
+        B_SLOPE, k => (k + 1) as f64 * alternating(k + 1, 2 * k + 4)
+    );
+    coefficients!(
+        /// dc/dt
+        C_SLOPE, k => (k + 1) as f64 * alternating(k + 1, 2 * k + 5)
+    );
+}
+
+/// cos(θ/2) and sin(θ/2)/θ.
+pub struct HalfAngle<T> {
+    pub cosine: T,
+    pub sine_over_angle: T,
+}
+
+/// The half-angle functions at t = θ².
+#[inline(always)]
+pub fn half_angle<T: Scalar>(t: T) -> HalfAngle<T> {
+    let near = t.simd_le(T::of(NEAR));
+    let mut result = HalfAngle {
+        cosine: polynomial(&table::COSINE, t),
+        sine_over_angle: polynomial(&table::SINE, t),
+    };
+    if !near.all() {
+        let far = half_angle_far(t);
+        result.cosine = result.cosine.select(near, far.cosine);
+        result.sine_over_angle = result.sine_over_angle.select(near, far.sine_over_angle);
+    }
+    result
+}
+
+#[cold]
+fn half_angle_far<T: Scalar>(t: T) -> HalfAngle<T> {
+    let angle = t.simd_sqrt();
+    let (sine, cosine) = (angle * T::of(0.5)).simd_sin_cos();
+    HalfAngle { cosine, sine_over_angle: sine / angle }
+}
+
+/// b = (1 − cos θ)/θ², c = (θ − sin θ)/θ³ and their derivatives in t.
+pub struct Dexp<T> {
+    pub b: T,
+    pub c: T,
+    pub b_slope: T,
+    pub c_slope: T,
+}
+
+/// The functions of (d^R exp)ᵀ at t = θ².
+#[inline(always)]
+pub fn dexp<T: Scalar>(t: T) -> Dexp<T> {
+    let near = t.simd_le(T::of(NEAR));
+    let mut result = Dexp {
+        b: polynomial(&table::B, t),
+        c: polynomial(&table::C, t),
+        b_slope: polynomial(&table::B_SLOPE, t),
+        c_slope: polynomial(&table::C_SLOPE, t),
+    };
+    if !near.all() {
+        let far = dexp_far(t);
+        result.b = result.b.select(near, far.b);
+        result.c = result.c.select(near, far.c);
+        result.b_slope = result.b_slope.select(near, far.b_slope);
+        result.c_slope = result.c_slope.select(near, far.c_slope);
+    }
+    result
+}
+
+#[cold]
+fn dexp_far<T: Scalar>(t: T) -> Dexp<T> {
+    let HalfAngle { cosine, sine_over_angle: s } = half_angle_far(t);
+    let inverse = T::of(1.0) / t;
+    let sinc = T::of(2.0) * s * cosine; // sin θ/θ
+    let b = T::of(2.0) * s * s;
+    let c = (T::of(1.0) - sinc) * inverse;
+    let full_cosine = T::of(1.0) - b * t;
+    let sinc_slope = (full_cosine - sinc) * T::of(0.5) * inverse;
+    Dexp { b, c, b_slope: (sinc * T::of(0.5) - b) * inverse, c_slope: -(sinc_slope + c) * inverse }
+}
+
+/// (1 − (θ/2) cot(θ/2))/θ², the function of (d^R exp)^{−T}; infinite at θ = 2π.
+#[inline(always)]
+pub fn dexp_inverse<T: Scalar>(t: T) -> T {
+    // With s = sin(θ/2)/θ this is (2s − cos(θ/2))/(2st), where (2s − cos(θ/2))/t has a series
+    // without cancellation.
+    let near = t.simd_le(T::of(NEAR));
+    let half = half_angle(t);
+    let mut numerator = polynomial(&SINE_MINUS_COSINE, t);
+    if !near.all() {
+        let far = (T::of(2.0) * half.sine_over_angle - half.cosine) / t;
+        numerator = numerator.select(near, far);
+    }
+    numerator / (T::of(2.0) * half.sine_over_angle)
+}
+
+/// (2 sin(θ/2)/θ − cos(θ/2))/t = Σ (−1)ᵏ (2k+2)/(4ᵏ⁺¹ (2k+3)!) tᵏ.
+const SINE_MINUS_COSINE: [f64; 10] = {
+    let mut c = [0.0; 10];
+    let mut quarter = 0.25;
+    let mut k = 0;
+    while k < 10 {
+        c[k] = quarter * (2 * k + 2) as f64 * alternating(k, 2 * k + 3);
+        quarter *= 0.25;
+        k += 1;
+    }
+    c
+};
+
+/// θ/sin(θ/2) for w = cos(θ/2) ≥ 0 and s = sin²(θ/2): the factor from a quaternion's vector part
+/// to its logarithm.
+pub fn log_factor<T: Scalar>(w: T, s: T) -> T {
+    let root = s.simd_sqrt();
+    let factor = T::of(2.0) * root.simd_atan2(w) / root;
+    // For tiny s, θ/sin(θ/2) = 2 (1 + s/6 + …)/… and w is 1 to rounding.
+    let series = T::of(2.0) + s * T::of(1.0 / 3.0);
+    let tiny = s.simd_le(T::of(1e-9));
+    series.select(tiny, factor)
+}

@@ -1,0 +1,99 @@
+//! Solving J_L(∂S/∂p(p), p) = μ for p.
+
+use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
+
+use crate::chart::Chart;
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::group::LieGroup;
+use crate::scalar::Scalar;
+
+/// Newton iterations allowed before the solver gives up.
+pub const MAX_ITERATIONS: u32 = 20;
+
+/// A point (x, p) of the Lagrangian submanifold over a given momentum.
+#[derive(Clone, Debug)]
+pub struct Solution<V, T> {
+    /// The canonical momentum.
+    pub p: V,
+    /// x = ∂S/∂p(p), the chart coordinate of the group increment.
+    pub x: V,
+    /// Newton iterations made (in lanes: until the last lane was done).
+    pub iterations: u32,
+    /// An estimate of the residual left, relative to the largest coordinate of μ.
+    pub residual: T,
+}
+
+/// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, by Newton's
+/// method from [`GeneratingFunction::predict`].
+///
+/// # Errors
+/// [`StepError::NonFiniteState`] for a μ with NaN or infinity, [`StepError::NotConverged`] when
+/// rounding is not reached within [`MAX_ITERATIONS`].
+#[inline(always)]
+pub fn solve<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    let group = generating.group();
+    let chart = generating.chart();
+    let dim = group.dim();
+    let one = ScalarOf::<S>::of(1.0);
+
+    // The smallest positive scale keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
+    let scale = mu.largest_entry() + ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
+    let inverse_scale = one / scale;
+    let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
+
+    let mut p = generating.predict(mu);
+    let mut solved = (p.clone(), mu.clone());
+    let mut remaining = one;
+    let mut iterations = 0;
+    while iterations < MAX_ITERATIONS {
+        iterations += 1;
+        let (x, hessian) = generating.newton_model(&p);
+        let (pulled, derivative) = chart.pull_back_with_derivative(group, &x, mu);
+        // F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
+        let jacobian = VectorOf::<S>::matrix_from_entries(dim, |i, j| {
+            let mut sum = derivative[(i, 0)] * hessian[(0, j)];
+            for k in 1..dim {
+                sum = derivative[(i, k)].times_plus(hessian[(k, j)], sum);
+            }
+            if i == j { one - sum } else { -sum }
+        });
+        let residual = VectorOf::<S>::from_entries(dim, |i| p[i] - pulled[i]);
+        let correction = VectorOf::<S>::solve(jacobian, residual);
+        let shift = correction.left_multiply(&hessian);
+        let next = VectorOf::<S>::from_entries(dim, |i| p[i] - correction[i]);
+        // x moves linearly with p; what that leaves out is of the order of what Newton leaves.
+        let moved = VectorOf::<S>::from_entries(dim, |i| x[i] - shift[i]);
+
+        let relative = correction.largest_entry() * inverse_scale;
+        let stretch = shift.largest_entry();
+        // Newton leaves about ½F″(δp, δp) ≈ |μ| |δx|²/6 plus the bend of ∂S/∂p itself.
+        let left = stretch * (stretch + relative);
+        let was_open = remaining.simd_gt(tolerance);
+        solved = (
+            VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),
+            VectorOf::<S>::from_entries(dim, |i| moved[i].select(was_open, solved.1[i])),
+        );
+        remaining = left.select(was_open, remaining);
+        if remaining.simd_le(tolerance).all() {
+            let (p, x) = solved;
+            return Ok(Solution { p, x, iterations, residual: remaining });
+        }
+        p = next;
+    }
+    Err(failure(mu, iterations, remaining))
+}
+
+/// Names the reason of a failure; off the hot path.
+#[cold]
+fn failure<T: Scalar, V: Coordinates<T>>(mu: &V, iterations: u32, remaining: T) -> StepError {
+    if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
+        StepError::NonFiniteState
+    } else {
+        StepError::NotConverged { iterations, residual: remaining.largest_lane() }
+    }
+}
