@@ -1,1 +1,25 @@
-//! See the workspace README.
+//! Learn the map from data, keep the geometry exactly.
+//!
+//! Pairs of states one step apart (simulated, measured, noisy, or produced by a bad integrator)
+//! are reduced to points (x, p) of a Lagrangian submanifold {x = ∂S/∂p(p)} of T\*G; a model of S
+//! is fitted to them and read as a generating function ([`Generating`]). Whatever the model, the
+//! map is Poisson, symplectic and G-equivariant, and conserves the spatial momentum and every
+//! Casimir to rounding; data decide only how close it is to the true one.
+//!
+//! Source: M. Vaquero, J. Cortés, D. Martín de Diego, *Symmetry Preservation in Hamiltonian
+//! Systems: Simulation and Learning*, sections 5.2–5.4 and conclusions.
+
+pub mod data;
+mod error;
+mod function;
+mod group;
+mod least_squares;
+pub mod momentum;
+pub mod polynomial;
+mod trivialisation;
+pub mod truth;
+
+pub use error::{BadRow, BadRows, LearnError, RowProblem};
+pub use function::{Generating, MomentumFunction, Scaled, Zero};
+pub use group::{MatrixGroup, matrix_of};
+pub use least_squares::{Descent, GaussNewton};

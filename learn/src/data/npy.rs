@@ -1,0 +1,128 @@
+//! NumPy files: `.npz` with named arrays, `.npy` with one plain matrix.
+
+use std::io::Read;
+use std::path::Path;
+
+use npyz::npz::NpzArchive;
+use npyz::{DType, NpyFile, Order, TypeChar};
+
+use super::columns::Columns;
+use crate::error::LearnError;
+
+/// An array of any shape, row-major.
+struct Array {
+    shape: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// Reads a `.npz` file. An array of shape (N,) is the column of its name; an array `mu` of shape
+/// (N, n) is the columns `mu_1` … `mu_n`; an array `g` of shape (N, d, d) is `g_11` … `g_dd`; an
+/// array `q` of shape (N, 4) is `q_w`, `q_x`, `q_y`, `q_z`. The same with `_next`.
+pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
+    let mut archive = NpzArchive::open(path).map_err(|e| format(path, &e))?;
+    let mut names: Vec<String> = archive.array_names().map(Into::into).collect();
+    names.sort();
+    let mut columns = Vec::new();
+    for name in names {
+        if let Some(file) = archive.by_name(&name).map_err(|e| format(path, &e))? {
+            let array = read_array(path, file)?;
+            spread(&name, &array, &mut columns);
+        }
+    }
+    Columns::new(columns)
+}
+
+/// Reads a `.npy` file: a matrix with a sample per row, whose columns are, in this order, μ, then μ
+/// after the step, then nothing, or the attitude before and after as matrices row by row
+/// (2d² columns), or as quaternions w, x, y, z (8 columns). `dim` and `size` are n and d.
+pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, LearnError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| LearnError::File { path: path.into(), source })?;
+    let file = NpyFile::new(&bytes[..]).map_err(|e| format(path, &e))?;
+    let array = read_array(path, file)?;
+    let width = array.shape.get(1).copied().unwrap_or(0);
+    let mut names = numbered("mu", dim);
+    names.extend(numbered("mu_next", dim));
+    let attitude = width.checked_sub(2 * dim);
+    match attitude {
+        Some(0) => {}
+        Some(8) => {
+            names.extend(quaternion("q"));
+            names.extend(quaternion("q_next"));
+        }
+        Some(w) if w == 2 * size * size => {
+            names.extend(matrix("g", size));
+            names.extend(matrix("g_next", size));
+        }
+        _ => {
+            let what = format!("a row of {}", path.display());
+            return Err(LearnError::Shape { what, expected: 2 * dim, found: width });
+        }
+    }
+    let columns = names
+        .into_iter()
+        .enumerate()
+        .map(|(c, name)| (name, array.values.iter().skip(c).step_by(width).copied().collect()));
+    Columns::new(columns)
+}
+
+fn format(path: &Path, error: &std::io::Error) -> LearnError {
+    LearnError::Format { path: path.into(), format: "NumPy", reason: error.to_string() }
+}
+
+/// Reads an array of 64- or 32-bit floats.
+fn read_array<R: Read>(path: &Path, file: NpyFile<R>) -> Result<Array, LearnError> {
+    let shape: Vec<usize> =
+        file.shape().iter().map(|&s| usize::try_from(s).unwrap_or(usize::MAX)).collect();
+    if file.order() == Order::Fortran && shape.len() > 1 {
+        let reason = "arrays must be in C order (numpy.ascontiguousarray)".into();
+        return Err(LearnError::Format { path: path.into(), format: "NumPy", reason });
+    }
+    let width = match file.dtype() {
+        DType::Plain(ty) if ty.type_char() == TypeChar::Float => ty.size_field(),
+        _ => 0,
+    };
+    let values = match width {
+        8 => file.into_vec::<f64>().map_err(|e| format(path, &e))?,
+        4 => {
+            let narrow = file.into_vec::<f32>().map_err(|e| format(path, &e))?;
+            narrow.into_iter().map(f64::from).collect()
+        }
+        _ => {
+            let reason = "arrays must be of 64- or 32-bit floats".into();
+            return Err(LearnError::Format { path: path.into(), format: "NumPy", reason });
+        }
+    };
+    Ok(Array { shape, values })
+}
+
+/// Adds an array of a `.npz` file as columns; arrays of other shapes are not ours to read.
+fn spread(name: &str, array: &Array, columns: &mut Vec<(String, Vec<f64>)>) {
+    let names = match (array.shape.as_slice(), name) {
+        ([_], _) => vec![name.to_owned()],
+        ([_, 4], "q" | "q_next") => quaternion(name).to_vec(),
+        ([_, width], _) => numbered(name, *width),
+        ([_, rows, width], _) if rows == width => matrix(name, *rows),
+        _ => return,
+    };
+    let width = names.len();
+    for (c, name) in names.into_iter().enumerate() {
+        columns.push((name, array.values.iter().skip(c).step_by(width).copied().collect()));
+    }
+}
+
+/// `mu_1` … `mu_n`.
+pub(super) fn numbered(name: &str, count: usize) -> Vec<String> {
+    (1..=count).map(|i| format!("{name}_{i}")).collect()
+}
+
+/// `g_11`, `g_12` … `g_dd`, row by row.
+pub(super) fn matrix(name: &str, size: usize) -> Vec<String> {
+    let entries = (1..=size).flat_map(|i| (1..=size).map(move |j| (i, j)));
+    entries.map(|(i, j)| format!("{name}_{i}{j}")).collect()
+}
+
+/// `q_w`, `q_x`, `q_y`, `q_z`.
+pub(super) fn quaternion(name: &str) -> [String; 4] {
+    ["w", "x", "y", "z"].map(|part| format!("{name}_{part}"))
+}

@@ -1,0 +1,146 @@
+//! What a data file says, before any group looks at it.
+
+use nalgebra::DMatrix;
+
+use super::columns::Columns;
+use super::npy::{matrix, numbered, quaternion};
+use super::reduce::{MomentumPairs, PairRows, PhasePair};
+use crate::error::{BadRow, LearnError, RowProblem};
+use crate::function::vector;
+use crate::group::{MatrixGroup, matrix_of};
+use coadjoint::Phase;
+
+/// Attitudes as they stand in a file: a sample per column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attitudes {
+    /// Matrices, row by row: d² rows.
+    Matrices {
+        /// g′.
+        before: DMatrix<f64>,
+        /// g″.
+        after: DMatrix<f64>,
+    },
+    /// Unit quaternions w, x, y, z: 4 rows.
+    Quaternions {
+        /// g′.
+        before: DMatrix<f64>,
+        /// g″.
+        after: DMatrix<f64>,
+    },
+}
+
+/// Pairs of states as recorded: momenta before and after, and attitudes if there are any.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// μ′ and μ″, a sample per column.
+    pub momenta: MomentumPairs,
+    /// g′ and g″.
+    pub attitudes: Option<Attitudes>,
+}
+
+impl Recording {
+    /// Picks the columns by name: `mu_1` … `mu_n`, `mu_next_1` …; if present `g_11` … `g_dd` and
+    /// `g_next_11` …, else if present `q_w`, `q_x`, `q_y`, `q_z` and `q_next_w` …
+    ///
+    /// # Errors
+    /// [`LearnError::MissingColumn`] for a column that must be there.
+    pub fn from_columns(
+        columns: &Columns,
+        dim: usize,
+        matrix_size: usize,
+    ) -> Result<Self, LearnError> {
+        let gather = |names: &[String]| -> Result<DMatrix<f64>, LearnError> {
+            let mut gathered = DMatrix::zeros(names.len(), columns.rows());
+            for (i, name) in names.iter().enumerate() {
+                let column = columns.column(name).ok_or_else(|| LearnError::MissingColumn {
+                    missing: name.clone(),
+                    dim,
+                    found: columns.names().to_vec(),
+                })?;
+                gathered.row_mut(i).copy_from_slice(column);
+            }
+            Ok(gathered)
+        };
+        let momenta = MomentumPairs {
+            before: gather(&numbered("mu", dim))?,
+            after: gather(&numbered("mu_next", dim))?,
+        };
+        let attitudes = if columns.column("g_11").is_some() {
+            Some(Attitudes::Matrices {
+                before: gather(&matrix("g", matrix_size))?,
+                after: gather(&matrix("g_next", matrix_size))?,
+            })
+        } else if columns.column("q_w").is_some() {
+            Some(Attitudes::Quaternions {
+                before: gather(&quaternion("q"))?,
+                after: gather(&quaternion("q_next"))?,
+            })
+        } else {
+            None
+        };
+        Ok(Self { momenta, attitudes })
+    }
+
+    /// The pairs of phase points on `group`; rows that are not finite or off the group by more
+    /// than `tolerance` (in a matrix entry; a quaternion's length likewise) come back as bad.
+    ///
+    /// # Errors
+    /// [`LearnError::NoAttitude`] for momenta only, [`LearnError::AttitudeForm`] for quaternions
+    /// of a group that has none.
+    pub fn phase_pairs<G: MatrixGroup>(
+        &self,
+        group: &G,
+        tolerance: f64,
+    ) -> Result<PairRows<G>, LearnError> {
+        let Some(attitudes) = &self.attitudes else { return Err(LearnError::NoAttitude) };
+        let (before, after, quaternions) = match attitudes {
+            Attitudes::Matrices { before, after } => (before, after, false),
+            Attitudes::Quaternions { before, after } => (before, after, true),
+        };
+        if quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
+            return Err(LearnError::AttitudeForm { group: group.name(), form: "quaternions" });
+        }
+        let size = group.matrix_size();
+        let element = |column: &[f64]| -> Result<G::Element, RowProblem> {
+            if !column.iter().all(|v| v.is_finite()) {
+                return Err(RowProblem::NonFinite);
+            }
+            let (found, distance) = if let (true, &[w, x, y, z]) = (quaternions, column) {
+                let norm = (w * w + x * x + y * y + z * z).sqrt();
+                (group.element_of_quaternion([w, x, y, z]), (norm - 1.0).abs())
+            } else {
+                let given = DMatrix::from_row_slice(size, size, column);
+                let found = group.element_near(&given);
+                let nearest = found.as_ref().map(|g| matrix_of(group, g));
+                let distance = nearest.map_or(f64::INFINITY, |m| (m - given).amax());
+                (found, distance)
+            };
+            match found {
+                Some(g) if distance <= tolerance => Ok(g),
+                _ => Err(RowProblem::OffGroup { distance }),
+            }
+        };
+        let (mut pairs, mut bad) = (Vec::new(), Vec::new());
+        for i in 0..self.momenta.len() {
+            let (mu, mu_next) = (self.momenta.before.column(i), self.momenta.after.column(i));
+            let row = i + 1;
+            if !mu.iter().chain(mu_next.iter()).all(|v| v.is_finite()) {
+                bad.push(BadRow { row, problem: RowProblem::NonFinite });
+                continue;
+            }
+            let ends = element(before.column(i).as_slice())
+                .and_then(|g| Ok((g, element(after.column(i).as_slice())?)));
+            match ends {
+                Ok((g, g_next)) => pairs.push((
+                    row,
+                    PhasePair {
+                        before: Phase::new(g, vector::<G>(mu.as_slice())),
+                        after: Phase::new(g_next, vector::<G>(mu_next.as_slice())),
+                    },
+                )),
+                Err(problem) => bad.push(BadRow { row, problem }),
+            }
+        }
+        Ok(PairRows { pairs, bad })
+    }
+}

@@ -1,0 +1,233 @@
+//! Everything that can go wrong in learning, with what to do about it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why data could not be read, reduced, fitted, saved or loaded.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LearnError {
+    /// A file could not be read or written.
+    #[error("cannot read or write {}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file is not in the format its name promises.
+    #[error("{} is not a readable {format} file: {reason}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// The format expected.
+        format: &'static str,
+        /// What the reader said.
+        reason: String,
+    },
+    /// The ending of a file name names no format this build reads.
+    #[error(
+        "{}: the ending must be .csv, .npy, .npz, or .parquet (the last with the feature parquet)",
+        path.display()
+    )]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A cell is not a number.
+    #[error("row {row}, column {column}: `{text}` is not a number")]
+    NotANumber {
+        /// The data row, from 1 (the header not counted).
+        row: usize,
+        /// The column's name.
+        column: String,
+        /// The cell.
+        text: String,
+    },
+    /// A column that must be there is missing.
+    #[error(
+        "column {missing} is missing; the columns found are {}. Momenta are mu_1 … mu_{dim} before \
+         and mu_next_1 … mu_next_{dim} after; attitudes g_11 … and g_next_11 …, or q_w, q_x, q_y, \
+         q_z and q_next_w …",
+        found.join(", ")
+    )]
+    MissingColumn {
+        /// The name looked for.
+        missing: String,
+        /// n, the dimension of the group.
+        dim: usize,
+        /// The names in the file.
+        found: Vec<String>,
+    },
+    /// The columns do not have the same length, or an array not the right shape.
+    #[error("{what} has {found} entries where {expected} are needed")]
+    Shape {
+        /// What has the wrong size.
+        what: String,
+        /// The size needed.
+        expected: usize,
+        /// The size found.
+        found: usize,
+    },
+    /// There is not a single usable sample.
+    #[error("the data hold no usable sample")]
+    NoSamples,
+    /// Attitudes are needed, and the data are momenta only.
+    #[error(
+        "the data hold momenta only: they determine the group increment only up to a rotation \
+         about the momentum, so the attitude cannot be learned from them. Give g_… or q_… columns, \
+         or ask for the Poisson map of momenta alone"
+    )]
+    NoAttitude,
+    /// Attitudes are given in a form the group does not have.
+    #[error("attitudes of {group} cannot be given as {form}; give g_11 … and g_next_11 … matrices")]
+    AttitudeForm {
+        /// The group.
+        group: String,
+        /// The form given.
+        form: &'static str,
+    },
+    /// Rows that cannot be used.
+    #[error("{0}")]
+    BadRows(BadRows),
+    /// The samples do not determine the coefficients.
+    #[error(
+        "{samples} samples do not determine the {terms} coefficients of degree {degree} at ridge \
+         {ridge:e}: give more samples, a lower degree, or a larger ridge"
+    )]
+    NotDetermined {
+        /// The degree asked for.
+        degree: usize,
+        /// Coefficients of that degree.
+        terms: usize,
+        /// Samples given.
+        samples: usize,
+        /// The ridge weight.
+        ridge: f64,
+    },
+    /// A sample is outside the chart, or the model sends it there.
+    #[error("a sample is out of reach of the {chart} chart; use data with a smaller step")]
+    OutOfChart {
+        /// The chart's name.
+        chart: &'static str,
+    },
+    /// The iteration of a fit could not begin or did not end.
+    #[error("the fit did not converge: {reason}")]
+    NotConverged {
+        /// What happened.
+        reason: String,
+    },
+    /// An option is out of its range.
+    #[error("{option} is {value}: {requirement}")]
+    InvalidOption {
+        /// The option's name.
+        option: &'static str,
+        /// The value given.
+        value: String,
+        /// What it must be.
+        requirement: String,
+    },
+    /// A model file is damaged or not one of ours.
+    #[error("{} is not a usable model file: {reason}", path.display())]
+    Model {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// What is wrong with one row of data.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RowProblem {
+    /// A coordinate is NaN or infinite.
+    NonFinite,
+    /// The attitude is not in the group: its distance from the nearest element of it.
+    OffGroup {
+        /// The largest difference of an entry.
+        distance: f64,
+    },
+    /// J_L(α′) ≠ J_L(α″): the spatial momentum is not conserved by the pair.
+    MomentumMismatch {
+        /// The largest difference of a coordinate, relative to the largest coordinate.
+        relative: f64,
+    },
+    /// The increment g′⁻¹g″ has no coordinate in the chart.
+    OutOfChart,
+    /// The increment lies beyond the fold of the canonical momentum in the chart.
+    BeyondFold {
+        /// How far: the fold is at 1.
+        measure: f64,
+    },
+}
+
+impl fmt::Display for RowProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NonFinite => write!(f, "a coordinate is NaN or infinite"),
+            Self::OffGroup { distance } => {
+                write!(f, "an attitude is {distance:.1e} away from the group")
+            }
+            Self::MomentumMismatch { relative } => {
+                write!(f, "the spatial momentum differs by {relative:.1e} across the pair")
+            }
+            Self::OutOfChart => write!(f, "the increment g'^-1 g'' has no coordinate in the chart"),
+            Self::BeyondFold { measure } => write!(
+                f,
+                "the increment lies beyond the fold of the chart ({measure:.3}, the fold is at 1)"
+            ),
+        }
+    }
+}
+
+/// A row that cannot be used, by its number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadRow {
+    /// The data row, from 1 (a header not counted).
+    pub row: usize,
+    /// What is wrong.
+    pub problem: RowProblem,
+}
+
+/// All rows that cannot be used, and what to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadRows {
+    /// The rows, in order.
+    pub rows: Vec<BadRow>,
+    /// Rows looked at.
+    pub total: usize,
+    /// The chart in use.
+    pub chart: &'static str,
+}
+
+/// Rows listed by name before the message says "and … more".
+const LISTED: usize = 10;
+
+impl fmt::Display for BadRows {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {} rows cannot be used:", self.rows.len(), self.total)?;
+        for bad in self.rows.iter().take(LISTED) {
+            write!(f, "\n  row {}: {}", bad.row, bad.problem)?;
+        }
+        if self.rows.len() > LISTED {
+            write!(f, "\n  and {} more", self.rows.len() - LISTED)?;
+        }
+        let has = |test: fn(&RowProblem) -> bool| self.rows.iter().any(|b| test(&b.problem));
+        if has(|p| matches!(p, RowProblem::BeyondFold { .. } | RowProblem::OutOfChart)) {
+            if self.chart == "cayley" {
+                write!(f, "\nuse the exponential chart, which reaches further, or a smaller step")?;
+            } else {
+                write!(f, "\nuse data with a smaller step")?;
+            }
+        }
+        if has(|p| matches!(p, RowProblem::OffGroup { .. } | RowProblem::MomentumMismatch { .. })) {
+            write!(
+                f,
+                "\nnoisy data can be used by raising the tolerances; they are then projected onto \
+                 the group, and p is taken from the momentum after the step"
+            )?;
+        }
+        write!(f, "\nor drop these rows and go on")
+    }
+}

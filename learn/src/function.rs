@@ -1,0 +1,179 @@
+//! Functions on 𝔤\*, and the step from one to a map that conserves what it must.
+
+use core::marker::PhantomData;
+
+use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup};
+
+/// A smooth function f: 𝔤\* → ℝ in the coordinates dual to the basis, with its derivatives.
+///
+/// Models learned from data and Hamiltonians are both of this kind; [`Generating`] reads one as a
+/// generating function S(p).
+pub trait MomentumFunction {
+    /// n, the number of coordinates.
+    fn dim(&self) -> usize;
+
+    /// f(p), `p` of length n.
+    fn value(&self, p: &[f64]) -> f64;
+
+    /// Writes ∂f/∂p, of length n, to `gradient`.
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]);
+
+    /// Writes ∂f/∂p and the n×n Hessian (symmetric, so rows or columns) to the slices.
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]);
+}
+
+impl<M: MomentumFunction + ?Sized> MomentumFunction for &M {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+
+    fn value(&self, p: &[f64]) -> f64 {
+        (**self).value(p)
+    }
+
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
+        (**self).gradient(p, gradient);
+    }
+
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        (**self).gradient_and_hessian(p, gradient, hessian);
+    }
+}
+
+impl<M: MomentumFunction + ?Sized> MomentumFunction for Box<M> {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+
+    fn value(&self, p: &[f64]) -> f64 {
+        (**self).value(p)
+    }
+
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
+        (**self).gradient(p, gradient);
+    }
+
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        (**self).gradient_and_hessian(p, gradient, hessian);
+    }
+}
+
+/// factor · f; with factor = Δt and f = H it is the trivial answer S = Δt·H.
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<M> {
+    /// The factor.
+    pub factor: f64,
+    /// f.
+    pub function: M,
+}
+
+impl<M: MomentumFunction> MomentumFunction for Scaled<M> {
+    fn dim(&self) -> usize {
+        self.function.dim()
+    }
+
+    fn value(&self, p: &[f64]) -> f64 {
+        self.factor * self.function.value(p)
+    }
+
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
+        self.function.gradient(p, gradient);
+        gradient.iter_mut().for_each(|entry| *entry *= self.factor);
+    }
+
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        self.function.gradient_and_hessian(p, gradient, hessian);
+        gradient.iter_mut().chain(hessian).for_each(|entry| *entry *= self.factor);
+    }
+}
+
+/// f = 0; as a generating function the identity map, the answer "x = 0, μ″ = μ′".
+#[derive(Clone, Copy, Debug)]
+pub struct Zero {
+    /// n, the number of coordinates.
+    pub dim: usize,
+}
+
+impl MomentumFunction for Zero {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn value(&self, _p: &[f64]) -> f64 {
+        0.0
+    }
+
+    fn gradient(&self, _p: &[f64], gradient: &mut [f64]) {
+        gradient.fill(0.0);
+    }
+
+    fn gradient_and_hessian(&self, _p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        gradient.fill(0.0);
+        hessian.fill(0.0);
+    }
+}
+
+/// A function of momenta read as a generating function on a group, in the chart `C`.
+///
+/// Whatever the function, the map it induces is Poisson, symplectic and G-equivariant, and
+/// conserves the spatial momentum and every Casimir to rounding.
+#[derive(Clone, Copy, Debug)]
+pub struct Generating<G, C, M> {
+    group: G,
+    chart: PhantomData<C>,
+    /// S.
+    pub function: M,
+}
+
+impl<G, C, M> Generating<G, C, M> {
+    /// S = `function` on `group`, in the chart `C`.
+    pub fn new(group: G, function: M) -> Self {
+        Self { group, chart: PhantomData, function }
+    }
+}
+
+impl<G, C, M> GeneratingFunction for Generating<G, C, M>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+    type Group = G;
+    type Chart = C;
+
+    fn group(&self) -> &G {
+        &self.group
+    }
+
+    fn value(&self, p: &G::Vector) -> f64 {
+        self.function.value(&entries(p))
+    }
+
+    fn gradient(&self, p: &G::Vector) -> G::Vector {
+        let mut gradient = vec![0.0; p.dim()];
+        self.function.gradient(&entries(p), &mut gradient);
+        vector::<G>(&gradient)
+    }
+
+    fn gradient_and_hessian(
+        &self,
+        p: &G::Vector,
+    ) -> (G::Vector, <G::Vector as Coordinates<f64>>::Matrix) {
+        let dim = p.dim();
+        let mut gradient = vec![0.0; dim];
+        let mut hessian = vec![0.0; dim * dim];
+        self.function.gradient_and_hessian(&entries(p), &mut gradient, &mut hessian);
+        let matrix = G::Vector::matrix_from_entries(dim, |i, j| hessian[i * dim + j]);
+        (vector::<G>(&gradient), matrix)
+    }
+}
+
+/// The coordinates of `vector` as numbers in a row.
+pub(crate) fn entries<V: Coordinates<f64>>(vector: &V) -> Vec<f64> {
+    (0..vector.dim()).map(|i| vector[i]).collect()
+}
+
+/// The vector with the coordinates given.
+pub(crate) fn vector<G: LieGroup<Scalar = f64>>(entries: &[f64]) -> G::Vector {
+    G::Vector::from_entries(entries.len(), |i| entries[i])
+}

@@ -1,0 +1,139 @@
+//! Poisson-only data, the canonical momenta p eliminated by Newton's method.
+
+use coadjoint::{Chart, Coordinates, LieGroup, solve};
+use nalgebra::{DMatrix, DVector};
+
+use crate::data::MomentumPairs;
+use crate::error::LearnError;
+use crate::function::{Generating, entries, vector};
+use crate::least_squares::GaussNewton;
+use crate::polynomial::{Basis, PolynomialModel, Scaling};
+use crate::trivialisation::{ad_star_matrix, left_derivative};
+
+/// How [`fit_poisson`] fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoissonOptions {
+    /// The total degree of S.
+    pub degree: usize,
+    /// The iteration; its ridge fixes what the momenta leave open (a rotation about μ).
+    pub iteration: GaussNewton,
+}
+
+impl PoissonOptions {
+    /// Degree `degree`, up to 60 linearisations, a ridge of 10⁻¹⁶.
+    #[must_use]
+    pub fn degree(degree: usize) -> Self {
+        let iteration = GaussNewton { iterations: 60, relative_decrease: 1e-3, ridge: 1e-16 };
+        Self { degree, iteration }
+    }
+}
+
+/// A Poisson map learned from momenta.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoissonFit {
+    /// S. It fixes the map of momenta; the attitude it would reconstruct is arbitrary up to a
+    /// rotation about the momentum, because the data do not contain it.
+    pub model: PolynomialModel,
+    /// The mean squared error of μ″ after each accepted step of the iteration.
+    pub history: Vec<f64>,
+}
+
+/// Fits S to pairs (μ′, μ″): min Σ|Φ_S(μ′ᵢ) − μ″ᵢ|², where Φ_S solves J_L(∂S/∂p(p), p) = μ′ for p.
+///
+/// The paper makes the pᵢ unknowns of the fit, as many as there are samples; here each is a
+/// function of the coefficients, so the unknowns are the coefficients alone. With δc the change
+/// of the coefficients, x = ∂S/∂p moves by δx = (1 − Hess S·D)⁻¹ ∂δS/∂p and
+/// δμ″ = ad\*_{d^Lτ_x δx} μ″.
+///
+/// # Errors
+/// [`LearnError::NotConverged`] when a p cannot be solved for, at the start or on the way.
+pub fn fit_poisson<G, C>(
+    group: &G,
+    pairs: &MomentumPairs,
+    options: &PoissonOptions,
+) -> Result<PoissonFit, LearnError>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+{
+    if pairs.is_empty() {
+        return Err(LearnError::NoSamples);
+    }
+    let (dim, samples) = pairs.before.shape();
+    // p is near both momenta.
+    let mut seen = pairs.before.clone().resize_horizontally(2 * samples, 0.0);
+    seen.columns_mut(samples, samples).copy_from(&pairs.after);
+    let start = PolynomialModel::zero(Basis::new(dim, options.degree), Scaling::of(&seen));
+    let terms = start.basis().len();
+
+    let residual = |c: &DVector<f64>| {
+        let model = start.clone().with_coefficients(c.as_slice());
+        let generating = Generating::<G, C, _>::new(group.clone(), &model);
+        let mut all = Vec::with_capacity(dim * samples);
+        for (before, after) in pairs.before.column_iter().zip(pairs.after.column_iter()) {
+            let mu = vector::<G>(before.as_slice());
+            let next = coadjoint::poisson_map(&generating, &mu).ok()?;
+            all.extend((0..dim).map(|j| next[j] - after[j]));
+        }
+        Some(DVector::from_vec(all)).filter(|r| r.iter().all(|v| v.is_finite()))
+    };
+    let linearise = |c: &DVector<f64>| {
+        let model = start.clone().with_coefficients(c.as_slice());
+        let generating = Generating::<G, C, _>::new(group.clone(), &model);
+        let mut all = DVector::zeros(dim * samples);
+        let mut jacobian = DMatrix::zeros(dim * samples, terms);
+        let mut row = vec![0.0; terms * dim];
+        for i in 0..samples {
+            let mu = vector::<G>(pairs.before.column(i).as_slice());
+            let point = solve(&generating, &mu).ok()?;
+            let (next, map) = response(group, C::default(), &model, &mu, &point.x, &point.p)?;
+            model.basis_gradients(&entries(&point.p), &mut row);
+            let slopes = map * DMatrix::from_column_slice(dim, terms, &row);
+            jacobian.rows_mut(i * dim, dim).copy_from(&slopes);
+            for j in 0..dim {
+                all[i * dim + j] = next[j] - pairs.after[(j, i)];
+            }
+        }
+        Some((all, jacobian))
+    };
+    let descent = options
+        .iteration
+        .minimise(DVector::zeros(terms), residual, linearise)
+        .ok_or_else(|| LearnError::NotConverged {
+            reason: "no canonical momentum p solves J_L(dS/dp, p) = mu for some sample".into(),
+        })?;
+    let count = (dim * samples) as f64;
+    Ok(PoissonFit {
+        model: start.clone().with_coefficients(descent.unknowns.as_slice()),
+        history: descent.history.iter().map(|sum| sum / count).collect(),
+    })
+}
+
+/// μ″ at the solution (x, p) over μ′, and the matrix of ∂δS/∂p ↦ δμ″.
+fn response<G, C>(
+    group: &G,
+    chart: C,
+    model: &PolynomialModel,
+    mu: &G::Vector,
+    x: &G::Vector,
+    p: &G::Vector,
+) -> Option<(G::Vector, DMatrix<f64>)>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+{
+    use crate::function::MomentumFunction;
+    let dim = x.dim();
+    let mut gradient = vec![0.0; dim];
+    let mut hessian = vec![0.0; dim * dim];
+    model.gradient_and_hessian(&entries(p), &mut gradient, &mut hessian);
+    let hessian = DMatrix::from_row_slice(dim, dim, &hessian);
+    let (_, derivative) = chart.pull_back_with_derivative(group, x, mu);
+    let derivative = DMatrix::from_fn(dim, dim, |i, j| derivative[(i, j)]);
+    // δp = D δx and δx = Hess S δp + ∂δS/∂p.
+    let system = DMatrix::identity(dim, dim) - hessian * derivative;
+    let moves = system.try_inverse()?;
+    let next = chart.transport(group, x, mu).1;
+    let turn = ad_star_matrix(group, &next) * left_derivative(group, chart, x);
+    Some((next, turn * moves))
+}

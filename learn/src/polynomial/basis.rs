@@ -1,0 +1,184 @@
+//! The Chebyshev basis of total degree d in normalised momenta.
+
+use serde::{Deserialize, Serialize};
+
+/// An affine map of each coordinate of the data to about [−1, 1]: u = (p − centre) / half_width.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scaling {
+    /// The middle of the data, per coordinate.
+    pub centre: Vec<f64>,
+    /// Half the range of the data, per coordinate; positive.
+    pub half_width: Vec<f64>,
+}
+
+impl Scaling {
+    /// The scaling that takes the samples (columns of `points`) to [−1, 1] in every coordinate.
+    #[must_use]
+    pub fn of(points: &nalgebra::DMatrix<f64>) -> Self {
+        let bounds = |row: usize| {
+            points.row(row).iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
+                (low.min(v), high.max(v))
+            })
+        };
+        let (mut centre, mut half_width) = (Vec::new(), Vec::new());
+        for row in 0..points.nrows() {
+            let (low, high) = bounds(row);
+            let half = 0.5 * (high - low);
+            centre.push(if low <= high { 0.5 * (low + high) } else { 0.0 });
+            // A coordinate that never varies keeps its unit.
+            half_width.push(if half > 0.0 && half.is_finite() { half } else { 1.0 });
+        }
+        Self { centre, half_width }
+    }
+
+    /// u, the normalised coordinate number `index` of `p`.
+    #[must_use]
+    pub fn normalise(&self, index: usize, p: f64) -> f64 {
+        (p - self.centre[index]) / self.half_width[index]
+    }
+}
+
+/// Products of Chebyshev polynomials T_a(u₁) T_b(u₂) … of total degree 1 … d.
+///
+/// The constant is left out: a generating function matters only through its gradient. Ordered by
+/// degree, then by exponents, descending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    dim: usize,
+    degree: usize,
+    /// Exponents of all terms, `dim` per term.
+    exponents: Vec<u8>,
+}
+
+impl Basis {
+    /// The basis in `dim` coordinates up to the total degree `degree` (at most 255).
+    #[must_use]
+    pub fn new(dim: usize, degree: usize) -> Self {
+        let degree = degree.min(usize::from(u8::MAX));
+        let mut exponents = Vec::new();
+        let mut current = vec![0; dim];
+        for total in 1..=degree {
+            compositions(total, 0, &mut current, &mut exponents);
+        }
+        Self { dim, degree, exponents }
+    }
+
+    /// The number of basis functions of `dim` coordinates and total degree 1 … `degree`:
+    /// C(dim + degree, degree) − 1.
+    #[must_use]
+    pub fn size(dim: usize, degree: usize) -> usize {
+        (1..=degree).fold(1_usize, |count, k| count.saturating_mul(dim + k) / k) - 1
+    }
+
+    /// The number of basis functions.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.exponents.len() / self.dim.max(1)
+    }
+
+    /// Whether there is no basis function (degree 0).
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.exponents.is_empty()
+    }
+
+    /// The number of coordinates.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// The total degree.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// The Chebyshev indices of every basis function, in order.
+    pub fn terms(&self) -> impl Iterator<Item = &[u8]> {
+        self.exponents.chunks_exact(self.dim.max(1))
+    }
+
+    /// T_k, T_k′, T_k″ at `u`: three rows of degree + 1 values per coordinate.
+    pub(super) fn tables(&self, u: impl Iterator<Item = f64>) -> Tables {
+        let width = self.degree + 1;
+        let mut tables = Tables { width, entries: Vec::with_capacity(3 * width * self.dim) };
+        for coordinate in u {
+            tables.push(coordinate);
+        }
+        tables
+    }
+}
+
+/// All exponents from coordinate `from` on that sum to `left`, the first one largest first.
+fn compositions(left: usize, from: usize, current: &mut Vec<u8>, all: &mut Vec<u8>) {
+    if from + 1 == current.len() {
+        current[from] = u8::try_from(left).unwrap_or(u8::MAX);
+        all.extend_from_slice(current);
+        return;
+    }
+    for first in (0..=left).rev() {
+        current[from] = u8::try_from(first).unwrap_or(u8::MAX);
+        compositions(left - first, from + 1, current, all);
+    }
+}
+
+/// Chebyshev polynomials and their first two derivatives at one point.
+pub(super) struct Tables {
+    width: usize,
+    entries: Vec<f64>,
+}
+
+impl Tables {
+    fn push(&mut self, u: f64) {
+        let start = self.entries.len();
+        let width = self.width;
+        self.entries.resize(start + 3 * width, 0.0);
+        let (value, rest) = self.entries[start..].split_at_mut(width);
+        let (slope, bend) = rest.split_at_mut(width);
+        value[0] = 1.0;
+        if width > 1 {
+            value[1] = u;
+            slope[1] = 1.0;
+        }
+        for k in 2..width {
+            // T_k = 2u T_{k−1} − T_{k−2} and its derivatives.
+            value[k] = 2.0 * u * value[k - 1] - value[k - 2];
+            slope[k] = 2.0 * value[k - 1] + 2.0 * u * slope[k - 1] - slope[k - 2];
+            bend[k] = 4.0 * slope[k - 1] + 2.0 * u * bend[k - 1] - bend[k - 2];
+        }
+    }
+
+    /// The derivative of order 0, 1 or 2 of T_k in the coordinate `index`.
+    #[inline]
+    pub(super) fn at(&self, index: usize, order: usize, k: u8) -> f64 {
+        self.entries[(3 * index + order) * self.width + usize::from(k)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_binomial() {
+        for (dim, degree, expected) in [(3, 6, 83), (3, 8, 164), (6, 4, 209), (1, 5, 5)] {
+            assert_eq!(Basis::size(dim, degree), expected);
+            assert_eq!(Basis::new(dim, degree).len(), expected);
+        }
+    }
+
+    #[test]
+    fn tables_agree_with_cosines() {
+        let basis = Basis::new(1, 7);
+        let angle: f64 = 0.7;
+        let tables = basis.tables([angle.cos()].into_iter());
+        for k in 0..=7_u8 {
+            let k_float = f64::from(k);
+            // T_k(cos θ) = cos kθ, T_k′ = k sin kθ / sin θ.
+            assert!((tables.at(0, 0, k) - (k_float * angle).cos()).abs() < 1e-14);
+            let slope = k_float * (k_float * angle).sin() / angle.sin();
+            assert!((tables.at(0, 1, k) - slope).abs() < 1e-13);
+        }
+    }
+}

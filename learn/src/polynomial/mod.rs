@@ -1,0 +1,13 @@
+//! Polynomial models: the fit of gradients is linear least squares.
+
+mod basis;
+mod fit;
+mod group_loss;
+mod model;
+mod select;
+
+pub use basis::{Basis, Scaling};
+pub use fit::{fit_gradients, fit_polynomial};
+pub use group_loss::fit_group_loss;
+pub use model::PolynomialModel;
+pub use select::{Candidate, Selection, SelectionOptions, select_polynomial};

@@ -1,0 +1,157 @@
+//! Degree and ridge by cross-validation.
+
+use nalgebra::DMatrix;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::basis::{Basis, Scaling};
+use super::fit::gradient_problem;
+use super::model::PolynomialModel;
+use crate::data::ReducedData;
+use crate::error::LearnError;
+use crate::function::MomentumFunction;
+
+/// What [`select_polynomial`] tries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SelectionOptions {
+    /// Total degrees to try.
+    pub degrees: Vec<usize>,
+    /// Ridge weights to try, as in [`fit_gradients`](super::fit_gradients).
+    pub ridges: Vec<f64>,
+    /// Folds of the cross-validation, at least 2.
+    pub folds: usize,
+    /// Seed of the shuffle that makes the folds.
+    pub seed: u64,
+    /// The most basis functions a candidate may have: bounds time and memory.
+    pub largest_basis: usize,
+}
+
+impl Default for SelectionOptions {
+    fn default() -> Self {
+        Self {
+            degrees: (2..=10).collect(),
+            ridges: vec![0.0, 1e-14, 1e-10, 1e-6, 1e-3],
+            folds: 5,
+            seed: 0,
+            largest_basis: 300,
+        }
+    }
+}
+
+/// One candidate of a cross-validation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// What was tried, as a user would ask for it: `polynomial degree 6, ridge 0`.
+    pub name: String,
+    /// The total degree.
+    pub degree: usize,
+    /// The ridge weight.
+    pub ridge: f64,
+    /// The mean squared error of x over the samples left out.
+    pub mse: f64,
+}
+
+/// The outcome of a cross-validation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// The best candidate, fitted to all samples.
+    pub model: PolynomialModel,
+    /// The best candidate.
+    pub best: Candidate,
+    /// Every candidate that could be fitted, in the order tried.
+    pub candidates: Vec<Candidate>,
+}
+
+/// Which samples each fold leaves out: a seeded shuffle dealt out in turn.
+pub(crate) fn folds(samples: usize, count: usize, seed: u64) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..samples).collect();
+    order.shuffle(&mut ChaCha8Rng::seed_from_u64(seed));
+    let count = count.clamp(2, samples.max(2));
+    (0..count).map(|f| order.iter().copied().skip(f).step_by(count).collect()).collect()
+}
+
+/// The columns of `matrix` in the fold, and the ones outside it.
+pub(crate) fn split(matrix: &DMatrix<f64>, fold: &[usize]) -> (DMatrix<f64>, DMatrix<f64>) {
+    let mut inside = vec![false; matrix.ncols()];
+    fold.iter().for_each(|&i| inside[i] = true);
+    let outside: Vec<usize> = (0..matrix.ncols()).filter(|&i| !inside[i]).collect();
+    (matrix.select_columns(fold), matrix.select_columns(&outside))
+}
+
+/// The mean squared error of ∂f/∂p against `gradients`, over samples and coordinates.
+pub(crate) fn gradient_error(
+    function: &impl MomentumFunction,
+    points: &DMatrix<f64>,
+    gradients: &DMatrix<f64>,
+) -> f64 {
+    let mut found = vec![0.0; points.nrows()];
+    let mut sum = 0.0;
+    for (point, expected) in points.column_iter().zip(gradients.column_iter()) {
+        function.gradient(point.as_slice(), &mut found);
+        sum += found.iter().zip(expected.iter()).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    }
+    sum / points.len().max(1) as f64
+}
+
+/// Chooses degree and ridge by cross-validation and fits the winner to all samples.
+///
+/// Among candidates within one part in 20 of the best, the one with fewer coefficients and then
+/// the larger ridge wins.
+///
+/// # Errors
+/// [`LearnError::NotDetermined`] when no candidate can be fitted: too few samples.
+pub fn select_polynomial(
+    data: &ReducedData,
+    options: &SelectionOptions,
+) -> Result<Selection, LearnError> {
+    let (dim, samples) = data.p.shape();
+    let parts: Vec<_> = folds(samples, options.folds, options.seed)
+        .iter()
+        .map(|fold| (split(&data.p, fold), split(&data.x, fold)))
+        .collect();
+    let mut candidates = Vec::new();
+    for &degree in &options.degrees {
+        if Basis::size(dim, degree) > options.largest_basis {
+            continue;
+        }
+        let basis = Basis::new(dim, degree);
+        let problems: Vec<_> = parts
+            .iter()
+            .map(|((_, p), (_, x))| {
+                let model = PolynomialModel::zero(basis.clone(), Scaling::of(p));
+                let problem = gradient_problem(&model, p, x);
+                (model, problem)
+            })
+            .collect();
+        for &ridge in &options.ridges {
+            let errors: Option<Vec<f64>> = problems
+                .iter()
+                .zip(&parts)
+                .map(|((model, problem), ((p, _), (x, _)))| {
+                    let fitted = model.clone().with_coefficients(problem.solve(ridge)?.as_slice());
+                    Some(gradient_error(&fitted, p, x))
+                })
+                .collect();
+            if let Some(errors) = errors {
+                let mse = errors.iter().sum::<f64>() / errors.len() as f64;
+                let name = format!("polynomial degree {degree}, ridge {ridge:e}");
+                candidates.push(Candidate { name, degree, ridge, mse });
+            }
+        }
+    }
+    let least = candidates.iter().map(|c| c.mse).fold(f64::INFINITY, f64::min);
+    let best = candidates
+        .iter()
+        .filter(|c| c.mse <= least * 1.05)
+        .min_by(|a, b| a.degree.cmp(&b.degree).then(b.ridge.total_cmp(&a.ridge)))
+        .cloned();
+    let Some(best) = best else {
+        let degree = options.degrees.iter().copied().min().unwrap_or(2);
+        let terms = Basis::size(dim, degree);
+        return Err(LearnError::NotDetermined { degree, terms, samples, ridge: 0.0 });
+    };
+    let model = super::fit_polynomial(data, best.degree, best.ridge)?;
+    Ok(Selection { model, best, candidates })
+}

@@ -1,0 +1,9 @@
+//! True flows to make data from: Hamiltonians, their exact flow to rounding, seeded samples.
+
+mod flow;
+mod hamiltonian;
+mod sample;
+
+pub use flow::{exact_flow, exact_momentum_flow};
+pub use hamiltonian::{Quadratic, Quartic, Relativistic};
+pub use sample::{MomentumBox, add_noise, momentum_pairs, phase_pairs};

@@ -1,0 +1,182 @@
+//! Reading data files and refusing what cannot be used, with row numbers.
+#![allow(clippy::unwrap_used)]
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use coadjoint::{Cayley, Exponential, SO3};
+use coadjoint_learn::data::{
+    PhasePair, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce, write_csv,
+};
+use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+use coadjoint_learn::{LearnError, RowProblem};
+use npyz::WriterBuilder;
+
+fn path(name: &str) -> PathBuf {
+    let directory = std::env::temp_dir().join(format!("coadjoint-data-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).unwrap();
+    directory.join(name)
+}
+
+fn pairs(step: f64, count: usize) -> Vec<PhasePair<SO3>> {
+    phase_pairs(&SO3::new(), &Quadratic::paper(), step, MomentumBox::PAPER, count, 7)
+}
+
+fn load(path: &std::path::Path) -> Result<Reduction, LearnError> {
+    let group = SO3::new();
+    let recording = Recording::from_columns(&read_columns(path, 3, 3)?, 3, 3)?;
+    let rows = recording.phase_pairs(&group, 1e-6)?;
+    reduce::<SO3, Exponential>(&group, &rows, Tolerances::default(), RowPolicy::Refuse)
+}
+
+fn csv(name: &str, text: &str) -> PathBuf {
+    let path = path(name);
+    std::fs::File::create(&path).unwrap().write_all(text.as_bytes()).unwrap();
+    path
+}
+
+#[test]
+fn csv_reads_back_what_was_written() {
+    let path = path("pairs.csv");
+    let pairs = pairs(0.1, 20);
+    write_csv(&path, &SO3::new(), &pairs).unwrap();
+    let found = load(&path).unwrap().data;
+    let direct = reduce::<SO3, Exponential>(
+        &SO3::new(),
+        &pairs.into(),
+        Tolerances::default(),
+        RowPolicy::Refuse,
+    );
+    let direct = direct.unwrap().data;
+    assert_eq!(found.momenta, direct.momenta);
+    // Attitudes pass through matrices.
+    assert!((found.x - direct.x).amax() < 1e-14);
+    assert!((found.p - direct.p).amax() < 1e-13);
+}
+
+#[test]
+fn both_formulas_for_the_canonical_momentum_agree() {
+    use coadjoint::Chart;
+    let data = load(&{
+        let path = path("formulas.csv");
+        write_csv(&path, &SO3::new(), &pairs(0.1, 20)).unwrap();
+        path
+    });
+    let data = data.unwrap().data;
+    for i in 0..data.len() {
+        let column = |m: &nalgebra::DMatrix<f64>| nalgebra::Vector3::from_fn(|r, _| m[(r, i)]);
+        let p = Exponential.pull_back(&SO3::new(), &column(&data.x), &column(&data.momenta.before));
+        assert!((p - column(&data.p)).norm() < 1e-13);
+    }
+}
+
+#[test]
+fn npz_and_npy_hold_the_same_data() {
+    let pairs = pairs(0.1, 5);
+    let rows: Vec<[f64; 14]> = pairs
+        .iter()
+        .map(|pair| {
+            let (a, b) = (&pair.before, &pair.after);
+            let (q, r) = (a.group_element.as_ref(), b.group_element.as_ref());
+            let (mu, nu) = (a.momentum, b.momentum);
+            [mu.x, mu.y, mu.z, nu.x, nu.y, nu.z, q.w, q.i, q.j, q.k, r.w, r.i, r.j, r.k]
+        })
+        .collect();
+    let array = |out: &mut dyn Write, first: usize, width: usize| {
+        let options = npyz::WriteOptions::new().default_dtype();
+        let mut writer = options.shape(&[5, width as u64]).writer(out).begin_nd().unwrap();
+        writer.extend(rows.iter().flat_map(|r| r[first..first + width].to_vec())).unwrap();
+        writer.finish().unwrap();
+    };
+    let npy = path("pairs.npy");
+    array(&mut std::fs::File::create(&npy).unwrap(), 0, 14);
+    let npz = path("pairs.npz");
+    let mut archive = npyz::npz::NpzWriter::create(&npz).unwrap();
+    for (name, first, width) in [("mu", 0, 3), ("mu_next", 3, 3), ("q", 6, 4), ("q_next", 10, 4)] {
+        let mut bytes = Vec::new();
+        array(&mut bytes, first, width);
+        let values = rows.iter().flat_map(|r| r[first..first + width].to_vec());
+        archive
+            .array(name, Default::default())
+            .unwrap()
+            .default_dtype()
+            .shape(&[5, width as u64])
+            .begin_nd()
+            .and_then(|mut w| {
+                w.extend(values)?;
+                w.finish()
+            })
+            .unwrap();
+    }
+    drop(archive);
+    let (a, b) = (load(&npy).unwrap(), load(&npz).unwrap());
+    assert_eq!(a, b);
+    assert_eq!(a.data.len(), 5);
+    assert_eq!(a.data.momenta.before[(1, 2)], pairs[2].before.momentum.y);
+}
+
+const HEADER: &str = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,q_w,q_x,q_y,q_z,q_next_w,\
+                      q_next_x,q_next_y,q_next_z\n";
+
+#[test]
+fn bad_rows_are_named_by_number() {
+    // 1: at rest, fine; 2: NaN; 3: a quaternion of length 1.1; 4: momentum not conserved.
+    let text = format!(
+        "{HEADER}1,2,3,1,2,3,1,0,0,0,1,0,0,0\nNaN,2,3,1,2,3,1,0,0,0,1,0,0,0\n\
+         1,2,3,1,2,3,1.1,0,0,0,1,0,0,0\n1,2,3,1,2,4,1,0,0,0,1,0,0,0\n"
+    );
+    let LearnError::BadRows(bad) = load(&csv("bad.csv", &text)).unwrap_err() else {
+        panic!("bad rows are the error")
+    };
+    assert_eq!(bad.rows.iter().map(|b| b.row).collect::<Vec<_>>(), [2, 3, 4]);
+    assert_eq!(bad.rows[0].problem, RowProblem::NonFinite);
+    assert!(
+        matches!(bad.rows[1].problem, RowProblem::OffGroup { distance } if (distance - 0.1).abs() < 1e-12)
+    );
+    assert!(
+        matches!(bad.rows[2].problem, RowProblem::MomentumMismatch { relative } if (relative - 1.0 / 3.0).abs() < 1e-12)
+    );
+    let message = bad.to_string();
+    assert!(message.starts_with("3 of 4 rows cannot be used:\n  row 2:"), "{message}");
+}
+
+#[test]
+fn missing_columns_words_and_unknown_endings_are_named() {
+    let message = load(&csv("missing.csv", "mu_1,mu_2,mu_3\n1,2,3\n")).unwrap_err().to_string();
+    assert!(message.contains("column mu_next_1 is missing"), "{message}");
+    let text = format!("{HEADER}1,2,x,1,2,3,1,0,0,0,1,0,0,0\n");
+    let message = load(&csv("word.csv", &text)).unwrap_err().to_string();
+    assert_eq!(message, "row 1, column mu_3: `x` is not a number");
+    let message = load(&csv("data.xlsx", "")).unwrap_err().to_string();
+    assert!(message.contains("the ending must be .csv"), "{message}");
+    let message = load(&csv("fake.npz", "not a zip")).unwrap_err().to_string();
+    assert!(message.contains("is not a readable NumPy file"), "{message}");
+    assert!(matches!(load(&csv("empty.csv", HEADER)), Err(LearnError::NoSamples)));
+}
+
+#[test]
+fn momenta_alone_do_not_give_attitudes() {
+    let header = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
+    let error = load(&csv("momenta.csv", &format!("{header}1,2,3,1,2,3\n"))).unwrap_err();
+    assert!(matches!(error, LearnError::NoAttitude), "{error}");
+}
+
+/// The Cayley chart folds where θ tan(θ/2) = 1, θ ≈ 1.3065; in the paper's box Δt = 0.35 is beyond
+/// it for many samples, while the exponential chart takes them all.
+#[test]
+fn data_beyond_the_cayley_fold_are_named_and_the_exponential_chart_suggested() {
+    let pairs = pairs(0.35, 100).into();
+    let result =
+        reduce::<SO3, Cayley>(&SO3::new(), &pairs, Tolerances::default(), RowPolicy::Refuse);
+    let message = result.unwrap_err().to_string();
+    assert!(message.contains("beyond the fold") && message.contains("exponential chart"));
+    let dropped =
+        reduce::<SO3, Cayley>(&SO3::new(), &pairs, Tolerances::default(), RowPolicy::Drop);
+    let dropped = dropped.unwrap();
+    assert!(!dropped.dropped.is_empty() && dropped.data.len() + dropped.dropped.len() == 100);
+    for i in 0..dropped.data.len() {
+        assert!(2.0 * (0.5 * dropped.data.x.column(i).norm()).atan() < 1.3066);
+    }
+    reduce::<SO3, Exponential>(&SO3::new(), &pairs, Tolerances::default(), RowPolicy::Refuse)
+        .unwrap();
+}

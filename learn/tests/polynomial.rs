@@ -1,0 +1,78 @@
+//! Polynomial models against the bars: the paper's body and box, exact flow as data.
+#![allow(clippy::unwrap_used)]
+
+use coadjoint::{Cayley, Chart, Exponential, SO3};
+use coadjoint_learn::MomentumFunction;
+use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
+use coadjoint_learn::polynomial::{
+    SelectionOptions, fit_group_loss, fit_polynomial, select_polynomial,
+};
+use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
+use coadjoint_learn::{GaussNewton, LearnError};
+
+fn reduced<C: Chart<SO3>>(count: usize, seed: u64, noise: f64) -> ReducedData {
+    let group = SO3::new();
+    let pairs = phase_pairs(&group, &Quadratic::paper(), 0.1, MomentumBox::PAPER, count, seed);
+    let pairs = add_noise(&group, &pairs, noise, seed + 1000);
+    let tolerances = if noise > 0.0 { Tolerances::unlimited() } else { Tolerances::default() };
+    reduce::<SO3, C>(&group, &pairs.into(), tolerances, RowPolicy::Refuse).unwrap().data
+}
+
+fn error(model: &impl MomentumFunction, data: &ReducedData) -> f64 {
+    let mut x = [0.0; 3];
+    let mut sum = 0.0;
+    for i in 0..data.len() {
+        model.gradient(data.p.column(i).as_slice(), &mut x);
+        sum += (0..3).map(|j| (x[j] - data.x[(j, i)]).powi(2)).sum::<f64>();
+    }
+    sum / (3 * data.len()) as f64
+}
+
+/// The bars for 500 samples at Δt = 0.1: degree 6 ≤ 5e-12, degree 8 ≤ 1e-14. The Cayley
+/// chart (the paper's) measures 1.6e-12 and 2.4e-15, the exponential chart 1.3e-21 and 1.5e-27.
+#[test]
+fn degrees_six_and_eight_reach_their_bars_in_both_charts() {
+    for (train, test) in [
+        (reduced::<Cayley>(500, 1, 0.0), reduced::<Cayley>(100, 2, 0.0)),
+        (reduced::<Exponential>(500, 1, 0.0), reduced::<Exponential>(100, 2, 0.0)),
+    ] {
+        for (degree, bar) in [(6, 5e-12), (8, 1e-14)] {
+            let mse = error(&fit_polynomial(&train, degree, 0.0).unwrap(), &test);
+            assert!(mse <= bar, "degree {degree}: {mse:e}");
+        }
+    }
+}
+
+#[test]
+fn cross_validation_takes_a_high_degree_for_exact_data_and_a_low_one_for_noise() {
+    let options = SelectionOptions { degrees: (2..=6).collect(), ..Default::default() };
+    let exact = select_polynomial(&reduced::<Exponential>(200, 1, 0.0), &options).unwrap();
+    assert_eq!(exact.best.degree, 6);
+    assert!(error(&exact.model, &reduced::<Exponential>(100, 2, 0.0)) < 1e-19);
+    let noisy = select_polynomial(&reduced::<Exponential>(200, 1, 0.05), &options).unwrap();
+    assert!(noisy.best.degree <= 3, "{:?}", noisy.best);
+    // The noise of an increment is √2·0.05 a coordinate; the model averages it out.
+    assert!(error(&noisy.model, &reduced::<Exponential>(100, 2, 0.0)) < 1e-4);
+}
+
+#[test]
+fn the_group_loss_agrees_where_data_are_exact_and_lowers_the_group_error_where_not() {
+    let group = SO3::new();
+    let options = GaussNewton { iterations: 10, relative_decrease: 1e-12, ridge: 1e-15 };
+    let train = reduced::<Cayley>(150, 1, 0.02);
+    let start = fit_polynomial(&train, 2, 0.0).unwrap();
+    let (_, history) = fit_group_loss::<SO3, Cayley>(&group, &train, &start, &options).unwrap();
+    assert!(history.last().unwrap() < &history[0]);
+    let train = reduced::<Cayley>(150, 1, 0.0);
+    let start = fit_polynomial(&train, 4, 0.0).unwrap();
+    let (model, _) = fit_group_loss::<SO3, Cayley>(&group, &train, &start, &options).unwrap();
+    assert!(error(&model, &reduced::<Cayley>(100, 2, 0.0)) < 1e-7);
+}
+
+#[test]
+fn too_few_samples_are_refused_unless_a_ridge_decides() {
+    let train = reduced::<Exponential>(20, 1, 0.0);
+    let error = fit_polynomial(&train, 6, 0.0).unwrap_err();
+    assert!(matches!(error, LearnError::NotDetermined { terms: 83, samples: 20, .. }), "{error}");
+    assert!(fit_polynomial(&train, 6, 1e-10).is_ok());
+}
