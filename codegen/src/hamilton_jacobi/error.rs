@@ -1,0 +1,69 @@
+//! Limits and errors of the derivation.
+
+use crate::lie::ChartError;
+
+/// How large a derivation may become before it stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TermLimit {
+    /// The most terms one polynomial may have.
+    pub terms: usize,
+    /// The most products of coefficients in one derivation.
+    pub products: u64,
+}
+
+impl TermLimit {
+    /// At most this many terms in one polynomial, and work in proportion.
+    #[must_use]
+    pub fn new(terms: usize) -> Self {
+        Self { terms, products: (terms as u64).saturating_mul(2000) }
+    }
+}
+
+impl Default for TermLimit {
+    fn default() -> Self {
+        Self::new(100_000)
+    }
+}
+
+/// Why a derivation stopped.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DeriveError {
+    /// The chart does not exist for the algebra.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// The Hamiltonian has fewer variables than the algebra has dimensions.
+    #[error(
+        "the Hamiltonian has {variables} variables, fewer than the {dimension} momenta of the algebra"
+    )]
+    Variables {
+        /// Variables of the Hamiltonian.
+        variables: usize,
+        /// Dimension of the algebra.
+        dimension: usize,
+    },
+    /// A polynomial grew beyond the limit.
+    #[error(
+        "too large: order {order} needs at least {terms} terms, more than the limit of {limit}; lower the truncation"
+    )]
+    TooLarge {
+        /// The order in t at which it happened.
+        order: usize,
+        /// The terms counted when it stopped.
+        terms: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// The work grew beyond the limit.
+    #[error(
+        "too large: order {order} needs at least {products} products of coefficients, more than the limit of {limit}; lower the truncation"
+    )]
+    TooMuchWork {
+        /// The order in t at which it happened.
+        order: usize,
+        /// The products counted when it stopped.
+        products: u64,
+        /// The limit.
+        limit: u64,
+    },
+}

@@ -1,0 +1,291 @@
+//! Lie algebras by basis, structure constants or brackets.
+
+use super::{LieAlgebraError, RationalMatrix, Span};
+use crate::number::Rational;
+use num_traits::Zero;
+use std::collections::BTreeMap;
+
+/// One nonzero structure constant: the component of \[e_i, e_j\] along e_k.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StructureConstant {
+    /// The first generator of the bracket, from zero.
+    pub i: usize,
+    /// The second generator of the bracket, from zero.
+    pub j: usize,
+    /// The generator along which the component is taken, from zero.
+    pub k: usize,
+    /// c_ij^k.
+    pub value: Rational,
+}
+
+/// A finite-dimensional Lie algebra over ℚ with a chosen basis.
+///
+/// Antisymmetry and the Jacobi identity hold: they are checked at construction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LieAlgebra {
+    name: String,
+    generators: Vec<String>,
+    structure: Vec<StructureConstant>,
+    basis: Option<Vec<RationalMatrix>>,
+}
+
+type Table = BTreeMap<(usize, usize, usize), Rational>;
+
+impl LieAlgebra {
+    /// From all nonzero structure constants (i, j, k, c_ij^k), \[e_i, e_j\] = Σ_k c_ij^k e_k.
+    ///
+    /// Both c_ij^k and c_ji^k are to be given. Generators are called e1, e2, ….
+    ///
+    /// # Errors
+    /// If an index is out of range, a constant is given twice with different values, or
+    /// antisymmetry or the Jacobi identity fails.
+    pub fn from_structure_constants(
+        name: impl Into<String>,
+        dimension: usize,
+        entries: impl IntoIterator<Item = (usize, usize, usize, Rational)>,
+    ) -> Result<Self, LieAlgebraError> {
+        let generators = default_names(dimension);
+        let mut table = Table::new();
+        for (i, j, k, value) in entries {
+            check_range(dimension, &[i, j, k])?;
+            if let Some(old) = table.insert((i, j, k), value.clone())
+                && old != value
+            {
+                return Err(inconsistent(&generators, i, j));
+            }
+        }
+        table.retain(|_, value| !value.is_zero());
+        Self::checked(name.into(), generators, table, None)
+    }
+
+    /// From square rational matrices of one size, their commutator being the bracket.
+    ///
+    /// # Errors
+    /// If a matrix is not square, sizes differ, a matrix depends on those before it, or a bracket
+    /// leaves the span.
+    pub fn from_basis(
+        name: impl Into<String>,
+        basis: Vec<RationalMatrix>,
+    ) -> Result<Self, LieAlgebraError> {
+        let generators = default_names(basis.len());
+        Self::from_named_basis(name, generators, basis)
+    }
+
+    /// As [`from_basis`](Self::from_basis), with names for the generators (used in messages).
+    ///
+    /// # Errors
+    /// As [`from_basis`](Self::from_basis).
+    pub fn from_named_basis(
+        name: impl Into<String>,
+        mut generators: Vec<String>,
+        basis: Vec<RationalMatrix>,
+    ) -> Result<Self, LieAlgebraError> {
+        fit_names(&mut generators, basis.len());
+        let Some(first) = basis.first() else {
+            return Err(LieAlgebraError::Empty);
+        };
+        for (matrix, generator) in basis.iter().zip(&generators) {
+            if matrix.rows() != matrix.columns() {
+                return Err(LieAlgebraError::NotSquare {
+                    generator: generator.clone(),
+                    rows: matrix.rows(),
+                    columns: matrix.columns(),
+                });
+            }
+            if matrix.rows() != first.rows() {
+                return Err(LieAlgebraError::DifferentSizes {
+                    generator: generator.clone(),
+                    size: matrix.rows(),
+                    expected: first.rows(),
+                });
+            }
+        }
+        let span = Span::new(&basis).map_err(|index| LieAlgebraError::Dependent {
+            generator: generators[index].clone(),
+            index,
+        })?;
+        let mut table = Table::new();
+        for i in 0..basis.len() {
+            for j in i + 1..basis.len() {
+                let bracket = basis[i].commutator(&basis[j]);
+                let Some(coordinates) = span.coordinates(&bracket) else {
+                    return Err(LieAlgebraError::NotClosed {
+                        first: generators[i].clone(),
+                        second: generators[j].clone(),
+                        indices: (i, j),
+                    });
+                };
+                for (k, value) in coordinates {
+                    table.insert((j, i, k), -value.clone());
+                    table.insert((i, j, k), value);
+                }
+            }
+        }
+        Self::checked(name.into(), generators, table, Some(basis))
+    }
+
+    /// From brackets (i, j, \[e_i, e_j\] as components (k, c_ij^k)).
+    ///
+    /// A bracket not given is zero, or the opposite of the one given in the other order.
+    ///
+    /// # Errors
+    /// If an index is out of range, a bracket is given twice with different values (also in the
+    /// other order), \[e_i, e_i\] is not zero, or the Jacobi identity fails.
+    pub fn from_brackets(
+        name: impl Into<String>,
+        generators: Vec<String>,
+        brackets: impl IntoIterator<Item = (usize, usize, Vec<(usize, Rational)>)>,
+    ) -> Result<Self, LieAlgebraError> {
+        let dimension = generators.len();
+        let mut given: BTreeMap<(usize, usize), BTreeMap<usize, Rational>> = BTreeMap::new();
+        for (i, j, components) in brackets {
+            check_range(dimension, &[i, j])?;
+            let mut value: BTreeMap<usize, Rational> = BTreeMap::new();
+            for (k, c) in components {
+                check_range(dimension, &[k])?;
+                let c = if i <= j { c } else { -c };
+                *value.entry(k).or_insert_with(Rational::zero) += c;
+            }
+            value.retain(|_, c| !c.is_zero());
+            if i == j && !value.is_empty() {
+                return Err(inconsistent(&generators, i, j));
+            }
+            if let Some(old) = given.insert((i.min(j), i.max(j)), value.clone())
+                && old != value
+            {
+                return Err(inconsistent(&generators, i, j));
+            }
+        }
+        let mut table = Table::new();
+        for ((i, j), value) in given {
+            for (k, c) in value {
+                table.insert((j, i, k), -c.clone());
+                table.insert((i, j, k), c);
+            }
+        }
+        Self::checked(name.into(), generators, table, None)
+    }
+
+    fn checked(
+        name: String,
+        generators: Vec<String>,
+        table: Table,
+        basis: Option<Vec<RationalMatrix>>,
+    ) -> Result<Self, LieAlgebraError> {
+        if generators.is_empty() {
+            return Err(LieAlgebraError::Empty);
+        }
+        check_antisymmetry(&generators, &table)?;
+        check_jacobi(&generators, &table)?;
+        let structure = table
+            .into_iter()
+            .map(|((i, j, k), value)| StructureConstant { i, j, k, value })
+            .collect();
+        Ok(Self { name, generators, structure, basis })
+    }
+
+    /// The dimension.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.generators.len()
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The names of the basis elements, used in messages.
+    #[must_use]
+    pub fn generators(&self) -> &[String] {
+        &self.generators
+    }
+
+    /// The nonzero structure constants, ascending by (i, j, k); both orders of i and j occur.
+    #[must_use]
+    pub fn structure(&self) -> &[StructureConstant] {
+        &self.structure
+    }
+
+    /// The matrices of the basis; none if the algebra is known by its brackets alone.
+    #[must_use]
+    pub fn basis(&self) -> Option<&[RationalMatrix]> {
+        self.basis.as_deref()
+    }
+}
+
+fn default_names(dimension: usize) -> Vec<String> {
+    (1..=dimension).map(|i| format!("e{i}")).collect()
+}
+
+fn fit_names(names: &mut Vec<String>, dimension: usize) {
+    names.truncate(dimension);
+    for i in names.len()..dimension {
+        names.push(format!("e{}", i + 1));
+    }
+}
+
+fn check_range(dimension: usize, indices: &[usize]) -> Result<(), LieAlgebraError> {
+    match indices.iter().find(|&&index| index >= dimension) {
+        Some(&index) => Err(LieAlgebraError::OutOfRange { index, dimension }),
+        None => Ok(()),
+    }
+}
+
+fn inconsistent(generators: &[String], i: usize, j: usize) -> LieAlgebraError {
+    LieAlgebraError::Inconsistent {
+        first: generators[i].clone(),
+        second: generators[j].clone(),
+        indices: (i, j),
+    }
+}
+
+fn names(generators: &[String], i: usize, j: usize, k: usize) -> Box<[String; 3]> {
+    Box::new([generators[i].clone(), generators[j].clone(), generators[k].clone()])
+}
+
+fn check_antisymmetry(generators: &[String], table: &Table) -> Result<(), LieAlgebraError> {
+    for (&(i, j, k), forward) in table {
+        let backward = table.get(&(j, i, k)).cloned().unwrap_or_else(Rational::zero);
+        if *forward != -&backward {
+            return Err(LieAlgebraError::NotAntisymmetric {
+                generators: names(generators, i, j, k),
+                forward: Box::new(forward.clone()),
+                backward: Box::new(backward),
+                indices: (i, j, k),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The Jacobiator is totally antisymmetric once the bracket is, so triples i < j < k suffice:
+/// \[\[i,j\],k\] + \[\[j,k\],i\] − \[\[i,k\],j\] = 0. Only nonzero brackets are visited.
+fn check_jacobi(generators: &[String], table: &Table) -> Result<(), LieAlgebraError> {
+    let mut sums: BTreeMap<(usize, usize, usize, usize), Rational> = BTreeMap::new();
+    for (&(i, j, l), c) in table.iter().filter(|((i, j, _), _)| i < j) {
+        for (&(_, k, m), d) in table.range((l, 0, 0)..(l + 1, 0, 0)) {
+            let (triple, positive) = if k > j {
+                ((i, j, k), true)
+            } else if k < i {
+                ((k, i, j), true)
+            } else if k > i && k < j {
+                ((i, k, j), false)
+            } else {
+                continue;
+            };
+            let value = if positive { c * d } else { -(c * d) };
+            *sums.entry((triple.0, triple.1, triple.2, m)).or_insert_with(Rational::zero) += value;
+        }
+    }
+    match sums.into_iter().find(|(_, value)| !value.is_zero()) {
+        None => Ok(()),
+        Some(((i, j, k, m), value)) => Err(LieAlgebraError::Jacobi {
+            generators: names(generators, i, j, k),
+            indices: (i, j, k),
+            along: generators[m].clone(),
+            value: Box::new(value),
+        }),
+    }
+}

@@ -1,0 +1,124 @@
+//! Charts of a group near the identity.
+
+use super::{LieAlgebra, Span};
+use crate::number::Rational;
+use std::fmt;
+
+/// A chart τ: 𝔤 → G near the identity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Chart {
+    /// τ = exp; exists for every algebra.
+    #[default]
+    Exponential,
+    /// τ(x) = (1 − x/2)⁻¹(1 + x/2) in a matrix representation; needs xξx ∈ 𝔤.
+    Cayley,
+}
+
+/// Why a chart does not exist for an algebra.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChartError {
+    /// The product xξx leaves the algebra.
+    #[error(
+        "{algebra} has no Cayley chart: xξx leaves the algebra for x = {first} + {third}, ξ = {second}; use the exponential chart (exp)"
+    )]
+    LeavesAlgebra {
+        /// The algebra.
+        algebra: String,
+        /// First generator of x.
+        first: String,
+        /// The generator ξ.
+        second: String,
+        /// Second generator of x (may equal the first).
+        third: String,
+    },
+    /// Only brackets are known, so there is no matrix product.
+    #[error(
+        "{algebra} is known by its brackets alone, without a matrix product, so it has no Cayley chart; use the exponential chart (exp) or give a matrix basis"
+    )]
+    NoMatrices {
+        /// The algebra.
+        algebra: String,
+    },
+}
+
+/// One component of x ξ x in the basis: x_first · x_second · ξ_argument · value along `result`,
+/// with first ≤ second.
+#[derive(Clone, Debug)]
+pub(crate) struct CubicEntry {
+    pub(crate) first: usize,
+    pub(crate) second: usize,
+    pub(crate) argument: usize,
+    pub(crate) result: usize,
+    pub(crate) value: Rational,
+}
+
+impl Chart {
+    /// Whether the chart exists for this algebra.
+    ///
+    /// # Errors
+    /// The reason if it does not.
+    pub fn check(self, algebra: &LieAlgebra) -> Result<(), ChartError> {
+        match self {
+            Self::Exponential => Ok(()),
+            Self::Cayley => cubic(algebra).map(|_| ()),
+        }
+    }
+
+    /// The name in files and attributes: `exp` or `cayley`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exponential => "exp",
+            Self::Cayley => "cayley",
+        }
+    }
+}
+
+impl fmt::Display for Chart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The map (x, ξ) ↦ xξx in coordinates, by polarisation: e_a e_b e_c + e_c e_b e_a for a < c and
+/// e_a e_b e_a. It closes on the algebra exactly if all of these do.
+pub(crate) fn cubic(algebra: &LieAlgebra) -> Result<Vec<CubicEntry>, ChartError> {
+    let Some(basis) = algebra.basis() else {
+        return Err(ChartError::NoMatrices { algebra: algebra.name().into() });
+    };
+    let Ok(span) = Span::new(basis) else {
+        return Err(ChartError::NoMatrices { algebra: algebra.name().into() });
+    };
+    let one = crate::number::integer(1);
+    let dimension = basis.len();
+    let mut entries = Vec::new();
+    for a in 0..dimension {
+        for b in 0..dimension {
+            let left = basis[a].times(&basis[b]);
+            let right = basis[b].times(&basis[a]);
+            for c in a..dimension {
+                let mut product = left.times(&basis[c]);
+                if c > a {
+                    product = product.plus(&basis[c].times(&right), &one);
+                }
+                if product.is_zero() {
+                    continue;
+                }
+                let Some(coordinates) = span.coordinates(&product) else {
+                    let names = algebra.generators();
+                    return Err(ChartError::LeavesAlgebra {
+                        algebra: algebra.name().into(),
+                        first: names[a].clone(),
+                        second: names[b].clone(),
+                        third: names[c].clone(),
+                    });
+                };
+                for (result, value) in coordinates {
+                    entries.push(CubicEntry { first: a, second: c, argument: b, result, value });
+                }
+            }
+        }
+    }
+    Ok(entries)
+}

@@ -1,0 +1,16 @@
+//! Lie algebras over ℚ and the charts of their groups.
+
+mod algebra;
+pub mod catalogue;
+mod chart;
+mod error;
+mod matrix;
+mod span;
+
+pub use algebra::{LieAlgebra, StructureConstant};
+pub use chart::{Chart, ChartError};
+pub use error::LieAlgebraError;
+pub use matrix::RationalMatrix;
+
+pub(crate) use chart::{CubicEntry, cubic};
+pub(crate) use span::Span;

@@ -1,0 +1,25 @@
+//! Exact numbers: the rational scalar users see, and the integers the series are computed with.
+
+mod bernoulli;
+
+pub(crate) use bernoulli::bernoulli_over_factorial;
+
+/// An exact rational number, always in lowest terms with a positive denominator.
+pub type Rational = num_rational::BigRational;
+
+/// The rational `numerator / denominator`.
+///
+/// Meant for literals; a zero denominator gives zero rather than a panic.
+#[must_use]
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
+    if denominator == 0 {
+        return Rational::from_integer(0.into());
+    }
+    Rational::new(numerator.into(), denominator.into())
+}
+
+/// The rational with the value of an integer.
+#[must_use]
+pub fn integer(value: i64) -> Rational {
+    Rational::from_integer(value.into())
+}

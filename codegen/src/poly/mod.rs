@@ -1,0 +1,5 @@
+//! Sparse multivariate polynomials over ℚ.
+
+mod polynomial;
+
+pub use polynomial::Polynomial;
