@@ -3,7 +3,7 @@
 use super::{DeriveError, TermLimit};
 use crate::lie::{LieAlgebra, StructureConstant};
 use crate::number::{Rational, integer};
-use crate::poly::Polynomial;
+use crate::poly::{Polynomial, Product, sum_of_products};
 use num_traits::One;
 use std::collections::BTreeMap;
 
@@ -28,31 +28,23 @@ impl Work {
         &mut self,
         products: &[(Rational, &Polynomial, &Polynomial)],
     ) -> Result<Polynomial, DeriveError> {
-        let mut result = Polynomial::zero(self.variables);
+        let mut list = Vec::with_capacity(products.len());
         for (factor, left, right) in products {
-            if left.is_zero() || right.is_zero() {
-                continue;
-            }
             self.products = self
                 .products
                 .saturating_add((left.len() as u64).saturating_mul(right.len() as u64));
-            if self.products > self.limit.products {
-                return Err(DeriveError::TooMuchWork {
-                    order: self.order,
-                    products: self.products,
-                    limit: self.limit.products,
-                });
-            }
-            result = &result + &(*left * *right).scale(factor);
-            if result.len() > self.limit.terms {
-                return Err(DeriveError::TooLarge {
-                    order: self.order,
-                    terms: result.len(),
-                    limit: self.limit.terms,
-                });
-            }
+            list.push(Product { factor: factor.clone(), left, right });
         }
-        Ok(result)
+        if self.products > self.limit.products {
+            return Err(DeriveError::TooMuchWork {
+                order: self.order,
+                products: self.products,
+                limit: self.limit.products,
+            });
+        }
+        sum_of_products(self.variables, &list, self.limit.terms).map_err(|terms| {
+            DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }
+        })
     }
 }
 

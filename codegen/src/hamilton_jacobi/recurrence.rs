@@ -85,8 +85,8 @@ pub(super) fn derive_orders(
         } else {
             orders.push(energy.coefficient(0, k - 1).scale(&reciprocal(k)));
         }
-        for (i, x) in momentum.x.iter_mut().enumerate() {
-            x.push(orders[k].derivative(i));
+        for (x, derivative) in momentum.x.iter_mut().zip(orders[k].gradient(dimension)) {
+            x.push(derivative);
         }
     }
     Ok(GeneratingSeries { dimension, chart, orders })

@@ -1,8 +1,12 @@
 //! Exact numbers: the rational scalar users see, and the integers the series are computed with.
 
 mod bernoulli;
+mod coefficients;
+mod divisor;
 
 pub(crate) use bernoulli::bernoulli_over_factorial;
+pub(crate) use coefficients::Coefficients;
+pub(crate) use divisor::{bits, lcm};
 
 /// An exact rational number, always in lowest terms with a positive denominator.
 pub type Rational = num_rational::BigRational;

@@ -1,29 +1,86 @@
 //! The polynomial type.
 
-use crate::number::{Rational, integer};
-use num_traits::{One, ToPrimitive, Zero};
-use std::cmp::Reverse;
+use super::monomial::{Factors, Packing};
+use crate::number::{Coefficients, Rational};
+use num_traits::{One, Zero};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::ops::{Add, Mul, Neg, Sub};
 
-/// A polynomial in a fixed number of variables with exact rational coefficients.
-#[derive(Clone, PartialEq, Eq, Debug)]
+/// A sparse polynomial in a fixed number of variables with exact rational coefficients.
+///
+/// Terms are kept in lexicographically descending order of their exponents. Arithmetic is exact:
+/// machine integers are used while they provably suffice and big integers otherwise, exponents
+/// are packed into one word while they fit and kept as lists of factors otherwise.
+///
+/// ```
+/// use coadjoint_codegen::number::ratio;
+/// use coadjoint_codegen::poly::Polynomial;
+///
+/// let x = Polynomial::variable(2, 0);
+/// let y = Polynomial::variable(2, 1);
+/// let square = (&x + &y.scale(&ratio(1, 2))).pow(2);
+/// let terms: Vec<_> = square.terms().collect();
+/// assert_eq!(terms[0], (vec![2, 0], ratio(1, 1)));
+/// assert_eq!(terms[1], (vec![1, 1], ratio(1, 1)));
+/// assert_eq!(terms[2], (vec![0, 2], ratio(1, 4)));
+/// ```
+///
+/// Binary operations expect both operands to have the same number of variables; if they differ
+/// the result has the larger number, the variables of both counted from the first.
+#[derive(Clone)]
 pub struct Polynomial {
     variables: usize,
-    terms: BTreeMap<Reverse<Vec<u32>>, Rational>,
+    /// No term has a greater total degree.
+    pub(super) bound: u32,
+    pub(super) keys: Keys,
+    pub(super) values: Coefficients,
+}
+
+/// The monomials of a polynomial, descending.
+#[derive(Clone)]
+pub(crate) enum Keys {
+    Packed(Vec<u128>),
+    Sparse(Vec<Factors>),
+}
+
+impl Keys {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Packed(keys) => keys.len(),
+            Self::Sparse(keys) => keys.len(),
+        }
+    }
+
+    pub(super) fn packed(&self) -> &[u128] {
+        match self {
+            Self::Packed(keys) => keys,
+            Self::Sparse(_) => &[],
+        }
+    }
+
+    pub(super) fn sparse(&self) -> &[Factors] {
+        match self {
+            Self::Packed(_) => &[],
+            Self::Sparse(keys) => keys,
+        }
+    }
 }
 
 impl Polynomial {
     /// The zero polynomial.
     #[must_use]
     pub fn zero(variables: usize) -> Self {
-        Self { variables, terms: BTreeMap::new() }
+        let keys = match Packing::new(variables) {
+            Some(_) => Keys::Packed(Vec::new()),
+            None => Keys::Sparse(Vec::new()),
+        };
+        Self { variables, bound: 0, keys, values: Coefficients::empty() }
     }
 
     /// A constant polynomial.
     #[must_use]
     pub fn constant(variables: usize, value: Rational) -> Self {
-        Self::from_terms(variables, [(vec![0; variables], value)])
+        Self::from_factors(variables, [(Vec::new(), value)])
     }
 
     /// The polynomial that is the variable of this index; zero if there is no such variable.
@@ -32,28 +89,80 @@ impl Polynomial {
         if index >= variables {
             return Self::zero(variables);
         }
-        let mut exponents = vec![0; variables];
-        exponents[index] = 1;
-        Self::from_terms(variables, [(exponents, Rational::one())])
+        Self::from_factors(variables, [(vec![(index as u32, 1)], Rational::one())])
     }
 
-    /// The sum of the given terms; exponents are padded or cut to the number of variables.
+    /// The sum of the given terms (exponents of all variables, coefficient). Exponents beyond the
+    /// number of variables are ignored, missing ones are zero.
     pub fn from_terms(
         variables: usize,
         terms: impl IntoIterator<Item = (Vec<u32>, Rational)>,
     ) -> Self {
-        let mut result = Self::zero(variables);
-        for (mut exponents, value) in terms {
-            exponents.resize(variables, 0);
-            result.add_term(exponents, value);
-        }
-        result
+        let factors = terms.into_iter().map(|(exponents, value)| {
+            let factors = exponents.iter().enumerate().map(|(i, &e)| (i as u32, e)).collect();
+            (factors, value)
+        });
+        Self::from_factors(variables, factors)
     }
 
-    fn add_term(&mut self, exponents: Vec<u32>, value: Rational) {
-        let slot = self.terms.entry(Reverse(exponents)).or_insert_with(Rational::zero);
-        *slot += value;
-        self.terms.retain(|_, v| !v.is_zero());
+    /// The sum of the given terms, each a list of factors (variable, exponent) and a coefficient.
+    pub fn from_factors(
+        variables: usize,
+        terms: impl IntoIterator<Item = (Vec<(u32, u32)>, Rational)>,
+    ) -> Self {
+        let mut sums: BTreeMap<std::cmp::Reverse<Factors>, Rational> = BTreeMap::new();
+        for (factors, value) in terms {
+            let mut merged: BTreeMap<u32, u32> = BTreeMap::new();
+            for (variable, exponent) in factors {
+                if exponent > 0 && (variable as usize) < variables {
+                    let slot = merged.entry(variable).or_insert(0);
+                    *slot = slot.saturating_add(exponent);
+                }
+            }
+            let key = Factors(merged.into_iter().collect());
+            *sums.entry(std::cmp::Reverse(key)).or_insert_with(Rational::zero) += value;
+        }
+        sums.retain(|_, value| !value.is_zero());
+        let bound = sums.keys().map(|key| degree(&key.0)).max().unwrap_or(0);
+        let values: Vec<Rational> = sums.values().cloned().collect();
+        let values = Coefficients::from_rationals(&values);
+        let keys = sums.into_keys().map(|key| key.0);
+        let keys = match Self::packing(variables, bound) {
+            Some(packing) => Keys::Packed(keys.map(|key| packing.pack(&key.0)).collect()),
+            None => Keys::Sparse(keys.collect()),
+        };
+        Self { variables, bound, keys, values }
+    }
+
+    /// How monomials up to a total degree are packed, if they can be.
+    pub(super) fn packing(variables: usize, bound: u32) -> Option<Packing> {
+        Packing::new(variables).filter(|packing| packing.holds(bound))
+    }
+
+    pub(super) fn assemble(variables: usize, bound: u32, keys: Keys, values: Coefficients) -> Self {
+        Self { variables, bound, keys, values }
+    }
+
+    /// The keys in the packed form, or as lists of factors. Packed is asked for only where the
+    /// degrees fit.
+    pub(super) fn keys_for(&self, packed: bool) -> Cow<'_, Keys> {
+        match (&self.keys, packed, Packing::new(self.variables)) {
+            (Keys::Packed(keys), false, Some(packing)) => Cow::Owned(Keys::Sparse(
+                keys.iter().map(|&key| Factors(packing.unpack(key).into())).collect(),
+            )),
+            (Keys::Sparse(keys), true, Some(packing)) => {
+                Cow::Owned(Keys::Packed(keys.iter().map(|key| packing.pack(&key.0)).collect()))
+            }
+            _ => Cow::Borrowed(&self.keys),
+        }
+    }
+
+    /// The same polynomial in more variables.
+    pub(super) fn widened(&self, variables: usize) -> Cow<'_, Self> {
+        if variables <= self.variables {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self::from_factors(variables, self.factors()))
     }
 
     /// How many variables the polynomial has, used or not.
@@ -65,76 +174,63 @@ impl Polynomial {
     /// Whether it is the zero polynomial.
     #[must_use]
     pub fn is_zero(&self) -> bool {
-        self.terms.is_empty()
+        self.keys.len() == 0
     }
 
     /// The number of terms.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.terms.len()
+        self.keys.len()
     }
 
     /// Whether there are no terms; the same as [`is_zero`](Self::is_zero).
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.terms.is_empty()
+        self.is_zero()
     }
 
     /// The total degree; zero for the zero polynomial.
     #[must_use]
     pub fn degree(&self) -> u32 {
-        self.terms.keys().map(|Reverse(e)| e.iter().sum()).max().unwrap_or(0)
+        (0..self.len()).map(|i| self.monomial(i).iter().map(|(_, e)| e).sum()).max().unwrap_or(0)
     }
 
-    /// The terms, exponents descending lexicographically.
+    fn monomial(&self, index: usize) -> Cow<'_, [(u32, u32)]> {
+        match (&self.keys, Packing::new(self.variables)) {
+            (Keys::Packed(keys), Some(packing)) => Cow::Owned(packing.unpack(keys[index])),
+            (Keys::Sparse(keys), _) => Cow::Borrowed(&keys[index].0),
+            // Packed keys exist only where a packing does.
+            (Keys::Packed(_), None) => Cow::Borrowed(&[]),
+        }
+    }
+
+    /// The terms (exponents of all variables, coefficient), exponents descending
+    /// lexicographically.
     pub fn terms(&self) -> impl Iterator<Item = (Vec<u32>, Rational)> + '_ {
-        self.terms.iter().map(|(Reverse(e), c)| (e.clone(), c.clone()))
-    }
-
-    /// The partial derivative by the variable of this index.
-    #[must_use]
-    pub fn derivative(&self, index: usize) -> Self {
-        let mut result = Self::zero(self.variables);
-        for (Reverse(e), c) in &self.terms {
-            if index < self.variables && e[index] > 0 {
-                let mut exponents = e.clone();
-                exponents[index] -= 1;
-                result.terms.insert(Reverse(exponents), c * integer(i64::from(e[index])));
+        (0..self.len()).map(|index| {
+            let mut exponents = vec![0; self.variables];
+            for &(variable, exponent) in self.monomial(index).iter() {
+                exponents[variable as usize] = exponent;
             }
-        }
-        result
+            (exponents, self.values.get(index))
+        })
     }
 
-    /// The polynomial times a number.
-    #[must_use]
-    pub fn scale(&self, factor: &Rational) -> Self {
-        if factor.is_zero() {
-            return Self::zero(self.variables);
-        }
-        let terms = self.terms.iter().map(|(e, c)| (e.clone(), c * factor)).collect();
-        Self { variables: self.variables, terms }
+    /// The terms as factors (variable, exponent), ascending by variable, and coefficient; in the
+    /// order of [`terms`](Self::terms). Costs nothing for variables that do not occur.
+    pub fn factors(&self) -> impl Iterator<Item = (Vec<(u32, u32)>, Rational)> + '_ {
+        (0..self.len()).map(|index| (self.monomial(index).into_owned(), self.values.get(index)))
     }
 
-    /// The polynomial to a power.
-    #[must_use]
-    pub fn pow(&self, exponent: u32) -> Self {
-        let mut result = Self::constant(self.variables, Rational::one());
-        for _ in 0..exponent {
-            result = &result * self;
-        }
-        result
-    }
-
-    /// The value at a point; missing coordinates count as zero.
+    /// The value at a point in floating point; missing coordinates count as zero.
     #[must_use]
     pub fn evaluate(&self, point: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for (Reverse(exponents), c) in &self.terms {
-            let mut term = c.to_f64().unwrap_or(f64::NAN);
-            for (i, &e) in exponents.iter().enumerate() {
-                if e > 0 {
-                    term *= point.get(i).copied().unwrap_or(0.0).powi(e as i32);
-                }
+        for index in 0..self.len() {
+            let mut term = self.values.to_f64(index);
+            for &(variable, exponent) in self.monomial(index).iter() {
+                let x = point.get(variable as usize).copied().unwrap_or(0.0);
+                term *= x.powi(i32::try_from(exponent).unwrap_or(i32::MAX));
             }
             sum += term;
         }
@@ -142,42 +238,39 @@ impl Polynomial {
     }
 }
 
-impl Add for &Polynomial {
-    type Output = Polynomial;
-    fn add(self, other: &Polynomial) -> Polynomial {
-        let mut result = self.clone();
-        for (Reverse(e), c) in &other.terms {
-            result.add_term(e.clone(), c.clone());
+fn degree(factors: &Factors) -> u32 {
+    factors.0.iter().fold(0_u32, |sum, (_, e)| sum.saturating_add(*e))
+}
+
+impl PartialEq for Polynomial {
+    fn eq(&self, other: &Self) -> bool {
+        if self.variables != other.variables || self.values != other.values {
+            return false;
         }
-        result
+        match (&self.keys, &other.keys) {
+            (Keys::Packed(a), Keys::Packed(b)) => a == b,
+            (Keys::Sparse(a), Keys::Sparse(b)) => a == b,
+            _ => (0..self.len()).all(|i| self.monomial(i) == other.monomial(i)),
+        }
     }
 }
 
-impl Neg for &Polynomial {
-    type Output = Polynomial;
-    fn neg(self) -> Polynomial {
-        self.scale(&integer(-1))
-    }
-}
+impl Eq for Polynomial {}
 
-impl Sub for &Polynomial {
-    type Output = Polynomial;
-    fn sub(self, other: &Polynomial) -> Polynomial {
-        self + &-other
-    }
-}
-
-impl Mul for &Polynomial {
-    type Output = Polynomial;
-    fn mul(self, other: &Polynomial) -> Polynomial {
-        let mut terms: BTreeMap<Reverse<Vec<u32>>, Rational> = BTreeMap::new();
-        for (Reverse(a), x) in &self.terms {
-            for (Reverse(b), y) in &other.terms {
-                let exponents = a.iter().zip(b).map(|(i, j)| i + j).collect();
-                *terms.entry(Reverse(exponents)).or_insert_with(Rational::zero) += x * y;
+impl std::fmt::Debug for Polynomial {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.is_zero() {
+            return f.write_str("0");
+        }
+        for (index, (factors, value)) in self.factors().enumerate() {
+            if index > 0 {
+                f.write_str(" + ")?;
+            }
+            write!(f, "{value}")?;
+            for (variable, exponent) in factors {
+                write!(f, "*x{variable}^{exponent}")?;
             }
         }
-        terms.retain(|_, v| !v.is_zero());
-        Polynomial { variables: self.variables, terms }
+        Ok(())
     }
 }

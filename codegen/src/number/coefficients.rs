@@ -1,0 +1,181 @@
+//! Lists of rationals over one common denominator.
+
+use super::Rational;
+use super::divisor::{bits, gcd};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// Rationals with one common positive denominator, in lowest terms as a whole.
+///
+/// Machine integers are used exactly when everything fits, so equal lists are represented equally.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Coefficients {
+    /// Numerators of at most `bits` ≤ 127 bits.
+    Small { numerators: Vec<i128>, denominator: i128, bits: u32 },
+    /// Anything else.
+    Big { numerators: Vec<BigInt>, denominator: BigInt },
+}
+
+impl Coefficients {
+    pub(crate) fn empty() -> Self {
+        Self::Small { numerators: Vec::new(), denominator: 1, bits: 0 }
+    }
+
+    /// Reduces to lowest terms. The denominator must be positive.
+    pub(crate) fn small(mut numerators: Vec<i128>, mut denominator: i128) -> Self {
+        if denominator != 1 {
+            let mut divisor = denominator.unsigned_abs();
+            let slice = numerators.as_slice();
+            let mut i = 0;
+            while i < slice.len() && divisor != 1 {
+                divisor = gcd(divisor, slice[i].unsigned_abs() % divisor);
+                i += 1;
+            }
+            if divisor != 1 {
+                let divisor = divisor as i128;
+                denominator /= divisor;
+                let slice = numerators.as_mut_slice();
+                let mut i = 0;
+                while i < slice.len() {
+                    slice[i] /= divisor;
+                    i += 1;
+                }
+            }
+        }
+        let (slice, mut most, mut i) = (numerators.as_slice(), 0, 0);
+        while i < slice.len() {
+            let b = bits(slice[i]);
+            if b > most {
+                most = b;
+            }
+            i += 1;
+        }
+        if most > 127 {
+            return Self::big(
+                numerators.into_iter().map(BigInt::from).collect(),
+                denominator.into(),
+            );
+        }
+        Self::Small { numerators, denominator, bits: most }
+    }
+
+    /// Reduces to lowest terms, and to machine integers if they suffice.
+    pub(crate) fn big(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
+        let mut divisor = denominator.clone();
+        for numerator in &numerators {
+            if divisor.is_one() {
+                break;
+            }
+            divisor = divisor.gcd(numerator);
+        }
+        if !divisor.is_one() {
+            denominator /= &divisor;
+            for numerator in &mut numerators {
+                *numerator /= &divisor;
+            }
+        }
+        let most = numerators.iter().map(BigInt::bits).max().unwrap_or(0);
+        if most <= 127
+            && let Some(denominator) = denominator.to_i128()
+        {
+            let numerators = numerators.iter().filter_map(BigInt::to_i128).collect();
+            return Self::Small { numerators, denominator, bits: most as u32 };
+        }
+        Self::Big { numerators, denominator }
+    }
+
+    /// The same values as they are given.
+    pub(crate) fn from_rationals(values: &[Rational]) -> Self {
+        let mut denominator = BigInt::one();
+        for value in values {
+            denominator = denominator.lcm(value.denom());
+        }
+        let numerators = values.iter().map(|v| v.numer() * (&denominator / v.denom())).collect();
+        Self::big(numerators, denominator)
+    }
+
+    pub(crate) fn get(&self, index: usize) -> Rational {
+        match self {
+            Self::Small { numerators, denominator, .. } => {
+                let divisor = gcd(numerators[index].unsigned_abs(), denominator.unsigned_abs());
+                // Both are below 2^127, and so is the divisor of the positive denominator.
+                let divisor = divisor as i128;
+                Rational::new_raw(
+                    (numerators[index] / divisor).into(),
+                    (denominator / divisor).into(),
+                )
+            }
+            Self::Big { numerators, denominator } => {
+                Rational::new(numerators[index].clone(), denominator.clone())
+            }
+        }
+    }
+
+    /// The value correctly rounded, or nearly so.
+    pub(crate) fn to_f64(&self, index: usize) -> f64 {
+        const EXACT: u128 = 1 << f64::MANTISSA_DIGITS;
+        if let Self::Small { numerators, denominator, .. } = self
+            && numerators[index].unsigned_abs() <= EXACT
+            && denominator.unsigned_abs() <= EXACT
+        {
+            return numerators[index] as f64 / *denominator as f64;
+        }
+        self.get(index).to_f64().unwrap_or(f64::NAN)
+    }
+
+    /// As big integers: numerators and denominator.
+    pub(crate) fn widen(&self) -> (Vec<BigInt>, BigInt) {
+        match self {
+            Self::Small { numerators, denominator, .. } => {
+                (numerators.iter().copied().map(BigInt::from).collect(), (*denominator).into())
+            }
+            Self::Big { numerators, denominator } => (numerators.clone(), denominator.clone()),
+        }
+    }
+
+    /// Every value times its own integer and times one rational.
+    pub(crate) fn scale(&self, factor: &Rational, each: Option<&[u32]>) -> Self {
+        if let (Self::Small { numerators, denominator, bits: most }, Some(n), Some(d)) =
+            (self, factor.numer().to_i128(), factor.denom().to_i128())
+        {
+            let largest = each.map_or(1, |e| e.iter().copied().max().unwrap_or(1));
+            if most + bits(n) + bits(i128::from(largest)) <= 126
+                && bits(*denominator) + bits(d) <= 126
+            {
+                let mut result = Vec::with_capacity(numerators.len());
+                let source = numerators.as_slice();
+                let mut i = 0;
+                while i < source.len() {
+                    let by = each.map_or(1, |e| i128::from(e[i]));
+                    result.push(source[i].wrapping_mul(n).wrapping_mul(by));
+                    i += 1;
+                }
+                return Self::small(result, denominator.wrapping_mul(d));
+            }
+        }
+        let (mut numerators, denominator) = self.widen();
+        for (i, numerator) in numerators.iter_mut().enumerate() {
+            *numerator *= factor.numer();
+            if let Some(each) = each {
+                *numerator *= each[i];
+            }
+        }
+        Self::big(numerators, denominator * factor.denom())
+    }
+
+    /// The greatest common divisor of the numerators over the denominator, with the sign of the
+    /// first value; one for an empty list.
+    pub(crate) fn content(&self) -> Rational {
+        let (numerators, denominator) = self.widen();
+        let mut divisor = BigInt::zero();
+        for numerator in &numerators {
+            divisor = divisor.gcd(numerator);
+        }
+        match numerators.first() {
+            None => Rational::one(),
+            Some(first) if first.is_negative() => Rational::new(-divisor, denominator),
+            Some(_) => Rational::new(divisor, denominator),
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Sums of products, the operation everything else is made of.
+
+use super::monomial::{Factors, Key};
+use super::polynomial::{Keys, Polynomial};
+use super::table::Table;
+use crate::number::{Coefficients, Rational, bits, lcm};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+/// factor · left · right.
+pub(crate) struct Product<'a> {
+    pub(crate) factor: Rational,
+    pub(crate) left: &'a Polynomial,
+    pub(crate) right: &'a Polynomial,
+}
+
+/// The sum of products, or the number of terms reached when it exceeds `limit`.
+///
+/// All products are collected in one table over one common denominator. With machine integers
+/// the largest possible sum is bounded beforehand; big integers are used where it might not fit.
+pub(crate) fn sum_of_products(
+    variables: usize,
+    products: &[Product<'_>],
+    limit: usize,
+) -> Result<Polynomial, usize> {
+    let used: Vec<&Product<'_>> = products
+        .iter()
+        .filter(|p| !p.left.is_zero() && !p.right.is_zero() && !p.factor.is_zero())
+        .collect();
+    let bound = used.iter().map(|p| p.left.bound.saturating_add(p.right.bound)).max().unwrap_or(0);
+    let packed = Polynomial::packing(variables, bound).is_some();
+    let mut keys = Vec::with_capacity(used.len());
+    for product in &used {
+        keys.push((product.left.keys_for(packed), product.right.keys_for(packed)));
+    }
+    let small = SmallPlan::new(&used);
+    if packed {
+        let lists: Vec<(&[u128], &[u128])> =
+            keys.iter().map(|(a, b)| (a.packed(), b.packed())).collect();
+        let (keys, values) = run(&used, small, &lists, limit)?;
+        Ok(Polynomial::assemble(variables, bound, Keys::Packed(keys), values))
+    } else {
+        let lists: Vec<(&[Factors], &[Factors])> =
+            keys.iter().map(|(a, b)| (a.sparse(), b.sparse())).collect();
+        let (keys, values) = run(&used, small, &lists, limit)?;
+        Ok(Polynomial::assemble(variables, bound, Keys::Sparse(keys), values))
+    }
+}
+
+/// The common denominator and the integer factor of each product, if machine integers suffice.
+struct SmallPlan {
+    denominator: i128,
+    factors: Vec<i128>,
+}
+
+impl SmallPlan {
+    fn new(products: &[&Product<'_>]) -> Option<Self> {
+        let mut denominator = 1_i128;
+        let mut parts = Vec::with_capacity(products.len());
+        for product in products {
+            let (
+                Coefficients::Small { denominator: a, .. },
+                Coefficients::Small { denominator: b, .. },
+            ) = (&product.left.values, &product.right.values)
+            else {
+                return None;
+            };
+            let part = a.checked_mul(*b)?.checked_mul(product.factor.denom().to_i128()?)?;
+            denominator = lcm(denominator, part)?;
+            parts.push(part);
+        }
+        let mut factors = Vec::with_capacity(products.len());
+        let mut largest = 0_u128;
+        for (product, part) in products.iter().zip(parts) {
+            let factor = (denominator / part).checked_mul(product.factor.numer().to_i128()?)?;
+            let (Coefficients::Small { bits: a, .. }, Coefficients::Small { bits: b, .. }) =
+                (&product.left.values, &product.right.values)
+            else {
+                return None;
+            };
+            let size = bits(factor) + a + b;
+            if size > 126 {
+                return None;
+            }
+            // A monomial receives at most one contribution from each term of the shorter factor.
+            let contributions = product.left.len().min(product.right.len()) as u128;
+            largest = largest.checked_add(contributions.checked_mul(1 << size)?)?;
+            factors.push(factor);
+        }
+        (largest <= i128::MAX as u128).then_some(Self { denominator, factors })
+    }
+}
+
+fn run<K: Key>(
+    products: &[&Product<'_>],
+    small: Option<SmallPlan>,
+    keys: &[(&[K], &[K])],
+    limit: usize,
+) -> Result<(Vec<K>, Coefficients), usize> {
+    if let Some(plan) = small {
+        let lists: Vec<(i128, &[i128], &[i128])> = products
+            .iter()
+            .zip(&plan.factors)
+            .filter_map(|(p, factor)| match (&p.left.values, &p.right.values) {
+                (
+                    Coefficients::Small { numerators: a, .. },
+                    Coefficients::Small { numerators: b, .. },
+                ) => Some((*factor, a.as_slice(), b.as_slice())),
+                _ => None,
+            })
+            .collect();
+        let (keys, values) = accumulate(keys, &lists, limit)?;
+        return Ok((keys, Coefficients::small(values, plan.denominator)));
+    }
+    let wide: Vec<_> =
+        products.iter().map(|p| (p.left.values.widen(), p.right.values.widen())).collect();
+    let mut denominator = BigInt::one();
+    for (product, ((_, a), (_, b))) in products.iter().zip(&wide) {
+        denominator = denominator.lcm(&(a * b * product.factor.denom()));
+    }
+    let lists: Vec<(BigInt, &[BigInt], &[BigInt])> = products
+        .iter()
+        .zip(&wide)
+        .map(|(product, ((left, a), (right, b)))| {
+            let part = a * b * product.factor.denom();
+            (product.factor.numer() * (&denominator / part), left.as_slice(), right.as_slice())
+        })
+        .collect();
+    let (keys, values) = accumulate(keys, &lists, limit)?;
+    Ok((keys, Coefficients::big(values, denominator)))
+}
+
+/// The arithmetic of one kind of integer.
+trait Number: Clone {
+    fn times(&self, other: &Self) -> Self;
+    fn add_product(&mut self, left: &Self, right: &Self);
+    fn vanishes(&self) -> bool;
+    fn nothing() -> Self;
+}
+
+impl Number for i128 {
+    // The plan bounds every sum, so wrapping operations never wrap.
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        self.wrapping_mul(*other)
+    }
+    #[inline(always)]
+    fn add_product(&mut self, left: &Self, right: &Self) {
+        *self = self.wrapping_add(left.wrapping_mul(*right));
+    }
+    #[inline(always)]
+    fn vanishes(&self) -> bool {
+        *self == 0
+    }
+    #[inline(always)]
+    fn nothing() -> Self {
+        0
+    }
+}
+
+impl Number for BigInt {
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn add_product(&mut self, left: &Self, right: &Self) {
+        *self += left * right;
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
+    }
+    fn nothing() -> Self {
+        Self::zero()
+    }
+}
+
+/// The nonzero terms of Σ factor · left · right, sorted. Loops count by hand and index slices
+/// because iterators are function calls in an unoptimised build.
+fn accumulate<K: Key, N: Number>(
+    keys: &[(&[K], &[K])],
+    numbers: &[(N, &[N], &[N])],
+    limit: usize,
+) -> Result<(Vec<K>, Vec<N>), usize> {
+    let expected = keys.iter().map(|(a, b)| a.len() + b.len()).max().unwrap_or(0);
+    let mut table = Table::new(expected);
+    let mut sums: Vec<N> = Vec::with_capacity(expected);
+    let mut index = 0;
+    while index < keys.len() {
+        let (left_keys, right_keys) = keys[index];
+        let (factor, left, right) = &numbers[index];
+        let mut i = 0;
+        while i < left_keys.len() {
+            let scaled = factor.times(&left[i]);
+            let mut j = 0;
+            while j < right_keys.len() {
+                let place = table.place(left_keys[i].product(&right_keys[j]));
+                if place == sums.len() {
+                    sums.push(N::nothing());
+                }
+                sums.as_mut_slice()[place].add_product(&scaled, &right[j]);
+                j += 1;
+            }
+            // Checked once a row: cancellation may still bring the count down, but memory is
+            // what the limit protects.
+            if sums.len() > limit {
+                return Err(sums.len());
+            }
+            i += 1;
+        }
+        index += 1;
+    }
+    Ok(sort(table.keys, sums))
+}
+
+/// Drops zeros and sorts keys descending.
+fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N>) -> (Vec<K>, Vec<N>) {
+    let mut terms: Vec<(K, N)> = Vec::with_capacity(keys.len());
+    for (key, sum) in keys.into_iter().zip(sums) {
+        if !sum.vanishes() {
+            terms.push((key, sum));
+        }
+    }
+    terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+    terms.into_iter().unzip()
+}
