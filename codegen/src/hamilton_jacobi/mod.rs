@@ -11,3 +11,6 @@ mod recurrence;
 pub use error::{DeriveError, TermLimit};
 pub use predict::predictor;
 pub use recurrence::{GeneratingSeries, derive};
+
+#[cfg(test)]
+mod tests;

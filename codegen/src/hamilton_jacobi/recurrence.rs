@@ -98,7 +98,7 @@ pub(super) struct BodyMomentum<'a> {
     variables: usize,
     /// x(t), to be extended by the caller.
     pub(super) x: Vec<Series>,
-    /// The momenta p.
+    /// The momenta p(t), known in advance.
     p: Vec<Series>,
     /// J_R(x(t), p).
     pub(super) value: Vec<Series>,
@@ -119,6 +119,18 @@ impl<'a> BodyMomentum<'a> {
         variables: usize,
         truncation: usize,
     ) -> Result<Self, DeriveError> {
+        let p = identity(algebra.dim(), variables);
+        Self::at(algebra, chart, p, variables, truncation)
+    }
+
+    /// As [`new`](Self::new), at a given series p(t).
+    pub(super) fn at(
+        algebra: &'a LieAlgebra,
+        chart: Chart,
+        p: Vec<Series>,
+        variables: usize,
+        truncation: usize,
+    ) -> Result<Self, DeriveError> {
         let dimension = algebra.dim();
         let form = match chart {
             Chart::Exponential => {
@@ -131,7 +143,6 @@ impl<'a> BodyMomentum<'a> {
             Chart::Cayley => Form::Cayley { cubic: cubic(algebra)? },
         };
         let x = vec![vec![Polynomial::zero(variables)]; dimension];
-        let p = identity(dimension, variables);
         Ok(Self { algebra, variables, x, p, value: vec![Vec::new(); dimension], form })
     }
 
@@ -140,9 +151,9 @@ impl<'a> BodyMomentum<'a> {
         let one = Polynomial::constant(self.variables, Rational::one());
         let dimension = self.algebra.dim();
         let mut result: Vec<Polynomial> = (0..dimension)
-            .map(|i| match order {
-                0 => self.p[i][0].clone(),
-                _ => Polynomial::zero(self.variables),
+            .map(|i| {
+                let p = self.p[i].get(order).cloned();
+                p.unwrap_or_else(|| Polynomial::zero(self.variables))
             })
             .collect();
         match &mut self.form {

@@ -1,0 +1,121 @@
+//! The defining equations, checked as identities of polynomials.
+
+use super::online::{Composition, Series, Work};
+use super::recurrence::{BodyMomentum, derive_orders};
+use super::{TermLimit, derive, predictor};
+use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::number::{integer, ratio};
+use crate::poly::Polynomial;
+
+/// A Hamiltonian of degree three with every kind of term, in `extra` further symbols.
+fn hamiltonian(dimension: usize, extra: usize) -> Polynomial {
+    let variables = dimension + extra;
+    let mut h = Polynomial::zero(variables);
+    for i in 0..dimension {
+        let a = Polynomial::variable(variables, i);
+        let b = Polynomial::variable(variables, (i + 1) % dimension);
+        let mut square = (&a * &a).scale(&ratio(1, 3 + i as i64));
+        if extra > 0 {
+            square = &square * &Polynomial::variable(variables, dimension + i % extra);
+        }
+        h = &(&h + &square) + &(&a * &b).scale(&ratio(1, 7 + i as i64));
+    }
+    let first = Polynomial::variable(variables, 0);
+    let last = Polynomial::variable(variables, dimension - 1);
+    let cubic = &(&first * &first) * &last;
+    &(&h + &last.scale(&ratio(2, 5))) + &cubic.scale(&ratio(1, 11))
+}
+
+/// An algebra of no particular fame: a and the plane (b, c) it turns and stretches.
+fn unseen() -> LieAlgebra {
+    LieAlgebra::from_brackets(
+        "unseen",
+        ["a", "b", "c"].map(String::from).to_vec(),
+        [
+            (0, 1, vec![(2, integer(1)), (1, ratio(1, 3))]),
+            (0, 2, vec![(1, ratio(-1, 2)), (2, ratio(1, 3))]),
+        ],
+    )
+    .unwrap()
+}
+
+/// The heavy top with symbols for 1/I_1 and for the weight.
+fn heavy_top() -> Polynomial {
+    let h = [([0, 0, 6], 1, 2), ([1, 1, 8], 1, 4), ([2, 2, 8], 1, 5), ([5, 7, 8], 1, 1)];
+    let terms = h.map(|(factors, n, d)| (factors.map(|v| (v, 1)).to_vec(), ratio(n, d)));
+    // Variable 8 stands for one.
+    let h = Polynomial::from_factors(9, terms);
+    Polynomial::from_terms(8, h.terms())
+}
+
+/// J_L(x, p) = J_R(−x, p) at x = ∂S/∂p(p) with p(t) from the exact flow is μ′ through t^{K+1}.
+fn spatial_momentum_is_initial(algebra: &LieAlgebra, chart: Chart, h: &Polynomial) {
+    let dimension = algebra.dim();
+    let k = 3;
+    let limit = TermLimit::default();
+    let variables = h.variables();
+    let series = derive(algebra, chart, h, k, limit).unwrap();
+    let last = k + 1;
+    let rows = predictor(algebra, chart, h, last, limit).unwrap();
+    let p: Vec<Series> =
+        (0..dimension).map(|i| rows.iter().map(|row| row[i].clone()).collect()).collect();
+    let gradients: Vec<Polynomial> =
+        (1..=k).flat_map(|order| series.order(order).gradient(dimension)).collect();
+    let mut work = Work::new(variables, limit);
+    let mut composed = Composition::new(dimension, &gradients);
+    for order in 0..=last {
+        composed.extend(&mut work, &p, order).unwrap();
+    }
+    let mut spatial = BodyMomentum::at(algebra, chart, p.clone(), variables, last).unwrap();
+    for order in 0..=last {
+        if order > 0 {
+            for i in 0..dimension {
+                let mut x = Polynomial::zero(variables);
+                for j in 1..=order.min(k) {
+                    x = &x - composed.coefficient((j - 1) * dimension + i, order - j);
+                }
+                spatial.x[i].push(x);
+            }
+        }
+        spatial.extend(&mut work, order).unwrap();
+        for i in 0..dimension {
+            let expected = match order {
+                0 => Polynomial::variable(variables, i),
+                _ => Polynomial::zero(variables),
+            };
+            assert_eq!(spatial.value[i][order], expected, "{} {chart} t^{order}", algebra.name());
+        }
+    }
+}
+
+#[test]
+fn predictor_solves_for_the_chart_momentum() {
+    let so3 = catalogue::lookup("SO3").unwrap();
+    for chart in [Chart::Exponential, Chart::Cayley] {
+        spatial_momentum_is_initial(&so3, chart, &hamiltonian(3, 0));
+        spatial_momentum_is_initial(&so3, chart, &hamiltonian(3, 2));
+        spatial_momentum_is_initial(&catalogue::lookup("SE3").unwrap(), chart, &heavy_top());
+    }
+    spatial_momentum_is_initial(&unseen(), Chart::Exponential, &hamiltonian(3, 1));
+}
+
+#[test]
+fn even_orders_vanish() {
+    let so3 = catalogue::lookup("SO3").unwrap();
+    let cases = [
+        (so3.clone(), Chart::Exponential),
+        (so3, Chart::Cayley),
+        (catalogue::lookup("SE3").unwrap(), Chart::Cayley),
+        (unseen(), Chart::Exponential),
+    ];
+    for (algebra, chart) in cases {
+        let h = hamiltonian(algebra.dim(), 1);
+        let limit = TermLimit::default();
+        let all = derive_orders(&algebra, chart, &h, 6, limit, false).unwrap();
+        assert!(!all.order(5).is_zero());
+        for k in [2, 4, 6] {
+            assert!(all.order(k).is_zero(), "{} {chart} S_{k}", algebra.name());
+        }
+        assert_eq!(all, derive(&algebra, chart, &h, 6, limit).unwrap());
+    }
+}
