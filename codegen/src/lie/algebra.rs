@@ -166,7 +166,24 @@ impl LieAlgebra {
         Self::checked(name.into(), generators, table, None)
     }
 
-    fn checked(
+    /// From data known to be a Lie algebra.
+    pub(super) fn from_parts(
+        name: String,
+        generators: Vec<String>,
+        structure: Vec<StructureConstant>,
+        basis: Option<Vec<RationalMatrix>>,
+    ) -> Self {
+        Self { name, generators, structure, basis }
+    }
+
+    /// The same algebra under another name.
+    #[must_use]
+    pub fn renamed(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    pub(super) fn checked(
         name: String,
         generators: Vec<String>,
         table: Table,

@@ -1,7 +1,8 @@
 //! Charts of a group near the identity.
 
-use super::{LieAlgebra, Span};
+use super::{LieAlgebra, RationalMatrix, Span};
 use crate::number::Rational;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// A chart τ: 𝔤 → G near the identity.
@@ -91,13 +92,14 @@ pub(crate) fn cubic(algebra: &LieAlgebra) -> Result<Vec<CubicEntry>, ChartError>
         return Err(ChartError::NoMatrices { algebra: algebra.name().into() });
     };
     let one = crate::number::integer(1);
-    let dimension = basis.len();
+    let neighbours = Neighbours::new(basis);
     let mut entries = Vec::new();
-    for a in 0..dimension {
-        for b in 0..dimension {
+    for a in 0..basis.len() {
+        // Generators that multiply with e_a to something, on either side.
+        for b in neighbours.of([&basis[a]]) {
             let left = basis[a].times(&basis[b]);
             let right = basis[b].times(&basis[a]);
-            for c in a..dimension {
+            for c in neighbours.of([&left, &right]).into_iter().filter(|&c| c >= a) {
                 let mut product = left.times(&basis[c]);
                 if c > a {
                     product = product.plus(&basis[c].times(&right), &one);
@@ -121,4 +123,34 @@ pub(crate) fn cubic(algebra: &LieAlgebra) -> Result<Vec<CubicEntry>, ChartError>
         }
     }
     Ok(entries)
+}
+
+/// Which basis matrices have entries in a row or column, so that products in large direct powers
+/// are found without trying all.
+struct Neighbours {
+    rows: BTreeMap<usize, Vec<usize>>,
+    columns: BTreeMap<usize, Vec<usize>>,
+}
+
+impl Neighbours {
+    fn new(basis: &[RationalMatrix]) -> Self {
+        let (mut rows, mut columns) = (BTreeMap::new(), BTreeMap::new());
+        for (index, matrix) in basis.iter().enumerate() {
+            for (i, j, _) in matrix.entries() {
+                rows.entry(i).or_insert_with(Vec::new).push(index);
+                columns.entry(j).or_insert_with(Vec::new).push(index);
+            }
+        }
+        Self { rows, columns }
+    }
+
+    /// The generators whose product with one of the matrices, on either side, may not vanish.
+    fn of<const N: usize>(&self, matrices: [&RationalMatrix; N]) -> BTreeSet<usize> {
+        let mut result = BTreeSet::new();
+        for (i, j, _) in matrices.iter().flat_map(|matrix| matrix.entries()) {
+            result.extend(self.rows.get(&j).into_iter().flatten());
+            result.extend(self.columns.get(&i).into_iter().flatten());
+        }
+        result
+    }
 }

@@ -5,12 +5,14 @@ pub mod catalogue;
 mod chart;
 mod error;
 mod matrix;
+mod product;
 mod span;
 
 pub use algebra::{LieAlgebra, StructureConstant};
 pub use chart::{Chart, ChartError};
 pub use error::LieAlgebraError;
 pub use matrix::RationalMatrix;
+pub use product::symmetric_square;
 
 pub(crate) use chart::{CubicEntry, cubic};
 pub(crate) use span::Span;

@@ -1,0 +1,83 @@
+//! Why a text names no group.
+
+/// Why a text names no group.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CatalogueError {
+    /// No group has this name.
+    #[error(
+        "unknown group `{name}`{}; known groups are {known}, and products such as SO3*SO3, SO3^4, SO3 |x R3",
+        did_you_mean(.suggestion)
+    )]
+    Unknown {
+        /// The name given.
+        name: String,
+        /// The nearest known name, if one is near.
+        suggestion: Option<String>,
+        /// All known names.
+        known: String,
+    },
+    /// The text is not a product of groups.
+    #[error("cannot read the group `{text}`: expected {expected} but found {found}")]
+    Syntax {
+        /// The whole text.
+        text: String,
+        /// What could stand there.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// The group has too many dimensions.
+    #[error("the group `{name}` is too large: {what} is at most {limit}")]
+    TooLarge {
+        /// The name.
+        name: String,
+        /// What is limited.
+        what: &'static str,
+        /// The limit.
+        limit: usize,
+    },
+    /// The group does not act on the space given.
+    #[error("{group} does not act on {space} here; {instead}")]
+    NoAction {
+        /// The group.
+        group: String,
+        /// The space.
+        space: String,
+        /// What could be written instead.
+        instead: String,
+    },
+}
+
+fn did_you_mean(suggestion: &Option<String>) -> String {
+    suggestion.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}
+
+impl CatalogueError {
+    pub(super) fn unknown(name: &str) -> Self {
+        let suggestion = super::names()
+            .iter()
+            .map(|known| (distance(&name.to_lowercase(), &known.to_lowercase()), *known))
+            .filter(|(distance, _)| *distance <= 2.min(name.chars().count().saturating_sub(1)))
+            .min()
+            .map(|(_, known)| known.to_owned());
+        let known = super::names().join(", ");
+        Self::Unknown { name: name.to_owned(), suggestion, known }
+    }
+}
+
+/// The edit distance (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
