@@ -11,15 +11,30 @@
 
 pub mod data;
 mod error;
+mod evaluate;
 mod function;
+mod gaussian_process;
 mod group;
+#[cfg(feature = "neural")]
+mod hybrid;
 mod least_squares;
+mod model;
 pub mod momentum;
+pub mod network;
 pub mod polynomial;
+mod save;
 mod trivialisation;
 pub mod truth;
 
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
+pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta};
 pub use function::{Generating, MomentumFunction, Scaled, Zero};
+pub use gaussian_process::{
+    GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
+};
 pub use group::{MatrixGroup, matrix_of};
+#[cfg(feature = "neural")]
+pub use hybrid::fit_hybrid;
 pub use least_squares::{Descent, GaussNewton};
+pub use model::Model;
+pub use save::{ModelFile, TrainingRecord};

@@ -1,0 +1,185 @@
+//! How good a map is: errors of x, μ″ and g″ on pairs, and drifts over many steps.
+
+use coadjoint::{Chart, Coordinates, LieGroup, Phase, advance, poisson_map};
+use serde::{Deserialize, Serialize};
+
+use crate::data::{MomentumPairs, PairRows, ReducedData};
+use crate::error::LearnError;
+use crate::function::{Generating, MomentumFunction, entries, vector};
+use crate::group::matrix_of;
+
+/// An error in each of the three quantities; a quantity the data do not have is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Errors {
+    /// Of ∂S/∂p(p) against x, at the p of the data.
+    pub x: Option<f64>,
+    /// Of the map's μ″.
+    pub momentum: Option<f64>,
+    /// Of the map's g″, entries of the matrix.
+    pub group: Option<f64>,
+}
+
+/// Errors of a map on data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// Samples.
+    pub samples: usize,
+    /// Mean squared errors, over samples and coordinates.
+    pub mse: Errors,
+    /// Largest absolute errors of a coordinate.
+    pub max_error: Errors,
+    /// Row numbers of samples whose step could not be made; they are left out of momentum and
+    /// group errors.
+    pub unsolved: Vec<usize>,
+}
+
+/// Gathers squares and largest values.
+#[derive(Default)]
+struct Gauge {
+    squares: f64,
+    largest: f64,
+    count: usize,
+}
+
+impl Gauge {
+    fn add(&mut self, error: f64) {
+        self.squares += error * error;
+        self.largest = self.largest.max(error.abs());
+        self.count += 1;
+    }
+
+    fn mse(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.squares / self.count as f64)
+    }
+
+    fn largest(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.largest)
+    }
+}
+
+/// Errors of the map S generates, on pairs of phase points and their reduction.
+pub fn evaluate<G, C, M>(
+    map: &Generating<G, C, M>,
+    group: &G,
+    pairs: &PairRows<G>,
+    reduced: &ReducedData,
+) -> Figures
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+    let dim = group.dim();
+    let [mut x, mut momentum, mut attitude] = [(); 3].map(|()| Gauge::default());
+    let mut found = vec![0.0; dim];
+    for (p, expected) in reduced.p.column_iter().zip(reduced.x.column_iter()) {
+        map.function.gradient(p.as_slice(), &mut found);
+        found.iter().zip(expected.iter()).for_each(|(a, b)| x.add(a - b));
+    }
+    let mut unsolved = Vec::new();
+    for (row, pair) in &pairs.pairs {
+        let mut phase = pair.before.clone();
+        if advance(map, &mut phase).is_err() {
+            unsolved.push(*row);
+            continue;
+        }
+        let expected = &pair.after;
+        (0..dim).for_each(|i| momentum.add(phase.momentum[i] - expected.momentum[i]));
+        let difference =
+            matrix_of(group, &phase.group_element) - matrix_of(group, &expected.group_element);
+        difference.iter().for_each(|&e| attitude.add(e));
+    }
+    Figures {
+        samples: pairs.pairs.len(),
+        mse: Errors { x: x.mse(), momentum: momentum.mse(), group: attitude.mse() },
+        max_error: Errors {
+            x: x.largest(),
+            momentum: momentum.largest(),
+            group: attitude.largest(),
+        },
+        unsolved,
+    }
+}
+
+/// Errors of the Poisson map S generates, on pairs of momenta.
+pub fn evaluate_momenta<G, C, M>(map: &Generating<G, C, M>, pairs: &MomentumPairs) -> Figures
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+    let mut momentum = Gauge::default();
+    let mut unsolved = Vec::new();
+    let columns = pairs.before.column_iter().zip(pairs.after.column_iter());
+    for (i, (before, after)) in columns.enumerate() {
+        match poisson_map(map, &vector::<G>(before.as_slice())) {
+            Ok(next) => (0..after.len()).for_each(|j| momentum.add(next[j] - after[j])),
+            Err(_) => unsolved.push(i + 1),
+        }
+    }
+    Figures {
+        samples: pairs.len(),
+        mse: Errors { momentum: momentum.mse(), ..Errors::default() },
+        max_error: Errors { momentum: momentum.largest(), ..Errors::default() },
+        unsolved,
+    }
+}
+
+/// How far conserved quantities drift along a trajectory: largest values over all steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drifts {
+    /// Steps made.
+    pub steps: usize,
+    /// Of the spatial momentum J_L, relative to its largest coordinate.
+    pub momentum: f64,
+    /// Of the Casimirs, each relative to its size at the start (absolute where that is 0).
+    pub casimir: f64,
+    /// Of the energy, relative, where a Hamiltonian is known.
+    pub energy: Option<f64>,
+}
+
+/// Follows the map from `start` and measures the drifts.
+///
+/// # Errors
+/// [`LearnError::NotConverged`] when a step cannot be made, naming it.
+pub fn drifts<G, C, M>(
+    map: &Generating<G, C, M>,
+    group: &G,
+    start: &Phase<G>,
+    steps: usize,
+    hamiltonian: Option<&dyn MomentumFunction>,
+) -> Result<Drifts, LearnError>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+    let relative = |now: f64, first: f64| {
+        let size = first.abs();
+        if size > 0.0 { ((now - first) / size).abs() } else { now.abs() }
+    };
+    let spatial = start.spatial_momentum(group);
+    let scale = spatial.largest_entry().max(f64::MIN_POSITIVE);
+    let casimirs: Vec<f64> =
+        (0..group.casimir_count()).map(|c| group.casimir(c, &start.momentum)).collect();
+    let energy = |mu: &G::Vector| hamiltonian.map(|h| h.value(&entries(mu)));
+    let first_energy = energy(&start.momentum);
+    let mut drifts = Drifts { steps, energy: first_energy.map(|_| 0.0), ..Drifts::default() };
+    let mut phase = start.clone();
+    for step in 1..=steps {
+        advance(map, &mut phase)
+            .map_err(|e| LearnError::NotConverged { reason: format!("step {step}: {e}") })?;
+        let now = phase.spatial_momentum(group);
+        for i in 0..group.dim() {
+            drifts.momentum = drifts.momentum.max((now[i] - spatial[i]).abs() / scale);
+        }
+        for (c, first) in casimirs.iter().enumerate() {
+            let value = relative(group.casimir(c, &phase.momentum), *first);
+            drifts.casimir = drifts.casimir.max(value);
+        }
+        if let (Some(now), Some(first)) = (energy(&phase.momentum), first_energy) {
+            drifts.energy = drifts.energy.map(|d| d.max(relative(now, first)));
+        }
+    }
+    Ok(drifts)
+}

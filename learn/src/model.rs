@@ -1,0 +1,90 @@
+//! The kinds of models, as one type that can be saved.
+
+use serde::{Deserialize, Serialize};
+
+use crate::function::MomentumFunction;
+use crate::gaussian_process::GaussianProcess;
+use crate::network::DenseNetwork;
+use crate::polynomial::PolynomialModel;
+
+/// A learned S, of any kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Model {
+    /// A polynomial in the Chebyshev basis.
+    Polynomial(PolynomialModel),
+    /// A Gaussian process conditioned on gradients.
+    GaussianProcess(GaussianProcess),
+    /// A dense network.
+    Network(DenseNetwork),
+    /// A polynomial and a network for what it leaves.
+    Hybrid {
+        /// The polynomial.
+        polynomial: PolynomialModel,
+        /// The network, fitted to the residual.
+        network: DenseNetwork,
+    },
+}
+
+impl Model {
+    /// The name users write: `polynomial`, `gp`, `network`, `hybrid`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Polynomial(_) => "polynomial",
+            Self::GaussianProcess(_) => "gp",
+            Self::Network(_) => "network",
+            Self::Hybrid { .. } => "hybrid",
+        }
+    }
+}
+
+impl MomentumFunction for Model {
+    fn dim(&self) -> usize {
+        match self {
+            Self::Polynomial(m) => m.dim(),
+            Self::GaussianProcess(m) => m.dim(),
+            Self::Network(m) => m.dim(),
+            Self::Hybrid { polynomial, .. } => polynomial.dim(),
+        }
+    }
+
+    fn value(&self, p: &[f64]) -> f64 {
+        match self {
+            Self::Polynomial(m) => m.value(p),
+            Self::GaussianProcess(m) => m.value(p),
+            Self::Network(m) => m.value(p),
+            Self::Hybrid { polynomial, network } => polynomial.value(p) + network.value(p),
+        }
+    }
+
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
+        match self {
+            Self::Polynomial(m) => m.gradient(p, gradient),
+            Self::GaussianProcess(m) => m.gradient(p, gradient),
+            Self::Network(m) => m.gradient(p, gradient),
+            Self::Hybrid { polynomial, network } => {
+                let mut rest = vec![0.0; gradient.len()];
+                polynomial.gradient(p, gradient);
+                network.gradient(p, &mut rest);
+                gradient.iter_mut().zip(&rest).for_each(|(a, b)| *a += b);
+            }
+        }
+    }
+
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        match self {
+            Self::Polynomial(m) => m.gradient_and_hessian(p, gradient, hessian),
+            Self::GaussianProcess(m) => m.gradient_and_hessian(p, gradient, hessian),
+            Self::Network(m) => m.gradient_and_hessian(p, gradient, hessian),
+            Self::Hybrid { polynomial, network } => {
+                let mut rest = (vec![0.0; gradient.len()], vec![0.0; hessian.len()]);
+                polynomial.gradient_and_hessian(p, gradient, hessian);
+                network.gradient_and_hessian(p, &mut rest.0, &mut rest.1);
+                gradient.iter_mut().zip(&rest.0).for_each(|(a, b)| *a += b);
+                hessian.iter_mut().zip(&rest.1).for_each(|(a, b)| *a += b);
+            }
+        }
+    }
+}
