@@ -1,0 +1,119 @@
+//! Mistakes in the user's input: what is wrong, where, and what to write instead.
+//!
+//! Every front end collects into one [`Diagnostics`], so that all mistakes are reported at once.
+
+mod mistake;
+mod nearest;
+mod render;
+mod span;
+
+pub use mistake::Mistake;
+pub use nearest::{distance, nearest};
+pub use span::Span;
+
+use proc_macro2::TokenStream;
+
+/// One mistake at its place.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// What is wrong, and what to write instead.
+    pub mistake: Mistake,
+    /// Where.
+    pub span: Span,
+}
+
+impl Diagnostic {
+    /// The message and the help on one line each.
+    fn text(&self) -> String {
+        match self.mistake.help() {
+            Some(help) => format!("{}\nhelp: {help}", self.mistake),
+            None => self.mistake.to_string(),
+        }
+    }
+}
+
+/// All mistakes found so far.
+#[derive(Clone, Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// No mistakes yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Records a mistake, unless the very same one is already recorded at this place.
+    pub fn report(&mut self, span: Span, mistake: Mistake) {
+        let known = |d: &Diagnostic| d.mistake == mistake && d.span.same_place(span);
+        if !self.list.iter().any(known) {
+            self.list.push(Diagnostic { mistake, span });
+        }
+    }
+
+    /// Whether nothing is wrong.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The number of mistakes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// The mistakes, in the order they were found.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter()
+    }
+
+    /// `value`, if nothing is wrong.
+    ///
+    /// # Errors
+    /// All mistakes, if there are any.
+    pub fn into_result<T>(self, value: Option<T>) -> Result<T, Self> {
+        match value {
+            Some(value) if self.list.is_empty() => Ok(value),
+            _ => Err(self),
+        }
+    }
+
+    /// The mistakes as one `syn::Error`, each at its tokens.
+    #[must_use]
+    pub fn into_syn_error(self) -> syn::Error {
+        let mut errors = self.list.iter().map(|d| d.span.syn_error(d.text()));
+        let first = errors.next().unwrap_or_else(|| {
+            syn::Error::new(proc_macro2::Span::call_site(), Mistake::Unreadable.to_string())
+        });
+        errors.fold(first, |mut all, error| {
+            all.combine(error);
+            all
+        })
+    }
+
+    /// The mistakes as `compile_error!` invocations, each at its tokens.
+    #[must_use]
+    pub fn into_compile_error(self) -> TokenStream {
+        self.into_syn_error().into_compile_error()
+    }
+
+    /// The mistakes as text, ordered by place: `file:line:column: error: …`, the line itself with
+    /// a marker, and `help: …`.
+    #[must_use]
+    pub fn render(&self, file: &str, text: &str) -> String {
+        render::render(&self.list, file, text)
+    }
+}
+
+impl From<syn::Error> for Diagnostics {
+    fn from(errors: syn::Error) -> Self {
+        let mut result = Self::new();
+        for error in errors {
+            result.report(Span::from_tokens(error.span()), Mistake::Other(error.to_string(), None));
+        }
+        result
+    }
+}

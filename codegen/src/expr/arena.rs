@@ -1,0 +1,116 @@
+//! The expression as the user wrote it.
+
+use crate::diagnostic::Span;
+use crate::expr::Function;
+use crate::number::Rational;
+
+/// A node of an [`Arena`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ExprId(u32);
+
+impl ExprId {
+    /// Its number: operands have smaller ones.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Node {
+    /// An exact number.
+    Number(Rational),
+    /// A coordinate of the momentum.
+    Coordinate(usize),
+    /// A scalar parameter, counted through all parameters flattened.
+    Parameter(usize),
+    /// −a.
+    Neg(ExprId),
+    /// a + b.
+    Add(ExprId, ExprId),
+    /// a − b.
+    Sub(ExprId, ExprId),
+    /// a · b.
+    Mul(ExprId, ExprId),
+    /// a / b.
+    Div(ExprId, ExprId),
+    /// a to the power b.
+    Pow(ExprId, ExprId),
+    /// A function of a.
+    Call(Function, ExprId),
+    /// Something wrong that has been reported; no further mistakes follow from it.
+    Wrong,
+}
+
+impl Node {
+    /// The operands.
+    #[must_use]
+    pub fn operands(&self) -> [Option<ExprId>; 2] {
+        match *self {
+            Self::Number(_) | Self::Coordinate(_) | Self::Parameter(_) | Self::Wrong => {
+                [None, None]
+            }
+            Self::Neg(a) | Self::Call(_, a) => [Some(a), None],
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Pow(a, b) => [Some(a), Some(b)],
+        }
+    }
+}
+
+/// Operations in the order they were read, operands before what uses them.
+///
+/// An arena instead of a tree: passes are loops, so deep nesting costs no stack, and a `let` that
+/// is used twice is one node.
+#[derive(Clone, Debug, Default)]
+pub struct Arena {
+    nodes: Vec<(Node, Span)>,
+}
+
+impl Arena {
+    /// No operations.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an operation read at `span`.
+    pub fn push(&mut self, node: Node, span: Span) -> ExprId {
+        // Inputs are far smaller than 2³² operations; the loops of the front ends are limited.
+        let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push((node, span));
+        id
+    }
+
+    /// How many operations there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The operation.
+    #[must_use]
+    pub fn node(&self, id: ExprId) -> &Node {
+        &self.nodes[id.index()].0
+    }
+
+    /// Where it was read.
+    #[must_use]
+    pub fn span(&self, id: ExprId) -> Span {
+        self.nodes[id.index()].1
+    }
+
+    /// The operations from the first.
+    pub fn iter(&self) -> impl Iterator<Item = (ExprId, &Node, Span)> {
+        self.nodes.iter().enumerate().map(|(i, (node, span))| (ExprId(i as u32), node, *span))
+    }
+}

@@ -1,0 +1,60 @@
+//! Functions that may be applied to parameters.
+
+/// A function of one real number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Function {
+    /// The square root.
+    Sqrt,
+    /// The sine (radians).
+    Sin,
+    /// The cosine (radians).
+    Cos,
+    /// The tangent (radians).
+    Tan,
+    /// The exponential.
+    Exp,
+    /// The natural logarithm.
+    Ln,
+    /// The absolute value.
+    Abs,
+}
+
+impl Function {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Sqrt, Self::Sin, Self::Cos, Self::Tan, Self::Exp, Self::Ln, Self::Abs];
+
+    /// The name, the same in text and as a method of `f64`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sqrt => "sqrt",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Abs => "abs",
+        }
+    }
+
+    /// The function of this name.
+    #[must_use]
+    pub fn lookup(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|function| function.name() == name)
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Sqrt => x.sqrt(),
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Tan => x.tan(),
+            Self::Exp => x.exp(),
+            Self::Ln => x.ln(),
+            Self::Abs => x.abs(),
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! From what users write to expressions with places.
+
+mod decimal;
+mod names;
+pub mod rust;
+pub mod text;
+mod token;
+
+pub use decimal::{NumberError, decimal, rational};
+pub use names::{Name, Names};

@@ -1,0 +1,91 @@
+//! The names an expression may use.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
+use crate::expr::Function;
+use crate::number::Rational;
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Name {
+    /// A coordinate of the momentum, counted from 0.
+    Coordinate(usize),
+    /// A scalar parameter, counted through all parameters flattened.
+    Parameter(usize),
+    /// A number.
+    Number(Rational),
+}
+
+impl Name {
+    fn describe(&self) -> &'static str {
+        match self {
+            Self::Coordinate(_) => "a coordinate of the momentum",
+            Self::Parameter(_) | Self::Number(_) => "a parameter",
+        }
+    }
+}
+
+/// Names and what they stand for.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    known: BTreeMap<String, Name>,
+    /// In the order given, for messages.
+    order: Vec<String>,
+}
+
+impl Names {
+    /// Adds a name, or reports that it is no name or already taken.
+    pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &mut Diagnostics) {
+        if !is_name(name) {
+            diagnostics.report(span, Mistake::BadName(name.to_owned()));
+        } else if Function::lookup(name).is_some() {
+            let taken = Mistake::NameTaken(name.to_owned(), "a function".to_owned());
+            diagnostics.report(span, taken);
+        } else if let Some(before) = self.known.get(name) {
+            let taken = Mistake::NameTaken(name.to_owned(), before.describe().to_owned());
+            diagnostics.report(span, taken);
+        } else {
+            self.known.insert(name.to_owned(), meaning);
+            self.order.push(name.to_owned());
+        }
+    }
+
+    /// What the name stands for.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Name> {
+        self.known.get(name)
+    }
+
+    /// The mistake of using a name that is not known.
+    #[must_use]
+    pub fn unknown(&self, name: &str) -> Mistake {
+        let suggestion = nearest(name, self.order.iter().map(String::as_str));
+        let suggestion = suggestion.map(str::to_owned);
+        Mistake::UnknownVariable(name.to_owned(), suggestion, self.order.clone())
+    }
+}
+
+/// Whether a character can begin a name.
+pub(super) fn begins_name(c: char) -> bool {
+    c.is_alphabetic() || c == '_'
+}
+
+/// Whether a character can continue a name.
+pub(super) fn continues_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_' || c == '\''
+}
+
+fn is_name(text: &str) -> bool {
+    let (head, index) = match text.split_once('[') {
+        Some((head, rest)) => (head, Some(rest)),
+        None => (text, None),
+    };
+    let mut letters = head.chars();
+    letters.next().is_some_and(begins_name)
+        && letters.all(continues_name)
+        && index.is_none_or(|rest| {
+            rest.strip_suffix(']')
+                .is_some_and(|i| !i.is_empty() && i.bytes().all(|b| b.is_ascii_digit()))
+        })
+}

@@ -1,0 +1,280 @@
+//! Running a function's expressions with symbols.
+
+use syn::{Block, Expr, Lit, UnOp};
+
+use super::scope::Scopes;
+use super::value::Value;
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::expr::{Arena, ExprId, Node};
+use crate::number::Rational;
+use crate::parse::{NumberError, decimal};
+
+/// The most operations a function may run through.
+const MOST_OPERATIONS: usize = 200_000;
+/// The most calls of closures and functions inside each other.
+pub(super) const DEEPEST_CALL: usize = 24;
+
+/// Why an expression has no value.
+#[derive(Debug)]
+pub(super) enum Flow {
+    /// `return`.
+    Return(Value),
+    /// `break`.
+    Break,
+    /// `continue`.
+    Continue,
+    /// An operand was wrong, which has been reported.
+    Wrong,
+    /// A limit was passed, which has been reported; nothing more is read.
+    Stop,
+}
+
+/// The state of reading one function.
+pub(super) struct Evaluator<'a> {
+    pub(super) scopes: Scopes,
+    pub(super) calls: usize,
+    arena: Arena,
+    diagnostics: &'a mut Diagnostics,
+    operations: usize,
+    stopped: bool,
+}
+
+impl<'a> Evaluator<'a> {
+    pub(super) fn new(diagnostics: &'a mut Diagnostics) -> Self {
+        Self {
+            scopes: Scopes::default(),
+            calls: 0,
+            arena: Arena::new(),
+            diagnostics,
+            operations: 0,
+            stopped: false,
+        }
+    }
+
+    pub(super) fn into_arena(self) -> Arena {
+        self.arena
+    }
+
+    pub(super) fn report(&mut self, span: Span, mistake: Mistake) {
+        self.diagnostics.report(span, mistake);
+    }
+
+    /// Reports something that is not read, and stands for it.
+    pub(super) fn unsupported(&mut self, span: Span, what: &str, help: &str) -> Value {
+        self.report(span, Mistake::Unsupported(what.to_owned(), help.to_owned()));
+        Value::Wrong
+    }
+
+    pub(super) fn push(&mut self, node: Node, span: Span) -> Value {
+        Value::Number(self.arena.push(node, span))
+    }
+
+    /// Counts an operation.
+    pub(super) fn tick(&mut self, span: Span) -> Result<(), Flow> {
+        self.operations += 1;
+        if self.operations <= MOST_OPERATIONS {
+            return Ok(());
+        }
+        if !self.stopped {
+            self.stopped = true;
+            self.report(span, Mistake::LongLoop(MOST_OPERATIONS));
+        }
+        Err(Flow::Stop)
+    }
+
+    /// The Hamiltonian the body of a function computes, and where.
+    pub(super) fn body(&mut self, block: &Block) -> Option<(ExprId, Span)> {
+        let value = match self.block(block) {
+            Ok(value) | Err(Flow::Return(value)) => value,
+            Err(Flow::Break | Flow::Continue | Flow::Wrong | Flow::Stop) => return None,
+        };
+        let result = block.stmts.last().map_or(Span::of(block), Span::of);
+        match value {
+            Value::Number(id) => Some((id, result)),
+            Value::Wrong => None,
+            other => {
+                let message = format!("the function must end with a number, not {}", other.kind());
+                self.unsupported(result, &message, "end it with the energy, without a semicolon");
+                None
+            }
+        }
+    }
+
+    pub(super) fn constant(&mut self, value: Rational, span: Span) -> Value {
+        self.push(Node::Number(value), span)
+    }
+
+    /// The integer a value is, known.
+    pub(super) fn integer(
+        &mut self,
+        value: &Value,
+        what: &'static str,
+        span: Span,
+    ) -> Option<i128> {
+        match value {
+            Value::Integer(n) => Some(*n),
+            Value::Wrong => None,
+            _ => {
+                self.report(span, Mistake::NotConstant(what));
+                None
+            }
+        }
+    }
+
+    /// The value of an expression.
+    pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, Flow> {
+        let span = || Span::of(expression);
+        if let Some(value) = self.read_place(expression) {
+            return value;
+        }
+        match expression {
+            Expr::Lit(literal) => Ok(self.literal(&literal.lit)),
+            Expr::Paren(inner) => self.expression(&inner.expr),
+            Expr::Group(inner) => self.expression(&inner.expr),
+            Expr::Reference(inner) => self.expression(&inner.expr),
+            Expr::Block(block) if block.label.is_none() => self.block(&block.block),
+            Expr::Unsafe(block) => self.block(&block.block),
+            Expr::Const(block) => self.block(&block.block),
+            Expr::Binary(binary) => self.binary(binary),
+            Expr::Unary(unary) => {
+                let value = self.expression(&unary.expr)?;
+                self.tick(span())?;
+                Ok(match unary.op {
+                    UnOp::Neg(_) => self.negate(value, span()),
+                    UnOp::Not(_) => match value {
+                        Value::Bool(truth) => Value::Bool(!truth),
+                        Value::Wrong => Value::Wrong,
+                        _ => self.unsupported(span(), "`!` of this is not known", ""),
+                    },
+                    _ => value,
+                })
+            }
+            Expr::Cast(cast) => {
+                let value = self.expression(&cast.expr)?;
+                Ok(self.cast(value, &cast.ty, span()))
+            }
+            Expr::Array(array) => self.list(array.elems.iter()),
+            Expr::Tuple(tuple) if tuple.elems.is_empty() => Ok(Value::Unit),
+            Expr::Tuple(tuple) => self.list(tuple.elems.iter()),
+            Expr::Repeat(repeat) => {
+                let value = self.expression(&repeat.expr)?;
+                let count = self.expression(&repeat.len)?;
+                let place = Span::of(&repeat.len);
+                let Some(count) = self.integer(&count, "the length of an array", place) else {
+                    return Ok(Value::Wrong);
+                };
+                let count = usize::try_from(count).unwrap_or(0);
+                if count > MOST_OPERATIONS {
+                    self.tick_all(place)?;
+                }
+                Ok(Value::List(vec![value; count]))
+            }
+            Expr::Range(range) => self.range(range),
+            Expr::Index(index) => {
+                let base = self.expression(&index.expr)?;
+                self.index_value(base, index, span())
+            }
+            Expr::Field(field) => {
+                let base = self.expression(&field.base)?;
+                let Some(index) = super::place::member(&field.member) else {
+                    return Ok(self.unsupported(span(), "this field is not known", ""));
+                };
+                Ok(match base.entry(&[index]) {
+                    Ok(value) => value.clone(),
+                    Err(_) if matches!(base, Value::Wrong) => Value::Wrong,
+                    Err(length) => self.bad_index(span(), &[index], length, base.kind()),
+                })
+            }
+            Expr::Assign(assign) => {
+                let value = self.expression(&assign.right)?;
+                self.assign(&assign.left, value)?;
+                Ok(Value::Unit)
+            }
+            Expr::If(branch) => self.branch(branch),
+            Expr::ForLoop(for_loop) => self.for_loop(for_loop),
+            Expr::While(while_loop) => self.while_loop(while_loop),
+            Expr::Loop(forever) => self.forever(forever),
+            Expr::Break(end) if end.label.is_none() && end.expr.is_none() => Err(Flow::Break),
+            Expr::Continue(next) if next.label.is_none() => Err(Flow::Continue),
+            Expr::Return(end) => {
+                let value = end.expr.as_ref().map_or(Ok(Value::Unit), |e| self.expression(e))?;
+                Err(Flow::Return(value))
+            }
+            Expr::MethodCall(call) => self.method_call(call),
+            Expr::Call(call) => self.call(call),
+            Expr::Closure(closure) => Ok(self.closure(closure)),
+            Expr::Path(path) => Ok(self.path(&path.path)),
+            _ => Ok(self.unsupported(
+                span(),
+                "this kind of expression is not read",
+                "use arithmetic, let, literal loops, closures and functions of parameters",
+            )),
+        }
+    }
+
+    fn tick_all(&mut self, span: Span) -> Result<(), Flow> {
+        self.operations = MOST_OPERATIONS;
+        self.tick(span)
+    }
+
+    fn list<'e>(&mut self, entries: impl Iterator<Item = &'e Expr>) -> Result<Value, Flow> {
+        let values: Result<Vec<Value>, Flow> =
+            entries.map(|entry| self.expression(entry)).collect();
+        Ok(Value::List(values?))
+    }
+
+    fn index_value(
+        &mut self,
+        base: Value,
+        index: &syn::ExprIndex,
+        span: Span,
+    ) -> Result<Value, Flow> {
+        if let Expr::Range(range) = &*index.index {
+            return self.slice(base, range);
+        }
+        let position = match self.index(&index.index) {
+            Some(Ok(position)) => position,
+            Some(Err(Flow::Wrong)) | None => return Ok(Value::Wrong),
+            Some(Err(flow)) => return Err(flow),
+        };
+        Ok(match base.entry(&position) {
+            Ok(value) => value.clone(),
+            Err(_) if matches!(base, Value::Wrong) => Value::Wrong,
+            Err(length) => self.bad_index(span, &position, length, base.kind()),
+        })
+    }
+
+    fn literal(&mut self, literal: &Lit) -> Value {
+        let span = Span::of(literal);
+        let (digits, size_of) = match literal {
+            Lit::Float(number) => (number.base10_digits().to_owned(), span),
+            Lit::Int(number) if matches!(number.suffix(), "f64" | "f32") => {
+                (number.base10_digits().to_owned(), span)
+            }
+            Lit::Int(number) => {
+                return match number.base10_parse::<i128>() {
+                    Ok(value) => Value::Integer(value),
+                    Err(_) => {
+                        self.report(span, Mistake::NumberSize(number.base10_digits().to_owned()));
+                        Value::Wrong
+                    }
+                };
+            }
+            Lit::Bool(truth) => return Value::Bool(truth.value),
+            _ => return self.unsupported(span, "only numbers make sense here", ""),
+        };
+        match decimal(&digits) {
+            Ok(value) => self.constant(value, span),
+            Err(error) => {
+                self.report(
+                    size_of,
+                    match error {
+                        NumberError::Form => Mistake::Number(digits),
+                        NumberError::Size => Mistake::NumberSize(digits),
+                    },
+                );
+                Value::Wrong
+            }
+        }
+    }
+}

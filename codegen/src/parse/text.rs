@@ -1,0 +1,300 @@
+//! Hamiltonians as text: `x^2/(2*I1) + m*g*l*z`.
+//!
+//! Precedence as in mathematics: `^` (or `**`) binds tightest and to the right, then the sign,
+//! then `*` and `/`, then `+` and `-`; so `-x^2` is −(x²) and `x^-2^2` is x^(−(2²)). Two explicit
+//! stacks instead of recursion, so that nesting is limited by memory only.
+
+use std::ops::Range;
+
+use super::names::{Name, Names};
+use super::token::{Token, Tokens};
+use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
+use crate::expr::{Arena, ExprId, Function, Node};
+
+/// After this many mistakes in one expression the rest is not read.
+const MOST_MISTAKES: usize = 20;
+
+/// Reads `text` into `arena`. Every mistake goes to `diagnostics`, at its bytes in `text` moved
+/// right by `offset`; where there was one, the result stands for something [`Node::Wrong`].
+pub fn parse(
+    text: &str,
+    offset: usize,
+    names: &Names,
+    arena: &mut Arena,
+    diagnostics: &mut Diagnostics,
+) -> ExprId {
+    let before = diagnostics.len();
+    let mut parser =
+        Parser { names, arena, diagnostics, offset, operands: Vec::new(), operators: Vec::new() };
+    let mut expects_operand = true;
+    let mut tokens = Tokens::new(text).peekable();
+    while let Some((token, range)) = tokens.next() {
+        if parser.diagnostics.len() > before + MOST_MISTAKES {
+            let end = parser.span(text.len()..text.len());
+            return parser.arena.push(Node::Wrong, end);
+        }
+        let call = matches!(tokens.peek(), Some((Token::Open, _)));
+        expects_operand = parser.token(token, range, text, expects_operand, call);
+    }
+    parser.finish(text.len(), expects_operand)
+}
+
+#[derive(Clone, Debug)]
+enum Operator {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Pow,
+    Neg,
+    /// A parenthesis, of a call if there is a function, with the number of arguments so far.
+    Open {
+        call: Option<Callee>,
+        arguments: usize,
+    },
+}
+
+#[derive(Clone, Debug)]
+struct Callee {
+    name: String,
+    /// `None` if it was unknown, which has been reported.
+    function: Option<Function>,
+}
+
+impl Operator {
+    fn strength(&self) -> u8 {
+        match self {
+            Self::Open { .. } => 0,
+            Self::Add | Self::Sub => 1,
+            Self::Mul | Self::Div => 2,
+            Self::Neg => 3,
+            Self::Pow => 4,
+        }
+    }
+}
+
+struct Parser<'a> {
+    names: &'a Names,
+    arena: &'a mut Arena,
+    diagnostics: &'a mut Diagnostics,
+    offset: usize,
+    operands: Vec<(ExprId, Span)>,
+    operators: Vec<(Operator, Span)>,
+}
+
+impl Parser<'_> {
+    fn span(&self, range: Range<usize>) -> Span {
+        Span::text(range).shifted(self.offset)
+    }
+
+    fn operand(&mut self, node: Node, span: Span) {
+        let id = self.arena.push(node, span);
+        self.operands.push((id, span));
+    }
+
+    fn wrong(&mut self, span: Span, mistake: Mistake) {
+        self.diagnostics.report(span, mistake);
+        self.operand(Node::Wrong, span);
+    }
+
+    /// Reads one token; returns whether an operand is expected after it.
+    fn token(
+        &mut self,
+        token: Token,
+        range: Range<usize>,
+        text: &str,
+        expects_operand: bool,
+        before_open: bool,
+    ) -> bool {
+        let span = self.span(range.clone());
+        let shown = &text[range];
+        if expects_operand {
+            match token {
+                Token::Number(value) => self.operand(Node::Number(value), span),
+                Token::Name(name) if before_open => {
+                    self.callee(name, span);
+                    // Its parenthesis comes next.
+                    return true;
+                }
+                Token::Name(name) => self.name(&name, span),
+                Token::Wrong(mistake) => self.wrong(span, mistake),
+                Token::Plus => return true,
+                Token::Minus => {
+                    self.operators.push((Operator::Neg, span));
+                    return true;
+                }
+                Token::Open => {
+                    self.open(span);
+                    return true;
+                }
+                Token::Close | Token::Comma => {
+                    self.diagnostics.report(span, Mistake::Unexpected(shown.to_owned()));
+                    self.operand(Node::Wrong, span);
+                    return self.token_after_operand(token, span, shown);
+                }
+                Token::Times | Token::Over | Token::Power => {
+                    self.wrong(span, Mistake::Unexpected(shown.to_owned()));
+                    return self.token_after_operand(token, span, shown);
+                }
+            }
+            return false;
+        }
+        match token {
+            Token::Number(_) | Token::Name(_) | Token::Open | Token::Wrong(_) => {
+                if let Token::Wrong(mistake) = token {
+                    self.diagnostics.report(span, mistake);
+                    return false;
+                }
+                self.diagnostics.report(span, Mistake::MissingOperator(shown.to_owned()));
+                self.binary(Operator::Mul, span);
+                self.token(token, self.unshifted(span), text, true, before_open)
+            }
+            _ => self.token_after_operand(token, span, shown),
+        }
+    }
+
+    fn unshifted(&self, span: Span) -> Range<usize> {
+        match span {
+            Span::Text { start, end } => start - self.offset..end - self.offset,
+            _ => 0..0,
+        }
+    }
+
+    fn token_after_operand(&mut self, token: Token, span: Span, shown: &str) -> bool {
+        match token {
+            Token::Plus => self.binary(Operator::Add, span),
+            Token::Minus => self.binary(Operator::Sub, span),
+            Token::Times => self.binary(Operator::Mul, span),
+            Token::Over => self.binary(Operator::Div, span),
+            Token::Power => self.binary(Operator::Pow, span),
+            Token::Close => {
+                self.close(span);
+                return false;
+            }
+            Token::Comma => {
+                self.reduce(1);
+                match self.operators.last_mut() {
+                    Some((Operator::Open { call: Some(_), arguments }, _)) => *arguments += 1,
+                    _ => self.diagnostics.report(span, Mistake::Unexpected(shown.to_owned())),
+                }
+            }
+            Token::Number(_) | Token::Name(_) | Token::Open | Token::Wrong(_) => {}
+        }
+        true
+    }
+
+    fn name(&mut self, name: &str, span: Span) {
+        let node = match self.names.get(name) {
+            Some(Name::Coordinate(i)) => Node::Coordinate(*i),
+            Some(Name::Parameter(i)) => Node::Parameter(*i),
+            Some(Name::Number(value)) => Node::Number(value.clone()),
+            None if Function::lookup(name).is_some() => {
+                return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
+            }
+            None => return self.wrong(span, self.names.unknown(name)),
+        };
+        self.operand(node, span);
+    }
+
+    fn callee(&mut self, name: String, span: Span) {
+        let function = Function::lookup(&name);
+        if function.is_none() {
+            if self.names.get(&name).is_some() {
+                // `x (y + 1)`: a product without its operator.
+                self.name(&name, span);
+                self.diagnostics.report(span, Mistake::MissingOperator("(".to_owned()));
+                self.binary(Operator::Mul, span);
+                return;
+            }
+            let known = Function::ALL.map(Function::name);
+            let suggestion = nearest(&name, known).map(str::to_owned);
+            self.diagnostics.report(span, Mistake::UnknownFunction(name.clone(), suggestion));
+        }
+        let call = Some(Callee { name, function });
+        // The parenthesis itself follows and completes this entry.
+        self.operators.push((Operator::Open { call, arguments: 0 }, span));
+    }
+
+    fn open(&mut self, span: Span) {
+        if let Some((Operator::Open { call: Some(_), arguments }, _)) = self.operators.last_mut()
+            && *arguments == 0
+        {
+            *arguments = 1;
+            return;
+        }
+        self.operators.push((Operator::Open { call: None, arguments: 1 }, span));
+    }
+
+    fn close(&mut self, span: Span) {
+        self.reduce(1);
+        match self.operators.pop() {
+            Some((Operator::Open { call, arguments }, open)) => {
+                let whole = open.to(span);
+                let Some((argument, _)) = self.operands.pop() else { return };
+                let Some(callee) = call else {
+                    // The operand now spans its parentheses.
+                    self.operands.push((argument, whole));
+                    return;
+                };
+                if arguments != 1 {
+                    for _ in 1..arguments {
+                        self.operands.pop();
+                    }
+                    return self.wrong(whole, Mistake::ArgumentCount(callee.name, arguments));
+                }
+                match callee.function {
+                    Some(function) => self.operand(Node::Call(function, argument), whole),
+                    None => self.operand(Node::Wrong, whole),
+                }
+            }
+            _ => self.diagnostics.report(span, Mistake::Unexpected(")".to_owned())),
+        }
+    }
+
+    /// Applies the operators on the stack that bind at least as tight as `strength`.
+    fn reduce(&mut self, strength: u8) {
+        while let Some((operator, span)) =
+            self.operators.pop_if(|(operator, _)| operator.strength() >= strength)
+        {
+            let Some((b, b_span)) = self.operands.pop() else { return };
+            if matches!(operator, Operator::Neg) {
+                self.operand(Node::Neg(b), span.to(b_span));
+                continue;
+            }
+            let Some((a, a_span)) = self.operands.pop() else { return };
+            let node = match operator {
+                Operator::Add => Node::Add(a, b),
+                Operator::Sub => Node::Sub(a, b),
+                Operator::Mul => Node::Mul(a, b),
+                Operator::Div => Node::Div(a, b),
+                _ => Node::Pow(a, b),
+            };
+            self.operand(node, a_span.to(b_span));
+        }
+    }
+
+    fn binary(&mut self, operator: Operator, span: Span) {
+        // Powers group to the right: only what binds tighter is applied first.
+        let right = u8::from(matches!(operator, Operator::Pow));
+        self.reduce(operator.strength() + right);
+        self.operators.push((operator, span));
+    }
+
+    fn finish(mut self, end: usize, expects_operand: bool) -> ExprId {
+        let end = self.span(end..end);
+        if expects_operand {
+            self.wrong(end, Mistake::Unfinished);
+        }
+        loop {
+            self.reduce(1);
+            match self.operators.pop() {
+                Some((_, open)) => self.diagnostics.report(open, Mistake::Unclosed),
+                None => break,
+            }
+        }
+        match self.operands.last() {
+            Some(&(id, _)) => id,
+            None => self.arena.push(Node::Wrong, end),
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Tokens of the Hamiltonian's text.
+
+use std::ops::Range;
+
+use super::decimal::{NumberError, decimal};
+use super::names::{begins_name, continues_name};
+use crate::diagnostic::Mistake;
+use crate::number::Rational;
+
+/// A token.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Token {
+    Number(Rational),
+    /// A name, possibly with an index: `x1`, `mu[0]`.
+    Name(String),
+    Plus,
+    Minus,
+    Times,
+    Over,
+    Power,
+    Open,
+    Close,
+    Comma,
+    /// Anything that is none of these.
+    Wrong(Mistake),
+}
+
+/// The tokens with the bytes they take.
+pub(super) struct Tokens<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Tokens<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { text, at: 0 }
+    }
+
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    /// The length of the longest prefix whose characters satisfy `test`.
+    fn run(&self, from: usize, test: impl Fn(char) -> bool) -> usize {
+        let rest = &self.rest()[from..];
+        rest.find(|c| !test(c)).unwrap_or(rest.len())
+    }
+
+    fn number(&self) -> usize {
+        let digit = |c: char| c.is_ascii_digit() || c == '_';
+        // All that looks like part of the number, so that 1.2.3 is one mistake.
+        let mut length = self.run(0, |c| digit(c) || c == '.');
+        let bytes = self.rest().as_bytes();
+        if matches!(bytes.get(length), Some(b'e' | b'E')) {
+            let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
+            let digits = self.run(length + 1 + sign, |c| c.is_ascii_digit());
+            if digits > 0 {
+                length += 1 + sign + digits;
+            }
+        }
+        length
+    }
+
+    fn name(&self) -> usize {
+        let length = self.run(0, continues_name);
+        let bytes = self.rest().as_bytes();
+        if bytes.get(length) == Some(&b'[') {
+            let digits = self.run(length + 1, |c| c.is_ascii_digit());
+            if digits > 0 && bytes.get(length + 1 + digits) == Some(&b']') {
+                return length + digits + 2;
+            }
+        }
+        length
+    }
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = (Token, Range<usize>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.at += self.run(0, char::is_whitespace);
+        let rest = self.rest();
+        let first = rest.chars().next()?;
+        let (token, length) = match first {
+            '0'..='9' | '.' => {
+                let length = self.number();
+                let text = &rest[..length];
+                let token = match decimal(text) {
+                    Ok(value) => Token::Number(value),
+                    Err(NumberError::Form) => Token::Wrong(Mistake::Number(text.to_owned())),
+                    Err(NumberError::Size) => {
+                        let shown: String = text.chars().take(24).collect();
+                        Token::Wrong(Mistake::NumberSize(shown))
+                    }
+                };
+                (token, length)
+            }
+            c if begins_name(c) => {
+                let length = self.name();
+                (Token::Name(rest[..length].to_owned()), length)
+            }
+            '*' if rest.starts_with("**") => (Token::Power, 2),
+            '+' => (Token::Plus, 1),
+            '-' => (Token::Minus, 1),
+            '*' => (Token::Times, 1),
+            '/' => (Token::Over, 1),
+            '^' => (Token::Power, 1),
+            '(' => (Token::Open, 1),
+            ')' => (Token::Close, 1),
+            ',' => (Token::Comma, 1),
+            c => (Token::Wrong(Mistake::Character(c)), c.len_utf8()),
+        };
+        let start = self.at;
+        self.at += length;
+        Some((token, start..self.at))
+    }
+}

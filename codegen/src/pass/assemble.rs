@@ -1,0 +1,156 @@
+//! The last step of every front end: checks, and the finished problem.
+
+use num_integer::Integer;
+
+use super::coefficient::{ONE, Table};
+use super::polynomial::polynomial;
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::expr::{Arena, ExprId};
+use crate::lie::{Chart, LieAlgebra};
+use crate::number::Rational;
+use crate::poly::Polynomial;
+use crate::problem::{Parameter, Problem, Symbol};
+
+/// The largest truncation accepted.
+pub const MAX_TRUNCATION: usize = 63;
+
+/// What a front end has read. Missing parts are `None` when they were wrong and are reported.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// The name of the system.
+    pub name: String,
+    /// 𝔤.
+    pub algebra: Option<LieAlgebra>,
+    /// The names of the momentum's coordinates.
+    pub coordinates: Vec<String>,
+    /// Where they are given.
+    pub coordinates_span: Span,
+    /// The operations of the Hamiltonian.
+    pub arena: Arena,
+    /// The Hamiltonian itself, and where it stands.
+    pub hamiltonian: Option<(ExprId, Span)>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// The Hamiltonian as the user wrote it.
+    pub source: String,
+    /// The chart, and where it is given.
+    pub chart: (Chart, Span),
+    /// K.
+    pub truncation: Option<usize>,
+}
+
+/// Checks what was read and turns it into a problem.
+///
+/// # Errors
+/// All mistakes: those already in `diagnostics`, and those found here.
+pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, Diagnostics> {
+    let report = &mut diagnostics;
+    let count = draft.coordinates.len();
+    if let Some(algebra) = &draft.algebra {
+        if count != algebra.dim() {
+            let mistake = Mistake::Dimension(count, algebra.name().to_owned(), algebra.dim());
+            report.report(draft.coordinates_span, mistake);
+        }
+        check_chart(draft.chart.0, algebra, draft.chart.1, report);
+    }
+    let mut table = Table::new();
+    let root = draft.hamiltonian.map(|(root, _)| root);
+    let sum = polynomial(&draft.arena, root, &mut table, report);
+    if let (Some(sum), Some((_, span))) = (&sum, draft.hamiltonian)
+        && sum.terms.keys().all(Vec::is_empty)
+    {
+        report.report(span, Mistake::NoDependence);
+    }
+    if !diagnostics.is_empty() {
+        return Err(diagnostics);
+    }
+    let (Some(algebra), Some(sum), Some(truncation)) = (draft.algebra, sum, draft.truncation)
+    else {
+        diagnostics.report(Span::Whole, Mistake::Unreadable);
+        return Err(diagnostics);
+    };
+
+    let scalar_names: Vec<String> =
+        draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
+    // Symbols are numbered in the order of the terms they first occur in, highest terms first.
+    let mut terms: Vec<(Vec<u32>, Rational, usize)> = sum
+        .terms
+        .into_iter()
+        .map(|(monomial, coefficient)| {
+            let mut exponents = vec![0; count];
+            for (coordinate, power) in monomial {
+                exponents[coordinate] = power;
+            }
+            (exponents, coefficient.factor, coefficient.product)
+        })
+        .collect();
+    terms.sort_by(|(a, ..), (b, ..)| b.cmp(a));
+    let mut products: Vec<usize> = Vec::new();
+    for &(_, _, product) in &terms {
+        if product != ONE && !products.contains(&product) {
+            products.push(product);
+        }
+    }
+    let variables = count + products.len();
+    let terms = terms.into_iter().map(|(mut exponents, factor, product)| {
+        exponents.resize(variables, 0);
+        if let Some(symbol) = products.iter().position(|&p| p == product) {
+            exponents[count + symbol] = 1;
+        }
+        (exponents, factor)
+    });
+    let hamiltonian = Polynomial::from_terms(variables, terms);
+    let symbols = products
+        .iter()
+        .map(|&product| {
+            let expr = table.expression(product);
+            let text = expr.text(&scalar_names);
+            Symbol { expr, text }
+        })
+        .collect();
+    Ok(Problem {
+        name: draft.name,
+        algebra,
+        coordinates: draft.coordinates,
+        hamiltonian,
+        symbols,
+        parameters: draft.parameters,
+        source: draft.source,
+        chart: draft.chart.0,
+        truncation,
+    })
+}
+
+/// The truncation, if it is usable; otherwise reports why not.
+pub fn check_truncation(k: usize, span: Span, diagnostics: &mut Diagnostics) -> Option<usize> {
+    let mistake = match k {
+        0 => Mistake::TruncationZero,
+        k if k > MAX_TRUNCATION => Mistake::TruncationLarge(k, MAX_TRUNCATION),
+        k if k.is_even() => Mistake::TruncationEven(k),
+        k => return Some(k),
+    };
+    diagnostics.report(span, mistake);
+    None
+}
+
+/// Reports a chart that the group does not have.
+pub fn check_chart(chart: Chart, algebra: &LieAlgebra, span: Span, diagnostics: &mut Diagnostics) {
+    if let Err(error) = chart.check(algebra) {
+        diagnostics.report(span, Mistake::Chart(error));
+    }
+}
+
+/// The chart of this name: `exp` or `cayley`.
+///
+/// # Errors
+/// [`Mistake::UnknownChart`].
+pub fn chart(name: &str) -> Result<Chart, Mistake> {
+    match name {
+        "exp" | "exponential" => Ok(Chart::Exponential),
+        "cayley" => Ok(Chart::Cayley),
+        _ => {
+            let suggestion = crate::diagnostic::nearest(name, ["exp", "cayley"]);
+            Err(Mistake::UnknownChart(name.to_owned(), suggestion.map(str::to_owned)))
+        }
+    }
+}

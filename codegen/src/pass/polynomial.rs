@@ -1,0 +1,309 @@
+//! Expression → polynomial in the momentum with opaque coefficients.
+
+use std::collections::BTreeMap;
+
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::coefficient::{Coefficient, Table};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::expr::{Arena, ExprId, Function, Node};
+use crate::number::{Rational, ratio};
+
+/// The highest degree of a Hamiltonian.
+const HIGHEST_DEGREE: u32 = 100;
+/// The most terms a polynomial may have on the way.
+const MOST_TERMS: usize = 100_000;
+/// The most products of terms in all multiplications together.
+const MOST_PRODUCTS: usize = 200_000;
+
+/// Exponents by coordinate, ascending, without zeros.
+pub(super) type Monomial = Vec<(usize, u32)>;
+
+/// Σ coefficient · monomial, without zero coefficients.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sum {
+    pub terms: BTreeMap<Monomial, Coefficient>,
+}
+
+impl Sum {
+    fn constant(value: Coefficient) -> Self {
+        let mut terms = BTreeMap::new();
+        if !value.is_zero() {
+            terms.insert(Monomial::new(), value);
+        }
+        Self { terms }
+    }
+
+    /// The value, if no coordinate occurs.
+    fn as_constant(&self) -> Option<Coefficient> {
+        match self.terms.len() {
+            0 => Some(Coefficient::number(Rational::zero())),
+            1 => self.terms.get(&Monomial::new()).cloned(),
+            _ => None,
+        }
+    }
+
+    fn degree(&self) -> u32 {
+        self.terms.keys().map(degree).max().unwrap_or(0)
+    }
+}
+
+fn degree(monomial: &Monomial) -> u32 {
+    monomial.iter().map(|&(_, power)| power).sum()
+}
+
+/// Evaluates the expression `root`; `None` if something was wrong, which is then reported.
+///
+/// Without a root, because what was read has none, everything is evaluated for its mistakes.
+pub(super) fn polynomial(
+    arena: &Arena,
+    root: Option<ExprId>,
+    table: &mut Table,
+    diagnostics: &mut Diagnostics,
+) -> Option<Sum> {
+    let uses = match root {
+        Some(root) => uses(arena, root),
+        None => vec![u32::MAX; arena.len()],
+    };
+    let count = root.map_or(arena.len(), |root| root.index() + 1);
+    let mut pass =
+        Pass { arena, table, diagnostics, values: Vec::new(), uses, products: 0, stopped: false };
+    for (id, node, span) in arena.iter().take(count) {
+        let used = pass.uses[id.index()] > 0;
+        let value = if used && !pass.stopped { pass.node(node, span) } else { None };
+        pass.values.push(value);
+    }
+    pass.values.pop().flatten()
+}
+
+/// How often each node is used by what `root` is made of; 0 where not at all.
+fn uses(arena: &Arena, root: ExprId) -> Vec<u32> {
+    let mut uses = vec![0_u32; arena.len()];
+    uses[root.index()] = 1;
+    let nodes: Vec<_> = arena.iter().take(root.index() + 1).collect();
+    for (id, node, _) in nodes.into_iter().rev() {
+        if uses[id.index()] > 0 {
+            for operand in node.operands().into_iter().flatten() {
+                uses[operand.index()] += 1;
+            }
+        }
+    }
+    uses
+}
+
+struct Pass<'a> {
+    arena: &'a Arena,
+    table: &'a mut Table,
+    diagnostics: &'a mut Diagnostics,
+    values: Vec<Option<Sum>>,
+    /// Uses still to come.
+    uses: Vec<u32>,
+    products: usize,
+    /// Set when a limit is passed: everything after would only repeat the message.
+    stopped: bool,
+}
+
+impl Pass<'_> {
+    /// The value of an operand; handed over, not copied, where this is its last use.
+    fn take(&mut self, id: ExprId) -> Option<Sum> {
+        let left = &mut self.uses[id.index()];
+        *left = left.saturating_sub(1);
+        let value = &mut self.values[id.index()];
+        if *left == 0 { value.take() } else { value.clone() }
+    }
+
+    fn wrong<T>(&mut self, span: Span, mistake: Mistake) -> Option<T> {
+        self.stopped |= matches!(mistake, Mistake::TooManyTerms(..));
+        self.diagnostics.report(span, mistake);
+        None
+    }
+
+    fn checked<T>(&mut self, span: Span, result: Result<T, Mistake>) -> Option<T> {
+        result.map_err(|mistake| self.wrong::<T>(span, mistake)).ok()
+    }
+
+    fn node(&mut self, node: &Node, span: Span) -> Option<Sum> {
+        match *node {
+            Node::Wrong => None,
+            Node::Number(ref value) => Some(Sum::constant(Coefficient::number(value.clone()))),
+            Node::Coordinate(i) => {
+                let one = Coefficient::number(Rational::one());
+                Some(Sum { terms: BTreeMap::from([(vec![(i, 1)], one)]) })
+            }
+            Node::Parameter(i) => {
+                let value = self.table.parameter(i);
+                self.checked(span, value).map(Sum::constant)
+            }
+            Node::Neg(a) => Some(negated(self.take(a)?)),
+            Node::Add(a, b) => {
+                let (a, b) = (self.take(a), self.take(b));
+                self.add(a?, b?, span)
+            }
+            Node::Sub(a, b) => {
+                let (a, b) = (self.take(a), self.take(b));
+                self.add(a?, negated(b?), span)
+            }
+            Node::Mul(a, b) => {
+                let (a, b) = (self.take(a), self.take(b));
+                self.multiply(&a?, &b?, span)
+            }
+            Node::Div(a, b) => {
+                let denominator = self.arena.span(b);
+                let (a, b) = (self.take(a), self.take(b));
+                let b = b?;
+                let Some(divisor) = b.as_constant() else {
+                    return self.wrong(denominator, Mistake::DivisionByMomentum);
+                };
+                let divided = self.table.divide(&Coefficient::number(Rational::one()), &divisor);
+                let inverse = self.checked(denominator, divided)?;
+                self.multiply(&a?, &Sum::constant(inverse), span)
+            }
+            Node::Pow(a, b) => {
+                let exponent = self.arena.span(b);
+                let (a, b) = (self.take(a), self.take(b));
+                let b = b?;
+                let Some(power) = b.as_constant() else {
+                    return self.wrong(exponent, Mistake::MomentumInExponent);
+                };
+                self.power(&a?, &power, span, exponent)
+            }
+            Node::Call(function, a) => {
+                let Some(argument) = self.take(a)?.as_constant() else {
+                    return self.wrong(span, Mistake::NotPolynomial(function.name()));
+                };
+                let value = self.table.call(function, &argument);
+                self.checked(span, value).map(Sum::constant)
+            }
+        }
+    }
+
+    fn add(&mut self, a: Sum, b: Sum, span: Span) -> Option<Sum> {
+        let (mut large, small) = if a.terms.len() >= b.terms.len() { (a, b) } else { (b, a) };
+        for (monomial, value) in small.terms {
+            let sum = match large.terms.remove(&monomial) {
+                Some(before) => {
+                    let sum = self.table.add(&before, &value);
+                    self.checked(span, sum)?
+                }
+                None => value,
+            };
+            if !sum.is_zero() {
+                large.terms.insert(monomial, sum);
+            }
+        }
+        if large.terms.len() > MOST_TERMS {
+            return self.wrong(span, Mistake::TooManyTerms(large.terms.len(), MOST_TERMS));
+        }
+        Some(large)
+    }
+
+    fn multiply(&mut self, a: &Sum, b: &Sum, span: Span) -> Option<Sum> {
+        let degree = a.degree() + b.degree();
+        if degree > HIGHEST_DEGREE {
+            return self.wrong(span, Mistake::LargePower(degree.to_string(), HIGHEST_DEGREE));
+        }
+        self.products = self.products.saturating_add(a.terms.len().saturating_mul(b.terms.len()));
+        if self.products > MOST_PRODUCTS {
+            return self.wrong(span, Mistake::TooManyTerms(self.products, MOST_PRODUCTS));
+        }
+        let mut result = Sum::default();
+        for (left, x) in &a.terms {
+            for (right, y) in &b.terms {
+                let product = self.table.multiply(x, y);
+                let mut value = self.checked(span, product)?;
+                let monomial = times(left, right);
+                if let Some(before) = result.terms.remove(&monomial) {
+                    let sum = self.table.add(&before, &value);
+                    value = self.checked(span, sum)?;
+                }
+                if !value.is_zero() {
+                    result.terms.insert(monomial, value);
+                }
+            }
+            if result.terms.len() > MOST_TERMS {
+                return self.wrong(span, Mistake::TooManyTerms(result.terms.len(), MOST_TERMS));
+            }
+        }
+        Some(result)
+    }
+
+    fn power(
+        &mut self,
+        base: &Sum,
+        power: &Coefficient,
+        span: Span,
+        exponent: Span,
+    ) -> Option<Sum> {
+        let constant = base.as_constant();
+        let Some(number) = power.as_number() else {
+            let mistake =
+                if constant.is_some() { Mistake::ParameterPower } else { Mistake::UnknownPower };
+            return self.wrong(exponent, mistake);
+        };
+        let whole = number.is_integer().then(|| number.numer().to_i64());
+        let large = || Mistake::LargePower(number.to_string(), HIGHEST_DEGREE);
+        match (constant, whole) {
+            (Some(base), Some(Some(n))) => {
+                let value = self.table.power(&base, n);
+                self.checked(span, value).map(Sum::constant)
+            }
+            (Some(base), None) => {
+                let twice = number * ratio(2, 1);
+                let Some(n) = twice.is_integer().then(|| twice.numer().to_i64()).flatten() else {
+                    return self.wrong(exponent, Mistake::ParameterPower);
+                };
+                let value = self
+                    .table
+                    .call(Function::Sqrt, &base)
+                    .and_then(|root| self.table.power(&root, n));
+                self.checked(span, value).map(Sum::constant)
+            }
+            (None, None) => self.wrong(exponent, Mistake::FractionalPower(number.to_string())),
+            (_, Some(None)) => self.wrong(exponent, large()),
+            (None, Some(Some(n))) if n < 0 => {
+                self.wrong(exponent, Mistake::NegativePower(n.to_string()))
+            }
+            (None, Some(Some(n))) => {
+                if n > i64::from(HIGHEST_DEGREE) {
+                    return self.wrong(exponent, large());
+                }
+                let mut result = Sum::constant(Coefficient::number(Rational::one()));
+                for _ in 0..n {
+                    result = self.multiply(&result, base, span)?;
+                }
+                Some(result)
+            }
+        }
+    }
+}
+
+fn negated(mut sum: Sum) -> Sum {
+    sum.terms.values_mut().for_each(Coefficient::negate);
+    sum
+}
+
+/// The product of two monomials.
+fn times(a: &Monomial, b: &Monomial) -> Monomial {
+    let mut result = Monomial::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() && j < b.len() {
+        match a[i].0.cmp(&b[j].0) {
+            std::cmp::Ordering::Less => {
+                result.push(a[i]);
+                i += 1;
+            }
+            std::cmp::Ordering::Greater => {
+                result.push(b[j]);
+                j += 1;
+            }
+            std::cmp::Ordering::Equal => {
+                result.push((a[i].0, a[i].1 + b[j].1));
+                i += 1;
+                j += 1;
+            }
+        }
+    }
+    result.extend_from_slice(&a[i..]);
+    result.extend_from_slice(&b[j..]);
+    result
+}

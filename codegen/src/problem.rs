@@ -1,0 +1,103 @@
+//! What every front end produces: a Lie–Poisson system, ready for the derivation.
+
+use crate::expr::ParameterExpr;
+use crate::lie::{Chart, LieAlgebra};
+use crate::number::Rational;
+use crate::poly::Polynomial;
+
+/// An opaque coefficient: an expression in parameters only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    /// The expression.
+    pub expr: ParameterExpr,
+    /// The expression as a user would write it.
+    pub text: String,
+}
+
+/// The form of a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// `f64`.
+    Scalar,
+    /// `[f64; n]`.
+    Array(usize),
+    /// `nalgebra::SVector<f64, n>`.
+    Vector(usize),
+    /// `[[f64; columns]; rows]`, flattened row by row.
+    Grid(usize, usize),
+    /// `nalgebra::SMatrix<f64, rows, columns>`, flattened row by row.
+    Matrix(usize, usize),
+}
+
+impl Shape {
+    /// How many scalars it holds.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Scalar => 1,
+            Self::Array(n) | Self::Vector(n) => *n,
+            Self::Grid(rows, columns) | Self::Matrix(rows, columns) => rows * columns,
+        }
+    }
+
+    /// Whether it holds no scalars.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// A parameter of the Hamiltonian. Parameters are flattened to scalars in their order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// The name.
+    pub name: String,
+    /// The form.
+    pub shape: Shape,
+    /// The value of each scalar, where the input gives one.
+    pub default: Option<Vec<Rational>>,
+}
+
+impl Parameter {
+    /// The names of its scalars: `m`, or `inertia[0]`, …, or `a[0][0]`, ….
+    #[must_use]
+    pub fn scalar_names(&self) -> Vec<String> {
+        let name = &self.name;
+        match self.shape {
+            Shape::Scalar => vec![name.clone()],
+            Shape::Array(n) | Shape::Vector(n) => (0..n).map(|i| format!("{name}[{i}]")).collect(),
+            Shape::Grid(rows, columns) => (0..rows)
+                .flat_map(|i| (0..columns).map(move |j| format!("{name}[{i}][{j}]")))
+                .collect(),
+            Shape::Matrix(rows, columns) => (0..rows)
+                .flat_map(|i| (0..columns).map(move |j| format!("{name}[({i}, {j})]")))
+                .collect(),
+        }
+    }
+}
+
+/// A Hamiltonian H_red on the dual of a Lie algebra, a chart and a truncation.
+///
+/// H_red is a polynomial over ℚ in the coordinates of the momentum (the first `algebra.dim()`
+/// variables) and the [`Symbol`]s (the variables after them).
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The name of the system.
+    pub name: String,
+    /// 𝔤.
+    pub algebra: LieAlgebra,
+    /// The names of the momentum's coordinates, dual to the basis of 𝔤.
+    pub coordinates: Vec<String>,
+    /// H_red.
+    pub hamiltonian: Polynomial,
+    /// The opaque coefficients of `hamiltonian`.
+    pub symbols: Vec<Symbol>,
+    /// The parameters the symbols are made of.
+    pub parameters: Vec<Parameter>,
+    /// The Hamiltonian as the user wrote it.
+    pub source: String,
+    /// The chart.
+    pub chart: Chart,
+    /// K: S₁ … S_K are kept.
+    pub truncation: usize,
+}
