@@ -67,7 +67,7 @@ pub(super) fn polynomial(
     };
     let count = root.map_or(arena.len(), |root| root.index() + 1);
     let mut pass =
-        Pass { arena, table, diagnostics, values: Vec::new(), uses, products: 0, stopped: false };
+        Pass { table, diagnostics, values: Vec::new(), uses, products: 0, stopped: false };
     for (id, node, span) in arena.iter().take(count) {
         let used = pass.uses[id.index()] > 0;
         let value = if used && !pass.stopped { pass.node(node, span) } else { None };
@@ -92,7 +92,6 @@ fn uses(arena: &Arena, root: ExprId) -> Vec<u32> {
 }
 
 struct Pass<'a> {
-    arena: &'a Arena,
     table: &'a mut Table,
     diagnostics: &'a mut Diagnostics,
     values: Vec<Option<Sum>>,
@@ -148,24 +147,22 @@ impl Pass<'_> {
                 self.multiply(&a?, &b?, span)
             }
             Node::Div(a, b) => {
-                let denominator = self.arena.span(b);
                 let (a, b) = (self.take(a), self.take(b));
                 let b = b?;
                 let Some(divisor) = b.as_constant() else {
-                    return self.wrong(denominator, Mistake::DivisionByMomentum);
+                    return self.wrong(span, Mistake::DivisionByMomentum);
                 };
                 let divided = self.table.divide(&Coefficient::number(Rational::one()), &divisor);
-                let inverse = self.checked(denominator, divided)?;
+                let inverse = self.checked(span, divided)?;
                 self.multiply(&a?, &Sum::constant(inverse), span)
             }
             Node::Pow(a, b) => {
-                let exponent = self.arena.span(b);
                 let (a, b) = (self.take(a), self.take(b));
                 let b = b?;
                 let Some(power) = b.as_constant() else {
-                    return self.wrong(exponent, Mistake::MomentumInExponent);
+                    return self.wrong(span, Mistake::MomentumInExponent);
                 };
-                self.power(&a?, &power, span, exponent)
+                self.power(&a?, &power, span)
             }
             Node::Call(function, a) => {
                 let Some(argument) = self.take(a)?.as_constant() else {
@@ -227,18 +224,12 @@ impl Pass<'_> {
         Some(result)
     }
 
-    fn power(
-        &mut self,
-        base: &Sum,
-        power: &Coefficient,
-        span: Span,
-        exponent: Span,
-    ) -> Option<Sum> {
+    fn power(&mut self, base: &Sum, power: &Coefficient, span: Span) -> Option<Sum> {
         let constant = base.as_constant();
         let Some(number) = power.as_number() else {
             let mistake =
                 if constant.is_some() { Mistake::ParameterPower } else { Mistake::UnknownPower };
-            return self.wrong(exponent, mistake);
+            return self.wrong(span, mistake);
         };
         let whole = number.is_integer().then(|| number.numer().to_i64());
         let large = || Mistake::LargePower(number.to_string(), HIGHEST_DEGREE);
@@ -250,7 +241,7 @@ impl Pass<'_> {
             (Some(base), None) => {
                 let twice = number * ratio(2, 1);
                 let Some(n) = twice.is_integer().then(|| twice.numer().to_i64()).flatten() else {
-                    return self.wrong(exponent, Mistake::ParameterPower);
+                    return self.wrong(span, Mistake::ParameterPower);
                 };
                 let value = self
                     .table
@@ -258,14 +249,14 @@ impl Pass<'_> {
                     .and_then(|root| self.table.power(&root, n));
                 self.checked(span, value).map(Sum::constant)
             }
-            (None, None) => self.wrong(exponent, Mistake::FractionalPower(number.to_string())),
-            (_, Some(None)) => self.wrong(exponent, large()),
+            (None, None) => self.wrong(span, Mistake::FractionalPower(number.to_string())),
+            (_, Some(None)) => self.wrong(span, large()),
             (None, Some(Some(n))) if n < 0 => {
-                self.wrong(exponent, Mistake::NegativePower(n.to_string()))
+                self.wrong(span, Mistake::NegativePower(n.to_string()))
             }
             (None, Some(Some(n))) => {
                 if n > i64::from(HIGHEST_DEGREE) {
-                    return self.wrong(exponent, large());
+                    return self.wrong(span, large());
                 }
                 let mut result = Sum::constant(Coefficient::number(Rational::one()));
                 for _ in 0..n {
