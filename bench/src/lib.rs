@@ -1,1 +1,13 @@
-//! See the workspace README.
+//! Work-precision comparisons of coadjoint and its peers.
+//!
+//! A [`Problem`](problem::Problem) has exact equations, attitude included, and a converged end state; a
+//! [`Method`](method::Method) runs it at a [`Setting`](method::Setting); [`measure`] times the methods interleaved and
+//! [`report`] writes tables and diagrams. A peer that wins is shown winning.
+
+pub mod arithmetic;
+pub mod measure;
+pub mod method;
+pub mod peers;
+pub mod problem;
+pub mod report;
+pub mod state;
