@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::coordinates::Coordinates;
+use crate::element_error::ElementError;
 use crate::scalar::Scalar;
 
 /// A Lie group G with a chosen basis e₁…eₙ of its Lie algebra 𝔤.
@@ -82,6 +83,15 @@ pub trait LieGroup: Clone + Debug {
 
     /// Entry (row, column) of g as a matrix.
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> Self::Scalar;
+
+    /// The element whose matrix has these entries, checked to be one.
+    ///
+    /// # Errors
+    /// [`ElementError`] saying what the matrix lacks.
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> Self::Scalar,
+    ) -> Result<Self::Element, ElementError>;
 }
 
 /// A group with the Cayley map cay(x) = (1 − x/2)⁻¹(1 + x/2) in its matrix representation.

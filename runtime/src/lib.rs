@@ -1,24 +1,38 @@
 //! Integrators for Hamiltonian systems on Lie groups that conserve momentum and Casimirs exactly.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 mod chart;
 mod coordinates;
+mod element_error;
 mod error;
 mod generating_function;
 mod group;
 mod phase;
 mod reconstruct;
 mod scalar;
+mod se3;
 mod so3;
 mod solve;
+mod table;
 
 pub use chart::{Cayley, Chart, Exponential};
 pub use coordinates::Coordinates;
+pub use element_error::ElementError;
 pub use error::StepError;
 pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 pub use group::{CayleyGroup, LieGroup};
 pub use phase::Phase;
 pub use reconstruct::{StepReport, advance, poisson_map};
 pub use scalar::Scalar;
+pub use se3::SE3;
 pub use so3::SO3;
 pub use solve::{MAX_ITERATIONS, Solution, solve};
+pub use table::{
+    BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, StaticAlgebra, StaticMatrixGroup,
+    StaticTables, StructureConstant, TableGroup, Tables,
+};
+#[cfg(feature = "alloc")]
+pub use table::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};

@@ -1,11 +1,12 @@
 //! SO(3): rotations of space, as unit quaternions.
 
-mod kernel;
+pub(crate) mod kernel;
 
 use core::marker::PhantomData;
 
-use nalgebra::{Matrix3, Quaternion, SimdBool, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
+use crate::element_error::{ElementError, finite, within};
 use crate::group::{CayleyGroup, LieGroup};
 use crate::scalar::Scalar;
 
@@ -27,25 +28,83 @@ impl<T> SO3<T> {
 type V<T> = Vector3<T>;
 
 #[inline(always)]
-fn cross<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+pub(crate) fn cross<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
     V::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 #[inline(always)]
-fn dot<T: Scalar>(a: &V<T>, b: &V<T>) -> T {
+pub(crate) fn dot<T: Scalar>(a: &V<T>, b: &V<T>) -> T {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
 #[inline(always)]
-fn rotate_back<T: Scalar>(w: T, u: &V<T>, v: &V<T>) -> V<T> {
+pub(crate) fn rotate_back<T: Scalar>(w: T, u: &V<T>, v: &V<T>) -> V<T> {
     let twice = cross(v, u) * T::of(2.0);
     v + twice * w + cross(&twice, u)
 }
 
 #[inline(always)]
-fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
+pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
     UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
+}
+
+/// (d^R exp_x)ᵀ μ and its derivative D in x, from the functions of |x|².
+#[inline(always)]
+pub(crate) fn dexp_with_derivative<T: Scalar>(
+    k: &kernel::Dexp<T>,
+    x: &V<T>,
+    mu: &V<T>,
+) -> (V<T>, Matrix3<T>) {
+    let once = cross(mu, x);
+    let twice = cross(&once, x);
+    let value = mu + once * k.b + twice * k.c;
+    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
+    // with (μ×v)×x = v (μ·x) − μ (v·x).
+    let two = T::of(2.0);
+    let along = (once * k.b_slope + twice * k.c_slope) * two - mu * k.c;
+    let turn = mu * k.b + once * k.c;
+    let diagonal = k.c * dot(mu, x);
+    let derivative = Matrix3::new(
+        along.x.times_plus(x.x, diagonal),
+        along.x.times_plus(x.y, -turn.z),
+        along.x.times_plus(x.z, turn.y),
+        along.y.times_plus(x.x, turn.z),
+        along.y.times_plus(x.y, diagonal),
+        along.y.times_plus(x.z, -turn.x),
+        along.z.times_plus(x.x, -turn.y),
+        along.z.times_plus(x.y, turn.x),
+        along.z.times_plus(x.z, diagonal),
+    );
+    (value, derivative)
+}
+
+/// The rotation whose matrix has these (finite) entries.
+pub(crate) fn rotation_from<T: Scalar>(
+    entry: impl Fn(usize, usize) -> T,
+) -> Result<UnitQuaternion<T>, ElementError> {
+    let m = Matrix3::from_fn(entry);
+    let gram = m.transpose() * m;
+    let mut defect = T::of(0.0);
+    for i in 0..3 {
+        for j in 0..3 {
+            let unit = T::of(if i == j { 1.0 } else { 0.0 });
+            defect = defect.simd_max((gram[(i, j)] - unit).simd_abs());
+        }
+    }
+    if !within(defect, T::of(1.0)) {
+        return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
+    }
+    let columns = [m.column(0).into_owned(), m.column(1).into_owned(), m.column(2).into_owned()];
+    let determinant = dot(&columns[0], &cross(&columns[1], &columns[2]));
+    if !determinant.simd_gt(T::of(0.0)).all() {
+        return Err(ElementError::Determinant {
+            determinant: determinant.largest_lane(),
+            required: "a rotation needs determinant 1",
+        });
+    }
+    let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(m));
+    Ok(UnitQuaternion::new_normalize(q.into_inner()))
 }
 
 impl<T: Scalar> LieGroup for SO3<T> {
@@ -136,27 +195,7 @@ impl<T: Scalar> LieGroup for SO3<T> {
         mu: &Self::Vector,
     ) -> (Self::Vector, Matrix3<T>) {
         let k = kernel::dexp(dot(x, x));
-        let once = cross(mu, x);
-        let twice = cross(&once, x);
-        let value = mu + once * k.b + twice * k.c;
-        // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
-        // with (μ×v)×x = v (μ·x) − μ (v·x).
-        let two = T::of(2.0);
-        let along = (once * k.b_slope + twice * k.c_slope) * two - mu * k.c;
-        let turn = mu * k.b + once * k.c;
-        let diagonal = k.c * dot(mu, x);
-        let derivative = Matrix3::new(
-            along.x.times_plus(x.x, diagonal),
-            along.x.times_plus(x.y, -turn.z),
-            along.x.times_plus(x.z, turn.y),
-            along.y.times_plus(x.x, turn.z),
-            along.y.times_plus(x.y, diagonal),
-            along.y.times_plus(x.z, -turn.x),
-            along.z.times_plus(x.x, -turn.y),
-            along.z.times_plus(x.y, turn.x),
-            along.z.times_plus(x.z, diagonal),
-        );
-        (value, derivative)
+        dexp_with_derivative(&k, x, mu)
     }
 
     #[inline(always)]
@@ -185,6 +224,14 @@ impl<T: Scalar> LieGroup for SO3<T> {
         let mut unit = V::repeat(T::of(0.0));
         unit[column] = T::of(1.0);
         self.adjoint(g, &unit)[row]
+    }
+
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> T,
+    ) -> Result<Self::Element, ElementError> {
+        finite(3, &entry)?;
+        rotation_from(entry)
     }
 }
 

@@ -84,6 +84,14 @@ mod table {
         B_SLOPE, k => (k + 1) as f64 * alternating(k + 1, 2 * k + 4)
     );
     coefficients!(
+        /// d²b/dt²
+        B_CURVATURE, k => ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6)
+    );
+    coefficients!(
+        /// d²c/dt²
+        C_CURVATURE, k => ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7)
+    );
+    coefficients!(
         /// dc/dt
         C_SLOPE, k => (k + 1) as f64 * alternating(k + 1, 2 * k + 5)
     );
@@ -158,19 +166,81 @@ fn dexp_far<T: Scalar>(t: T) -> Dexp<T> {
     Dexp { b, c, b_slope: (sinc * T::of(0.5) - b) * inverse, c_slope: -(sinc_slope + c) * inverse }
 }
 
+/// The second derivatives of b and c in t, for the derivative of (d^R exp)ᵀ on se(3).
+pub struct DexpCurvature<T> {
+    pub b: T,
+    pub c: T,
+}
+
+/// d²b/dt² and d²c/dt² at t = θ².
+#[inline(always)]
+pub fn dexp_curvature<T: Scalar>(t: T) -> DexpCurvature<T> {
+    let near = t.simd_le(T::of(NEAR));
+    let mut result = DexpCurvature {
+        b: polynomial(&table::B_CURVATURE, t),
+        c: polynomial(&table::C_CURVATURE, t),
+    };
+    if !near.all() {
+        let far = dexp_curvature_far(t);
+        result.b = result.b.select(near, far.b);
+        result.c = result.c.select(near, far.c);
+    }
+    result
+}
+
+#[cold]
+fn dexp_curvature_far<T: Scalar>(t: T) -> DexpCurvature<T> {
+    // bt = 1 − cos θ and ct = 1 − σ with σ = sin θ/θ, (cos θ)′ = −σ/2 and 2tσ′ = cos θ − σ,
+    // differentiated twice.
+    let Dexp { b, c, b_slope, c_slope } = dexp_far(t);
+    let half = T::of(0.5);
+    let two = T::of(2.0);
+    let inverse = T::of(1.0) / t;
+    let sinc = T::of(1.0) - c * t;
+    let sinc_slope = (T::of(1.0) - b * t - sinc) * half * inverse;
+    let sinc_curvature = -(sinc * half + T::of(3.0) * sinc_slope) * half * inverse;
+    DexpCurvature {
+        b: (sinc_slope * half - two * b_slope) * inverse,
+        c: -(sinc_curvature + two * c_slope) * inverse,
+    }
+}
+
 /// (1 − (θ/2) cot(θ/2))/θ², the function of (d^R exp)^{−T}; infinite at θ = 2π.
 #[inline(always)]
 pub fn dexp_inverse<T: Scalar>(t: T) -> T {
-    // With s = sin(θ/2)/θ this is (2s − cos(θ/2))/(2st), where (2s − cos(θ/2))/t has a series
-    // without cancellation.
+    dexp_inverse_with_slope(t).value
+}
+
+/// A function of t with its derivative.
+pub struct WithSlope<T> {
+    pub value: T,
+    pub slope: T,
+}
+
+/// [`dexp_inverse`] and its derivative in t.
+#[inline(always)]
+pub fn dexp_inverse_with_slope<T: Scalar>(t: T) -> WithSlope<T> {
+    // With s = sin(θ/2)/θ this is n/(2s), n = (2s − cos(θ/2))/t, where n has a
+    // series without cancellation and s′ = −n/4.
     let near = t.simd_le(T::of(NEAR));
     let half = half_angle(t);
-    let mut numerator = polynomial(&SINE_MINUS_COSINE, t);
+    let s = half.sine_over_angle;
+    let two = T::of(2.0);
+    let quarter = T::of(0.25);
+    let mut n = polynomial(&SINE_MINUS_COSINE, t);
+    let mut n_slope = polynomial(&SINE_MINUS_COSINE_SLOPE, t);
     if !near.all() {
-        let far = (T::of(2.0) * half.sine_over_angle - half.cosine) / t;
-        numerator = numerator.select(near, far);
+        let inverse = T::of(1.0) / t;
+        let far = (two * s - half.cosine) * inverse;
+        // (2s)′ = −n/2 and cos(θ/2)′ = −s/4, so (nt)′ = s/4 − n/2.
+        let far_slope = (s * quarter - T::of(1.5) * far) * inverse;
+        n = n.select(near, far);
+        n_slope = n_slope.select(near, far_slope);
     }
-    numerator / (T::of(2.0) * half.sine_over_angle)
+    let s_slope = -n * quarter;
+    let denominator = T::of(1.0) / (two * s);
+    let value = n * denominator;
+    WithSlope { value, slope: (n_slope - two * value * s_slope) * denominator }
 }
 
 /// (2 sin(θ/2)/θ − cos(θ/2))/t = Σ (−1)ᵏ (2k+2)/(4ᵏ⁺¹ (2k+3)!) tᵏ.
@@ -180,6 +250,19 @@ const SINE_MINUS_COSINE: [f64; 10] = {
     let mut k = 0;
     while k < 10 {
         c[k] = quarter * (2 * k + 2) as f64 * alternating(k, 2 * k + 3);
+        quarter *= 0.25;
+        k += 1;
+    }
+    c
+};
+
+/// The derivative of [`SINE_MINUS_COSINE`].
+const SINE_MINUS_COSINE_SLOPE: [f64; 10] = {
+    let mut c = [0.0; 10];
+    let mut quarter = 0.0625;
+    let mut k = 0;
+    while k < 10 {
+        c[k] = quarter * ((k + 1) * (2 * k + 4)) as f64 * alternating(k + 1, 2 * k + 5);
         quarter *= 0.25;
         k += 1;
     }

@@ -1,0 +1,291 @@
+//! Everything a Lie group must offer, from its tables.
+
+use nalgebra::{SimdBool, SimdPartialOrd};
+
+use super::algebra::{BasisEntry, Tables};
+use super::fixed::{StaticAlgebra, StaticTables};
+use super::linear;
+use crate::coordinates::Coordinates;
+use crate::element_error::ElementError;
+use crate::group::LieGroup;
+use crate::scalar::Scalar;
+
+/// A Lie group given by the tables of its Lie algebra: structure constants, and a matrix basis
+/// where one is known.
+///
+/// Elements are d×d matrices in the representation of the basis; where only brackets are known,
+/// the n×n matrices of Ad_g. All of [`LieGroup`] to rounding for any ‖x‖: (d^R exp)ᵀ and Ad\* of
+/// exp act on the momentum by series with sub-steps, exp of the matrix by scaling and squaring.
+/// Use it through [`StaticMatrixGroup`](crate::StaticMatrixGroup) (tables in the program, no
+/// allocation) or `MatrixGroup` (tables known at run time, feature `alloc`).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TableGroup<K> {
+    pub(super) tables: K,
+}
+
+impl<A, const N: usize, const D: usize, T> Default for StaticTables<A, N, D, T>
+where
+    A: StaticAlgebra,
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<A: StaticAlgebra, const N: usize, const D: usize, T> TableGroup<StaticTables<A, N, D, T>> {
+    /// The group; there is nothing to choose.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { tables: StaticTables::new() }
+    }
+}
+
+/// Matrices of the representation.
+pub type Element<K> = <<K as Tables>::Column as Coordinates<<K as Tables>::Scalar>>::Matrix;
+
+/// Terms of the exponential series for norms up to 1; rounding needs 18 in f64.
+const TERMS: usize = 24;
+
+impl<K: Tables> TableGroup<K> {
+    /// The tables this group is made of.
+    pub fn tables(&self) -> &K {
+        &self.tables
+    }
+
+    /// Calls `visit` with every non-zero entry of the matrices in use.
+    #[inline(always)]
+    pub(super) fn for_each_entry(&self, mut visit: impl FnMut(BasisEntry)) {
+        match self.tables.basis() {
+            Some(entries) => entries.iter().for_each(|&entry| visit(entry)),
+            // (ad_i)ₖⱼ = cᵢⱼᵏ
+            None => self.tables.structure().iter().for_each(|&(i, j, k, c)| visit((i, k, j, c))),
+        }
+    }
+
+    /// Whether elements are matrices Ad_g.
+    #[inline(always)]
+    pub(super) fn is_adjoint(&self) -> bool {
+        self.tables.basis().is_none()
+    }
+
+    pub(super) fn zero_matrix(&self) -> Element<K> {
+        K::Column::zero_matrix(self.tables.matrix_size())
+    }
+
+    pub(super) fn unit_matrix(&self) -> Element<K> {
+        linear::identity(self.tables.matrix_size(), &self.zero_matrix())
+    }
+
+    /// The matrix Σ xᵢ eᵢ.
+    pub fn matrix_of(&self, x: &K::Vector) -> Element<K> {
+        let mut result = self.zero_matrix();
+        self.for_each_entry(|(i, row, column, value)| {
+            result[(row, column)] = x[i].times_plus(K::Scalar::of(value), result[(row, column)]);
+        });
+        result
+    }
+
+    /// The vector of ⟨m, eᵢ⟩ = Σ entries of m times entries of eᵢ.
+    pub(super) fn products(&self, m: &Element<K>) -> K::Vector {
+        let mut result = K::Vector::zeros(self.tables.dim());
+        self.for_each_entry(|(i, row, column, value)| {
+            result[i] = m[(row, column)].times_plus(K::Scalar::of(value), result[i]);
+        });
+        result
+    }
+
+    /// The inverse of the Gram matrix, applied to v.
+    pub(super) fn gram_solve(&self, v: &K::Vector) -> K::Vector {
+        let dim = self.tables.dim();
+        if self.tables.gram_is_diagonal() {
+            return K::Vector::from_entries(dim, |i| {
+                v[i] * K::Scalar::of(self.tables.gram_inverse(i, i))
+            });
+        }
+        K::Vector::from_entries(dim, |i| {
+            let mut sum = K::Scalar::of(0.0);
+            for j in 0..dim {
+                sum = v[j].times_plus(K::Scalar::of(self.tables.gram_inverse(i, j)), sum);
+            }
+            sum
+        })
+    }
+
+    /// The coordinates of the matrix of 𝔤 nearest to m.
+    pub fn coordinates_of(&self, m: &Element<K>) -> K::Vector {
+        self.gram_solve(&self.products(m))
+    }
+
+    /// The matrix P in the span of the basis with ⟨P, ξ⟩ = ⟨μ, ξ⟩ for every ξ ∈ 𝔤.
+    pub(super) fn dual_matrix(&self, mu: &K::Vector) -> Element<K> {
+        self.matrix_of(&self.gram_solve(mu))
+    }
+
+    /// exp of a matrix of the representation, by scaling and squaring.
+    pub(super) fn matrix_exponential(&self, m: &Element<K>) -> Element<K> {
+        let size = self.tables.matrix_size();
+        let Some(count) = linear::halvings(linear::row_sum_norm(size, m), 1.5) else {
+            return K::Column::matrix_from_entries(size, |_, _| K::Scalar::of(f64::NAN));
+        };
+        let one = K::Scalar::of(1.0);
+        let rounding = K::Scalar::epsilon() * K::Scalar::of(0.125);
+        let m = linear::scale(size, m, linear::half_power(count));
+        let mut sum = linear::plus_scaled(size, &self.unit_matrix(), one, &m);
+        let mut term = m.clone();
+        for k in 2..TERMS {
+            term = linear::multiply(size, &m, &term);
+            term = linear::scale(size, &term, K::Scalar::of(1.0 / k as f64));
+            sum = linear::plus_scaled(size, &sum, one, &term);
+            if linear::largest_entry(size, &term).simd_le(rounding).all() {
+                break;
+            }
+        }
+        for _ in 0..count {
+            sum = linear::multiply(size, &sum, &sum);
+        }
+        sum
+    }
+
+    /// For groups of orthogonal matrices: pulls g back onto them to first order, so that rounding
+    /// does not accumulate in gᵀg over many steps.
+    pub(super) fn straighten(&self, g: Element<K>) -> Element<K> {
+        if !self.tables.is_orthogonal() {
+            return g;
+        }
+        let size = self.tables.matrix_size();
+        let (half, three_halves) = (K::Scalar::of(-0.5), K::Scalar::of(1.5));
+        let squared = linear::transpose_multiply(size, &g, &g);
+        let mut correction = squared.clone();
+        linear::fill(size, &mut correction, |i, j| {
+            let value = squared[(i, j)] * half;
+            if i == j { value + three_halves } else { value }
+        });
+        linear::multiply(size, &g, &correction)
+    }
+}
+
+impl<K: Tables> LieGroup for TableGroup<K> {
+    type Scalar = K::Scalar;
+    type Vector = K::Vector;
+    type Element = Element<K>;
+
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        self.tables.dim()
+    }
+
+    fn identity(&self) -> Self::Element {
+        self.unit_matrix()
+    }
+
+    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
+        self.straighten(linear::multiply(self.tables.matrix_size(), g, h))
+    }
+
+    fn inverse(&self, g: &Self::Element) -> Self::Element {
+        let size = self.tables.matrix_size();
+        if self.tables.is_orthogonal() {
+            linear::transpose(size, g)
+        } else {
+            linear::invert(size, g)
+        }
+    }
+
+    fn exp(&self, x: &Self::Vector) -> Self::Element {
+        self.straighten(self.matrix_exponential(&self.matrix_of(x)))
+    }
+
+    /// The principal logarithm; `None` too where the representation does not tell x (a centre
+    /// that only brackets are known of).
+    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
+        self.logarithm(g)
+    }
+
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
+        let mut result = K::Vector::zeros(self.tables.dim());
+        for &(i, j, k, c) in self.tables.structure() {
+            result[k] = (x[i] * K::Scalar::of(c)).times_plus(y[j], result[k]);
+        }
+        result
+    }
+
+    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        self.ad_transpose(x, mu)
+    }
+
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
+        let size = self.tables.matrix_size();
+        if self.is_adjoint() {
+            return K::Vector::from_entries(size, |i| {
+                let mut sum = K::Scalar::of(0.0);
+                for j in 0..size {
+                    sum = g[(i, j)].times_plus(x[j], sum);
+                }
+                sum
+            });
+        }
+        let moved = linear::multiply(size, g, &self.matrix_of(x));
+        self.coordinates_of(&linear::multiply(size, &moved, &self.inverse(g)))
+    }
+
+    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        let size = self.tables.matrix_size();
+        let back = self.inverse(g);
+        if self.is_adjoint() {
+            return K::Vector::from_entries(size, |i| {
+                let mut sum = K::Scalar::of(0.0);
+                for j in 0..size {
+                    sum = back[(j, i)].times_plus(mu[j], sum);
+                }
+                sum
+            });
+        }
+        // ⟨Ad*_g μ, eⱼ⟩ = ⟨P, g⁻¹ eⱼ g⟩ = ⟨g⁻ᵀ P gᵀ, eⱼ⟩
+        let turned = linear::transpose_multiply(size, &back, &self.dual_matrix(mu));
+        self.products(&linear::multiply_transpose(size, &turned, g))
+    }
+
+    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
+        // Ad*_{exp(−x)} μ = exp(ad_xᵀ) μ
+        (self.exp(x), self.act(x, mu).exp)
+    }
+
+    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        self.act(x, mu).phi
+    }
+
+    fn dexp_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix) {
+        self.phi_with_derivative(x, mu)
+    }
+
+    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        self.phi_inverse(x, p)
+    }
+
+    fn casimir_count(&self) -> usize {
+        self.tables.casimir_count()
+    }
+
+    fn casimir(&self, index: usize, mu: &Self::Vector) -> Self::Scalar {
+        self.tables.casimir(index, mu)
+    }
+
+    fn matrix_size(&self) -> usize {
+        self.tables.matrix_size()
+    }
+
+    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> Self::Scalar {
+        g[(row, column)]
+    }
+
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> Self::Scalar,
+    ) -> Result<Self::Element, ElementError> {
+        self.member(entry)
+    }
+}

@@ -1,0 +1,173 @@
+//! Small dense square matrices, of fixed or run-time size, with lane-uniform control flow.
+
+use core::ops::IndexMut;
+
+use crate::scalar::Scalar;
+
+/// What the functions below need of a square matrix.
+pub trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}
+impl<T, M: Clone + IndexMut<(usize, usize), Output = T>> Square<T> for M {}
+
+/// Sets every entry of an n×n matrix to `entry(row, column)`.
+#[inline(always)]
+pub fn fill<T: Scalar, M: Square<T>>(
+    n: usize,
+    m: &mut M,
+    mut entry: impl FnMut(usize, usize) -> T,
+) {
+    for j in 0..n {
+        for i in 0..n {
+            m[(i, j)] = entry(i, j);
+        }
+    }
+}
+
+/// The identity, of the size and type of `like`.
+pub fn identity<T: Scalar, M: Square<T>>(n: usize, like: &M) -> M {
+    let mut result = like.clone();
+    fill(n, &mut result, |i, j| T::of(if i == j { 1.0 } else { 0.0 }));
+    result
+}
+
+/// a·b
+#[inline(always)]
+pub fn multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| dot(n, |k| (a[(i, k)], b[(k, j)])));
+    result
+}
+
+/// aᵀ·b
+#[inline(always)]
+pub fn transpose_multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| dot(n, |k| (a[(k, i)], b[(k, j)])));
+    result
+}
+
+/// a·bᵀ
+#[inline(always)]
+pub fn multiply_transpose<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| dot(n, |k| (a[(i, k)], b[(j, k)])));
+    result
+}
+
+#[inline(always)]
+fn dot<T: Scalar>(n: usize, pair: impl Fn(usize) -> (T, T)) -> T {
+    let (a, b) = pair(0);
+    let mut sum = a * b;
+    for k in 1..n {
+        let (a, b) = pair(k);
+        sum = a.times_plus(b, sum);
+    }
+    sum
+}
+
+/// aᵀ
+pub fn transpose<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| a[(j, i)]);
+    result
+}
+
+/// a + s·b
+pub fn plus_scaled<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T, b: &M) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| b[(i, j)].times_plus(s, a[(i, j)]));
+    result
+}
+
+/// s·a
+pub fn scale<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T) -> M {
+    let mut result = a.clone();
+    fill(n, &mut result, |i, j| a[(i, j)] * s);
+    result
+}
+
+/// The largest absolute entry, per lane.
+pub fn largest_entry<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
+    let mut largest = T::of(0.0);
+    for j in 0..n {
+        for i in 0..n {
+            largest = largest.simd_max(a[(i, j)].simd_abs());
+        }
+    }
+    largest
+}
+
+/// The largest row sum of absolute entries, per lane; NaN where an entry is NaN.
+pub fn row_sum_norm<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
+    let mut largest = T::of(0.0);
+    let mut poison = T::of(0.0);
+    for i in 0..n {
+        let mut sum = a[(i, 0)].simd_abs();
+        for j in 1..n {
+            sum += a[(i, j)].simd_abs();
+        }
+        largest = largest.simd_max(sum);
+        poison += sum * T::of(0.0);
+    }
+    largest + poison
+}
+
+/// a⁻¹ by Gauss–Jordan elimination with partial pivoting, each lane choosing its own pivots by
+/// masked row exchange. A singular matrix gives non-finite entries.
+pub fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
+    let mut left = a.clone();
+    let mut right = identity(n, a);
+    for k in 0..n {
+        for i in k + 1..n {
+            let better = left[(i, k)].simd_abs().simd_gt(left[(k, k)].simd_abs());
+            for m in [&mut left, &mut right] {
+                for j in 0..n {
+                    let (upper, lower) = (m[(k, j)], m[(i, j)]);
+                    m[(k, j)] = lower.select(better, upper);
+                    m[(i, j)] = upper.select(better, lower);
+                }
+            }
+        }
+        let inverse = T::of(1.0) / left[(k, k)];
+        for j in 0..n {
+            left[(k, j)] *= inverse;
+            right[(k, j)] *= inverse;
+        }
+        for i in 0..n {
+            if i == k {
+                continue;
+            }
+            let factor = left[(i, k)];
+            for j in 0..n {
+                let (l, r) = (left[(k, j)], right[(k, j)]);
+                left[(i, j)] -= factor * l;
+                right[(i, j)] -= factor * r;
+            }
+        }
+    }
+    right
+}
+
+/// How often a matrix or vector field of this norm must be halved to come below `limit`, taken
+/// over all lanes; `None` where the norm is not finite.
+pub fn halvings<T: Scalar>(norm: T, limit: f64) -> Option<u32> {
+    let mut norm = norm.largest_lane();
+    if !norm.is_finite() {
+        return None;
+    }
+    let mut count = 0;
+    while norm > limit {
+        norm *= 0.5;
+        count += 1;
+    }
+    Some(count)
+}
+
+/// 2⁻ᵏ
+pub fn half_power<T: Scalar>(k: u32) -> T {
+    let half = T::of(0.5);
+    let mut result = T::of(1.0);
+    for _ in 0..k {
+        result *= half;
+    }
+    result
+}

@@ -1,0 +1,126 @@
+//! Group elements from a user's matrix, checked.
+
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
+
+use super::algebra::Tables;
+use super::group::{Element, TableGroup};
+use super::linear;
+use crate::coordinates::Coordinates;
+use crate::element_error::{ElementError, within};
+use crate::group::LieGroup;
+use crate::scalar::Scalar;
+
+impl<K: Tables> TableGroup<K> {
+    /// Reads an element: finite, invertible, orthogonal where the group is, of the right
+    /// determinant, and acting on 𝔤 as an element does (conjugation keeps 𝔤; an adjoint matrix
+    /// keeps the bracket). For groups that are not the whole normaliser of their algebra this is
+    /// necessary, not sufficient.
+    pub(super) fn member(
+        &self,
+        entry: impl Fn(usize, usize) -> K::Scalar,
+    ) -> Result<Element<K>, ElementError> {
+        let size = self.tables.matrix_size();
+        let mut g = self.zero_matrix();
+        for row in 0..size {
+            for column in 0..size {
+                let value = entry(row, column);
+                if !value.all_finite() {
+                    return Err(ElementError::NonFinite { row, column });
+                }
+                g[(row, column)] = value;
+            }
+        }
+        let one = K::Scalar::of(1.0);
+        let scale = linear::largest_entry(size, &g);
+        if self.tables.is_orthogonal() {
+            let gram = linear::transpose_multiply(size, &g, &g);
+            let difference = linear::plus_scaled(size, &gram, -one, &self.unit_matrix());
+            let defect = linear::largest_entry(size, &difference);
+            if !within(defect, one) {
+                return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
+            }
+        }
+        let determinant = determinant::<K>(size, &g);
+        let traceless = self.tables.is_traceless() && !self.is_adjoint();
+        let fits = if traceless {
+            within((determinant - one).simd_abs(), one + scale)
+        } else {
+            determinant.simd_gt(K::Scalar::of(0.0)).all()
+        };
+        if !fits {
+            let required = if traceless {
+                "the group needs determinant 1"
+            } else {
+                "the connected group needs a positive one"
+            };
+            let determinant = determinant.largest_lane();
+            return Err(ElementError::Determinant { determinant, required });
+        }
+        let g = self.straighten(self.straighten(g));
+        let defect = self.action_defect(&g);
+        let inverse = linear::largest_entry(size, &self.inverse(&g));
+        if !within(defect, one + scale * inverse) {
+            return Err(ElementError::NotInGroup { defect: defect.largest_lane() });
+        }
+        Ok(g)
+    }
+
+    /// How far g is from acting on 𝔤 by automorphisms.
+    fn action_defect(&self, g: &Element<K>) -> K::Scalar {
+        let (dim, size) = (self.tables.dim(), self.tables.matrix_size());
+        let minus = K::Scalar::of(-1.0);
+        let mut defect = K::Scalar::of(0.0);
+        let unit = |i: usize| {
+            K::Vector::from_entries(dim, |k| K::Scalar::of(if k == i { 1.0 } else { 0.0 }))
+        };
+        if self.is_adjoint() {
+            for i in 0..dim {
+                for j in i + 1..dim {
+                    let moved = self.adjoint(g, &self.bracket(&unit(i), &unit(j)));
+                    let bracket =
+                        self.bracket(&self.adjoint(g, &unit(i)), &self.adjoint(g, &unit(j)));
+                    let difference = K::Vector::from_entries(dim, |k| moved[k] - bracket[k]);
+                    defect = defect.simd_max(difference.largest_entry());
+                }
+            }
+            return defect;
+        }
+        let back = self.inverse(g);
+        for i in 0..dim {
+            let moved = linear::multiply(size, g, &self.matrix_of(&unit(i)));
+            let moved = linear::multiply(size, &moved, &back);
+            let inside = self.matrix_of(&self.coordinates_of(&moved));
+            let outside = linear::plus_scaled(size, &moved, minus, &inside);
+            defect = defect.simd_max(linear::row_sum_norm(size, &outside));
+        }
+        defect
+    }
+}
+
+/// The determinant, by elimination with partial pivoting in each lane.
+fn determinant<K: Tables>(size: usize, m: &Element<K>) -> K::Scalar {
+    let mut m = m.clone();
+    let mut product = K::Scalar::of(1.0);
+    for k in 0..size {
+        for i in k + 1..size {
+            let better = m[(i, k)].simd_abs().simd_gt(m[(k, k)].simd_abs());
+            for j in 0..size {
+                let (upper, lower) = (m[(k, j)], m[(i, j)]);
+                m[(k, j)] = lower.select(better, upper);
+                m[(i, j)] = (-upper).select(better, lower);
+            }
+        }
+        product *= m[(k, k)];
+        // A zero column has only zeros to clear: dividing by one instead keeps them.
+        let zero = K::Scalar::of(0.0);
+        let pivot = K::Scalar::of(1.0).select(m[(k, k)].simd_eq(zero), m[(k, k)]);
+        for i in k + 1..size {
+            let factor = m[(i, k)] / pivot;
+            for j in k..size {
+                let upper = m[(k, j)];
+                m[(i, j)] -= factor * upper;
+            }
+        }
+    }
+    product
+}

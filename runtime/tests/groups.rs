@@ -1,0 +1,288 @@
+//! The laws of a Lie group, on every group and both kinds of tables.
+#![cfg(feature = "alloc")]
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use coadjoint::{
+    CayleyAlgebra, ElementError, LieGroup, MatrixGroup, SE3, SO3, StaticAlgebra, StaticMatrixGroup,
+    TableError,
+};
+use common::{cayley_laws, distance, element_distance, group_laws, small};
+use nalgebra::{DMatrix, DVector, Vector3, Vector6};
+
+/// The basis of so(n) in the order of `bases.json`: E_{ji} − E_{ij}, i < j.
+fn so(n: usize) -> Vec<DMatrix<f64>> {
+    let mut basis = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            let mut e = DMatrix::zeros(n, n);
+            e[(i, j)] = -1.0;
+            e[(j, i)] = 1.0;
+            basis.push(e);
+        }
+    }
+    basis
+}
+
+/// The basis of SE3 in `bases.json`.
+fn se3_basis() -> Vec<DMatrix<f64>> {
+    let mut basis = vec![DMatrix::zeros(4, 4); 6];
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        basis[i][(k, j)] = 1.0;
+        basis[i][(j, k)] = -1.0;
+        basis[i + 3][(i, 3)] = 1.0;
+    }
+    basis
+}
+
+fn sl2_basis() -> Vec<DMatrix<f64>> {
+    [[1.0, 0.0, 0.0, -1.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]
+        .map(|rows| DMatrix::from_row_slice(2, 2, &rows))
+        .to_vec()
+}
+
+/// The basis of SU3 in `bases.json`: a complex matrix a + ib as [[a, −b], [b, a]].
+fn su3_basis() -> Vec<DMatrix<f64>> {
+    let real = |i: usize, j: usize| {
+        let mut e = DMatrix::zeros(6, 6);
+        for block in [0, 3] {
+            e[(block + i, block + j)] = 1.0;
+            e[(block + j, block + i)] = -1.0;
+        }
+        e
+    };
+    let imaginary = |entries: &[(usize, usize, f64)]| {
+        let mut e = DMatrix::zeros(6, 6);
+        for &(i, j, value) in entries {
+            e[(i, j + 3)] = -value;
+            e[(i + 3, j)] = value;
+        }
+        e
+    };
+    let mut basis = Vec::new();
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        basis.push(real(i, j));
+        basis.push(imaginary(&[(i, j, 1.0), (j, i, 1.0)]));
+    }
+    basis.push(imaginary(&[(0, 0, 1.0), (1, 1, -1.0)]));
+    basis.push(imaginary(&[(1, 1, 1.0), (2, 2, -1.0)]));
+    basis
+}
+
+/// so(3) as static tables.
+struct Rotations;
+impl StaticAlgebra for Rotations {
+    const DIM: usize = 3;
+    const MATRIX_SIZE: usize = 3;
+    const STRUCTURE: &'static [(usize, usize, usize, f64)] = &[
+        (0, 1, 2, 1.0),
+        (1, 0, 2, -1.0),
+        (1, 2, 0, 1.0),
+        (2, 1, 0, -1.0),
+        (2, 0, 1, 1.0),
+        (0, 2, 1, -1.0),
+    ];
+    const BASIS: Option<&'static [(usize, usize, usize, f64)]> = Some(&[
+        (0, 2, 1, 1.0),
+        (0, 1, 2, -1.0),
+        (1, 0, 2, 1.0),
+        (1, 2, 0, -1.0),
+        (2, 1, 0, 1.0),
+        (2, 0, 1, -1.0),
+    ]);
+    const CASIMIRS: &'static [&'static [(f64, &'static [(usize, u32)])]] =
+        &[&[(1.0, &[(0, 2)]), (1.0, &[(1, 2)]), (1.0, &[(2, 2)])]];
+}
+impl CayleyAlgebra for Rotations {}
+
+/// so(3) by its brackets alone.
+struct Brackets;
+impl StaticAlgebra for Brackets {
+    const DIM: usize = 3;
+    const MATRIX_SIZE: usize = 3;
+    const STRUCTURE: &'static [(usize, usize, usize, f64)] = Rotations::STRUCTURE;
+    const BASIS: Option<&'static [(usize, usize, usize, f64)]> = None;
+    const CASIMIRS: &'static [&'static [(f64, &'static [(usize, u32)])]] = Rotations::CASIMIRS;
+}
+
+#[test]
+fn closed_forms() {
+    group_laws(&SO3::<f64>::new(), 1.0, true);
+    group_laws(&SE3::<f64>::new(), 0.5, true);
+    group_laws(&SE3::<f64>::new(), 1.2, true);
+    cayley_laws(&SO3::<f64>::new(), 1.0);
+    cayley_laws(&SE3::<f64>::new(), 1.0);
+}
+
+#[test]
+fn static_tables() {
+    group_laws(&StaticMatrixGroup::<Rotations, 3, 3>::new(), 1.0, true);
+    cayley_laws(&StaticMatrixGroup::<Rotations, 3, 3>::new(), 1.0);
+    group_laws(&StaticMatrixGroup::<Brackets, 3, 3>::new(), 1.0, true);
+}
+
+#[test]
+fn dynamic_tables() {
+    for basis in [so(3), so(4), se3_basis(), sl2_basis()] {
+        let group = MatrixGroup::from_basis(&basis).unwrap();
+        group_laws(&group, 0.7, true);
+        group_laws(&group, 1.5, false);
+    }
+    for n in [3, 4, 5] {
+        cayley_laws(&MatrixGroup::from_basis(&so(n)).unwrap().into_cayley().unwrap(), 0.7);
+    }
+    cayley_laws(&MatrixGroup::from_basis(&se3_basis()).unwrap().into_cayley().unwrap(), 1.0);
+    // sl(2) = sp(2) has the Cayley map, su(3) has not.
+    cayley_laws(&MatrixGroup::from_basis(&sl2_basis()).unwrap().into_cayley().unwrap(), 0.5);
+    let su3 = MatrixGroup::from_basis(&su3_basis()).unwrap();
+    group_laws(&su3, 0.7, true);
+    group_laws(&su3, 2.0, false);
+    assert!(matches!(su3.into_cayley(), Err(TableError::NoCayley { .. })));
+}
+
+#[test]
+fn brackets_alone() {
+    // The affine group of the line, [a, b] = b: no centre, so that log exists.
+    let affine =
+        MatrixGroup::from_structure_constants(2, &[(0, 1, 1, 1.0), (1, 0, 1, -1.0)]).unwrap();
+    group_laws(&affine, 1.0, true);
+    // Heisenberg, [a, b] = c: the centre is invisible in the adjoint matrices.
+    let heisenberg =
+        MatrixGroup::from_structure_constants(3, &[(0, 1, 2, 1.0), (1, 0, 2, -1.0)]).unwrap();
+    group_laws(&heisenberg, 1.0, false);
+    let g = heisenberg.exp(&DVector::from_vec(vec![0.1, 0.2, 0.3]));
+    assert_eq!(heisenberg.log(&g), None);
+    assert_eq!(heisenberg.into_cayley().err(), Some(TableError::NotFaithful));
+}
+
+#[test]
+fn closed_forms_agree_with_tables_from_zero_to_beyond_a_turn() {
+    let so3 = SO3::<f64>::new();
+    let se3 = SE3::<f64>::new();
+    let table3 = MatrixGroup::from_basis(&so(3)).unwrap();
+    let rotations = StaticMatrixGroup::<Rotations, 3, 3>::new();
+    let table6 = MatrixGroup::from_basis(&se3_basis()).unwrap();
+    // bases.json orders so(3) by axis, so(n) by plane: both agree up to order and sign for n = 3;
+    // the static table is the one by axis.
+    assert_eq!(table3.dim(), 3);
+    let axis = Vector3::new(0.6, -0.48, 0.64);
+    let mu = Vector3::new(1.0, 2.0, -0.5);
+    let v = Vector3::new(0.3, -1.1, 0.7);
+    let force = Vector3::new(-0.2, 0.9, 1.4);
+    for angle in
+        [0.0, 1e-9, 1e-4, 0.1, 1.0, 1.4999, 1.5001, 2.0, 3.0, 3.2, 4.5, 6.0, 6.25, 7.0, 40.0, 80.0]
+    {
+        let x = axis * angle;
+        small("exp", element_gap3(&so3.exp(&x), &rotations.exp(&x)), 4e-14);
+        let bound = 2e-14 * (1.0 + angle * angle);
+        let (a, b) = (so3.dexp_transpose(&x, &mu), rotations.dexp_transpose(&x, &mu));
+        small("dexp", distance::<SO3>(&a, &b), bound);
+        let (_, a) = so3.dexp_transpose_with_derivative(&x, &mu);
+        let (_, b) = rotations.dexp_transpose_with_derivative(&x, &mu);
+        small("slope", (a - b).amax(), bound);
+
+        let x = Vector6::new(x.x, x.y, x.z, v.x, v.y, v.z);
+        let nu = Vector6::new(mu.x, mu.y, mu.z, force.x, force.y, force.z);
+        let (xd, nud) = (dynamic(&x), dynamic(&nu));
+        let (g, moved) = se3.exp_transport(&x, &nu);
+        let (gd, movedd) = table6.exp_transport(&xd, &nud);
+        let gd = se3.element_from_matrix(|i, j| gd[(i, j)]).unwrap();
+        small("exp on SE(3)", element_distance(&se3, &g, &gd), bound);
+        small("transport on SE(3)", distance::<MatrixGroup>(&dynamic(&moved), &movedd), bound);
+        let (a, da) = se3.dexp_transpose_with_derivative(&x, &nu);
+        let (b, db) = table6.dexp_transpose_with_derivative(&xd, &nud);
+        small("dexp on SE(3)", distance::<MatrixGroup>(&dynamic(&a), &b), bound);
+        let gap = (0..36).map(|k| (da[(k / 6, k % 6)] - db[(k / 6, k % 6)]).abs());
+        small("slope on SE(3)", gap.fold(0.0, f64::max), bound);
+        if angle < 6.2 {
+            let a = dynamic(&se3.dexp_inverse_transpose(&x, &nu));
+            let b = table6.dexp_inverse_transpose(&xd, &nud);
+            // Conditioning: the function has a double pole at 2π.
+            let bound = bound * (1.0 + 40.0 / (std::f64::consts::TAU - angle).powi(2));
+            small("dexp⁻¹ on SE(3)", distance::<MatrixGroup>(&a, &b), bound);
+        }
+    }
+}
+
+fn element_gap3(a: &nalgebra::UnitQuaternion<f64>, b: &nalgebra::Matrix3<f64>) -> f64 {
+    (a.to_rotation_matrix().matrix() - b).amax()
+}
+
+fn dynamic(v: &Vector6<f64>) -> DVector<f64> {
+    DVector::from_column_slice(v.as_slice())
+}
+
+#[test]
+fn mistakes_in_tables_are_named() {
+    let [h, x, y] = [0, 1, 2].map(|i| sl2_basis()[i].clone());
+    assert!(matches!(
+        MatrixGroup::from_basis(&[x.clone(), y]),
+        Err(TableError::NotClosed { i: 0, j: 1, .. })
+    ));
+    assert_eq!(
+        MatrixGroup::from_basis(&[h.clone(), x.clone(), &h * 2.0 - &x]).err(),
+        Some(TableError::Dependent { index: 2 })
+    );
+    assert!(matches!(
+        MatrixGroup::from_structure_constants(2, &[(0, 1, 1, 1.0)]),
+        Err(TableError::NotAntisymmetric { i: 0, j: 1 })
+    ));
+    // [a, b] = a, [a, c] = b, [b, c] = 0: [[a, b], c] + … = b.
+    let table = [(0, 1, 0, 1.0), (1, 0, 0, -1.0), (0, 2, 1, 1.0), (2, 0, 1, -1.0)];
+    assert!(matches!(
+        MatrixGroup::from_structure_constants(3, &table),
+        Err(TableError::Jacobi { .. })
+    ));
+    assert_eq!(MatrixGroup::from_basis(&[]).err(), Some(TableError::Empty));
+    let wrong = vec![vec![(1.0, vec![(0, 2)])]];
+    assert_eq!(
+        MatrixGroup::from_basis(&so(3)).unwrap().with_casimirs(wrong).err(),
+        Some(TableError::NotInvariant { index: 0 })
+    );
+}
+
+#[test]
+fn matrices_outside_a_group_are_refused() {
+    let reflection = |i: usize, j: usize| {
+        if i != j {
+            0.0
+        } else if i == 0 {
+            -1.0
+        } else {
+            1.0
+        }
+    };
+    let stretch = |i: usize, j: usize| {
+        if i != j {
+            0.0
+        } else if i == 0 {
+            2.0
+        } else {
+            1.0
+        }
+    };
+    assert!(matches!(
+        SO3::<f64>::new().element_from_matrix(reflection),
+        Err(ElementError::Determinant { .. })
+    ));
+    assert!(matches!(
+        SO3::<f64>::new().element_from_matrix(stretch),
+        Err(ElementError::NotOrthogonal { .. })
+    ));
+    let so4 = MatrixGroup::from_basis(&so(4)).unwrap();
+    assert!(matches!(so4.element_from_matrix(reflection), Err(ElementError::Determinant { .. })));
+    let se3 = MatrixGroup::from_basis(&se3_basis()).unwrap();
+    assert!(matches!(se3.element_from_matrix(stretch), Err(ElementError::Determinant { .. })));
+    let shear = |i: usize, j: usize| f64::from(u8::from(i == j || (i, j) == (0, 1)));
+    assert!(matches!(se3.element_from_matrix(shear), Err(ElementError::NotInGroup { .. })));
+    assert!(matches!(
+        SE3::<f64>::new().element_from_matrix(|i, j| if i == 3 && j == 0 {
+            0.5
+        } else {
+            shear(i, j)
+        }),
+        Err(ElementError::WrongEntry { row: 3, column: 0, .. })
+    ));
+}
