@@ -11,12 +11,16 @@ mod error;
 mod generating_function;
 mod group;
 mod phase;
+#[doc(hidden)]
+pub mod plumbing;
 mod reconstruct;
 mod scalar;
 mod se3;
 mod so3;
 mod solve;
 mod table;
+
+pub use nalgebra;
 
 pub use chart::{Cayley, Chart, Exponential};
 pub use coordinates::Coordinates;

@@ -1,0 +1,40 @@
+//! What a generated integrator says about itself.
+
+use crate::integrator::Integrator;
+
+/// Lines for a doc comment: source, group, chart, truncation, order, terms, operations.
+#[must_use]
+pub fn lines(integrator: &Integrator) -> Vec<String> {
+    let problem = &integrator.problem;
+    let terms: Vec<String> = (1..=problem.truncation)
+        .step_by(2)
+        .map(|k| format!("S{k}: {}", integrator.series.order(k).len()))
+        .collect();
+    let newton = integrator.newton_program().cost();
+    let predictor = integrator.predictor.cost();
+    vec![
+        format!(" Hamiltonian: `{}`", one_line(&problem.source)),
+        String::new(),
+        format!(
+            " Group {}, chart {}, truncation K = {}, order of accuracy {}.",
+            problem.algebra.name(),
+            problem.chart,
+            problem.truncation,
+            integrator.order()
+        ),
+        format!(" Terms: {}.", terms.join(", ")),
+        format!(
+            " Operations: gradient and Hessian {} multiplications and {} additions; predictor of \
+             degree {} {} and {}.",
+            newton.multiplications,
+            newton.additions,
+            integrator.plan.predictor_degree,
+            predictor.multiplications,
+            predictor.additions
+        ),
+    ]
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "'")
+}

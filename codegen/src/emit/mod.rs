@@ -1,0 +1,14 @@
+//! Writing an integrator as Rust.
+//!
+//! One struct holding the folded coefficients, its constructor, and the implementation of
+//! `coadjoint::GeneratingFunction`. Everything is generic over the scalar, allocates nothing, and
+//! names the runtime by absolute path.
+
+mod body;
+mod group;
+mod header;
+mod item;
+mod parameter;
+mod table;
+
+pub use item::{Options, camel_case, tokens};

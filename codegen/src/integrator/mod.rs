@@ -1,0 +1,124 @@
+//! One builder for every front end: a problem becomes an integrator, ready for any back end.
+
+mod coefficients;
+mod lower;
+mod plan;
+mod terms;
+
+pub use coefficients::{Coefficients, Contribution};
+pub use plan::Plan;
+
+use crate::graph::Program;
+use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
+use crate::problem::Problem;
+
+/// Everything a back end needs to write or run a step: exact coefficients and straight-line
+/// programs over them.
+///
+/// Programs read momenta as inputs and folded coefficients as slots.
+#[derive(Clone, Debug)]
+pub struct Integrator {
+    /// What was asked for.
+    pub problem: Problem,
+    /// S₁ … S_K.
+    pub series: GeneratingSeries,
+    /// Predictor degree and Hessian truncation, and why.
+    pub plan: Plan,
+    /// The coefficients C_m(h, parameters).
+    pub coefficients: Coefficients,
+    /// p ↦ S(p).
+    pub value: Program,
+    /// p ↦ ∂S/∂p.
+    pub gradient: Program,
+    /// p ↦ ∂S/∂p, then the upper triangle of the Hessian row by row.
+    pub hessian: Program,
+    /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
+    /// nothing.
+    pub newton: Option<Program>,
+    /// μ′ ↦ a first guess of p.
+    pub predictor: Program,
+    /// μ ↦ H_red(μ).
+    pub energy: Program,
+}
+
+impl Integrator {
+    /// Derives the series and lowers it.
+    ///
+    /// # Errors
+    /// [`DeriveError`] where the series cannot be derived or is too large.
+    pub fn build(problem: Problem, limit: TermLimit) -> Result<Self, DeriveError> {
+        let series = hamilton_jacobi::derive(
+            &problem.algebra,
+            problem.chart,
+            &problem.hamiltonian,
+            problem.truncation,
+            limit,
+        )?;
+        let plan = Plan::choose(&problem, &series, limit);
+        Self::with_plan(problem, series, plan, limit)
+    }
+
+    /// Lowers a derived series with the predictor and Hessian that `plan` names.
+    ///
+    /// # Errors
+    /// [`DeriveError`] where the predictor cannot be derived or is too large.
+    pub fn with_plan(
+        problem: Problem,
+        series: GeneratingSeries,
+        plan: Plan,
+        limit: TermLimit,
+    ) -> Result<Self, DeriveError> {
+        let dim = problem.algebra.dim();
+        let predictor = hamilton_jacobi::predictor(
+            &problem.algebra,
+            problem.chart,
+            &problem.hamiltonian,
+            plan.predictor_degree,
+            limit,
+        )?;
+        let mut coefficients = Coefficients::default();
+        let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
+        let s = terms::collect(&mut coefficients, dim, orders);
+        let components: Vec<_> = (0..dim)
+            .map(|i| {
+                let orders = predictor.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
+                terms::collect(&mut coefficients, dim, orders)
+            })
+            .collect();
+        let h = terms::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
+
+        let table = &mut coefficients;
+        let truncation = problem.truncation as u32;
+        let hessian = lower::hessian_program(table, dim, &s, truncation);
+        let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
+        let newton = (newton != hessian).then_some(newton);
+        let predictor = lower::vector_program(table, dim, &components);
+        let gradient = lower::gradient_program(table, dim, &s);
+        let value = lower::value_program(table, dim, &s);
+        let energy = lower::value_program(table, dim, &h);
+        Ok(Self {
+            problem,
+            series,
+            plan,
+            coefficients,
+            value,
+            gradient,
+            hessian,
+            newton,
+            predictor,
+            energy,
+        })
+    }
+
+    /// The program Newton's method runs.
+    #[must_use]
+    pub fn newton_program(&self) -> &Program {
+        self.newton.as_ref().unwrap_or(&self.hessian)
+    }
+
+    /// The order of accuracy, K + 1: the method is symmetric and even terms vanish.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.problem.truncation + 1
+    }
+}

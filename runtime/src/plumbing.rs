@@ -1,0 +1,59 @@
+//! What generated code calls. Not part of the public interface; it may change at any time.
+
+use crate::error::StepError;
+use crate::scalar::Scalar;
+
+/// All coefficients of a generated step as data: sums of factor · h^power · Π symbolᵢ^powerᵢ.
+#[derive(Debug)]
+pub struct Table<const SYMBOLS: usize> {
+    /// Summands: factor, power of h, power of each symbol.
+    pub terms: &'static [(f64, u8, [u8; SYMBOLS])],
+    /// Where the summands of base number i end.
+    pub ends: &'static [u32],
+    /// Slots: a base and the integer that multiplies it.
+    pub slots: &'static [(u32, u32)],
+}
+
+/// Folds `table` for one step size and parameter set: `BASES` sums, then `SLOTS` multiples.
+///
+/// # Errors
+/// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].
+pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: usize>(
+    table: &Table<SYMBOLS>,
+    names: &[&'static str; SYMBOLS],
+    step: T,
+    symbols: &[T; SYMBOLS],
+) -> Result<[T; SLOTS], StepError> {
+    use nalgebra::SimdBool;
+
+    if !step.all_finite() || step.simd_eq(T::of(0.0)).any() {
+        return Err(StepError::InvalidStep { step: step.largest_lane() });
+    }
+    for (symbol, name) in symbols.iter().zip(names) {
+        if !symbol.all_finite() {
+            return Err(StepError::InvalidParameter { name, value: symbol.largest_lane() });
+        }
+    }
+    let mut bases = [T::of(0.0); BASES];
+    let mut start = 0;
+    for (base, &end) in bases.iter_mut().zip(table.ends) {
+        for (factor, power, powers) in table.terms.get(start..end as usize).unwrap_or(&[]) {
+            let mut product = T::of(*factor);
+            for _ in 0..*power {
+                product *= step;
+            }
+            for (&symbol, &power) in symbols.iter().zip(powers) {
+                for _ in 0..power {
+                    product *= symbol;
+                }
+            }
+            *base += product;
+        }
+        start = end as usize;
+    }
+    let mut slots = [T::of(0.0); SLOTS];
+    for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
+        *slot = bases.get(base as usize).copied().unwrap_or(T::of(0.0)) * T::of(f64::from(scale));
+    }
+    Ok(slots)
+}
