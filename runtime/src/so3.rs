@@ -14,8 +14,15 @@ use crate::scalar::Scalar;
 ///
 /// Basis: the generators of rotations about the three axes, [e₁, e₂] = e₃ and cyclic, so that
 /// [x, y] = x × y, Ad_R x = Rx, Ad\*_R μ = Rμ, ad\*_x μ = μ × x. Casimir: |μ|². Both charts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SO3<T = f64>(PhantomData<T>);
+
+// Not derived: that would ask for `T: Default`, which lanes need not have.
+impl<T> Default for SO3<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl<T> SO3<T> {
     /// The group; there is nothing to choose.
