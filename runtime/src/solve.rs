@@ -46,6 +46,8 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     let inverse_scale = one / scale;
     let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
 
+    let half_defect = scale * generating.hessian_defect(scale) * ScalarOf::<S>::of(0.5);
+
     let mut p = generating.predict(mu);
     let mut solved = (p.clone(), mu.clone());
     let mut remaining = one;
@@ -71,8 +73,9 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
 
         let relative = correction.largest_entry() * inverse_scale;
         let stretch = shift.largest_entry();
-        // Newton leaves about ½F″(δp, δp) ≈ |μ| |δx|²/6 plus the bend of ∂S/∂p itself.
-        let left = stretch * (stretch + relative);
+        // Newton leaves about ½F″(δp, δp) ≈ |μ| |δx|²/6 plus the bend of ∂S/∂p itself, and, where
+        // the Hessian is not the whole one, D·(Hess S − H)·δp with |D| ≈ |μ|/2.
+        let left = stretch * (stretch + relative) + half_defect * relative;
         let was_open = remaining.simd_gt(tolerance);
         solved = (
             VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),
