@@ -55,8 +55,18 @@ pub trait GeneratingFunction {
         self.gradient_and_hessian(p)
     }
 
+    /// How strongly ∂S/∂p bends: about ‖S‴‖ |p| / (4 ‖Hess S‖), given the largest coordinate of
+    /// x = ∂S/∂p. The solver weighs with it what Newton's method leaves; 1 is safe for polynomials
+    /// of moderate degree. For the flow of a quadratic Hamiltonian S is quadratic up to terms
+    /// smaller by |x|²/12, so a quarter of |x|² is ample there.
+    #[inline(always)]
+    fn bend(&self, x: ScalarOf<Self>) -> ScalarOf<Self> {
+        let _ = x;
+        crate::scalar::Scalar::of(1.0)
+    }
+
     /// A bound on ‖Hess S − H‖ (row sums) for the H of [`GeneratingFunction::newton_model`], at
-    /// momenta whose coordinates are at most `size`. The solver counts it as residual left.
+    /// momenta of Euclidean norm `size`. The solver counts it as residual left.
     #[inline(always)]
     fn hessian_defect(&self, size: ScalarOf<Self>) -> ScalarOf<Self> {
         let _ = size;

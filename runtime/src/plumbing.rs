@@ -57,3 +57,29 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
     }
     Ok(slots)
 }
+
+/// Σ weight·|slot|, sorted by degree: the coefficients of a bound as a polynomial in the size of
+/// the momentum. Entries are (slot, weight, degree).
+pub fn bound<T: Scalar, const DEGREES: usize>(
+    slots: &[T],
+    terms: &[(u32, f64, u32)],
+) -> [T; DEGREES] {
+    let mut bound = [T::of(0.0); DEGREES];
+    for &(slot, weight, degree) in terms {
+        let value = slots.get(slot as usize).copied().unwrap_or(T::of(0.0));
+        if let Some(sum) = bound.get_mut(degree as usize) {
+            *sum += value.simd_abs() * T::of(weight);
+        }
+    }
+    bound
+}
+
+/// Σ coefficients[k] sizeᵏ.
+#[inline(always)]
+pub fn polynomial<T: Scalar, const DEGREES: usize>(coefficients: &[T; DEGREES], size: T) -> T {
+    let mut sum = T::of(0.0);
+    for &coefficient in coefficients.iter().rev() {
+        sum = sum.times_plus(size, coefficient);
+    }
+    sum
+}

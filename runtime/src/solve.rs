@@ -1,6 +1,6 @@
 //! Solving J_L(∂S/∂p(p), p) = μ for p.
 
-use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
@@ -46,7 +46,8 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     let inverse_scale = one / scale;
     let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
 
-    let half_defect = scale * generating.hessian_defect(scale) * ScalarOf::<S>::of(0.5);
+    let half = ScalarOf::<S>::of(0.5);
+    let half_defect = half * scale * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
 
     let mut p = generating.predict(mu);
     let mut solved = (p.clone(), mu.clone());
@@ -73,9 +74,10 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
 
         let relative = correction.largest_entry() * inverse_scale;
         let stretch = shift.largest_entry();
-        // Newton leaves about ½F″(δp, δp) ≈ |μ| |δx|²/6 plus the bend of ∂S/∂p itself, and, where
-        // the Hessian is not the whole one, D·(Hess S − H)·δp with |D| ≈ |μ|/2.
-        let left = stretch * (stretch + relative) + half_defect * relative;
+        // Newton leaves ½F″(δp, δp): about |μ| |δx|²/6 from the chart, ½|D| |S‴ δp δp| from S with
+        // |D| ≈ |μ|/2, and, where the Hessian is not the whole one, D·(Hess S − H)·δp.
+        let bend = generating.bend(x.largest_entry());
+        let left = stretch * (half * stretch + bend * relative) + half_defect * relative;
         let was_open = remaining.simd_gt(tolerance);
         solved = (
             VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),

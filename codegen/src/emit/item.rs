@@ -60,6 +60,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let Parts { dim, group, chart, vector, .. } = &parts;
     let summary = header::lines(integrator);
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
+    let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let constructor = constructor(integrator, krate, &parts, &summary);
     let generating = generating_function(integrator, krate, name, &parts);
     let definition = group_definition(integrator, krate);
@@ -77,6 +78,8 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         #visibility struct #name<T = f64> {
             step: T,
             coefficients: [T; #slots],
+            /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
+            defect: [T; #defects],
         }
 
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_variables)]
@@ -210,6 +213,13 @@ fn constructor(
     let bases = Literal::usize_unsuffixed(integrator.coefficients.bases().len());
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let table = table::table(krate, &integrator.coefficients);
+    let defects = Literal::usize_unsuffixed(integrator.defect_len());
+    let defect = integrator.defect.iter().map(|term| {
+        let slot = Literal::usize_unsuffixed(term.slot);
+        let weight = Literal::f64_unsuffixed(term.weight);
+        let degree = Literal::u32_unsuffixed(term.degree);
+        quote!((#slot, #weight, #degree))
+    });
     quote! {
         /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
         /// parameters.
@@ -229,7 +239,8 @@ fn constructor(
                 step,
                 &symbols,
             )?;
-            ::core::result::Result::Ok(Self { step, coefficients })
+            let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
+            ::core::result::Result::Ok(Self { step, coefficients, defect })
         }
     }
 }
@@ -252,6 +263,22 @@ fn generating_function(
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
                 let c = &self.coefficients;
                 #function
+            }
+        }
+    });
+    let bend = integrator.is_quadratic().then(|| {
+        quote! {
+            #[inline(always)]
+            fn bend(&self, x: T) -> T {
+                x * x * T::of(0.25)
+            }
+        }
+    });
+    let defect = (!integrator.defect.is_empty()).then(|| {
+        quote! {
+            #[inline(always)]
+            fn hessian_defect(&self, size: T) -> T {
+                #krate::plumbing::polynomial(&self.defect, size)
             }
         }
     });
@@ -290,6 +317,10 @@ fn generating_function(
             }
 
             #newton
+
+            #bend
+
+            #defect
         }
     }
 }

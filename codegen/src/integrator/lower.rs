@@ -91,3 +91,52 @@ fn gradient_entry(
     let gradient = if slope == zero { rest } else { graph.times_plus(slope, p, rest) };
     GradientEntry { gradient, slope }
 }
+
+/// One summand weight · |slot| · |p|ᵈᵉᵍʳᵉᵉ of the bound on the truncated part of the Hessian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DefectTerm {
+    /// The coefficient C of the term C pᵐ of S.
+    pub slot: usize,
+    /// The largest row-sum norm of the Hessian of pᵐ over the unit sphere, or a little more.
+    pub weight: f64,
+    /// The degree of the Hessian's entries.
+    pub degree: u32,
+}
+
+/// What [`hessian_program`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
+/// |p| being the Euclidean norm.
+pub fn defect(
+    coefficients: &mut Coefficients,
+    terms: &[BaseTerm],
+    hessian_truncation: u32,
+) -> Vec<DefectTerm> {
+    let omitted = terms.iter().filter(|term| term.order > hessian_truncation);
+    omitted
+        .map(|term| DefectTerm {
+            slot: coefficients.slot(term.base, 1),
+            weight: hessian_norm(&term.exponents),
+            degree: term.exponents.iter().sum::<u32>().saturating_sub(2),
+        })
+        .collect()
+}
+
+/// A bound on the row-sum norm of the Hessian of pᵐ for |p| = 1, from the bound of each entry.
+fn hessian_norm(m: &[u32]) -> f64 {
+    let entry = |i: usize, j: usize| {
+        let mut rest = m.to_vec();
+        let factor = f64::from(rest[i]);
+        rest[i] = rest[i].saturating_sub(1);
+        let factor = factor * f64::from(rest[j]);
+        rest[j] = rest[j].saturating_sub(1);
+        factor * sphere_maximum(&rest)
+    };
+    let row = |i: usize| (0..m.len()).map(|j| entry(i, j)).sum::<f64>();
+    (0..m.len()).map(row).fold(0.0, f64::max)
+}
+
+/// The maximum of |pᵐ| on the unit sphere, Π (mᵢ/|m|)^{mᵢ/2}.
+fn sphere_maximum(m: &[u32]) -> f64 {
+    let degree = f64::from(m.iter().sum::<u32>());
+    let power = |&e: &u32| (f64::from(e) / degree).powf(0.5 * f64::from(e));
+    m.iter().filter(|&&e| e > 0).map(power).product()
+}

@@ -6,6 +6,7 @@ mod plan;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
+pub use lower::DefectTerm;
 pub use plan::Plan;
 
 use crate::graph::Program;
@@ -35,6 +36,8 @@ pub struct Integrator {
     /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
     /// nothing.
     pub newton: Option<Program>,
+    /// Bounds what `newton` leaves out of the Hessian.
+    pub defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p.
     pub predictor: Program,
     /// μ ↦ H_red(μ).
@@ -92,6 +95,7 @@ impl Integrator {
         let hessian = lower::hessian_program(table, dim, &s, truncation);
         let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
         let newton = (newton != hessian).then_some(newton);
+        let defect = lower::defect(table, &s, plan.hessian_truncation as u32);
         let predictor = lower::vector_program(table, dim, &components);
         let gradient = lower::gradient_program(table, dim, &s);
         let value = lower::value_program(table, dim, &s);
@@ -105,6 +109,7 @@ impl Integrator {
             gradient,
             hessian,
             newton,
+            defect,
             predictor,
             energy,
         })
@@ -114,6 +119,19 @@ impl Integrator {
     #[must_use]
     pub fn newton_program(&self) -> &Program {
         self.newton.as_ref().unwrap_or(&self.hessian)
+    }
+
+    /// How many coefficients the bound of [`Integrator::defect`] has: its degree plus one.
+    #[must_use]
+    pub fn defect_len(&self) -> usize {
+        self.defect.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
+    }
+
+    /// Whether H_red is of degree two or less in the momenta.
+    #[must_use]
+    pub fn is_quadratic(&self) -> bool {
+        let dim = self.problem.algebra.dim();
+        self.problem.hamiltonian.terms().all(|(e, _)| e[..dim].iter().sum::<u32>() <= 2)
     }
 
     /// The order of accuracy, K + 1: the method is symmetric and even terms vanish.
