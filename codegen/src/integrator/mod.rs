@@ -57,43 +57,45 @@ impl Integrator {
             problem.truncation,
             limit,
         )?;
-        let plan = Plan::choose(&problem, &series, limit);
-        Self::with_plan(problem, series, plan, limit)
+        Self::with_plan(problem, series, None, limit)
     }
 
-    /// Lowers a derived series with the predictor and Hessian that `plan` names.
+    /// Lowers a derived series; with `plan` given, uses its predictor degree and Hessian
+    /// truncation, whatever they cost.
     ///
     /// # Errors
     /// [`DeriveError`] where the predictor cannot be derived or is too large.
     pub fn with_plan(
         problem: Problem,
         series: GeneratingSeries,
-        plan: Plan,
+        plan: Option<Plan>,
         limit: TermLimit,
     ) -> Result<Self, DeriveError> {
         let dim = problem.algebra.dim();
-        let predictor = hamilton_jacobi::predictor(
-            &problem.algebra,
-            problem.chart,
-            &problem.hamiltonian,
-            plan.predictor_degree,
-            limit,
-        )?;
         let mut coefficients = Coefficients::default();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let s = terms::collect(&mut coefficients, dim, orders);
-        let components: Vec<_> = (0..dim)
-            .map(|i| {
-                let orders = predictor.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
-                terms::collect(&mut coefficients, dim, orders)
-            })
-            .collect();
         let h = terms::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
 
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
         let hessian = lower::hessian_program(table, dim, &s, truncation);
-        let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
+        let ideal = plan.unwrap_or_else(|| Plan::single_newton_step(problem.truncation));
+        let newton = lower::hessian_program(table, dim, &s, ideal.hessian_truncation as u32);
+        let (plan, predictor) = match plan {
+            Some(plan) => {
+                let Problem { algebra, chart, hamiltonian, .. } = &problem;
+                let degree = plan.predictor_degree;
+                (plan, hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?)
+            }
+            None => ideal.with_predictor(&problem, newton.cost().total(), limit)?,
+        };
+        let components: Vec<_> = (0..dim)
+            .map(|i| {
+                let orders = predictor.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
+                terms::collect(table, dim, orders)
+            })
+            .collect();
         let newton = (newton != hessian).then_some(newton);
         let defect = lower::defect(table, &s, plan.hessian_truncation as u32);
         let predictor = lower::vector_program(table, dim, &components);
