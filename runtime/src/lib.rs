@@ -5,6 +5,7 @@
 extern crate alloc;
 
 mod chart;
+mod compensated;
 mod coordinates;
 mod element_error;
 mod error;
@@ -23,6 +24,7 @@ mod table;
 pub use nalgebra;
 
 pub use chart::{Cayley, Chart, Exponential};
+pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
 pub use coordinates::Coordinates;
 pub use element_error::ElementError;
 pub use error::StepError;
