@@ -8,9 +8,12 @@ mod chart;
 mod compensated;
 mod coordinates;
 mod element_error;
+#[cfg(feature = "ensemble")]
+pub mod ensemble;
 mod error;
 mod generating_function;
 mod group;
+mod lanes;
 mod phase;
 #[doc(hidden)]
 pub mod plumbing;
@@ -30,6 +33,7 @@ pub use element_error::ElementError;
 pub use error::StepError;
 pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 pub use group::{CayleyGroup, LieGroup};
+pub use lanes::{F64x4, F64x8, LaneGroup, Lanes};
 pub use phase::Phase;
 pub use reconstruct::{StepReport, advance, poisson_map};
 pub use scalar::Scalar;

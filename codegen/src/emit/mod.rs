@@ -5,10 +5,14 @@
 //! names the runtime by absolute path.
 
 mod body;
+mod constructor;
+mod file;
+mod generating_function;
 mod group;
 mod header;
 mod item;
 mod parameter;
 mod table;
 
+pub use file::file;
 pub use item::{Options, camel_case, tokens};

@@ -1,0 +1,87 @@
+//! `new`: folding the coefficients for a step size and parameters.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{parameter, table};
+use crate::integrator::Integrator;
+use crate::problem::Shape;
+
+/// The constructor `new(step, parameters…)`.
+#[must_use]
+pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
+    let problem = &integrator.problem;
+    let mut arguments = Vec::new();
+    let mut scalars = Vec::new();
+    for parameter in &problem.parameters {
+        let name = format_ident!("{}", parameter.name);
+        let ty = parameter_type(&parameter.shape, krate);
+        arguments.push(quote!(#name: #ty));
+        scalars.extend(parameter.scalar_names().iter().map(|scalar| expression(scalar)));
+    }
+    let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let texts = problem.symbols.iter().map(|s| &s.text);
+    let count = Literal::usize_unsuffixed(problem.symbols.len());
+    let bases = Literal::usize_unsuffixed(integrator.coefficients.bases().len());
+    let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
+    let table = table::table(krate, &integrator.coefficients);
+    let defects = Literal::usize_unsuffixed(integrator.defect_len());
+    let defect = integrator.defect.iter().map(|term| {
+        let slot = Literal::usize_unsuffixed(term.slot);
+        let weight = Literal::f64_unsuffixed(term.weight);
+        let degree = Literal::u32_unsuffixed(term.degree);
+        quote!((#slot, #weight, #degree))
+    });
+    quote! {
+        /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
+        /// parameters.
+        ///
+        /// # Errors
+        /// `StepError::InvalidStep` for a step that is zero or not finite,
+        /// `StepError::InvalidParameter` where a parameter expression is not finite.
+        pub fn new(
+            step: T,
+            #(#arguments),*
+        ) -> ::core::result::Result<Self, #krate::StepError> {
+            static TABLE: #krate::plumbing::Table<#count> = #table;
+            let symbols: [T; #count] = [#(#symbols),*];
+            let coefficients = #krate::plumbing::fold::<T, #count, #bases, #slots>(
+                &TABLE,
+                &[#(#texts),*],
+                step,
+                &symbols,
+            )?;
+            let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
+            ::core::result::Result::Ok(Self { step, coefficients, defect })
+        }
+    }
+}
+
+/// The type of a parameter over the scalar `T`.
+fn parameter_type(shape: &Shape, krate: &TokenStream) -> TokenStream {
+    let size = |n: &usize| Literal::usize_unsuffixed(*n);
+    match shape {
+        Shape::Scalar => quote!(T),
+        Shape::Array(n) => {
+            let n = size(n);
+            quote!([T; #n])
+        }
+        Shape::Vector(n) => {
+            let n = size(n);
+            quote!(#krate::nalgebra::SVector<T, #n>)
+        }
+        Shape::Grid(rows, columns) => {
+            let (rows, columns) = (size(rows), size(columns));
+            quote!([[T; #columns]; #rows])
+        }
+        Shape::Matrix(rows, columns) => {
+            let (rows, columns) = (size(rows), size(columns));
+            quote!(#krate::nalgebra::SMatrix<T, #rows, #columns>)
+        }
+    }
+}
+
+/// A parameter's scalar, `inertia[0]`, as tokens.
+fn expression(scalar: &str) -> TokenStream {
+    scalar.parse().unwrap_or_else(|_| quote!(compile_error!("not an expression")))
+}

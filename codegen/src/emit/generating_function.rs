@@ -1,0 +1,132 @@
+//! The implementation of `coadjoint::GeneratingFunction`.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::body::{Body, body};
+use super::item::Parts;
+use crate::graph::Program;
+use crate::integrator::Integrator;
+
+/// `impl GeneratingFunction for name`.
+#[must_use]
+pub fn generating_function(
+    integrator: &Integrator,
+    krate: &TokenStream,
+    name: &Ident,
+    parts: &Parts,
+) -> TokenStream {
+    let Parts { dim, group, group_value, chart, vector, matrix, .. } = parts;
+    let value = scalar_function(&integrator.value);
+    let gradient = vector_function(&integrator.gradient, vector);
+    let hessian = hessian_function(&integrator.hessian, *dim, vector, matrix);
+    let predictor = vector_function(&integrator.predictor, vector);
+    let newton = integrator.newton.as_ref().map(|program| {
+        let function = hessian_function(program, *dim, vector, matrix);
+        quote! {
+            #[inline(always)]
+            fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
+                let c = &self.coefficients;
+                #function
+            }
+        }
+    });
+    let bend = integrator.is_quadratic().then(|| {
+        quote! {
+            #[inline(always)]
+            fn bend(&self, x: T) -> T {
+                x * x * T::of(0.25)
+            }
+        }
+    });
+    let defect = (!integrator.defect.is_empty()).then(|| {
+        quote! {
+            #[inline(always)]
+            fn hessian_defect(&self, size: T) -> T {
+                #krate::plumbing::polynomial(&self.defect, size)
+            }
+        }
+    });
+    quote! {
+        impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
+            type Group = #group;
+            type Chart = #chart;
+
+            #[inline(always)]
+            fn group(&self) -> &#group {
+                #group_value
+            }
+
+            #[inline]
+            fn value(&self, input: &#vector) -> T {
+                let c = &self.coefficients;
+                #value
+            }
+
+            #[inline]
+            fn gradient(&self, input: &#vector) -> #vector {
+                let c = &self.coefficients;
+                #gradient
+            }
+
+            #[inline(always)]
+            fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
+                let c = &self.coefficients;
+                #hessian
+            }
+
+            #[inline(always)]
+            fn predict(&self, input: &#vector) -> #vector {
+                let c = &self.coefficients;
+                #predictor
+            }
+
+            #newton
+
+            #bend
+
+            #defect
+        }
+    }
+}
+
+/// The body of a function with one output.
+#[must_use]
+pub fn scalar_function(program: &Program) -> TokenStream {
+    let Body { statements, outputs } = body(program);
+    quote!(#statements #(#outputs)*)
+}
+
+fn vector_function(program: &Program, vector: &TokenStream) -> TokenStream {
+    let Body { statements, outputs } = body(program);
+    quote!(#statements <#vector>::from([#(#outputs),*]))
+}
+
+fn hessian_function(
+    program: &Program,
+    dim: usize,
+    vector: &TokenStream,
+    matrix: &TokenStream,
+) -> TokenStream {
+    let Body { statements, outputs } = body(program);
+    let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
+    let mut entry = triangle.iter();
+    let mut lets = TokenStream::new();
+    for i in 0..dim {
+        for j in i..dim {
+            let name = format_ident!("h{i}_{j}");
+            if let Some(value) = entry.next() {
+                lets.extend(quote!(let #name = #value;));
+            }
+        }
+    }
+    let columns = (0..dim).map(|j| {
+        let column = (0..dim).map(|i| format_ident!("h{}_{}", i.min(j), i.max(j)));
+        quote!([#(#column),*])
+    });
+    quote! {
+        #statements
+        #lets
+        (<#vector>::from([#(#gradient),*]), <#matrix>::from([#(#columns),*]))
+    }
+}
