@@ -166,11 +166,9 @@ impl Graph {
                 nodes.push(match *node {
                     Node::Add(a, b) => Node::Add(renamed[a.index()], renamed[b.index()]),
                     Node::Mul(a, b) => Node::Mul(renamed[a.index()], renamed[b.index()]),
-                    Node::TimesPlus(a, b, c) => Node::TimesPlus(
-                        renamed[a.index()],
-                        renamed[b.index()],
-                        renamed[c.index()],
-                    ),
+                    Node::TimesPlus(a, b, c) => {
+                        Node::TimesPlus(renamed[a.index()], renamed[b.index()], renamed[c.index()])
+                    }
                     leaf => leaf,
                 });
             }

@@ -80,16 +80,15 @@ impl Integrator {
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
         let hessian = lower::hessian_program(table, dim, &s, truncation);
-        let ideal = plan.unwrap_or_else(|| Plan::single_newton_step(problem.truncation));
-        let newton = lower::hessian_program(table, dim, &s, ideal.hessian_truncation as u32);
         let (plan, predictor) = match plan {
             Some(plan) => {
                 let Problem { algebra, chart, hamiltonian, .. } = &problem;
                 let degree = plan.predictor_degree;
                 (plan, hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?)
             }
-            None => ideal.with_predictor(&problem, newton.cost().total(), limit)?,
+            None => Plan::choose(&problem, &s, limit)?,
         };
+        let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
         let components: Vec<_> = (0..dim)
             .map(|i| {
                 let orders = predictor.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::terms::BaseTerm;
 use crate::hamilton_jacobi::{DeriveError, TermLimit, predictor};
 use crate::poly::Polynomial;
 use crate::problem::Problem;
@@ -17,79 +18,111 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan with which one Newton step reaches rounding for h|Ω| up to about one.
-    ///
-    /// Measured on the free body: degree 8 for K = 7, 10 for K = 11 and 13, 12 for K = 17; a
-    /// Hessian truncated one order below the predictor leaves no more than the predictor's error
-    /// times itself.
-    #[must_use]
-    pub fn single_newton_step(truncation: usize) -> Self {
+    /// The predictor degree with which one Newton step reaches rounding for h|Ω| up to about one;
+    /// measured on the free body: 8 for K = 7, 10 for K = 11 and 13, 12 for K = 17.
+    fn single_step_degree(truncation: usize) -> usize {
         let even = (4 + truncation / 2).div_ceil(2) * 2;
-        let predictor_degree = even.min(truncation + 1);
-        Self { predictor_degree, hessian_truncation: truncation.min(predictor_degree - 1) }
+        even.min(truncation + 1)
     }
 
-    /// Newton steps needed with a predictor of `degree` instead, each doubling the digits.
-    fn newton_steps(self, degree: usize) -> usize {
-        let mut reached = degree + 1;
-        let mut steps = 1;
-        while reached < self.predictor_degree + 1 {
-            reached *= 2;
+    /// Newton steps until the error is of the order in h that one step from the ideal predictor
+    /// reaches. A step takes an error of order e to 2e + 1, or to e + k + 2 if the Hessian leaves
+    /// out S_{k+2} and higher.
+    fn newton_steps(self, truncation: usize) -> usize {
+        let goal = 2 * Self::single_step_degree(truncation) + 2;
+        let linear = self.hessian_truncation + 2;
+        let mut order = self.predictor_degree + 1;
+        let mut steps = 0;
+        while steps == 0 || order < goal {
+            let quadratic = 2 * order + 1;
+            order = if self.hessian_truncation < truncation {
+                quadratic.min(order + linear)
+            } else {
+                quadratic
+            };
             steps += 1;
         }
         steps
     }
 
-    /// Lowers the predictor's degree to where predictor and Newton steps together take fewest
-    /// operations, and returns the predictor: `[order in h][component]`.
-    ///
-    /// `newton_operations` is what one evaluation of gradient and Hessian takes.
+    /// The plan whose predictor and Newton steps together take fewest operations, by the number
+    /// of monomials, with its predictor: `[order in h][component]`. `terms` are those of S.
     ///
     /// # Errors
     /// [`DeriveError`] if not even the constant predictor can be derived.
-    pub fn with_predictor(
-        self,
+    pub fn choose(
         problem: &Problem,
-        newton_operations: usize,
+        terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
+        let truncation = problem.truncation;
         let n = problem.algebra.dim();
-        // Chart, Jacobian 1 − D·Hess S, and elimination.
-        let newton = newton_operations + 2 * n.pow(3) + 2 * n.pow(3) / 3 + 10 * n * n;
-        let derive = |degree| {
-            predictor(&problem.algebra, problem.chart, &problem.hamiltonian, degree, limit)
+        // Chart, Jacobian 1 − D·Hess S, elimination; and the wait for one result before the next
+        // can begin, in which about 300 independent operations would fit (measured on SO(3)).
+        let overhead = 300 + 2 * n.pow(3) + 2 * n.pow(3) / 3 + 10 * n * n;
+        let hessians: Vec<(usize, usize)> = (1..=truncation)
+            .step_by(2)
+            .map(|k| (k, overhead + gradient_operations(terms) + hessian_operations(terms, k)))
+            .collect();
+        let cheapest = |predictor_degree, own: usize| {
+            let plans = hessians.iter().map(|&(hessian_truncation, newton)| {
+                let plan = Self { predictor_degree, hessian_truncation };
+                (own + plan.newton_steps(truncation) * newton, plan)
+            });
+            // Of equal costs the better Hessian, which comes last.
+            plans.reduce(|best, next| if next.0 <= best.0 { next } else { best })
         };
-        let mut best = derive(0)?;
-        let mut best_degree = 0;
-        let mut best_cost = self.newton_steps(0) * newton;
-        for degree in (2..=self.predictor_degree).step_by(2) {
-            let candidate = match derive(degree) {
-                Ok(candidate) => candidate,
-                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) => break,
+        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
+        for degree in (0..=Self::single_step_degree(truncation)).step_by(2) {
+            let Problem { algebra, chart, hamiltonian, .. } = problem;
+            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
+                Ok(polynomials) => polynomials,
+                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
+                    if best.is_some() =>
+                {
+                    break;
+                }
                 Err(error) => return Err(error),
             };
-            let own = operations(&candidate, n);
-            let cost = own + self.newton_steps(degree) * newton;
-            if cost < best_cost {
-                (best, best_degree, best_cost) = (candidate, degree, cost);
-            } else if own > best_cost {
-                break;
+            let own = predictor_operations(&polynomials, n);
+            let Some((cost, plan)) = cheapest(degree, own) else { break };
+            match &best {
+                Some((least, ..)) if own > *least => break,
+                Some((least, ..)) if cost >= *least => {}
+                _ => best = Some((cost, plan, polynomials)),
             }
         }
-        Ok((Self { predictor_degree: best_degree, ..self }, best))
+        let constant = Self { predictor_degree: 0, hessian_truncation: truncation };
+        Ok(best.map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
     }
 }
 
 /// About two operations for each monomial of each component.
-fn operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {
+fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {
     let monomials = |component: usize| {
         let orders = predictor.iter().filter_map(|order| order.get(component));
-        let exponents = orders.flat_map(Polynomial::terms).map(|(exponents, _)| {
-            let mut momenta = exponents;
-            momenta.truncate(dim);
-            momenta
+        let exponents = orders.flat_map(Polynomial::terms).map(|(mut exponents, _)| {
+            exponents.truncate(dim);
+            exponents
         });
         exponents.collect::<BTreeSet<_>>().len()
     };
     2 * (0..dim).map(monomials).sum::<usize>()
+}
+
+/// About one and a half operations for each monomial of each entry, since entries share powers.
+fn gradient_operations(terms: &[BaseTerm]) -> usize {
+    let entries = |term: &BaseTerm| term.exponents.iter().filter(|&&e| e > 0).count();
+    terms.iter().map(entries).sum::<usize>() * 3 / 2
+}
+
+/// The same for the upper triangle of the Hessian of the terms up to `truncation`.
+fn hessian_operations(terms: &[BaseTerm], truncation: usize) -> usize {
+    let entries = |term: &BaseTerm| {
+        let present = term.exponents.iter().filter(|&&e| e > 0).count();
+        let bent = term.exponents.iter().filter(|&&e| e > 2).count();
+        present * present.saturating_sub(1) / 2 + bent
+    };
+    let kept = terms.iter().filter(|term| term.order as usize <= truncation);
+    kept.map(entries).sum::<usize>() * 3 / 2
 }
