@@ -1,4 +1,49 @@
 //! Integrators for Hamiltonian systems on Lie groups that conserve momentum and Casimirs exactly.
+//!
+//! Write the reduced Hamiltonian H_red(μ) once; [`lie_poisson`] derives the generating function of
+//! its flow in exact rational arithmetic and emits a step specialised to it: symplectic on T\*G,
+//! Poisson on 𝔤\*, equivariant, of order 2, 4, 6, 8, …, free of allocation.
+//!
+//! ```
+//! use coadjoint::{lie_poisson, Phase, SO3};
+//!
+//! /// Free rigid body, moments of inertia in kg m².
+//! #[lie_poisson(group = SO3, truncation = 7)]
+//! pub fn rigid_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+//!     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+//! }
+//!
+//! # fn main() -> Result<(), coadjoint::StepError> {
+//! let step = RigidBody::new(0.1, [1.5, 2.0, 2.5])?; // coefficients are folded here, once
+//! let mut body = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+//! for _ in 0..1000 {
+//!     step.advance(&mut body)?; // no allocation, no panic
+//! }
+//! let spatial = body.spatial_momentum(&SO3::new());
+//! assert!((spatial.x - 2.0).abs() < 1e-13);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # The one interface
+//!
+//! A [`GeneratingFunction`] gives S(p), ∂S/∂p and ∂²S/∂p². [`poisson_map`] and [`advance`] turn any
+//! of them into a map: the truncated Hamilton–Jacobi series that the attribute emits, or a function
+//! learned from data. The new momentum is the group action on the old one, so momentum and Casimirs
+//! are kept whatever the function; the solve only decides how exactly the map is symplectic, and it
+//! goes to rounding.
+//!
+//! # Limits
+//!
+//! H_red must be a polynomial in μ (its coefficients may be any expressions of parameters). A step
+//! must stay inside the chart: about h|Ω| < 2 for the exponential chart on SO(3); beyond it a step
+//! returns [`StepError::NotConverged`] and leaves the state as it was. Conventions (left
+//! trivialisation, signs) are those of [`LieGroup`].
+//!
+//! # Features
+//!
+//! `std` (default), `alloc`, `libm` (for `no_std`), `ensemble` (many trajectories in SIMD lanes and
+//! threads).
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "alloc")]
@@ -24,6 +69,46 @@ mod so3;
 mod solve;
 mod table;
 
+/// Turns a function computing a reduced Hamiltonian into an integrator.
+///
+/// ```
+/// use coadjoint::{lie_poisson, Phase, SO3};
+///
+/// #[lie_poisson(group = SO3, truncation = 3, chart = cayley)]
+/// fn dumbbell(mu: [f64; 3], transverse: f64, axial: f64) -> f64 {
+///     let [x, y, z] = mu;
+///     (x * x + y * y) / (2.0 * transverse) + z * z / (2.0 * axial)
+/// }
+///
+/// # fn main() -> Result<(), coadjoint::StepError> {
+/// let step = Dumbbell::new(0.1, 2.0, 1.0)?;
+/// let mut phase = Phase::<SO3>::at_identity([1.0, 0.0, 1.0]);
+/// step.advance(&mut phase)?;
+/// assert_eq!(dumbbell([1.0, 0.0, 1.0], 2.0, 1.0), 0.75); // still a function
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Arguments
+///
+/// - `group`: the Lie group, `SO3` or `SE3`; the momentum's coordinates are dual to its basis.
+/// - `truncation = K`, odd, 7 by default: S₁ … S_K are kept. The order of accuracy is K + 1.
+/// - `chart = exp` (default) or `chart = cayley`.
+///
+/// # The function
+///
+/// The first argument is the momentum, `[f64; n]` or an nalgebra vector; the others are parameters.
+/// The body is evaluated while compiling, so anything whose course is known then works: `let`,
+/// patterns, constants, loops over literal ranges, `powi`, `dot`. It must be a polynomial in the
+/// momentum; expressions of parameters alone may be anything. Decimal literals are exact: `0.1` is
+/// 1/10.
+///
+/// # What it generates
+///
+/// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
+/// parameters…)`, `advance`, `poisson_map`, `energy`, `step`, and the implementations of
+/// [`GeneratingFunction`] and [`Lanes`]. Every mistake in the function is reported at its place.
+pub use coadjoint_macros::lie_poisson;
 pub use nalgebra;
 
 pub use chart::{Cayley, Chart, Exponential};

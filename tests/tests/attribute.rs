@@ -1,0 +1,105 @@
+//! The attribute `lie_poisson`: bodies people write, all giving the same integrator.
+
+use coadjoint::nalgebra::Vector3;
+use coadjoint::{GeneratingFunction, Phase, SO3, StepError, lie_poisson};
+
+/// Free rigid body, written out.
+#[lie_poisson(group = SO3, truncation = 5)]
+fn indexed(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+#[lie_poisson(group = SO3, truncation = 5)]
+fn destructured(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    const HALF: f64 = 0.5;
+    let [x, y, z] = mu;
+    let [a, b, c] = inertia;
+    HALF * (x.powi(2) / a + y.powi(2) / b + z.powi(2) / c)
+}
+
+#[lie_poisson(group = SO3, truncation = 5)]
+fn looped(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    let mut twice = 0.0;
+    for i in 0..3 {
+        twice += mu[i] * mu[i] / inertia[i];
+    }
+    twice / 2 as f64
+}
+
+#[lie_poisson(group = SO3, truncation = 5)]
+fn vectors(mu: Vector3<f64>, inertia: Vector3<f64>) -> f64 {
+    let omega = Vector3::new(mu.x / inertia.x, mu.y / inertia.y, mu.z / inertia.z);
+    0.5 * mu.dot(&omega)
+}
+
+#[lie_poisson(group = SO3, truncation = 5)]
+fn numbers(mu: [f64; 3]) -> f64 {
+    mu[0] * mu[0] / 3.0 + mu[1] * mu[1] / 4.0 + mu[2] * mu[2] / 5.0
+}
+
+const INERTIA: [f64; 3] = [1.5, 2.0, 2.5];
+const START: [f64; 3] = [2.0, 0.5, 1.0];
+
+fn end<S>(step: &S) -> Result<Vector3<f64>, StepError>
+where
+    S: GeneratingFunction<Group = SO3>,
+{
+    let mut body = Phase::<SO3>::at_identity(START);
+    for _ in 0..50 {
+        coadjoint::advance(step, &mut body)?;
+    }
+    Ok(body.momentum)
+}
+
+#[test]
+fn every_way_of_writing_gives_the_same_integrator() -> Result<(), StepError> {
+    let h = 0.2;
+    let expected = end(&Indexed::new(h, INERTIA)?)?;
+    let others = [
+        end(&Destructured::new(h, INERTIA)?)?,
+        end(&Looped::new(h, INERTIA)?)?,
+        end(&Vectors::new(h, INERTIA.into())?)?,
+        end(&Numbers::new(h)?)?,
+    ];
+    for other in others {
+        assert!((other - expected).amax() < 1e-14, "{other} {expected}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_function_stays_the_energy() -> Result<(), StepError> {
+    let step = Indexed::new(0.1, INERTIA)?;
+    let by_function = indexed(START, INERTIA);
+    assert_eq!(by_function, vectors(START.into(), INERTIA.into()));
+    assert_eq!(by_function, looped(START, INERTIA));
+    assert_eq!(by_function, destructured(START, INERTIA));
+    assert!((step.energy(&START.into()) - by_function).abs() < 1e-15);
+    assert!((numbers(START) - by_function).abs() < 1e-15);
+    Ok(())
+}
+
+#[test]
+fn wrong_steps_and_parameters_are_refused() {
+    assert!(matches!(Indexed::new(0.0, INERTIA), Err(StepError::InvalidStep { step: 0.0 })));
+    assert!(matches!(Indexed::new(f64::NAN, INERTIA), Err(StepError::InvalidStep { .. })));
+    let refused = Indexed::new(0.1, [1.5, 0.0, 2.5]);
+    let Err(StepError::InvalidParameter { name, .. }) = refused else {
+        panic!("a zero moment of inertia was accepted");
+    };
+    assert!(name.contains("inertia[1]"), "{name}");
+}
+
+#[test]
+fn a_state_that_is_not_finite_is_refused_and_kept() -> Result<(), StepError> {
+    let step = Indexed::new(0.1, INERTIA)?;
+    let mut body = Phase::<SO3>::at_identity([2.0, f64::NAN, 1.0]);
+    assert_eq!(step.advance(&mut body), Err(StepError::NonFiniteState));
+    assert_eq!(body.momentum[0], 2.0);
+
+    // So large a momentum that the step leaves the chart: an error, and the state is as before.
+    let mut fast = Phase::<SO3>::at_identity([2e3, 5e2, 1e3]);
+    assert!(matches!(step.advance(&mut fast), Err(StepError::NotConverged { .. })));
+    assert_eq!(fast.momentum, Vector3::new(2e3, 5e2, 1e3));
+    Ok(())
+}
