@@ -29,7 +29,8 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
             quote!(#errors #stand_in)
         }
     };
-    quote!(#function #generated)
+    // Many users only want the integrator; then the function is not dead code either.
+    quote!(#[allow(dead_code)] #function #generated)
 }
 
 fn integrator(arguments: TokenStream, function: &ItemFn) -> syn::Result<TokenStream> {
