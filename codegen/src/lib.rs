@@ -1,8 +1,11 @@
-//! See the workspace README.
+//! Exact Hamilton–Jacobi series of Lie–Poisson systems, lowered to Rust.
 
 pub mod diagnostic;
+pub mod emit;
 pub mod expr;
+pub mod graph;
 pub mod hamilton_jacobi;
+pub mod integrator;
 pub mod lie;
 pub mod number;
 pub mod parse;

@@ -51,9 +51,8 @@ where
         for _ in 0..steps {
             packed.advance(&mut lanes)?;
         }
-        let got: Vec<_> = (0..states.len())
-            .map(|lane| <SO3 as LaneGroup>::extract(&lanes, lane))
-            .collect();
+        let got: Vec<_> =
+            (0..states.len()).map(|lane| <SO3 as LaneGroup>::extract(&lanes, lane)).collect();
         assert_same_bits(&got, expected);
     }
     Ok(())

@@ -93,7 +93,8 @@ impl Plan {
             }
         }
         let constant = Self { predictor_degree: 0, hessian_truncation: truncation };
-        Ok(best.map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
+        Ok(best
+            .map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
     }
 }
 

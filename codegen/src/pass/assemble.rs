@@ -11,6 +11,9 @@ use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::problem::{Parameter, Problem, Symbol};
 
+/// The truncation where none is given: order of accuracy 8.
+pub const DEFAULT_TRUNCATION: usize = 7;
+
 /// The largest truncation accepted.
 pub const MAX_TRUNCATION: usize = 63;
 

@@ -4,4 +4,6 @@ mod assemble;
 mod coefficient;
 mod polynomial;
 
-pub use assemble::{Draft, MAX_TRUNCATION, assemble, chart, check_chart, check_truncation};
+pub use assemble::{
+    DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, assemble, chart, check_chart, check_truncation,
+};

@@ -5,7 +5,7 @@ use quote::ToTokens;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::check_truncation;
+use crate::pass::{DEFAULT_TRUNCATION, check_truncation};
 
 const KEYS: [&str; 3] = ["group", "truncation", "chart"];
 const OWNER: &str = "#[lie_poisson(…)]";
@@ -42,11 +42,14 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
         }
         seen.push(key);
     }
-    for (key, example) in [("group", "group = SO3"), ("truncation", "truncation = 7")] {
-        if !seen.iter().any(|k| k == key) {
-            let missing = Mistake::MissingKey(key.to_owned(), OWNER.to_owned(), example.to_owned());
-            diagnostics.report(Span::from_tokens(proc_macro2::Span::call_site()), missing);
-        }
+    let missing = |key: &str| !seen.iter().any(|k| k == key);
+    if missing("group") {
+        let mistake =
+            Mistake::MissingKey("group".to_owned(), OWNER.to_owned(), "group = SO3".to_owned());
+        diagnostics.report(Span::from_tokens(proc_macro2::Span::call_site()), mistake);
+    }
+    if missing("truncation") {
+        arguments.truncation = Some(DEFAULT_TRUNCATION);
     }
     arguments
 }
