@@ -12,3 +12,5 @@ pub mod parse;
 pub mod pass;
 pub mod poly;
 pub mod problem;
+#[cfg(feature = "system")]
+pub mod system;

@@ -13,6 +13,9 @@ pub use span::Span;
 
 use proc_macro2::TokenStream;
 
+/// Nobody reads more mistakes than this.
+const MOST: usize = 100;
+
 /// One mistake at its place.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
@@ -45,10 +48,11 @@ impl Diagnostics {
         Self::default()
     }
 
-    /// Records a mistake, unless the very same one is already recorded at this place.
+    /// Records a mistake, unless the very same one is already recorded at this place, or there are
+    /// a hundred already.
     pub fn report(&mut self, span: Span, mistake: Mistake) {
         let known = |d: &Diagnostic| d.mistake == mistake && d.span.same_place(span);
-        if !self.list.iter().any(known) {
+        if self.list.len() < MOST && !self.list.iter().any(known) {
             self.list.push(Diagnostic { mistake, span });
         }
     }

@@ -77,15 +77,12 @@ pub(super) fn continues_name(c: char) -> bool {
 }
 
 fn is_name(text: &str) -> bool {
-    let (head, index) = match text.split_once('[') {
-        Some((head, rest)) => (head, Some(rest)),
-        None => (text, None),
-    };
+    let (head, indices) = text.split_at(text.find('[').unwrap_or(text.len()));
     let mut letters = head.chars();
-    letters.next().is_some_and(begins_name)
-        && letters.all(continues_name)
-        && index.is_none_or(|rest| {
-            rest.strip_suffix(']')
-                .is_some_and(|i| !i.is_empty() && i.bytes().all(|b| b.is_ascii_digit()))
-        })
+    let word = letters.next().is_some_and(begins_name) && letters.all(continues_name);
+    let digits = |i: &str| {
+        let i = i.strip_suffix(']').unwrap_or("");
+        !i.is_empty() && i.bytes().all(|b| b.is_ascii_digit())
+    };
+    word && indices.split('[').skip(1).all(digits)
 }

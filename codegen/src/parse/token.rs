@@ -11,7 +11,7 @@ use crate::number::Rational;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     Number(Rational),
-    /// A name, possibly with an index: `x1`, `mu[0]`.
+    /// A name, possibly with indices: `x1`, `mu[0]`, `a[0][1]`.
     Name(String),
     Plus,
     Minus,
@@ -62,13 +62,14 @@ impl<'a> Tokens<'a> {
     }
 
     fn name(&self) -> usize {
-        let length = self.run(0, continues_name);
+        let mut length = self.run(0, continues_name);
         let bytes = self.rest().as_bytes();
-        if bytes.get(length) == Some(&b'[') {
+        while bytes.get(length) == Some(&b'[') {
             let digits = self.run(length + 1, |c| c.is_ascii_digit());
-            if digits > 0 && bytes.get(length + 1 + digits) == Some(&b']') {
-                return length + digits + 2;
+            if digits == 0 || bytes.get(length + 1 + digits) != Some(&b']') {
+                break;
             }
+            length += digits + 2;
         }
         length
     }

@@ -157,3 +157,26 @@ pub fn chart(name: &str) -> Result<Chart, Mistake> {
         }
     }
 }
+
+/// The components of an expression that must be Σ number · coordinate; reports it if it is not.
+pub fn linear(
+    arena: &Arena,
+    root: ExprId,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<(usize, Rational)>> {
+    let mut table = Table::new();
+    let sum = polynomial(arena, Some(root), &mut table, diagnostics)?;
+    let mut components = Vec::new();
+    for (monomial, coefficient) in sum.terms {
+        match (&monomial[..], coefficient.as_number()) {
+            (&[(coordinate, 1)], Some(number)) => components.push((coordinate, number.clone())),
+            _ => {
+                let message = "a bracket must be a sum of numbers times generators".to_owned();
+                let help = Some("write for example \"[a, b] = 2*c - 1/2*a\"".to_owned());
+                diagnostics.report(arena.span(root), Mistake::Other(message, help));
+                return None;
+            }
+        }
+    }
+    Some(components)
+}

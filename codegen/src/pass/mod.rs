@@ -6,4 +6,5 @@ mod polynomial;
 
 pub use assemble::{
     DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, assemble, chart, check_chart, check_truncation,
+    linear,
 };

@@ -1,0 +1,178 @@
+//! The table `[algebra]`: a Lie algebra by a basis of matrices, or by generators and brackets.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::table::{Table, matrix, span, wrong_kind};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::expr::Arena;
+use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix};
+use crate::number::Rational;
+use crate::parse::{Name, Names, text};
+use crate::pass::linear;
+
+const BASIS: &str = "basis = [[[\"0\", \"-1\"], [\"1\", \"0\"]]]";
+const GENERATORS: &str = "generators = [\"a\", \"b\", \"c\"]";
+const BRACKETS: &str = "brackets = [\"[a, b] = c\", \"[a, c] = -1/2*b\"]";
+
+/// Reads the table; the algebra is called `system` if the table names it not.
+pub(super) fn read(
+    table: &Table<'_>,
+    system: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<LieAlgebra> {
+    table.check_keys(&["name", "basis", "generators", "brackets"], diagnostics);
+    let name = table.string("name", "name = \"my-algebra\"", diagnostics);
+    let name = name.map_or_else(|| format!("the algebra of {system}"), |(name, _)| name.to_owned());
+    match (table.has("basis"), table.has("brackets")) {
+        (true, false) => by_basis(table, name, diagnostics),
+        (false, true) => by_brackets(table, name, diagnostics),
+        (both, _) => {
+            let message = if both {
+                "[algebra] has both `basis` and `brackets`"
+            } else {
+                "[algebra] has neither `basis` nor `brackets`"
+            };
+            let help = format!("give either {BASIS}, or {GENERATORS} and {BRACKETS}");
+            diagnostics.report(table.span, Mistake::Other(message.to_owned(), Some(help)));
+            None
+        }
+    }
+}
+
+/// The names under `generators`.
+fn generators(table: &Table<'_>, diagnostics: &mut Diagnostics) -> Option<Vec<(String, Span)>> {
+    let (list, _) = table.array("generators", GENERATORS, diagnostics)?;
+    let mut names = Vec::new();
+    for value in list {
+        match value.get_ref() {
+            DeValue::String(name) => names.push((name.to_string(), span(value))),
+            _ => wrong_kind("generators", "a list of names", value, GENERATORS, diagnostics),
+        }
+    }
+    Some(names)
+}
+
+fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
+    let (list, whole) = table.array("basis", BASIS, diagnostics)?;
+    let mut matrices = Vec::new();
+    let mut places = Vec::new();
+    for value in list {
+        places.push(span(value));
+        if let Some(rows) = matrix("basis", value, BASIS, diagnostics) {
+            matrices.push(RationalMatrix::from_rows(rows));
+        }
+    }
+    if matrices.len() < places.len() {
+        return None;
+    }
+    let names: Vec<String> = match generators(table, diagnostics) {
+        Some(names) if names.len() == matrices.len() => {
+            names.into_iter().map(|(name, _)| name).collect()
+        }
+        Some(names) => {
+            let message = format!("{} generators for {} matrices", names.len(), matrices.len());
+            diagnostics.report(whole, Mistake::Other(message, Some("give one name each".into())));
+            return None;
+        }
+        None => (1..=matrices.len()).map(|i| format!("e{i}")).collect(),
+    };
+    match LieAlgebra::from_named_basis(name, names.clone(), matrices) {
+        Ok(algebra) => Some(algebra),
+        Err(error) => {
+            let generator = match &error {
+                LieAlgebraError::NotSquare { generator, .. }
+                | LieAlgebraError::DifferentSizes { generator, .. }
+                | LieAlgebraError::Dependent { generator, .. } => Some(generator),
+                _ => None,
+            };
+            let at = generator.and_then(|g| names.iter().position(|name| name == g));
+            let place = at.and_then(|at| places.get(at).copied()).unwrap_or(whole);
+            diagnostics.report(place, Mistake::Algebra(error));
+            None
+        }
+    }
+}
+
+fn by_brackets(
+    table: &Table<'_>,
+    name: String,
+    diagnostics: &mut Diagnostics,
+) -> Option<LieAlgebra> {
+    let before = diagnostics.len();
+    let (list, whole) = table.array("brackets", BRACKETS, diagnostics)?;
+    let Some(named) = generators(table, diagnostics) else {
+        if !table.has("generators") {
+            let (key, owner) = ("generators".to_owned(), table.name().to_owned());
+            let missing = Mistake::MissingKey(key, owner, GENERATORS.to_owned());
+            diagnostics.report(table.span, missing);
+        }
+        return None;
+    };
+    let mut names = Names::default();
+    for (i, (name, place)) in named.iter().enumerate() {
+        names.add(name, Name::Coordinate(i), *place, diagnostics);
+    }
+    let mut brackets = Vec::new();
+    for value in list {
+        match value.get_ref() {
+            DeValue::String(line) => {
+                brackets.extend(bracket(line, value, &names, diagnostics));
+            }
+            _ => wrong_kind("brackets", "a list of texts", value, BRACKETS, diagnostics),
+        }
+    }
+    if diagnostics.len() > before {
+        return None;
+    }
+    let generators = named.into_iter().map(|(name, _)| name).collect();
+    match LieAlgebra::from_brackets(name, generators, brackets) {
+        Ok(algebra) => Some(algebra),
+        Err(error) => {
+            diagnostics.report(whole, Mistake::Algebra(error));
+            None
+        }
+    }
+}
+
+/// \[e_i, e_j\] with its components along the generators.
+type Bracket = (usize, usize, Vec<(usize, Rational)>);
+
+/// `[a, b] = -1/2*c + d`.
+fn bracket(
+    line: &str,
+    value: &Spanned<DeValue<'_>>,
+    names: &Names,
+    diagnostics: &mut Diagnostics,
+) -> Option<Bracket> {
+    // After the opening quote.
+    let offset = value.span().start + 1;
+    let parts = line.split_once('=').and_then(|(left, right)| {
+        let inside = left.trim().strip_prefix('[')?.strip_suffix(']')?;
+        let (a, b) = inside.split_once(',')?;
+        Some((a.trim(), b.trim(), right))
+    });
+    let Some((a, b, right)) = parts else {
+        let message = format!("`{line}` is no bracket");
+        let help = "write for example \"[a, b] = c\" or \"[a, c] = -1/2*b\"".to_owned();
+        diagnostics.report(span(value), Mistake::Other(message, Some(help)));
+        return None;
+    };
+    let mut generator = |name: &str| match names.get(name) {
+        Some(Name::Coordinate(i)) => Some(*i),
+        _ => {
+            diagnostics.report(span(value), names.unknown(name));
+            None
+        }
+    };
+    let (i, j) = (generator(a), generator(b));
+    let mut arena = Arena::new();
+    let start = offset + line.len() - right.len();
+    let before = diagnostics.len();
+    let root = text::parse(right, start, names, &mut arena, diagnostics);
+    if diagnostics.len() > before {
+        return None;
+    }
+    let components = linear(&arena, root, diagnostics)?;
+    Some((i?, j?, components))
+}

@@ -1,0 +1,153 @@
+//! Coordinates, parameters and the Hamiltonian of a system file.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::table::{Table, exact, matrix, span, wrong_kind};
+use super::{Options, Parameters};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::expr::{Arena, ExprId};
+use crate::lie::LieAlgebra;
+use crate::number::Rational;
+use crate::parse::{Name, Names, text};
+use crate::problem::{Parameter, Shape};
+
+const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
+const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
+
+/// What the file says about the Hamiltonian.
+pub(super) struct Written {
+    pub coordinates: Vec<String>,
+    pub coordinates_span: Span,
+    pub parameters: Vec<Parameter>,
+    pub arena: Arena,
+    pub hamiltonian: Option<(ExprId, Span)>,
+    pub source: String,
+}
+
+/// Reads `coordinates`, `[parameters]` and `hamiltonian`.
+pub(super) fn read(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    file: &str,
+    options: Options,
+    diagnostics: &mut Diagnostics,
+) -> Written {
+    let mut names = Names::default();
+    let (coordinates, coordinates_span) = coordinates(root, algebra, diagnostics);
+    for (i, (name, place)) in coordinates.iter().enumerate() {
+        names.add(name, Name::Coordinate(i), *place, diagnostics);
+    }
+    let parameters = match root.table("parameters", diagnostics) {
+        Some(table) => parameters(&table, options.parameters, &mut names, diagnostics),
+        None => Vec::new(),
+    };
+    let mut arena = Arena::new();
+    let mut source = String::new();
+    let mut hamiltonian = None;
+    match root.string("hamiltonian", HAMILTONIAN, diagnostics) {
+        Some((text, place)) => {
+            source = text.to_owned();
+            // Names cannot be resolved without coordinates: that would only repeat the mistake.
+            if !coordinates.is_empty() {
+                let offset = content_offset(file, place, text);
+                let id = text::parse(text, offset, &names, &mut arena, diagnostics);
+                hamiltonian = Some((id, place));
+            }
+        }
+        None if !root.has("hamiltonian") => {
+            let (key, owner) = ("hamiltonian".to_owned(), root.name().to_owned());
+            let missing = Mistake::MissingKey(key, owner, HAMILTONIAN.to_owned());
+            diagnostics.report(Span::text(0..0), missing);
+        }
+        None => {}
+    }
+    let coordinates = coordinates.into_iter().map(|(name, _)| name).collect();
+    Written { coordinates, coordinates_span, parameters, arena, hamiltonian, source }
+}
+
+/// The names of the coordinates; those of the generators, or mu[0], mu[1], … where none are given.
+fn coordinates(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    diagnostics: &mut Diagnostics,
+) -> (Vec<(String, Span)>, Span) {
+    if !root.has("coordinates") {
+        let dim = algebra.map_or(0, LieAlgebra::dim);
+        let own = root.get("algebra").and_then(|value| value.get_ref().get("generators"));
+        let name = |i: usize| match (own, algebra) {
+            (Some(_), Some(algebra)) => algebra.generators()[i].clone(),
+            _ => format!("mu[{i}]"),
+        };
+        return ((0..dim).map(|i| (name(i), Span::Whole)).collect(), Span::Whole);
+    }
+    let Some((list, whole)) = root.array("coordinates", COORDINATES, diagnostics) else {
+        return (Vec::new(), Span::Whole);
+    };
+    let mut names = Vec::new();
+    for value in list {
+        match value.get_ref() {
+            DeValue::String(name) => names.push((name.to_string(), span(value))),
+            _ => wrong_kind("coordinates", "a list of names", value, COORDINATES, diagnostics),
+        }
+    }
+    (names, whole)
+}
+
+fn parameters(
+    table: &Table<'_>,
+    treatment: Parameters,
+    names: &mut Names,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Parameter> {
+    let mut result: Vec<Parameter> = Vec::new();
+    let mut scalars = 0;
+    for (name, place, value) in table.entries() {
+        let Some((shape, values)) = parameter(name, value, diagnostics) else {
+            // The name is known all the same, so that its uses are no further mistakes.
+            names.add(name, Name::Parameter(scalars), place, diagnostics);
+            continue;
+        };
+        let read = Parameter { name: name.to_owned(), shape, default: Some(values.clone()) };
+        for (i, (name, value)) in read.scalar_names().iter().zip(values).enumerate() {
+            let meaning = match treatment {
+                Parameters::Substituted => Name::Number(value),
+                Parameters::Kept => Name::Parameter(scalars + i),
+            };
+            names.add(name, meaning, place, diagnostics);
+        }
+        scalars += read.shape.len();
+        if treatment == Parameters::Kept {
+            result.push(read);
+        }
+    }
+    result
+}
+
+/// A number, an array of numbers, or an array of such arrays.
+fn parameter(
+    name: &str,
+    value: &Spanned<DeValue<'_>>,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Shape, Vec<Rational>)> {
+    let example = format!("{name} = 1.5 or {name} = \"2/3\"");
+    let DeValue::Array(list) = value.get_ref() else {
+        return exact(name, value, &example, diagnostics).map(|x| (Shape::Scalar, vec![x]));
+    };
+    if list.iter().any(|entry| entry.get_ref().is_array()) {
+        let rows = matrix(name, value, &example, diagnostics)?;
+        let columns = rows.first().map_or(0, Vec::len);
+        return Some((Shape::Grid(rows.len(), columns), rows.concat()));
+    }
+    let values: Option<Vec<Rational>> =
+        list.iter().map(|entry| exact(name, entry, &example, diagnostics)).collect();
+    values.map(|values| (Shape::Array(values.len()), values))
+}
+
+/// Where the content of a TOML string begins in the file.
+fn content_offset(file: &str, place: Span, content: &str) -> usize {
+    let Span::Text { start, end } = place else { return 0 };
+    // Strings with escapes do not occur literally; their places are then approximate.
+    let inside = file.get(start..end).and_then(|raw| raw.find(content)).unwrap_or(1);
+    start + inside
+}

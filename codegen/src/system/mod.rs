@@ -1,0 +1,187 @@
+//! System files: a Lie–Poisson system and a run of it, in TOML.
+//!
+//! ```toml
+//! name = "rigid-body"
+//! group = "SO3"
+//! coordinates = ["x", "y", "z"]
+//! hamiltonian = "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)"
+//! [parameters]
+//! I1 = 1.5
+//! I2 = 2.0
+//! I3 = "5/2"
+//! [integrator]
+//! truncation = 7
+//! chart = "exp"
+//! step = 0.1
+//! [initial]
+//! momentum = [2.0, 0.5, 1.0]
+//! [run]
+//! time = 100.0
+//! ```
+//!
+//! Numbers are read from their decimals, so `0.1` is exactly 1/10. Instead of `group`, an
+//! `[algebra]` table gives a `basis` of matrices, or `generators` and `brackets`.
+
+mod algebra;
+mod hamiltonian;
+mod run;
+mod table;
+
+use toml::de::DeTable;
+
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::pass::{DEFAULT_TRUNCATION, Draft, assemble, chart, check_truncation};
+use crate::problem::Problem;
+use table::Table;
+
+pub use run::Run;
+
+/// The system of a file that names none.
+const DEFAULT_NAME: &str = "system";
+
+/// What becomes of the parameters of a system file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parameters {
+    /// Their values are put into the Hamiltonian, exactly.
+    #[default]
+    Substituted,
+    /// They stay parameters, with their values as defaults.
+    Kept,
+}
+
+/// How a system file is to be read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// What becomes of the parameters.
+    pub parameters: Parameters,
+    /// Replaces the truncation of the file.
+    pub truncation: Option<usize>,
+    /// Replaces the chart of the file.
+    pub chart: Option<Chart>,
+}
+
+/// A system file.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The system.
+    pub problem: Problem,
+    /// Where to start, how far and in which steps; each as far as the file says.
+    pub run: Run,
+}
+
+/// Reads the text of a system file.
+///
+/// # Errors
+/// All mistakes, each at its place in `text`; [`Diagnostics::render`] writes them out.
+pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let span = error.span().map_or(Span::Whole, Span::text);
+        // One line: more would repeat the source, which is shown anyway.
+        let message = error.message().lines().collect::<Vec<_>>().join("; ");
+        diagnostics.report(span, Mistake::Toml(message));
+    }
+    if !diagnostics.is_empty() {
+        return Err(diagnostics);
+    }
+    let root = Table::root(document.get_ref());
+    root.check_keys(
+        &[
+            "name",
+            "group",
+            "algebra",
+            "coordinates",
+            "hamiltonian",
+            "parameters",
+            "integrator",
+            "initial",
+            "run",
+        ],
+        &mut diagnostics,
+    );
+    let name = root.string("name", "name = \"rigid-body\"", &mut diagnostics);
+    let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
+    let algebra = group(&root, &name, &mut diagnostics);
+    let written = hamiltonian::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
+    let integrator = root.table("integrator", &mut diagnostics);
+    let (truncation, chart) = match &integrator {
+        Some(table) => integrator_table(table, options, &mut diagnostics),
+        None => (Some(DEFAULT_TRUNCATION), (Chart::default(), Span::Whole)),
+    };
+    let truncation = match options.truncation {
+        Some(k) => check_truncation(k, Span::Whole, &mut diagnostics),
+        None => truncation,
+    };
+    let chart = options.chart.map_or(chart, |chart| (chart, Span::Whole));
+    let run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
+    let draft = Draft {
+        name,
+        algebra,
+        coordinates: written.coordinates,
+        coordinates_span: written.coordinates_span,
+        arena: written.arena,
+        hamiltonian: written.hamiltonian,
+        parameters: written.parameters,
+        source: written.source,
+        chart,
+        truncation,
+    };
+    Ok(System { problem: assemble(draft, diagnostics)?, run })
+}
+
+/// The Lie algebra: `group = "…"` or the table `[algebra]`.
+fn group(root: &Table<'_>, name: &str, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
+    let text = root.string("group", "group = \"SO3\"", diagnostics);
+    let table = root.table("algebra", diagnostics);
+    match (text, table) {
+        (Some((_, span)), Some(_)) => {
+            let help = "keep `group` for a known group, [algebra] for one of your own".to_owned();
+            let message = "both `group` and [algebra] are given".to_owned();
+            diagnostics.report(span, Mistake::Other(message, Some(help)));
+            None
+        }
+        (Some((text, span)), None) => match catalogue::lookup(text) {
+            Ok(algebra) => Some(algebra),
+            Err(error) => {
+                diagnostics.report(span, Mistake::Group(error.to_string()));
+                None
+            }
+        },
+        (None, Some(table)) => algebra::read(&table, name, diagnostics),
+        (None, None) => {
+            if !root.has("group") && !root.has("algebra") {
+                let example = "group = \"SO3\"".to_owned();
+                let missing =
+                    Mistake::MissingKey("group".to_owned(), "the file".to_owned(), example);
+                diagnostics.report(Span::text(0..0), missing);
+            }
+            None
+        }
+    }
+}
+
+fn integrator_table(
+    table: &Table<'_>,
+    options: Options,
+    diagnostics: &mut Diagnostics,
+) -> (Option<usize>, (Chart, Span)) {
+    table.check_keys(&["truncation", "chart", "step"], diagnostics);
+    let mut truncation = Some(DEFAULT_TRUNCATION);
+    if table.has("truncation") && options.truncation.is_none() {
+        truncation = table
+            .integer("truncation", "truncation = 7", diagnostics)
+            .and_then(|(k, span)| check_truncation(k, span, diagnostics));
+    }
+    let mut found = (Chart::default(), Span::Whole);
+    if let Some((name, span)) = table.string("chart", "chart = \"exp\"", diagnostics)
+        && options.chart.is_none()
+    {
+        match chart(name) {
+            Ok(chart) => found = (chart, span),
+            Err(mistake) => diagnostics.report(span, mistake),
+        }
+    }
+    (truncation, found)
+}

@@ -1,0 +1,129 @@
+//! System files: what is read, and what is said about mistakes.
+
+use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::number::ratio;
+use coadjoint_codegen::problem::Shape;
+use coadjoint_codegen::system::{self, Options, Parameters};
+
+const RIGID_BODY: &str = r#"
+name = "rigid-body"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)"
+[parameters]
+I1 = 1.5
+I2 = 2
+I3 = "5/2"
+[integrator]
+truncation = 5
+chart = "cayley"
+step = 0.1
+[initial]
+momentum = [2.0, 0.5, "1"]
+group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+[run]
+time = 100.0
+every = 2
+"#;
+
+#[test]
+fn all_of_a_file_is_read() {
+    let system = system::read(RIGID_BODY, Options::default()).unwrap();
+    let problem = &system.problem;
+    assert_eq!(problem.name, "rigid-body");
+    assert_eq!(problem.coordinates, ["x", "y", "z"]);
+    let terms: Vec<_> = problem.hamiltonian.terms().map(|(_, c)| c).collect();
+    assert_eq!(terms, [ratio(1, 3), ratio(1, 4), ratio(1, 5)]);
+    assert_eq!((problem.truncation, problem.chart), (5, Chart::Cayley));
+    assert!(problem.symbols.is_empty() && problem.parameters.is_empty());
+    let run = &system.run;
+    assert_eq!((run.step, run.time, run.every), (Some(0.1), Some(100.0), Some(2)));
+    assert_eq!(run.momentum.as_deref(), Some(&[2.0, 0.5, 1.0][..]));
+    assert_eq!(run.group_element.as_ref().unwrap()[1], [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn options_replace_what_the_file_says() {
+    let options = Options {
+        parameters: Parameters::Kept,
+        truncation: Some(9),
+        chart: Some(Chart::Exponential),
+    };
+    let problem = system::read(RIGID_BODY, options).unwrap().problem;
+    assert_eq!((problem.truncation, problem.chart), (9, Chart::Exponential));
+    let names: Vec<&str> = problem.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["I1", "I2", "I3"]);
+    assert_eq!(problem.parameters[2].default, Some(vec![ratio(5, 2)]));
+    let texts: Vec<&str> = problem.symbols.iter().map(|s| s.text.as_str()).collect();
+    assert_eq!(texts, ["1/I1", "1/I2", "1/I3"]);
+}
+
+#[test]
+fn decimals_are_exact_and_arrays_are_indexed() {
+    let text = r#"
+        group = "SO3"
+        hamiltonian = "a[0]*mu[0]^2 + a[1]*mu[1]^2 + b[1][0]*mu[2]"
+        [parameters]
+        a = [0.1, 1e-3]
+        b = [[1, 2], [3.5, 4]]
+    "#;
+    let problem = system::read(text, Options::default()).unwrap().problem;
+    let terms: Vec<_> = problem.hamiltonian.terms().map(|(_, c)| c).collect();
+    assert_eq!(terms, [ratio(1, 10), ratio(1, 1000), ratio(7, 2)]);
+    let kept = Options { parameters: Parameters::Kept, ..Options::default() };
+    let problem = system::read(text, kept).unwrap().problem;
+    assert_eq!(problem.parameters[1].shape, Shape::Grid(2, 2));
+    assert_eq!(problem.symbols[2].text, "b[1][0]");
+}
+
+/// so(3) once by the matrices of its basis, once by its brackets: the same constants.
+#[test]
+fn algebras_are_given_by_basis_or_brackets() {
+    let by_basis = r#"
+        hamiltonian = "mu[0]^2 + mu[1]"
+        [algebra]
+        basis = [
+            [["0", "0", "0"], ["0", "0", "-1"], ["0", "1", "0"]],
+            [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+            [[0, -1.0, 0], [1.0, 0, 0], [0, 0, 0]],
+        ]
+    "#;
+    let by_brackets = r#"
+        hamiltonian = "a^2 + b"
+        [algebra]
+        generators = ["a", "b", "c"]
+        brackets = ["[a,b] = c", "[b, c] = 2*a - a", "[a , c]= -4/4*b"]
+    "#;
+    let basis = system::read(by_basis, Options::default()).unwrap().problem.algebra;
+    let brackets = system::read(by_brackets, Options::default()).unwrap().problem;
+    assert_eq!(basis.structure(), brackets.algebra.structure());
+    assert_eq!(basis.basis().unwrap().len(), 3);
+    assert_eq!(brackets.coordinates, ["a", "b", "c"]);
+}
+
+#[test]
+fn mistakes() {
+    let cases = [
+        "",
+        "group = ",
+        "group = SO3\nhamiltonian = \"x\"",
+        "grup = \"SO3\"\ngroup = \"S03\"\nhamiltonain = \"x\"\ncoordinates = [\"x\"]",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\"]\nhamiltonian = \"x^2 + sin(y) + w\"\n[integrator]\ntruncation = 6\nchart = \"caley\"\nstep = 0\nstpe = 1\n[initial]\nmomentum = [1, 2]\ngroup_element = [[1, 0], [0]]\n[run]\ntime = -1.0\nevery = 0",
+        "group = \"SU3\"\nhamiltonian = \"mu[0]^2\"\n[integrator]\nchart = \"cayley\"",
+        "group = 3\nhamiltonian = [1]\ncoordinates = [\"x\", 1, \"2x\"]\n[integrator]\ntruncation = 1.5",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"x\", \"sin\"]\nhamiltonian = \"x\"\n[parameters]\nx = 1\nm = true\nn = \"1/0\"\nk = 1e999",
+        "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]",
+        "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]],\n [[0, 2], [0, 0]]]",
+        "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1, 2], [0, 0, 1]]]",
+        "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = a\", \"[b, c] = b\", \"[c, a] = c\"]",
+        "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\"]\nbrackets = [\"[a, b] = a*b\", \"[a, d] = b\", \"a, b = c\", \"[a, b] = 2*e +\"]",
+        "hamiltonian = \"a\"\n[algebra]\nbrackets = [\"[a, b] = a\"]\ngenerator = [\"a\", \"b\"]",
+        "group = \"SO3\"\nhamiltonian = \"a\"\n[algebra]\nbrackets = []",
+    ];
+    let mut text = String::new();
+    for case in cases {
+        let errors = system::read(case, Options::default()).unwrap_err();
+        text.push_str(&format!("{case}\n---\n{}\n", errors.render("system.toml", case)));
+    }
+    insta::assert_snapshot!(text);
+}
