@@ -2,7 +2,8 @@
 //!
 //! `cargo run -p coadjoint-codegen --example derivation` measures what a macro costs (macros are
 //! never optimised); with `--release` the figures compare with `derivation_flint.py` beside this
-//! file, which runs the same recurrence with FLINT.
+//! file, which runs the same recurrence with FLINT. `--export` prints the cases for it; other
+//! arguments choose systems by parts of their names.
 
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive, predictor};
 use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
@@ -22,6 +23,9 @@ struct Case {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let chosen: Vec<String> = std::env::args().skip(1).collect();
+    if chosen.iter().any(|argument| argument == "--export") {
+        return export();
+    }
     println!("{:<28} {:>4} {:>3} {:>12} {:>8} {:>9}", "system", "n", "K", "time", "S_K", "all S_k");
     for case in cases()? {
         if !chosen.is_empty() && !chosen.iter().any(|name| case.name.contains(name.as_str())) {
@@ -55,6 +59,29 @@ fn main() -> Result<(), Box<dyn Error>> {
                 format!("p t^{degree}"),
                 terms
             );
+        }
+    }
+    Ok(())
+}
+
+/// The cases as lines of words, for the script.
+fn export() -> Result<(), Box<dyn Error>> {
+    for case in cases()? {
+        println!("case {}", case.name);
+        println!("dim {}\nvariables {}", case.algebra.dim(), case.hamiltonian.variables());
+        let truncations: Vec<String> = case.truncations.iter().map(usize::to_string).collect();
+        println!("truncations {}", truncations.join(" "));
+        for c in case.algebra.structure() {
+            println!("c {} {} {} {}", c.i, c.j, c.k, c.value);
+        }
+        for (factors, value) in case.hamiltonian.factors() {
+            print!("h {value}");
+            for (variable, exponent) in factors {
+                for _ in 0..exponent {
+                    print!(" {variable}");
+                }
+            }
+            println!();
         }
     }
     Ok(())
@@ -120,7 +147,31 @@ fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
             predictor: None,
         },
     ];
-    cases.retain(|case| !case.truncations.is_empty());
+    let su3 = (0..8).map(|i| (vec![i, i], ratio(1, i as i64 + 2)));
+    cases.push(Case {
+        name: "SU3, diagonal",
+        algebra: catalogue::lookup("SU3")?,
+        hamiltonian: quadratic(8, su3.clone()),
+        truncations: &[3, 5, 7],
+        predictor: None,
+    });
+    let coupling = (0..7).map(|i| (vec![i, i + 1], ratio(1, 10)));
+    cases.push(Case {
+        name: "SU3, coupled",
+        algebra: catalogue::lookup("SU3")?,
+        hamiltonian: quadratic(8, su3.chain(coupling)),
+        truncations: &[3, 5, 7],
+        predictor: None,
+    });
+    for sites in [4, 16, 64, 256] {
+        cases.push(Case {
+            name: "ring of spins",
+            algebra: catalogue::lookup(&format!("SO3^{sites}"))?,
+            hamiltonian: quadratic(3 * sites, ring(sites)),
+            truncations: if sites == 4 { &[3, 5] } else { &[3] },
+            predictor: if sites == 4 { None } else { Some(4) },
+        });
+    }
     Ok(cases)
 }
 
@@ -134,6 +185,20 @@ fn full_inertia() -> Vec<(Vec<usize>, Rational)> {
         (vec![0, 2], ratio(1, 11)),
         (vec![1, 2], ratio(1, 13)),
     ]
+}
+
+/// Heisenberg coupling of neighbours, with an anisotropy and a field along z.
+fn ring(sites: usize) -> Vec<(Vec<usize>, Rational)> {
+    let mut terms = Vec::new();
+    for site in 0..sites {
+        let next = (site + 1) % sites;
+        for axis in 0..3 {
+            terms.push((vec![3 * site + axis, 3 * next + axis], ratio(-1, 1)));
+        }
+        terms.push((vec![3 * site + 2, 3 * site + 2], ratio(1, 5)));
+        terms.push((vec![3 * site + 2], ratio(1, 3)));
+    }
+    terms
 }
 
 /// The sum of coefficient times the product of the listed variables.
