@@ -67,7 +67,11 @@ impl Coefficients {
             if divisor.is_one() {
                 break;
             }
-            divisor = divisor.gcd(numerator);
+            // Once the divisor is found, one division confirms it for each further value.
+            let rest = numerator % &divisor;
+            if !rest.is_zero() {
+                divisor = divisor.gcd(&rest);
+            }
         }
         if !divisor.is_one() {
             denominator /= &divisor;
@@ -131,6 +135,25 @@ impl Coefficients {
                 (numerators.iter().copied().map(BigInt::from).collect(), (*denominator).into())
             }
             Self::Big { numerators, denominator } => (numerators.clone(), denominator.clone()),
+        }
+    }
+
+    pub(crate) fn numerators(&self) -> Vec<BigInt> {
+        self.widen().0
+    }
+
+    pub(crate) fn denominator(&self) -> BigInt {
+        match self {
+            Self::Small { denominator, .. } => (*denominator).into(),
+            Self::Big { denominator, .. } => denominator.clone(),
+        }
+    }
+
+    /// The number of bits of the largest numerator.
+    pub(crate) fn bits(&self) -> u64 {
+        match self {
+            Self::Small { bits, .. } => u64::from(*bits),
+            Self::Big { numerators, .. } => numerators.iter().map(BigInt::bits).max().unwrap_or(0),
         }
     }
 

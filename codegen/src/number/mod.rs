@@ -3,10 +3,12 @@
 mod bernoulli;
 mod coefficients;
 mod divisor;
+mod words;
 
 pub(crate) use bernoulli::bernoulli_over_factorial;
 pub(crate) use coefficients::Coefficients;
 pub(crate) use divisor::{bits, lcm};
+pub(crate) use words::{Sum, Words};
 
 /// An exact rational number, always in lowest terms with a positive denominator.
 pub type Rational = num_rational::BigRational;
