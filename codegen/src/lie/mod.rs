@@ -1,6 +1,7 @@
 //! Lie algebras over ℚ and the charts of their groups.
 
 mod algebra;
+mod casimir;
 pub mod catalogue;
 mod chart;
 mod error;
@@ -9,6 +10,7 @@ mod product;
 mod span;
 
 pub use algebra::{LieAlgebra, StructureConstant};
+pub use casimir::{CasimirError, casimirs};
 pub use chart::{Chart, ChartError};
 pub use error::LieAlgebraError;
 pub use matrix::RationalMatrix;

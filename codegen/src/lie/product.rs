@@ -36,6 +36,46 @@ impl LieAlgebra {
         Self::from_parts(name, generators, structure, block_diagonal(factors))
     }
 
+    /// The finest splitting of the basis into sets that span commuting ideals, each ascending, in
+    /// order of their first elements.
+    pub(crate) fn ideals(&self) -> Vec<Vec<usize>> {
+        let mut parent: Vec<usize> = (0..self.dim()).collect();
+        fn root(parent: &mut [usize], mut i: usize) -> usize {
+            while parent[i] != i {
+                parent[i] = parent[parent[i]];
+                i = parent[i];
+            }
+            i
+        }
+        for c in self.structure() {
+            for other in [c.j, c.k] {
+                let (a, b) = (root(&mut parent, c.i), root(&mut parent, other));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        let mut sets: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for i in 0..self.dim() {
+            sets.entry(root(&mut parent, i)).or_default().push(i);
+        }
+        sets.into_values().collect()
+    }
+
+    /// The ideal spanned by some basis elements, as an algebra of its own.
+    pub(crate) fn restricted(&self, indices: &[usize]) -> Self {
+        let place: BTreeMap<usize, usize> =
+            indices.iter().enumerate().map(|(new, &old)| (old, new)).collect();
+        let structure = self
+            .structure()
+            .iter()
+            .filter_map(|c| {
+                let (i, j, k) = (*place.get(&c.i)?, *place.get(&c.j)?, *place.get(&c.k)?);
+                Some(StructureConstant { i, j, k, value: c.value.clone() })
+            })
+            .collect();
+        let generators = (1..=indices.len()).map(|i| format!("e{i}")).collect();
+        Self::from_parts(self.name().into(), generators, structure, None)
+    }
+
     /// The direct product of equal factors, one at least.
     #[must_use]
     pub fn power(&self, count: usize) -> Self {

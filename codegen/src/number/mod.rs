@@ -3,11 +3,13 @@
 mod bernoulli;
 mod coefficients;
 mod divisor;
+mod field;
 mod words;
 
 pub(crate) use bernoulli::bernoulli_over_factorial;
 pub(crate) use coefficients::Coefficients;
 pub(crate) use divisor::{bits, lcm};
+pub(crate) use field::{Field, Residue, reconstruct};
 pub(crate) use words::{Sum, Words};
 
 /// An exact rational number, always in lowest terms with a positive denominator.

@@ -104,7 +104,7 @@ impl<const N: usize> Sum<N> {
         }
     }
 
-    pub(crate) fn to_integer(&self) -> BigInt {
+    pub(crate) fn to_integer(self) -> BigInt {
         let mut bytes = Vec::with_capacity(8 * N);
         for word in self.0 {
             bytes.extend_from_slice(&word.to_le_bytes());

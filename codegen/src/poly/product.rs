@@ -192,7 +192,7 @@ fn wide<K: Key, const N: usize>(
         .map(|((a, b), factor)| (Words::new(factor), a.as_slice(), b.as_slice()))
         .collect();
     let (keys, sums) = accumulate::<K, Words<N>>(keys, &lists, limit)?;
-    Ok((keys, sums.iter().map(Sum::to_integer).collect()))
+    Ok((keys, sums.into_iter().map(Sum::to_integer).collect()))
 }
 
 /// The arithmetic of one kind of integer.

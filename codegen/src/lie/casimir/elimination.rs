@@ -1,0 +1,130 @@
+//! Sparse exact elimination.
+
+use crate::number::Field;
+use std::collections::BTreeMap;
+
+/// Rows by pivot. The pivot of a row is its first column; its entry there is one.
+pub(super) struct Echelon<F> {
+    rows: BTreeMap<u32, BTreeMap<u32, F>>,
+    operations: u64,
+    limit: u64,
+}
+
+/// More multiplications than allowed.
+pub(super) struct Exceeded;
+
+impl<F: Field> Echelon<F> {
+    pub(super) fn new(limit: u64) -> Self {
+        Self { rows: BTreeMap::new(), operations: 0, limit }
+    }
+
+    /// Adds a row. Returns what is left of it after reduction, scaled to a leading one, or nothing
+    /// if it depends on the rows before (or the work exceeds the limit; see
+    /// [`within_limit`](Self::within_limit)).
+    pub(super) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
+        let mut row = row;
+        let mut lead = None;
+        let mut at = row.keys().next().copied();
+        while let Some(column) = at {
+            if let (Some(pivot), Some(value)) = (self.rows.get(&column), row.get(&column).cloned())
+            {
+                self.operations += pivot.len() as u64;
+                if self.operations > self.limit {
+                    return None;
+                }
+                subtract(&mut row, pivot, &value);
+            } else if lead.is_none() {
+                lead = Some(column);
+            }
+            at = row.range(column + 1..).next().map(|(c, _)| *c);
+        }
+        let lead = lead?;
+        let inverse = row.get(&lead)?.inverse();
+        for value in row.values_mut() {
+            *value = value.times(&inverse);
+        }
+        self.rows.insert(lead, row.clone());
+        Some(row)
+    }
+
+    pub(super) fn within_limit(&self) -> Result<(), Exceeded> {
+        if self.operations > self.limit { Err(Exceeded) } else { Ok(()) }
+    }
+
+    /// Vectors spanning what all rows annihilate, in columns 0..`columns`: one for each column
+    /// without pivot, being one there and zero at the others without pivot.
+    pub(super) fn kernel(mut self, columns: u32) -> Result<Vec<BTreeMap<u32, F>>, Exceeded> {
+        // From the last pivot to the first, every row is freed of other pivots.
+        let pivots: Vec<u32> = self.rows.keys().rev().copied().collect();
+        for pivot in pivots {
+            let Some(mut row) = self.rows.remove(&pivot) else { continue };
+            let others: Vec<u32> = row.keys().copied().filter(|c| *c != pivot).collect();
+            for column in others {
+                if let (Some(other), Some(value)) =
+                    (self.rows.get(&column), row.get(&column).cloned())
+                {
+                    self.operations += other.len() as u64;
+                    subtract(&mut row, other, &value);
+                }
+            }
+            self.rows.insert(pivot, row);
+            self.within_limit()?;
+        }
+        let mut kernel: BTreeMap<u32, BTreeMap<u32, F>> = BTreeMap::new();
+        for column in 0..columns {
+            if !self.rows.contains_key(&column) {
+                kernel.insert(column, BTreeMap::from([(column, F::one())]));
+            }
+        }
+        for (pivot, row) in &self.rows {
+            for (column, value) in row {
+                if let Some(vector) = kernel.get_mut(column) {
+                    vector.insert(*pivot, value.negated());
+                }
+            }
+        }
+        Ok(kernel.into_values().collect())
+    }
+}
+
+fn subtract<F: Field>(row: &mut BTreeMap<u32, F>, other: &BTreeMap<u32, F>, factor: &F) {
+    for (column, value) in other {
+        let slot = row.entry(*column).or_insert_with(F::zero);
+        slot.minus_product(factor, value);
+        if slot.is_zero() {
+            row.remove(column);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Rational, integer, ratio};
+
+    fn row(values: &[i64]) -> BTreeMap<u32, Rational> {
+        let entries = values.iter().enumerate().filter(|(_, v)| **v != 0);
+        entries.map(|(column, v)| (column as u32, integer(*v))).collect()
+    }
+
+    #[test]
+    fn kernel_of_a_small_matrix() {
+        let mut echelon = Echelon::new(1000);
+        assert!(echelon.insert(row(&[1, 2, 3, 4])).is_some());
+        assert!(echelon.insert(row(&[2, 4, 6, 8])).is_none());
+        assert!(echelon.insert(row(&[0, 0, 2, 1])).is_some());
+        let kernel = echelon.kernel(4).ok().unwrap();
+        let half = BTreeMap::from([(0, ratio(-5, 2)), (2, ratio(-1, 2)), (3, integer(1))]);
+        assert_eq!(kernel, [row(&[-2, 1]), half]);
+    }
+
+    #[test]
+    fn work_is_limited() {
+        let mut echelon = Echelon::new(5);
+        for i in 1..6 {
+            echelon.insert(row(&[1, i, i * i, i * i * i]));
+        }
+        assert!(echelon.within_limit().is_err());
+        assert!(echelon.kernel(4).is_err());
+    }
+}
