@@ -7,7 +7,9 @@ use crate::generating_function::GeneratingFunction;
 use crate::group::LieGroup;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
+use crate::se3::SE3;
 use crate::so3::SO3;
+use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group over `f64` that exists over lanes too.
 pub trait LaneGroup: LieGroup<Scalar = f64> {
@@ -84,4 +86,34 @@ macro_rules! lane_group {
     )*};
 }
 
-lane_group!(SO3);
+lane_group!(SO3, SE3);
+
+impl<A: StaticAlgebra, const N: usize, const D: usize> LaneGroup for StaticMatrixGroup<A, N, D> {
+    type Over<L: Scalar + SimdValue<Element = f64>> = StaticMatrixGroup<A, N, D, L>;
+
+    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>> {
+        Phase {
+            group_element: SimdValue::splat(phase.group_element),
+            momentum: SimdValue::splat(phase.momentum),
+        }
+    }
+
+    fn insert<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &mut Phase<Self::Over<L>>,
+        lane: usize,
+        phase: &Phase<Self>,
+    ) {
+        lanes.group_element.replace(lane, phase.group_element);
+        lanes.momentum.replace(lane, phase.momentum);
+    }
+
+    fn extract<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &Phase<Self::Over<L>>,
+        lane: usize,
+    ) -> Phase<Self> {
+        Phase {
+            group_element: SimdValue::extract(&lanes.group_element, lane),
+            momentum: SimdValue::extract(&lanes.momentum, lane),
+        }
+    }
+}

@@ -49,6 +49,10 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
             }
             *base += product;
         }
+        if !base.all_finite() {
+            let name = "of the generating function";
+            return Err(StepError::InvalidParameter { name, value: base.largest_lane() });
+        }
         start = end as usize;
     }
     let mut slots = [T::of(0.0); SLOTS];

@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
-use crate::element_error::{ElementError, finite, within};
 use crate::compensated::{CompensatedGroup, kahan};
+use crate::element_error::{ElementError, finite, within};
 use crate::group::{CayleyGroup, LieGroup};
 use crate::scalar::Scalar;
 

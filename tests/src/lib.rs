@@ -1,1 +1,17 @@
-//! See the workspace README.
+//! What the integration tests share.
+
+pub mod golden;
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::parse::rust;
+
+/// The integrator that the attribute with `arguments` builds from the source of a function.
+///
+/// # Errors
+/// The messages of the attribute.
+pub fn from_function(arguments: &str, function: &str) -> syn::Result<Integrator> {
+    let problem = rust::lie_poisson(arguments.parse()?, &syn::parse_str(function)?)?;
+    Integrator::build(problem, TermLimit::default())
+        .map_err(|error| syn::Error::new(proc_macro2::Span::call_site(), error))
+}

@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::number::float;
 use super::{parameter, table};
 use crate::integrator::Integrator;
 use crate::problem::Shape;
@@ -28,7 +29,7 @@ pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream 
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
         let slot = Literal::usize_unsuffixed(term.slot);
-        let weight = Literal::f64_unsuffixed(term.weight);
+        let weight = float(term.weight);
         let degree = Literal::u32_unsuffixed(term.degree);
         quote!((#slot, #weight, #degree))
     });

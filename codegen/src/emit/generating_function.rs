@@ -16,7 +16,7 @@ pub fn generating_function(
     name: &Ident,
     parts: &Parts,
 ) -> TokenStream {
-    let Parts { dim, group, group_value, chart, vector, matrix, .. } = parts;
+    let Parts { dim, group, chart, vector, matrix, .. } = parts;
     let value = scalar_function(&integrator.value);
     let gradient = vector_function(&integrator.gradient, vector);
     let hessian = hessian_function(&integrator.hessian, *dim, vector, matrix);
@@ -54,7 +54,7 @@ pub fn generating_function(
 
             #[inline(always)]
             fn group(&self) -> &#group {
-                #group_value
+                const { &<#group>::new() }
             }
 
             #[inline]

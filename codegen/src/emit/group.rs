@@ -1,28 +1,118 @@
 //! The runtime type of a problem's group.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use std::collections::BTreeSet;
 
-use crate::problem::Problem;
+use num_traits::ToPrimitive;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::number::exact;
+use crate::lie::{Chart, LieAlgebra};
+
+/// Groups the runtime has a type of its own for, under the catalogue's name.
+const RUNTIME_TYPES: [&str; 2] = ["SO3", "SE3"];
 
 /// How generated code names the group.
 pub struct GroupType {
     /// The type, generic over the scalar `T` in scope.
     pub ty: TokenStream,
-    /// An expression for a reference to its value.
-    pub value: TokenStream,
-    /// Items it needs.
+    /// Items it needs, to stand beside the integrator.
     pub definition: TokenStream,
 }
 
-/// The runtime type for `problem.algebra`.
+/// The runtime type for `algebra`: one of the runtime's own, or tables written beside the
+/// integrator `name`.
 #[must_use]
-pub fn group_type(problem: &Problem, krate: &TokenStream) -> GroupType {
-    let name = quote::format_ident!("{}", problem.algebra.name());
-    let ty = quote!(#krate::#name<T>);
-    GroupType {
-        value: quote!(const { &<#krate::#name<T>>::new() }),
-        ty,
-        definition: TokenStream::new(),
+pub fn group_type(
+    algebra: &LieAlgebra,
+    name: &Ident,
+    visibility: &TokenStream,
+    krate: &TokenStream,
+) -> GroupType {
+    if RUNTIME_TYPES.contains(&algebra.name()) {
+        let group = format_ident!("{}", algebra.name());
+        return GroupType { ty: quote!(#krate::#group<T>), definition: TokenStream::new() };
     }
+    let group = format_ident!("{name}Group");
+    GroupType {
+        ty: quote!(#group<T>),
+        definition: definition(algebra, name, &group, visibility, krate),
+    }
+}
+
+fn definition(
+    algebra: &LieAlgebra,
+    name: &Ident,
+    group: &Ident,
+    visibility: &TokenStream,
+    krate: &TokenStream,
+) -> TokenStream {
+    let n = algebra.dim();
+    let basis = algebra.basis();
+    let size = basis.and_then(<[_]>::first).map_or(n, |matrix| matrix.rows());
+    let structure = structure(algebra).into_iter().map(|(i, j, k, value)| {
+        let (i, j, k) = (index(i), index(j), index(k));
+        quote!((#i, #j, #k, #value))
+    });
+    let basis = match basis {
+        Some(matrices) => {
+            let entries = matrices.iter().enumerate().flat_map(|(i, matrix)| {
+                let i = index(i);
+                matrix.entries().filter(|(_, _, value)| value.to_f64() != Some(0.0)).map(
+                    move |(row, column, value)| {
+                        let (row, column, value) = (index(row), index(column), exact(value));
+                        quote!((#i, #row, #column, #value))
+                    },
+                )
+            });
+            quote!(::core::option::Option::Some(&[#(#entries),*]))
+        }
+        None => quote!(::core::option::Option::None),
+    };
+    let marker = format_ident!("{name}Algebra");
+    let (n, d) = (index(n), index(size));
+    let cayley = Chart::Cayley
+        .check(algebra)
+        .is_ok()
+        .then(|| quote!(impl #krate::CayleyAlgebra for #marker {}));
+    let about = format!(" The Lie algebra {} as tables.", algebra.name());
+    let about_group = format!(" The group of {}.", algebra.name());
+    quote! {
+        #[doc = #about]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #visibility struct #marker;
+
+        impl #krate::StaticAlgebra for #marker {
+            const DIM: usize = #n;
+            const MATRIX_SIZE: usize = #d;
+            const STRUCTURE: &'static [#krate::StructureConstant] = &[#(#structure),*];
+            const BASIS: ::core::option::Option<&'static [#krate::BasisEntry]> = #basis;
+            const CASIMIRS: &'static [&'static [#krate::CasimirTerm]] = &[];
+        }
+
+        #cayley
+
+        #[doc = #about_group]
+        #visibility type #group<T = f64> = #krate::StaticMatrixGroup<#marker, #n, #d, T>;
+    }
+}
+
+/// The structure constants with both orders of every bracket, sorted.
+fn structure(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, TokenStream)> {
+    let mut seen = BTreeSet::new();
+    let mut all = Vec::new();
+    for constant in algebra.structure() {
+        let (i, j, k) = (constant.i, constant.j, constant.k);
+        for (i, j, value) in [(i, j, constant.value.clone()), (j, i, -constant.value.clone())] {
+            if seen.insert((i, j, k)) {
+                all.push((i, j, k, exact(&value)));
+            }
+        }
+    }
+    all.sort_by_key(|&(i, j, k, _)| (i, j, k));
+    all
+}
+
+fn index(value: usize) -> Literal {
+    Literal::usize_unsuffixed(value)
 }

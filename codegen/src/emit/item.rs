@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::constructor::constructor;
 use super::generating_function::{generating_function, scalar_function};
+use super::group::group_type;
 use super::header;
 use crate::integrator::Integrator;
 
@@ -55,7 +56,7 @@ pub fn camel_case(name: &str) -> String {
 #[must_use]
 pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, attributes } = options;
-    let parts = Parts::new(integrator, krate);
+    let parts = Parts::new(integrator, options);
     let Parts { group, vector, definition, .. } = &parts;
     let summary = header::lines(integrator);
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
@@ -67,6 +68,8 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     quote! {
+        #definition
+
         #attributes
         #[doc = ""]
         #(#[doc = #summary])*
@@ -78,10 +81,8 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
             defect: [T; #defects],
         }
 
-        #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_variables)]
+        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, unused_variables)]
         const _: () = {
-            #definition
-
             impl<T: #krate::Scalar> #name<T> {
                 /// K: the series S₁ … S_K of the generating function is kept.
                 pub const TRUNCATION: usize = #truncation;
@@ -158,7 +159,6 @@ fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
 pub(super) struct Parts {
     pub dim: usize,
     pub group: TokenStream,
-    pub group_value: TokenStream,
     /// Items the group needs.
     pub definition: TokenStream,
     pub chart: TokenStream,
@@ -167,17 +167,17 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    fn new(integrator: &Integrator, krate: &TokenStream) -> Self {
+    fn new(integrator: &Integrator, options: &Options) -> Self {
+        let Options { krate, visibility, name, .. } = options;
         let dim = integrator.problem.algebra.dim();
         let n = Literal::usize_unsuffixed(dim);
         let chart = match integrator.problem.chart {
             crate::lie::Chart::Exponential => quote!(#krate::Exponential),
             crate::lie::Chart::Cayley => quote!(#krate::Cayley),
         };
-        let group = super::group::group_type(&integrator.problem, krate);
+        let group = group_type(&integrator.problem.algebra, name, visibility, krate);
         Self {
             dim,
-            group_value: group.value,
             group: group.ty,
             definition: group.definition,
             chart,

@@ -11,6 +11,7 @@ mod generating_function;
 mod group;
 mod header;
 mod item;
+mod number;
 mod parameter;
 mod table;
 

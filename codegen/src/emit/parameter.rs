@@ -1,9 +1,9 @@
 //! Opaque coefficients as Rust expressions in the user's parameters.
 
-use num_traits::ToPrimitive;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::number::exact;
 use crate::expr::{Function, ParameterExpr};
 
 /// The value of `expr` as an expression of type `T`; `parameters[i]` is the expression of scalar
@@ -13,7 +13,7 @@ pub fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> TokenStre
     let sub = |e: &ParameterExpr| expression(e, parameters);
     match expr {
         ParameterExpr::Rational(value) => {
-            let value = Literal::f64_unsuffixed(value.to_f64().unwrap_or(f64::NAN));
+            let value = exact(value);
             quote!(T::of(#value))
         }
         ParameterExpr::Parameter(index) => parameters[*index].clone(),

@@ -3,13 +3,14 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::number::float;
 use crate::integrator::Coefficients;
 
 /// The expression of a `coadjoint::plumbing::Table` holding `coefficients`.
 #[must_use]
 pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
     let terms = coefficients.bases().iter().flatten().map(|term| {
-        let factor = Literal::f64_unsuffixed(term.rounded_factor());
+        let factor = float(term.rounded_factor());
         let step = Literal::u32_unsuffixed(term.step_power);
         let symbols = term.symbol_powers.iter().map(|&p| Literal::u32_unsuffixed(p));
         quote!((#factor, #step, [#(#symbols),*]))

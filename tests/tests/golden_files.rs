@@ -1,0 +1,30 @@
+//! Emitted code is the committed code.
+//!
+//! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test golden_files` rewrites the files.
+
+use std::path::PathBuf;
+
+use coadjoint_codegen::emit;
+use coadjoint_tests::{from_function, golden};
+
+fn check_golden(source: (&str, &str)) {
+    let integrator = from_function(source.0, source.1).unwrap();
+    let name = &integrator.problem.name;
+    let text = emit::file(&integrator, &emit::Options::for_problem(name));
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.rs"));
+    if std::env::var_os("COADJOINT_BLESS").is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == text, "{} differs from what is emitted now", path.display());
+    // The same again, byte for byte.
+    let again = from_function(source.0, source.1).unwrap();
+    assert_eq!(emit::file(&again, &emit::Options::for_problem(name)), text);
+}
+
+#[test]
+fn emitted_files_are_the_committed_ones() {
+    for source in [golden::RIGID_BODY, golden::CAYLEY_BODY, golden::HEAVY_TOP, golden::THREE_WAVE] {
+        check_golden(source);
+    }
+}
