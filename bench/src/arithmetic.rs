@@ -1,5 +1,7 @@
 //! Small fixed-size arithmetic shared by the peers: fused products, vectors, quaternions.
 
+use crate::number::Number;
+
 /// Three components.
 pub type Vector = [f64; 3];
 /// Scalar part first.
@@ -15,7 +17,7 @@ pub fn fma(a: f64, b: f64, c: f64) -> f64 {
 /// u × v.
 #[inline(always)]
 #[must_use]
-pub fn cross(u: &Vector, v: &Vector) -> Vector {
+pub fn cross<T: Number>(u: &[T; 3], v: &[T; 3]) -> [T; 3] {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
@@ -29,7 +31,7 @@ pub fn dot(u: &Vector, v: &Vector) -> f64 {
 /// Hamilton's product.
 #[inline(always)]
 #[must_use]
-pub fn multiply(a: &Quaternion, b: &Quaternion) -> Quaternion {
+pub fn multiply<T: Number>(a: &[T; 4], b: &[T; 4]) -> [T; 4] {
     [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
@@ -41,10 +43,9 @@ pub fn multiply(a: &Quaternion, b: &Quaternion) -> Quaternion {
 /// q v q⁻¹ for a unit quaternion.
 #[inline(always)]
 #[must_use]
-pub fn rotate(q: &Quaternion, v: &Vector) -> Vector {
+pub fn rotate<T: Number>(q: &[T; 4], v: &[T; 3]) -> [T; 3] {
     let axis = [q[1], q[2], q[3]];
-    let t = cross(&axis, v);
-    let t = [2.0 * t[0], 2.0 * t[1], 2.0 * t[2]];
+    let t = cross(&axis, v).map(|component| component * 2.0);
     let s = cross(&axis, &t);
     [v[0] + q[0] * t[0] + s[0], v[1] + q[0] * t[1] + s[1], v[2] + q[0] * t[2] + s[2]]
 }

@@ -5,8 +5,10 @@
 //! [`report`] writes tables and diagrams. A peer that wins is shown winning.
 
 pub mod arithmetic;
+pub mod ensemble;
 pub mod measure;
 pub mod method;
+pub mod number;
 pub mod peers;
 pub mod problem;
 pub mod report;

@@ -9,7 +9,7 @@ use coadjoint_bench::{
 /// A shorter interval, its end state by Taylor's method of order 20 at a step far below where it converges.
 fn short(name: &str) -> Problem {
     let mut problem = problem::named(name).unwrap();
-    problem.end = 40.0 * problem.time_scale;
+    problem.end = 20.0 * problem.time_scale;
     let taylor = peers::taylor::Taylor::<21>::fixed();
     problem.reference = taylor.run(&problem, Setting::Step(problem.time_scale / 20.0)).unwrap();
     problem
@@ -20,9 +20,9 @@ fn slope(method: &dyn Method, problem: &Problem, order: u32) -> f64 {
     // Low orders take so many steps that rounding shows earlier.
     let range = if order <= 4 { 1e-9..1e-4 } else { 1e-12..1e-7 };
     let mut points = Vec::new();
-    for k in 0..90 {
+    for k in 0..60 {
         let (count, h) =
-            Setting::steps(2.5 * problem.time_scale * 2f64.powf(-f64::from(k) / 8.0), problem.end);
+            Setting::steps(2.5 * problem.time_scale * 2f64.powf(-f64::from(k) / 5.0), problem.end);
         let Ok(end) = method.run(problem, Setting::Step(problem.end / count as f64)) else {
             continue;
         };

@@ -1,21 +1,28 @@
 //! Gauss–Legendre collocation with S stages (order 2S), solved by fixed-point iteration.
 //!
+//! The stages lie side by side in L ≥ S lanes (lanes beyond S idle along with weight 0).
+//!
 //! Hairer, Lubich, Wanner, *Geometric Numerical Integration*, sections II.1 and VIII.6. The stages of a step start from
 //! the collocation polynomial of the step before it, continued; the iteration ends at rounding or when it stops falling.
 
 use super::general::{Control, Solver};
-use crate::{arithmetic::fma, method::RunError, problem::VectorField};
+use crate::{
+    arithmetic::fma,
+    method::{RunError, Setting},
+    number::{Lanes, Number},
+    problem::VectorField,
+};
 
-/// The coefficients of the method with S stages.
+/// The coefficients of the method with S stages, by columns.
 #[derive(Clone, Copy, Debug)]
-pub struct Gauss<const S: usize> {
-    a: [[f64; S]; S],
+pub struct Gauss<const S: usize, const L: usize> {
+    a: [Lanes<L>; S],
     b: [f64; S],
     /// Values at the stages of the next step of the polynomial through values at these stages.
-    continuation: [[f64; S]; S],
+    continuation: [Lanes<L>; S],
 }
 
-impl<const S: usize> Default for Gauss<S> {
+impl<const S: usize, const L: usize> Default for Gauss<S, L> {
     fn default() -> Self {
         let c = nodes::<S>();
         // Integrals of the Lagrange polynomials up to each node and up to 1, exact by a Gauss rule on [0, x] of the
@@ -28,12 +35,13 @@ impl<const S: usize> Default for Gauss<S> {
         let integral = |j: usize, x: f64| {
             (0..S).map(|k| x * weights[k] * lagrange(&c, j, x * c[k])).sum::<f64>()
         };
+        let stages = |value: &dyn Fn(usize) -> f64| {
+            Lanes(std::array::from_fn(|lane| if lane < S { value(lane) } else { 0.0 }))
+        };
         Self {
-            a: std::array::from_fn(|i| std::array::from_fn(|j| integral(j, c[i]))),
+            a: std::array::from_fn(|j| stages(&|i| integral(j, c[i]))),
             b: weights,
-            continuation: std::array::from_fn(|i| {
-                std::array::from_fn(|j| lagrange(&c, j, 1.0 + c[i]))
-            }),
+            continuation: std::array::from_fn(|j| stages(&|i| lagrange(&c, j, 1.0 + c[i]))),
         }
     }
 }
@@ -66,7 +74,7 @@ fn lagrange<const S: usize>(c: &[f64; S], j: usize, x: f64) -> f64 {
 
 const MAX_ITERATIONS: usize = 200;
 
-impl<const S: usize> Solver for Gauss<S> {
+impl<const S: usize, const L: usize> Solver for Gauss<S, L> {
     const CONTROL: Control = Control::Step;
 
     #[inline]
@@ -77,66 +85,66 @@ impl<const S: usize> Solver for Gauss<S> {
         end: f64,
         step: f64,
     ) -> Result<[f64; N], RunError> {
-        let (count, h) = crate::method::Setting::steps(step, end);
+        let (count, h) = Setting::steps(step, end);
         let mut y = initial;
-        let start = field.evaluate(&y);
-        let mut slopes = [start; S];
+        let mut slopes = field.evaluate(&initial.map(Lanes::<L>::splat));
         for number in 0..count {
             if number > 0 {
-                slopes = combine_stages(&self.continuation, &slopes);
+                slopes = slopes.map(|slope| apply(&self.continuation, &slope));
             }
-            let mut before = f64::INFINITY;
-            let mut solved = false;
-            for _ in 0..MAX_ITERATIONS {
-                let sums = combine_stages(&self.a, &slopes);
-                let mut change = 0.0f64;
-                let new: [[f64; N]; S] = std::array::from_fn(|i| {
-                    let stage: [f64; N] = std::array::from_fn(|k| fma(h, sums[i][k], y[k]));
-                    field.evaluate(&stage)
-                });
-                for i in 0..S {
-                    for k in 0..N {
-                        change = change.max((new[i][k] - slopes[i][k]).abs());
-                    }
-                }
-                slopes = new;
-                // A change of the slopes counts h·|A| times in the stages: below 1e−16 of y it cannot be seen.
-                if h * change < 1e-16 || (change >= before && h * change < 1e-13) {
-                    solved = true;
-                    break;
-                }
-                if !change.is_finite() {
-                    break;
-                }
-                before = change;
-            }
-            if !solved {
-                return Err(RunError::NotConverged);
-            }
-            for k in 0..N {
-                let increment: f64 = (0..S).map(|i| self.b[i] * slopes[i][k]).sum();
-                y[k] = fma(h, increment, y[k]);
+            slopes = self.iterate(field, &y, h, slopes)?;
+            for (value, slope) in y.iter_mut().zip(&slopes) {
+                let increment: f64 = (0..S).map(|i| self.b[i] * slope.0[i]).sum();
+                *value = fma(h, increment, *value);
             }
         }
         Ok(y)
     }
 }
 
-/// Σ_j m_ij k_j.
-#[inline(always)]
-fn combine_stages<const S: usize, const N: usize>(
-    m: &[[f64; S]; S],
-    slopes: &[[f64; N]; S],
-) -> [[f64; N]; S] {
-    std::array::from_fn(|i| {
-        let mut sum = [0.0; N];
-        for j in 0..S {
+impl<const S: usize, const L: usize> Gauss<S, L> {
+    #[inline(always)]
+    fn iterate<const N: usize, F: VectorField<N>>(
+        &self,
+        field: &F,
+        y: &[f64; N],
+        h: f64,
+        mut slopes: [Lanes<L>; N],
+    ) -> Result<[Lanes<L>; N], RunError> {
+        let mut before = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let stages: [Lanes<L>; N] =
+                std::array::from_fn(|k| apply(&self.a, &slopes[k]).scaled(h, Lanes::splat(y[k])));
+            let new = field.evaluate(&stages);
+            let mut changes = [0.0f64; L];
             for k in 0..N {
-                sum[k] = fma(m[i][j], slopes[j][k], sum[k]);
+                for lane in 0..L {
+                    changes[lane] = changes[lane].max((new[k].0[lane] - slopes[k].0[lane]).abs());
+                }
             }
+            slopes = new;
+            let change = changes[..S].iter().fold(0.0f64, |max, v| max.max(*v));
+            // A change of the slopes counts h·|A| times in the stages: below 1e−16 of y it cannot be seen.
+            if h * change < 1e-16 || (change >= before && h * change < 1e-13) {
+                return Ok(slopes);
+            }
+            if !change.is_finite() {
+                break;
+            }
+            before = change;
         }
-        sum
-    })
+        Err(RunError::NotConverged)
+    }
+}
+
+/// A matrix, by columns, times the stages of one component.
+#[inline(always)]
+fn apply<const S: usize, const L: usize>(columns: &[Lanes<L>; S], stages: &Lanes<L>) -> Lanes<L> {
+    let mut sum = columns[0] * stages.0[0];
+    for (column, value) in columns.iter().zip(stages.0).skip(1) {
+        sum = column.scaled(value, sum);
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -145,13 +153,13 @@ mod tests {
 
     #[test]
     fn two_stages_are_the_textbook_ones() {
-        let method = Gauss::<2>::default();
+        let method = Gauss::<2, 2>::default();
         let r = 3f64.sqrt() / 6.0;
         let a = [[0.25, 0.25 - r], [0.25 + r, 0.25]];
         for i in 0..2 {
             assert!((method.b[i] - 0.5).abs() < 1e-15);
             for j in 0..2 {
-                assert!((method.a[i][j] - a[i][j]).abs() < 1e-15);
+                assert!((method.a[j].0[i] - a[i][j]).abs() < 1e-15);
             }
         }
     }

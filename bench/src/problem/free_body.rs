@@ -3,6 +3,7 @@
 use super::VectorField;
 use crate::{
     arithmetic::{Quaternion, Vector},
+    number::Number,
     state::{Rotation, State},
 };
 
@@ -57,8 +58,8 @@ pub(super) fn quaternion(rotation: &Rotation) -> Quaternion {
 
 /// ½ q (0, ω).
 #[inline(always)]
-pub(super) fn quaternion_rate(q: [f64; 4], w: &Vector) -> Quaternion {
-    let w = [0.5 * w[0], 0.5 * w[1], 0.5 * w[2]];
+pub(super) fn quaternion_rate<T: Number>(q: [T; 4], w: &[T; 3]) -> [T; 4] {
+    let w = w.map(|component| component * 0.5);
     [
         -q[1] * w[0] - q[2] * w[1] - q[3] * w[2],
         q[0] * w[0] + q[2] * w[2] - q[3] * w[1],
@@ -69,14 +70,14 @@ pub(super) fn quaternion_rate(q: [f64; 4], w: &Vector) -> Quaternion {
 
 impl VectorField<7> for FreeBody {
     #[inline(always)]
-    fn evaluate(&self, y: &[f64; 7]) -> [f64; 7] {
+    fn evaluate<T: Number>(&self, y: &[T; 7]) -> [T; 7] {
         let a = &self.inverse_inertia;
         let rate =
-            quaternion_rate([y[3], y[4], y[5], y[6]], &[a[0] * y[0], a[1] * y[1], a[2] * y[2]]);
+            quaternion_rate([y[3], y[4], y[5], y[6]], &[y[0] * a[0], y[1] * a[1], y[2] * a[2]]);
         [
-            (a[2] - a[1]) * y[1] * y[2],
-            (a[0] - a[2]) * y[2] * y[0],
-            (a[1] - a[0]) * y[0] * y[1],
+            y[1] * (a[2] - a[1]) * y[2],
+            y[2] * (a[0] - a[2]) * y[0],
+            y[0] * (a[1] - a[0]) * y[1],
             rate[0],
             rate[1],
             rate[2],

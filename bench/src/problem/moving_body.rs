@@ -3,6 +3,7 @@
 use super::{Translation, VectorField, free_body};
 use crate::{
     arithmetic::Vector,
+    number::Number,
     state::{Rotation, State},
 };
 
@@ -38,18 +39,18 @@ impl<T: Translation> MovingBody<T> {
 
 impl<T: Translation> VectorField<13> for MovingBody<T> {
     #[inline(always)]
-    fn evaluate(&self, y: &[f64; 13]) -> [f64; 13] {
+    fn evaluate<U: Number>(&self, y: &[U; 13]) -> [U; 13] {
         let a = &self.inverse_inertia;
-        let w = [a[0] * y[0], a[1] * y[1], a[2] * y[2]];
+        let w = [y[0] * a[0], y[1] * a[1], y[2] * a[2]];
         let force = [y[3], y[4], y[5]];
         let q = [y[6], y[7], y[8], y[9]];
         let torque = self.translation.torque(&force);
         let rate = free_body::quaternion_rate(q, &w);
         let moved = self.translation.moved(&q, &force);
         [
-            (a[2] - a[1]) * y[1] * y[2] + torque[0],
-            (a[0] - a[2]) * y[2] * y[0] + torque[1],
-            (a[1] - a[0]) * y[0] * y[1] + torque[2],
+            y[1] * (a[2] - a[1]) * y[2] + torque[0],
+            y[2] * (a[0] - a[2]) * y[0] + torque[1],
+            y[0] * (a[1] - a[0]) * y[1] + torque[2],
             force[1] * w[2] - force[2] * w[1],
             force[2] * w[0] - force[0] * w[2],
             force[0] * w[1] - force[1] * w[0],

@@ -1,15 +1,18 @@
 //! The part of a Hamiltonian on se(3)\* that depends on the linear momentum Γ.
 
-use crate::arithmetic::{Quaternion, Vector, cross, rotate};
+use crate::{
+    arithmetic::{Vector, cross, rotate},
+    number::Number,
+};
 
 /// V = ∂H/∂Γ and what is made of it, each kind written without its vanishing terms.
 pub trait Translation: Copy {
     /// V.
-    fn velocity(&self, force: &Vector) -> Vector;
+    fn velocity<T: Number>(&self, force: &[T; 3]) -> [T; 3];
     /// Γ × V.
-    fn torque(&self, force: &Vector) -> Vector;
+    fn torque<T: Number>(&self, force: &[T; 3]) -> [T; 3];
     /// R V with R given by a unit quaternion.
-    fn moved(&self, q: &Quaternion, force: &Vector) -> Vector;
+    fn moved<T: Number>(&self, q: &[T; 4], force: &[T; 3]) -> [T; 3];
 }
 
 /// H(Γ) = w Γ_AXIS: a heavy top whose centre of mass lies on a principal axis; Γ is gravity's direction in the body.
@@ -21,30 +24,30 @@ pub struct Gravity<const AXIS: usize> {
 
 impl<const AXIS: usize> Translation for Gravity<AXIS> {
     #[inline(always)]
-    fn velocity(&self, _: &Vector) -> Vector {
-        let mut v = [0.0; 3];
-        v[AXIS] = self.weight;
+    fn velocity<T: Number>(&self, _: &[T; 3]) -> [T; 3] {
+        let mut v = [T::splat(0.0); 3];
+        v[AXIS] = T::splat(self.weight);
         v
     }
 
     #[inline(always)]
-    fn torque(&self, force: &Vector) -> Vector {
+    fn torque<T: Number>(&self, force: &[T; 3]) -> [T; 3] {
         let (next, last) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
-        let mut t = [0.0; 3];
+        let mut t = [T::splat(0.0); 3];
         t[next] = force[last] * self.weight;
-        t[last] = -force[next] * self.weight;
+        t[last] = force[next] * -self.weight;
         t
     }
 
     #[inline(always)]
-    fn moved(&self, q: &Quaternion, _: &Vector) -> Vector {
+    fn moved<T: Number>(&self, q: &[T; 4], _: &[T; 3]) -> [T; 3] {
         let (next, last) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
         let (w, x, y, z) = (q[0], q[1 + AXIS], q[1 + next], q[1 + last]);
         let twice = 2.0 * self.weight;
-        let mut column = [0.0; 3];
-        column[AXIS] = self.weight - twice * (y * y + z * z);
-        column[next] = twice * (x * y + w * z);
-        column[last] = twice * (x * z - w * y);
+        let mut column = [T::splat(0.0); 3];
+        column[AXIS] = T::splat(self.weight) - (y * y + z * z) * twice;
+        column[next] = (x * y + w * z) * twice;
+        column[last] = (x * z - w * y) * twice;
         column
     }
 }
@@ -58,17 +61,17 @@ pub struct Mass {
 
 impl Translation for Mass {
     #[inline(always)]
-    fn velocity(&self, force: &Vector) -> Vector {
-        [self.inverse[0] * force[0], self.inverse[1] * force[1], self.inverse[2] * force[2]]
+    fn velocity<T: Number>(&self, force: &[T; 3]) -> [T; 3] {
+        [force[0] * self.inverse[0], force[1] * self.inverse[1], force[2] * self.inverse[2]]
     }
 
     #[inline(always)]
-    fn torque(&self, force: &Vector) -> Vector {
+    fn torque<T: Number>(&self, force: &[T; 3]) -> [T; 3] {
         cross(force, &self.velocity(force))
     }
 
     #[inline(always)]
-    fn moved(&self, q: &Quaternion, force: &Vector) -> Vector {
+    fn moved<T: Number>(&self, q: &[T; 4], force: &[T; 3]) -> [T; 3] {
         rotate(q, &self.velocity(force))
     }
 }
@@ -80,7 +83,7 @@ mod tests {
     #[test]
     fn gravity_is_a_constant_velocity() {
         let (q, force) = ([0.5, -0.5, 0.5, 0.5], [0.2, -0.7, 0.4]);
-        fn check<const AXIS: usize>(q: &Quaternion, force: &Vector) {
+        fn check<const AXIS: usize>(q: &[f64; 4], force: &Vector) {
             let gravity = Gravity::<AXIS> { weight: 3.0 };
             let v = gravity.velocity(force);
             assert_eq!(gravity.torque(force), cross(force, &v).map(|x| x + 0.0));

@@ -3,6 +3,7 @@
 //! Jorba and Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor methods*,
 //! Experimental Mathematics 14 (2005) 99, for the adaptive step.
 
+pub mod batch;
 mod free_body;
 mod lanes;
 mod moving_body;

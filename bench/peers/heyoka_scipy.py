@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""heyoka (Taylor's method, compiled at run time) and SciPy on the benchmark's problems, as rows of the same table.
+
+    python3 -m venv venv && venv/bin/pip install heyoka scipy numpy
+    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble]
+
+Equations, initial states and references come from ../reference/end_states.json: y = (momentum, force, quaternion,
+position), the free bodies without force and position. An error is the largest difference of a component of the end
+state, twice that for the quaternion, and momenta and positions of the heavy top in units of 100, as in the Rust program.
+Runs are interleaved over the tolerances; the figures are medians. `--ensemble` runs 4096 free bodies in heyoka's batch
+mode with batches of 8 (the states are those of the Rust program `ensemble`) and prints nanoseconds per trajectory and
+unit of time. Compile times of heyoka are not counted.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import time
+from fractions import Fraction
+
+import heyoka
+import numpy
+
+TARGETS = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12]
+FILE = pathlib.Path(__file__).parent.parent / "reference" / "end_states.json"
+
+
+class Problem:
+    def __init__(self, record):
+        vector = lambda key: [float(Fraction(t)) for t in record.get(key, ("0", "0", "0"))]
+        self.name, self.end = record["name"], float(record["end"])
+        self.a, self.b, self.c = vector("inverse_inertia"), vector("inverse_mass"), vector("linear")
+        self.moving = "force" in record
+        self.scale = 100.0 if self.name == "heavy-top" else 1.0
+        end = record["end_state"]
+        figures = lambda key: [float(t) for t in end[key]]
+        identity = [1.0, 0.0, 0.0, 0.0]
+        if self.moving:
+            self.initial = vector("momentum") + vector("force") + identity + [0.0] * 3
+            self.reference = figures("momentum") + figures("force") + figures("quaternion") + figures("position")
+            units = [1 / self.scale] * 3 + [1.0] * 3 + [2.0] * 4 + [1 / self.scale] * 3
+        else:
+            self.initial = vector("momentum") + identity
+            self.reference = figures("momentum") + figures("quaternion")
+            units = [1.0] * 3 + [2.0] * 4
+        self.initial, self.reference = numpy.array(self.initial), numpy.array(self.reference)
+        self.units = numpy.array(units)
+
+    def error(self, state):
+        opposite = self.reference.copy()
+        start = 6 if self.moving else 3
+        opposite[start:start + 4] *= -1
+        return min(float(numpy.max(numpy.abs(state - r) * self.units)) for r in (self.reference, opposite))
+
+    def rates(self, y):
+        """The right-hand side, for numbers and for heyoka's expressions; vanishing terms are left out."""
+        a, b, c = self.a, self.b, self.c
+        m = y[0:3]
+        w = [a[i] * m[i] for i in range(3)]
+        cross = lambda u, v: [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        turn = [(a[2] - a[1]) * m[1] * m[2], (a[0] - a[2]) * m[2] * m[0], (a[1] - a[0]) * m[0] * m[1]]
+        q = y[6:10] if self.moving else y[3:7]
+        attitude = [
+            -0.5 * (q[1] * w[0] + q[2] * w[1] + q[3] * w[2]),
+            0.5 * (q[0] * w[0] + q[2] * w[2] - q[3] * w[1]),
+            0.5 * (q[0] * w[1] + q[3] * w[0] - q[1] * w[2]),
+            0.5 * (q[0] * w[2] + q[1] * w[1] - q[2] * w[0]),
+        ]
+        if not self.moving:
+            return turn + attitude
+        f = y[3:6]
+        s, x, yy, z = q
+        columns = [
+            [1 - 2 * (yy * yy + z * z), 2 * (x * yy + s * z), 2 * (x * z - s * yy)],
+            [2 * (x * yy - s * z), 1 - 2 * (x * x + z * z), 2 * (yy * z + s * x)],
+            [2 * (x * z + s * yy), 2 * (yy * z - s * x), 1 - 2 * (x * x + yy * yy)],
+        ]
+        if any(b):
+            v = [b[i] * f[i] for i in range(3)]
+            torque = [(b[2] - b[1]) * f[1] * f[2], (b[0] - b[2]) * f[2] * f[0], (b[1] - b[0]) * f[0] * f[1]]
+            moved = [sum(columns[i][row] * v[i] for i in range(3)) for row in range(3)]
+        else:
+            axis = next(i for i in range(3) if c[i])
+            following, last, weight = (axis + 1) % 3, (axis + 2) % 3, c[axis]
+            torque = [0, 0, 0]
+            torque[following], torque[last] = weight * f[last], -weight * f[following]
+            moved = [weight * columns[axis][row] for row in range(3)]
+        return [turn[i] + torque[i] for i in range(3)] + cross(f, w) + attitude + moved
+
+
+def heyoka_system(problem):
+    names = heyoka.make_vars(*[f"y{i}" for i in range(len(problem.initial))])
+    return list(zip(names, problem.rates(list(names))))
+
+
+def heyoka_runs(problem):
+    """(tolerance, function that returns the end state) for the scalar integrator."""
+    system = heyoka_system(problem)
+    for k in range(8, 33):
+        tolerance = 10 ** (-k / 2)
+        integrator = heyoka.taylor_adaptive(system, problem.initial, tol=tolerance, high_accuracy=False)
+
+        def run(integrator=integrator):
+            integrator.time = 0.0
+            integrator.state[:] = problem.initial
+            integrator.propagate_until(problem.end)
+            return integrator.state.copy()
+
+        yield tolerance, run
+
+
+def scipy_runs(problem, method):
+    from scipy.integrate import solve_ivp
+
+    field = lambda _, y: problem.rates(y)
+    for k in range(3, 14):
+        tolerance = 10.0 ** -k
+
+        def run(tolerance=tolerance):
+            solution = solve_ivp(field, (0, problem.end), problem.initial, method=method, rtol=tolerance, atol=tolerance)
+            return solution.y[:, -1]
+
+        yield tolerance, run
+
+
+def measure(problem, runs, rounds):
+    """[(error, nanoseconds per unit of time, tolerance)], timed round robin."""
+    candidates = [(tolerance, run, problem.error(run())) for tolerance, run in runs]
+    times = [[] for _ in candidates]
+    for _ in range(rounds):
+        for samples, (_, run, _) in zip(times, candidates):
+            start = time.perf_counter_ns()
+            run()
+            samples.append(time.perf_counter_ns() - start)
+    return [(error, statistics.median(s) / problem.end, tolerance) for (tolerance, _, error), s in zip(candidates, times)]
+
+
+def row(name, rows):
+    cells = []
+    for target in TARGETS:
+        costs = [cost for error, cost, _ in rows if error <= target]
+        cells.append(f"{min(costs):.0f}" if costs else "–")
+    print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+
+
+def bodies(count):
+    """The states of the Rust program `ensemble`: SplitMix64 from seed 1, three numbers in [-1, 1) scaled to norm 1.5 to 3."""
+    state, mask = 1, (1 << 64) - 1
+
+    def uniform():
+        nonlocal state
+        state = (state + 0x9E3779B97F4A7C15) & mask
+        z = state
+        z = ((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        z = ((z ^ (z >> 27)) * 0x94D049BB133111EB) & mask
+        return ((z ^ (z >> 31)) >> 11) / float(1 << 53)
+
+    momenta = []
+    while len(momenta) < count:
+        m = [2 * uniform() - 1 for _ in range(3)]
+        norm = sum(v * v for v in m) ** 0.5
+        size = 1.5 + 1.5 * uniform()
+        if norm > 0.1:
+            momenta.append([v * size / norm for v in m])
+    return numpy.array(momenta)
+
+
+def ensemble(problem, rounds, end=100.0, count=4096, batch=8):
+    system = heyoka_system(problem)
+    momenta = bodies(count)
+    initial = numpy.zeros((count // batch, 7, batch))
+    initial[:, 0:3, :] = momenta.reshape(-1, batch, 3).transpose(0, 2, 1)
+    initial[:, 3, :] = 1.0
+
+    def states(integrator):
+        ends = numpy.empty_like(initial)
+        for index in range(len(initial)):
+            integrator.set_time(0.0)
+            integrator.state[:] = initial[index]
+            integrator.propagate_until(end)
+            ends[index] = integrator.state
+        return ends
+
+    make = lambda tolerance: heyoka.taylor_adaptive_batch(system, initial[0].copy(), tol=tolerance)
+    reference = states(make(1e-17))
+    print(f"\n{count} free bodies, T = {end:g}, heyoka in batches of {batch}, one core\n")
+    print("| tolerance | largest error | median error | ns per trajectory and unit of time |\n|---|---:|---:|---:|")
+    integrators = [(10 ** (-k / 2), make(10 ** (-k / 2))) for k in range(12, 33, 2)]
+    times = [[] for _ in integrators]
+    errors = []
+    for number in range(rounds):
+        for samples, (_, integrator) in zip(times, integrators):
+            start = time.perf_counter_ns()
+            ends = states(integrator)
+            samples.append((time.perf_counter_ns() - start) / (count * end))
+            if number == 0:
+                errors.append(numpy.max(numpy.abs(ends - reference) * problem.units[None, :, None], axis=1).ravel())
+    for (tolerance, _), error, samples in zip(integrators, errors, times):
+        print(f"| {tolerance:.1e} | {error.max():.1e} | {numpy.median(error):.1e} | {statistics.median(samples):.0f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--problem", action="append", help="only this problem; may be repeated")
+    parser.add_argument("--rounds", type=int, default=15)
+    parser.add_argument("--scipy", action="store_true", help="SciPy's DOP853 and RK45 too (slow)")
+    parser.add_argument("--ensemble", action="store_true", help="the ensemble only")
+    arguments = parser.parse_args()
+    problems = [Problem(record) for record in json.loads(FILE.read_text())]
+    if arguments.ensemble:
+        ensemble(problems[0], max(3, arguments.rounds // 5))
+        return
+    for problem in problems:
+        if arguments.problem and problem.name not in arguments.problem:
+            continue
+        print(f"\n## {problem.name}, T = {problem.end:g} (heyoka {heyoka.__version__}, SIMD {heyoka.recommended_simd_size()})\n")
+        print("| method | " + " | ".join(f"{t:.0e}" for t in TARGETS) + " |\n|---|" + "---:|" * len(TARGETS))
+        row("heyoka (scalar)", measure(problem, heyoka_runs(problem), arguments.rounds))
+        if arguments.scipy:
+            for method in ("DOP853", "RK45"):
+                row(f"SciPy {method}", measure(problem, scipy_runs(problem, method), 1))
+
+
+main()
