@@ -114,10 +114,11 @@ fn step_sizes<const N: usize, const L: usize>(series: &Series<N, L>, tolerance: 
         sizes
     };
     let (first, before, last) = (size(0), size(N - 2), size(N - 1));
+    // Seven digits of a step size are plenty, and single precision takes a fraction of the time.
+    let root = |ratio: f64, degree: usize| f64::from((ratio as f32).powf(1.0 / degree as f32));
     std::array::from_fn(|lane| {
         let limit = tolerance * first[lane];
-        let one = (limit / last[lane]).powf(1.0 / (N - 1) as f64);
-        one.min((limit / before[lane]).powf(1.0 / (N - 2) as f64))
+        root(limit / last[lane], N - 1).min(root(limit / before[lane], N - 2))
     })
 }
 

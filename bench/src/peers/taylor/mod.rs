@@ -130,9 +130,9 @@ fn horner<const M: usize, const N: usize>(series: &[[Lanes; M]; N], h: f64) -> [
 fn step_size<const M: usize, const N: usize>(series: &[[Lanes; M]; N], tolerance: f64) -> f64 {
     let size = |k: usize| series[k].iter().flatten().fold(0.0f64, |max, v| max.max(v.abs()));
     let limit = tolerance * size(0);
-    let last = (limit / size(N - 1)).powf(1.0 / (N - 1) as f64);
-    let before = (limit / size(N - 2)).powf(1.0 / (N - 2) as f64);
-    last.min(before)
+    // Seven digits of a step size are plenty, and single precision takes a fraction of the time.
+    let root = |k: usize| f64::from(((limit / size(k)) as f32).powf(1.0 / k as f32));
+    root(N - 1).min(root(N - 2))
 }
 
 impl<const N: usize> Method for Taylor<N> {
