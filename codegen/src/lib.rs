@@ -14,3 +14,8 @@ pub mod poly;
 pub mod problem;
 #[cfg(feature = "system")]
 pub mod system;
+
+#[cfg(feature = "system")]
+mod build_script;
+#[cfg(feature = "system")]
+pub use build_script::{Build, BuildError};

@@ -79,6 +79,20 @@ fn the_function_stays_the_energy() -> Result<(), StepError> {
     Ok(())
 }
 
+#[lie_poisson(group = SO3, truncation = 1)]
+fn awkward(mu: [f64; 3], step: f64, symbols: [[f64; 2]; 2], unused: f64) -> f64 {
+    let _ = unused;
+    step * mu[0] * mu[0] + symbols[1][0] * mu[1] * mu[2]
+}
+
+#[test]
+fn parameters_may_have_the_names_of_the_constructor() -> Result<(), StepError> {
+    let built = Awkward::new(0.1, 2.0, [[0.0, 0.0], [3.0, 0.0]], 0.0)?;
+    let mu = [1.0, 2.0, 3.0];
+    assert_eq!(built.energy(&mu.into()), awkward(mu, 2.0, [[0.0, 0.0], [3.0, 0.0]], 0.0));
+    Ok(())
+}
+
 #[test]
 fn wrong_steps_and_parameters_are_refused() {
     assert!(matches!(Indexed::new(0.0, INERTIA), Err(StepError::InvalidStep { step: 0.0 })));

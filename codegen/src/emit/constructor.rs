@@ -1,6 +1,6 @@
 //! `new`: folding the coefficients for a step size and parameters.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::number::float;
@@ -15,10 +15,15 @@ pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream 
     let mut arguments = Vec::new();
     let mut scalars = Vec::new();
     for parameter in &problem.parameters {
-        let name = format_ident!("{}", parameter.name);
+        let name = argument_name(&parameter.name);
         let ty = parameter_type(&parameter.shape, krate);
         arguments.push(quote!(#name: #ty));
-        scalars.extend(parameter.scalar_names().iter().map(|scalar| expression(scalar)));
+        scalars.extend(parameter.scalar_names().iter().map(|scalar| {
+            // `inertia[0]`: the name, then how the scalar is reached.
+            let access = scalar.strip_prefix(parameter.name.as_str()).unwrap_or_default();
+            let access: TokenStream = access.parse().unwrap_or_default();
+            quote!(#name #access)
+        }));
     }
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = problem.symbols.iter().map(|s| &s.text);
@@ -58,6 +63,16 @@ pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream 
     }
 }
 
+/// A parameter's name as an argument; an underscore is added where it would be a keyword or one of
+/// the constructor's own names.
+fn argument_name(name: &str) -> Ident {
+    let taken = ["step", "symbols", "coefficients", "defect", "TABLE"].contains(&name);
+    match syn::parse_str::<Ident>(name) {
+        Ok(name) if !taken => name,
+        _ => format_ident!("{name}_"),
+    }
+}
+
 /// The type of a parameter over the scalar `T`.
 fn parameter_type(shape: &Shape, krate: &TokenStream) -> TokenStream {
     let size = |n: &usize| Literal::usize_unsuffixed(*n);
@@ -80,9 +95,4 @@ fn parameter_type(shape: &Shape, krate: &TokenStream) -> TokenStream {
             quote!(#krate::nalgebra::SMatrix<T, #rows, #columns>)
         }
     }
-}
-
-/// A parameter's scalar, `inertia[0]`, as tokens.
-fn expression(scalar: &str) -> TokenStream {
-    scalar.parse().unwrap_or_else(|_| quote!(compile_error!("not an expression")))
 }

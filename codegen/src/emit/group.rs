@@ -7,7 +7,8 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::number::exact;
-use crate::lie::{Chart, LieAlgebra};
+use crate::lie::{Chart, LieAlgebra, casimirs};
+use crate::poly::Polynomial;
 
 /// Groups the runtime has a type of its own for, under the catalogue's name.
 const RUNTIME_TYPES: [&str; 2] = ["SO3", "SE3"];
@@ -75,6 +76,18 @@ fn definition(
         .check(algebra)
         .is_ok()
         .then(|| quote!(impl #krate::CayleyAlgebra for #marker {}));
+    let casimirs = known_casimirs(algebra).into_iter().map(|casimir| {
+        let terms = casimir.terms().map(|(exponents, value)| {
+            let powers = exponents.iter().enumerate().filter(|(_, power)| **power > 0);
+            let factors = powers.map(|(i, &power)| {
+                let (i, power) = (index(i), Literal::u32_unsuffixed(power));
+                quote!((#i, #power))
+            });
+            let value = exact(&value);
+            quote!((#value, &[#(#factors),*]))
+        });
+        quote!(&[#(#terms),*])
+    });
     let about = format!(" The Lie algebra {} as tables.", algebra.name());
     let about_group = format!(" The group of {}.", algebra.name());
     quote! {
@@ -87,7 +100,7 @@ fn definition(
             const MATRIX_SIZE: usize = #d;
             const STRUCTURE: &'static [#krate::StructureConstant] = &[#(#structure),*];
             const BASIS: ::core::option::Option<&'static [#krate::BasisEntry]> = #basis;
-            const CASIMIRS: &'static [&'static [#krate::CasimirTerm]] = &[];
+            const CASIMIRS: &'static [&'static [#krate::CasimirTerm]] = &[#(#casimirs),*];
         }
 
         #cayley
@@ -95,6 +108,17 @@ fn definition(
         #[doc = #about_group]
         #visibility type #group<T = f64> = #krate::StaticMatrixGroup<#marker, #n, #d, T>;
     }
+}
+
+/// The polynomial Casimirs of low degree; none where finding them would take long, since the
+/// integrator needs them for reports only.
+fn known_casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
+    let degree = match algebra.dim() {
+        0..=8 => 3,
+        9..=24 => 2,
+        _ => return Vec::new(),
+    };
+    casimirs(algebra, degree).unwrap_or_default()
 }
 
 /// The structure constants with both orders of every bracket, sorted.

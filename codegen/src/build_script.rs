@@ -1,0 +1,135 @@
+//! Integrators from a build script.
+
+use std::path::{Path, PathBuf};
+
+use crate::emit;
+use crate::hamilton_jacobi::{DeriveError, TermLimit};
+use crate::integrator::Integrator;
+use crate::lie::Chart;
+use crate::system::{self, Parameters};
+
+/// Writes the integrator of a system file as a module into `OUT_DIR`, anew only when the file
+/// changes.
+///
+/// In `build.rs`:
+///
+/// ```no_run
+/// fn main() -> Result<(), coadjoint_codegen::BuildError> {
+///     coadjoint_codegen::Build::new("systems/heavy_top.toml").truncation(5).write("heavy_top.rs")?;
+///     Ok(())
+/// }
+/// ```
+///
+/// and in the crate:
+///
+/// ```ignore
+/// mod heavy_top {
+///     include!(concat!(env!("OUT_DIR"), "/heavy_top.rs"));
+/// }
+/// ```
+///
+/// The parameters of the file become arguments of `new`, in the order of the file; `[initial]` and
+/// `[run]` are not used.
+#[derive(Clone, Debug)]
+pub struct Build {
+    input: PathBuf,
+    options: system::Options,
+    limit: TermLimit,
+}
+
+/// Why a module was not written. Printed by a build script that returns it.
+#[derive(thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// A file could not be read or written.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// `OUT_DIR` is not set.
+    #[error("OUT_DIR is not set: call this from a build script, or use `write_to` with a path")]
+    NoOutDir,
+    /// The system file has mistakes.
+    #[error("{0}")]
+    System(String),
+    /// The series could not be derived.
+    #[error("{path}: {source}")]
+    Derive {
+        /// The system file.
+        path: PathBuf,
+        /// Why.
+        source: DeriveError,
+    },
+}
+
+/// `main` shows errors by `Debug`; what a user wants to read there is the message.
+impl std::fmt::Debug for BuildError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{self}")
+    }
+}
+
+impl Build {
+    /// The integrator of the system file `input`, relative to the package.
+    pub fn new(input: impl Into<PathBuf>) -> Self {
+        let options = system::Options { parameters: Parameters::Kept, ..Default::default() };
+        Self { input: input.into(), options, limit: TermLimit::default() }
+    }
+
+    /// Replaces the truncation of the file.
+    #[must_use]
+    pub fn truncation(mut self, truncation: usize) -> Self {
+        self.options.truncation = Some(truncation);
+        self
+    }
+
+    /// Replaces the chart of the file.
+    #[must_use]
+    pub fn chart(mut self, chart: Chart) -> Self {
+        self.options.chart = Some(chart);
+        self
+    }
+
+    /// Puts the parameters' values into the Hamiltonian: fewer coefficients, and `new` takes the
+    /// step size alone.
+    #[must_use]
+    pub fn substitute_parameters(mut self) -> Self {
+        self.options.parameters = Parameters::Substituted;
+        self
+    }
+
+    /// Writes the module as `name` into `OUT_DIR` and tells cargo to come back only when the
+    /// system file changes.
+    ///
+    /// # Errors
+    /// [`BuildError`]: every mistake in the system file at once, with its line.
+    pub fn write(&self, name: &str) -> Result<PathBuf, BuildError> {
+        println!("cargo::rerun-if-changed={}", self.input.display());
+        let directory = std::env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
+        let path = Path::new(&directory).join(name);
+        self.write_to(&path)?;
+        Ok(path)
+    }
+
+    /// Writes the module to `path`.
+    ///
+    /// # Errors
+    /// [`BuildError`].
+    pub fn write_to(&self, path: &Path) -> Result<(), BuildError> {
+        let io = |path: &Path| {
+            let path = path.to_owned();
+            move |source| BuildError::Io { path, source }
+        };
+        let text = std::fs::read_to_string(&self.input).map_err(io(&self.input))?;
+        let file = self.input.display().to_string();
+        let system = system::read(&text, self.options)
+            .map_err(|mistakes| BuildError::System(mistakes.render(&file, &text)))?;
+        let options = emit::Options::for_problem(&system.problem.name);
+        let integrator = Integrator::build(system.problem, self.limit)
+            .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
+        std::fs::write(path, emit::file(&integrator, &options)).map_err(io(path))
+    }
+}
