@@ -36,6 +36,21 @@ pub fn fallback(function: &ItemFn, krate: &TokenStream) -> TokenStream {
                 ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
                     loop {}
                 }
+
+                pub fn poisson_map<V>(
+                    &self,
+                    mu: &V,
+                ) -> ::core::result::Result<V, #krate::StepError> {
+                    loop {}
+                }
+
+                pub fn energy<V>(&self, mu: &V) -> T {
+                    loop {}
+                }
+
+                pub fn step(&self) -> T {
+                    loop {}
+                }
             }
         };
     }

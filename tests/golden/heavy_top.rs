@@ -19,7 +19,14 @@ pub struct HeavyTop<T = f64> {
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
 }
-#[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, unused_variables)]
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    dead_code,
+    non_snake_case,
+    unused_variables
+)]
 const _: () = {
     impl<T: ::coadjoint::Scalar> HeavyTop<T> {
         /// K: the series S₁ … S_K of the generating function is kept.

@@ -23,7 +23,9 @@ impl ::coadjoint::StaticAlgebra for ThreeWaveAlgebra {
     const BASIS: ::core::option::Option<&'static [::coadjoint::BasisEntry]> = ::core::option::Option::Some(
         &[(0, 0, 0, 1.0), (0, 1, 1, -1.0), (1, 0, 1, 1.0), (2, 1, 0, 1.0)],
     );
-    const CASIMIRS: &'static [&'static [::coadjoint::CasimirTerm]] = &[];
+    const CASIMIRS: &'static [&'static [::coadjoint::CasimirTerm]] = &[
+        &[(1.0, &[(0, 2)]), (4.0, &[(1, 1), (2, 1)])],
+    ];
 }
 impl ::coadjoint::CayleyAlgebra for ThreeWaveAlgebra {}
 /// The group of SL2.
@@ -46,7 +48,14 @@ pub struct ThreeWave<T = f64> {
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
 }
-#[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, unused_variables)]
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    dead_code,
+    non_snake_case,
+    unused_variables
+)]
 const _: () = {
     impl<T: ::coadjoint::Scalar> ThreeWave<T> {
         /// K: the series S₁ … S_K of the generating function is kept.

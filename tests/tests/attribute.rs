@@ -80,9 +80,9 @@ fn the_function_stays_the_energy() -> Result<(), StepError> {
 }
 
 #[lie_poisson(group = SO3, truncation = 1)]
-fn awkward(mu: [f64; 3], step: f64, symbols: [[f64; 2]; 2], unused: f64) -> f64 {
+fn awkward(mu: [f64; 3], coefficients: f64, symbols: [[f64; 2]; 2], unused: f64) -> f64 {
     let _ = unused;
-    step * mu[0] * mu[0] + symbols[1][0] * mu[1] * mu[2]
+    coefficients * mu[0] * mu[0] + symbols[1][0] * mu[1] * mu[2]
 }
 
 #[test]
