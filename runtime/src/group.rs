@@ -94,6 +94,12 @@ pub trait LieGroup: Clone + Debug {
     ) -> Result<Self::Element, ElementError>;
 }
 
+/// A group whose dimension is known to the compiler; products of such groups check theirs there.
+pub trait FixedDimension {
+    /// n, the dimension of the group.
+    const DIM: usize;
+}
+
 /// A group with the Cayley map cay(x) = (1 − x/2)⁻¹(1 + x/2) in its matrix representation.
 ///
 /// Only for groups where ξ, x ∈ 𝔤 implies xξx ∈ 𝔤 (so(n), sp(n), se(3), u(n); not su(3)).

@@ -58,15 +58,25 @@ pub mod ensemble;
 mod error;
 mod generating_function;
 mod group;
+mod heisenberg;
 mod lanes;
+#[cfg(feature = "alloc")]
+pub mod laws;
+mod monitor;
 mod phase;
 #[doc(hidden)]
 pub mod plumbing;
+#[cfg(feature = "alloc")]
+mod polynomial_function;
+mod product;
 mod reconstruct;
+mod reversed;
 mod scalar;
+mod se2;
 mod se3;
 mod so3;
 mod solve;
+mod su2;
 mod table;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
@@ -117,14 +127,22 @@ pub use coordinates::Coordinates;
 pub use element_error::ElementError;
 pub use error::StepError;
 pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
-pub use group::{CayleyGroup, LieGroup};
+pub use group::{CayleyGroup, FixedDimension, LieGroup};
+pub use heisenberg::Heisenberg;
 pub use lanes::{F64x4, F64x8, LaneGroup, Lanes};
+pub use monitor::{Drift, Monitor};
 pub use phase::Phase;
+#[cfg(feature = "alloc")]
+pub use polynomial_function::PolynomialFunction;
+pub use product::{Power, Product};
 pub use reconstruct::{StepReport, advance, poisson_map};
+pub use reversed::Reversed;
 pub use scalar::Scalar;
+pub use se2::SE2;
 pub use se3::SE3;
 pub use so3::SO3;
 pub use solve::{MAX_ITERATIONS, Solution, solve};
+pub use su2::SU2;
 pub use table::{
     BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, StaticAlgebra, StaticMatrixGroup,
     StaticTables, StructureConstant, TableGroup, Tables,

@@ -7,7 +7,7 @@ use core::marker::PhantomData;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, Vector3, Vector6};
 
 use crate::element_error::{ElementError, finite, fixed};
-use crate::group::LieGroup;
+use crate::group::{FixedDimension, LieGroup};
 use crate::scalar::Scalar;
 use crate::so3::{
     SO3, cross, dexp_with_derivative, dot, kernel, quaternion, rotate_back, rotation_from,
@@ -28,6 +28,10 @@ impl<T> SE3<T> {
     pub const fn new() -> Self {
         Self(PhantomData)
     }
+}
+
+impl<T> FixedDimension for SE3<T> {
+    const DIM: usize = 6;
 }
 
 type V<T> = Vector3<T>;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3
 
 use crate::compensated::{CompensatedGroup, kahan};
 use crate::element_error::{ElementError, finite, within};
-use crate::group::{CayleyGroup, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::scalar::Scalar;
 
 /// The rotation group SO(3), elements as unit quaternions.
@@ -31,6 +31,10 @@ impl<T> SO3<T> {
     pub const fn new() -> Self {
         Self(PhantomData)
     }
+}
+
+impl<T> FixedDimension for SO3<T> {
+    const DIM: usize = 3;
 }
 
 type V<T> = Vector3<T>;

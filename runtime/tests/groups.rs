@@ -5,8 +5,8 @@
 mod common;
 
 use coadjoint::{
-    CayleyAlgebra, ElementError, LieGroup, MatrixGroup, SE3, SO3, StaticAlgebra, StaticMatrixGroup,
-    TableError,
+    CayleyAlgebra, ElementError, Heisenberg, LieGroup, MatrixGroup, Power, Product, SE2, SE3, SO3,
+    SU2, StaticAlgebra, StaticMatrixGroup, TableError,
 };
 use common::{cayley_laws, distance, element_distance, group_laws, small};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
@@ -114,6 +114,27 @@ fn closed_forms() {
     group_laws(&SE3::<f64>::new(), 1.2, true);
     cayley_laws(&SO3::<f64>::new(), 1.0);
     cayley_laws(&SE3::<f64>::new(), 1.0);
+}
+
+#[test]
+fn small_groups_in_closed_form() {
+    group_laws(&SU2::<f64>::new(), 1.0, true);
+    group_laws(&SU2::<f64>::new(), 2.5, true);
+    group_laws(&SE2::<f64>::new(), 1.0, true);
+    group_laws(&SE2::<f64>::new(), 2.9, true);
+    group_laws(&Heisenberg::<f64>::new(), 1.0, true);
+    cayley_laws(&SU2::<f64>::new(), 1.0);
+    cayley_laws(&SE2::<f64>::new(), 1.0);
+    cayley_laws(&Heisenberg::<f64>::new(), 1.0);
+}
+
+#[test]
+fn products() {
+    group_laws(&Product::<SO3, SE2, 6>::default(), 1.0, true);
+    cayley_laws(&Product::<SO3, SE2, 6>::default(), 0.7);
+    group_laws(&Power::<SU2, 3, 9>::default(), 1.0, true);
+    cayley_laws(&Power::<SU2, 3, 9>::default(), 0.7);
+    group_laws(&Product::<Power<SO3, 2, 6>, Heisenberg, 9>::default(), 0.7, true);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What the integration tests share.
 
+pub mod bridge;
 pub mod golden;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;

@@ -269,13 +269,14 @@ const SINE_MINUS_COSINE_SLOPE: [f64; 10] = {
     c
 };
 
-/// θ/sin(θ/2) for w = cos(θ/2) ≥ 0 and s = sin²(θ/2): the factor from a quaternion's vector part
+/// θ/sin(θ/2) for w = cos(θ/2) > −1 and s = sin²(θ/2): the factor from a quaternion's vector part
 /// to its logarithm.
 pub fn log_factor<T: Scalar>(w: T, s: T) -> T {
     let root = s.simd_sqrt();
     let factor = T::of(2.0) * root.simd_atan2(w) / root;
     // For tiny s, θ/sin(θ/2) = 2 (1 + s/6 + …)/… and w is 1 to rounding.
     let series = T::of(2.0) + s * T::of(1.0 / 3.0);
-    let tiny = s.simd_le(T::of(1e-9));
+    // Close to a full turn (w < 0, SU(2) only) s is small too, but nothing is lost there.
+    let tiny = s.simd_le(T::of(1e-9)) & w.simd_gt(T::of(0.0));
     series.select(tiny, factor)
 }

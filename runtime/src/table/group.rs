@@ -7,7 +7,7 @@ use super::fixed::{StaticAlgebra, StaticTables};
 use super::linear;
 use crate::coordinates::Coordinates;
 use crate::element_error::ElementError;
-use crate::group::LieGroup;
+use crate::group::{FixedDimension, LieGroup};
 use crate::scalar::Scalar;
 
 /// A Lie group given by the tables of its Lie algebra: structure constants, and a matrix basis
@@ -38,6 +38,10 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T> TableGroup<StaticTable
     pub const fn new() -> Self {
         Self { tables: StaticTables::new() }
     }
+}
+
+impl<A, const N: usize, const D: usize, T> FixedDimension for TableGroup<StaticTables<A, N, D, T>> {
+    const DIM: usize = N;
 }
 
 /// Matrices of the representation.

@@ -1,0 +1,177 @@
+//! Laws about derivatives of the map.
+
+use alloc::vec::Vec;
+
+use super::Vector;
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::GeneratingFunction;
+use crate::group::LieGroup;
+use crate::phase::Phase;
+use crate::reconstruct::{advance, poisson_map};
+
+/// Weights of the central difference of eighth order at ±1, ±2, ±3, ±4 steps
+/// (B. Fornberg, Math. Comp. 51 (1988) 699, table 1).
+const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// The step of the differences, relative to the momentum: rounding enters with 1e-16/step, the
+/// neglected ninth derivative with step⁸.
+const STEP: f64 = 4e-3;
+
+/// The derivative at 0 of `f`, in coordinates.
+fn derivative<V: Coordinates<f64>, const K: usize>(
+    dim: usize,
+    step: f64,
+    f: &mut dyn FnMut(f64) -> Result<Option<[V; K]>, StepError>,
+) -> Result<Option<[V; K]>, StepError> {
+    let mut sum: [V; K] = core::array::from_fn(|_| V::zeros(dim));
+    for (k, weight) in WEIGHTS.into_iter().enumerate() {
+        let offset = step * (k + 1) as f64;
+        let (Some(ahead), Some(behind)) = (f(offset)?, f(-offset)?) else {
+            return Ok(None);
+        };
+        for ((sum, ahead), behind) in sum.iter_mut().zip(ahead).zip(behind) {
+            *sum = V::from_entries(dim, |i| sum[i] + weight / step * (ahead[i] - behind[i]));
+        }
+    }
+    Ok(Some(sum))
+}
+
+fn unit<V: Coordinates<f64>>(dim: usize, i: usize) -> V {
+    V::from_entries(dim, |k| if k == i { 1.0 } else { 0.0 })
+}
+
+fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
+    let mut result = v.clone();
+    result[i] += by;
+    result
+}
+
+/// DΦ B(μ) DΦᵀ = B(Φ(μ)), with B_jk(μ) = −⟨μ, [e_j, e_k]⟩: the largest difference of an entry,
+/// relative to the largest entry of B or of the products summed.
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn poisson_defect<S>(map: &S, mu: &Vector<S>) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let group = map.group();
+    let dim = group.dim();
+    let image = poisson_map(map, mu)?;
+    let step = STEP * mu.largest_entry().max(f64::MIN_POSITIVE);
+    let mut columns = Vec::with_capacity(dim);
+    for i in 0..dim {
+        let mut image = |s: f64| poisson_map(map, &shifted(mu, i, s)).map(|image| Some([image]));
+        if let Some([column]) = derivative(dim, step, &mut image)? {
+            columns.push(column);
+        }
+    }
+    let basis: Vec<Vector<S>> = (0..dim).map(|i| unit(dim, i)).collect();
+    let tensor =
+        |mu: &Vector<S>, j: usize, k: usize| -mu.pairing(&group.bracket(&basis[j], &basis[k]));
+    let (mut worst, mut scale) = (0.0_f64, f64::MIN_POSITIVE);
+    for r in 0..dim {
+        for s in r + 1..dim {
+            let expected = tensor(&image, r, s);
+            let mut found = 0.0;
+            for (j, a) in columns.iter().enumerate() {
+                for (k, b) in columns.iter().enumerate() {
+                    let product = a[r] * tensor(mu, j, k) * b[s];
+                    found += product;
+                    scale = scale.max(product.abs());
+                }
+            }
+            scale = scale.max(expected.abs());
+            let difference = (found - expected).abs();
+            if difference.is_nan() {
+                return Ok(f64::NAN);
+            }
+            worst = worst.max(difference);
+        }
+    }
+    Ok(worst / scale)
+}
+
+/// A tangent vector of T\*G in the left trivialisation.
+struct Tangent<V> {
+    xi: V,
+    nu: V,
+}
+
+/// Φ\*ω = ω on T\*G, ω((ξ₁, ν₁), (ξ₂, ν₂)) = ⟨ν₂, ξ₁⟩ − ⟨ν₁, ξ₂⟩ + ⟨μ, [ξ₁, ξ₂]⟩: the largest
+/// difference on pairs of basis vectors, relative to the largest pairing. `None` for a group
+/// without logarithm.
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn symplectic_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<Option<f64>, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    symplectic_defect_of(map.group(), point, &mut |state| advance(map, state).map(|_| ()))
+}
+
+/// [`symplectic_defect`] of any map of T\*G, given as what advances a state.
+///
+/// # Errors
+/// As `map`.
+pub fn symplectic_defect_of<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    point: &Phase<G>,
+    map: &mut dyn FnMut(&mut Phase<G>) -> Result<(), StepError>,
+) -> Result<Option<f64>, StepError> {
+    let dim = group.dim();
+    let mut image = point.clone();
+    map(&mut image)?;
+    let back = group.inverse(&image.group_element);
+    let step = STEP * point.momentum.largest_entry().max(f64::MIN_POSITIVE);
+    let mut pairs = Vec::with_capacity(2 * dim);
+    for direction in 0..2 * dim {
+        let zero = G::Vector::zeros(dim);
+        let (before, size) = if direction < dim {
+            (Tangent { xi: unit(dim, direction), nu: zero }, STEP)
+        } else {
+            (Tangent { xi: zero, nu: unit(dim, direction - dim) }, step)
+        };
+        let mut at = |s: f64| -> Result<Phase<G>, StepError> {
+            let turn = G::Vector::from_entries(dim, |i| s * before.xi[i]);
+            let mut state = Phase::new(
+                group.compose(&point.group_element, &group.exp(&turn)),
+                G::Vector::from_entries(dim, |i| point.momentum[i] + s * before.nu[i]),
+            );
+            map(&mut state)?;
+            Ok(state)
+        };
+        let slopes = derivative(dim, size, &mut |s| {
+            let image = at(s)?;
+            let turn = group.log(&group.compose(&back, &image.group_element));
+            Ok(turn.map(|turn| [turn, image.momentum]))
+        })?;
+        let Some([xi, nu]) = slopes else {
+            return Ok(None);
+        };
+        pairs.push((before, Tangent { xi, nu }));
+    }
+    let form = |mu: &G::Vector, a: &Tangent<G::Vector>, b: &Tangent<G::Vector>| {
+        let terms =
+            [b.nu.pairing(&a.xi), -a.nu.pairing(&b.xi), mu.pairing(&group.bracket(&a.xi, &b.xi))];
+        (terms.iter().sum::<f64>(), terms.iter().fold(0.0_f64, |m, t| m.max(t.abs())))
+    };
+    let (mut worst, mut scale) = (0.0_f64, f64::MIN_POSITIVE);
+    for (i, (a, a_image)) in pairs.iter().enumerate() {
+        for (b, b_image) in pairs.iter().skip(i + 1) {
+            let (before, size) = form(&point.momentum, a, b);
+            let (after, image_size) = form(&image.momentum, a_image, b_image);
+            let difference = (after - before).abs();
+            if difference.is_nan() {
+                return Ok(Some(f64::NAN));
+            }
+            worst = worst.max(difference);
+            scale = scale.max(size).max(image_size);
+        }
+    }
+    Ok(Some(worst / scale))
+}

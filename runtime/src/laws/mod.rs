@@ -1,0 +1,211 @@
+//! The laws every map of a generating function must pass, measured at a point.
+//!
+//! Derivatives are central differences of eighth order, so that a law that holds shows up to about
+//! 1e-12. Use [`check`] for all of them; the single laws return the defect, relative to the size
+//! of what is compared.
+
+mod differences;
+mod order;
+
+use alloc::vec::Vec;
+
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::GeneratingFunction;
+use crate::group::LieGroup;
+use crate::phase::Phase;
+use crate::reconstruct::{advance, poisson_map};
+use crate::reversed::Reversed;
+
+pub use differences::{poisson_defect, symplectic_defect, symplectic_defect_of};
+pub use order::{OrderError, measured_order};
+
+/// The vectors of a group.
+type Vector<S> = <<S as GeneratingFunction>::Group as LieGroup>::Vector;
+
+/// A law tried on a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// The law, one word.
+    pub name: &'static str,
+    /// The largest defect found.
+    pub value: f64,
+    /// What it must not exceed.
+    pub bound: f64,
+}
+
+impl Law {
+    /// Whether the law holds; not if the defect is NaN.
+    #[must_use]
+    pub fn pass(&self) -> bool {
+        self.value <= self.bound
+    }
+}
+
+/// The bound of laws that need derivatives by differences.
+const DIFFERENCES: f64 = 1e-9;
+/// The bound of laws that hold to rounding.
+const ROUNDING: f64 = 1e-12;
+/// The bound of laws that hold to the residual of two solves.
+const SOLVES: f64 = 1e-11;
+
+/// Tries every law at each of `points` and returns the worst defects: `poisson`, `symplectic`,
+/// `equivariant`, `momentum`, `casimirs`, `diagram`, `inverse`, and, where the map of the negative
+/// step is given, `symmetric`. Laws that need a logarithm are left out for groups without one.
+///
+/// # Errors
+/// [`StepError`] where a map cannot be made.
+pub fn check<S>(
+    map: &S,
+    backward: Option<&S>,
+    points: &[Phase<S::Group>],
+) -> Result<Vec<Law>, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let mut laws: Vec<Law> = Vec::new();
+    let mut note = |name: &'static str, value: f64, bound: f64| {
+        match laws.iter_mut().find(|law| law.name == name) {
+            // NaN must stay.
+            Some(law) if law.value.is_nan() || value <= law.value => {}
+            Some(law) => law.value = value,
+            None => laws.push(Law { name, value, bound }),
+        }
+    };
+    for (at, point) in points.iter().enumerate() {
+        // Some element other than the point's own; the last point is its own neighbour's.
+        let shift = points.get(at + 1).map_or(&point.group_element, |next| &next.group_element);
+        note("poisson", poisson_defect(map, &point.momentum)?, DIFFERENCES);
+        if let Some(defect) = symplectic_defect(map, point)? {
+            note("symplectic", defect, DIFFERENCES);
+        }
+        note("equivariant", equivariance_defect(map, point, shift)?, ROUNDING);
+        note("momentum", momentum_defect(map, point)?, ROUNDING);
+        note("casimirs", casimir_defect(map, point)?, ROUNDING);
+        note("diagram", diagram_defect(map, point)?, ROUNDING);
+        note("inverse", symmetry_defect(map, &Reversed(map), &point.momentum)?, SOLVES);
+        if let Some(backward) = backward {
+            note("symmetric", symmetry_defect(map, backward, &point.momentum)?, SOLVES);
+        }
+    }
+    Ok(laws)
+}
+
+/// The largest difference of two vectors, relative to the larger of them.
+fn relative<V: Coordinates<f64>>(a: &V, b: &V) -> f64 {
+    let scale = a.largest_entry().max(b.largest_entry()).max(f64::MIN_POSITIVE);
+    let mut worst = 0.0;
+    for i in 0..a.dim() {
+        let difference = (a[i] - b[i]).abs();
+        if difference.is_nan() || difference > worst {
+            worst = difference;
+        }
+    }
+    worst / scale
+}
+
+/// The largest difference of two elements as matrices, relative to their largest entry.
+fn element_difference<G: LieGroup<Scalar = f64>>(group: &G, a: &G::Element, b: &G::Element) -> f64 {
+    let size = group.matrix_size();
+    let (mut worst, mut scale) = (0.0_f64, 1.0_f64);
+    for i in 0..size {
+        for j in 0..size {
+            let (a, b) = (group.matrix_entry(a, i, j), group.matrix_entry(b, i, j));
+            let difference = (a - b).abs();
+            if difference.is_nan() {
+                return f64::NAN;
+            }
+            worst = worst.max(difference);
+            scale = scale.max(a.abs()).max(b.abs());
+        }
+    }
+    worst / scale
+}
+
+/// Φ(k·α) = k·Φ(α) for the left action of k on T\*G.
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn equivariance_defect<S>(
+    map: &S,
+    point: &Phase<S::Group>,
+    k: &<S::Group as LieGroup>::Element,
+) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let group = map.group();
+    let mut moved = Phase::new(group.compose(k, &point.group_element), point.momentum.clone());
+    let mut image = point.clone();
+    advance(map, &mut moved)?;
+    advance(map, &mut image)?;
+    let element = group.compose(k, &image.group_element);
+    let difference = element_difference(group, &moved.group_element, &element);
+    Ok(worse(difference, relative(&moved.momentum, &image.momentum)))
+}
+
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// J_L(Φ(α)) = J_L(α).
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn momentum_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let mut image = point.clone();
+    advance(map, &mut image)?;
+    let group = map.group();
+    Ok(relative(&image.spatial_momentum(group), &point.spatial_momentum(group)))
+}
+
+/// C(Φ(μ)) = C(μ) for the Casimirs the group knows, relative to the scale of
+/// [`Drift::casimirs`](crate::Drift::casimirs).
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn casimir_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let mut monitor = crate::Monitor::new(map.group().clone(), point, 1.0);
+    let mut image = point.clone();
+    advance(map, &mut image)?;
+    monitor.observe(&image, 1.0);
+    Ok(monitor.drift().casimirs)
+}
+
+/// J_R∘Φ̂ = Φ∘J_R: the map of T\*G covers that of 𝔤\*.
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn diagram_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let mut image = point.clone();
+    advance(map, &mut image)?;
+    Ok(relative(&image.momentum, &poisson_map(map, &point.momentum)?))
+}
+
+/// Φ_{−h}∘Φ_h = id, given the maps of both steps.
+///
+/// # Errors
+/// [`StepError`] where a map cannot be made.
+pub fn symmetry_defect<S, B>(forward: &S, backward: &B, mu: &Vector<S>) -> Result<f64, StepError>
+where
+    S: GeneratingFunction,
+    B: GeneratingFunction<Group = S::Group>,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let there = poisson_map(forward, mu)?;
+    Ok(relative(&poisson_map(backward, &there)?, mu))
+}
