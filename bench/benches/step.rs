@@ -16,7 +16,13 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 const STEPS: u32 = 256;
 
 fn steps(criterion: &mut Criterion) {
-    let problems = problem::all().expect("the references are part of the crate");
+    let problems = match problem::all() {
+        Ok(problems) => problems,
+        Err(error) => {
+            eprintln!("{error}");
+            return;
+        }
+    };
     for mut problem in problems {
         let step = 0.25 * problem.time_scale;
         problem.end = f64::from(STEPS) * step;

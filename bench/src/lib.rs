@@ -4,6 +4,9 @@
 //! [`Method`](method::Method) runs it at a [`Setting`](method::Setting); [`measure`] times the methods interleaved and
 //! [`report`] writes tables and diagrams. A peer that wins is shown winning.
 
+// Indices name components and lanes as in the formulas; iterators over three arrays at once would hide them.
+#![allow(clippy::needless_range_loop)]
+
 pub mod arithmetic;
 pub mod ensemble;
 pub mod measure;

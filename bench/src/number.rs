@@ -53,7 +53,11 @@ macro_rules! lanewise {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(std::array::from_fn(|lane| self.0[lane] $operator other.0[lane]))
+                let mut result = self.0;
+                for lane in 0..L {
+                    result[lane] = self.0[lane] $operator other.0[lane];
+                }
+                Self(result)
             }
         }
     };
@@ -67,7 +71,11 @@ impl<const L: usize> Mul<f64> for Lanes<L> {
 
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|value| value * factor))
+        let mut result = self.0;
+        for value in &mut result {
+            *value *= factor;
+        }
+        Self(result)
     }
 }
 
@@ -76,7 +84,11 @@ impl<const L: usize> Neg for Lanes<L> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|value| -value))
+        let mut result = self.0;
+        for value in &mut result {
+            *value = -*value;
+        }
+        Self(result)
     }
 }
 
@@ -88,11 +100,19 @@ impl<const L: usize> Number for Lanes<L> {
 
     #[inline(always)]
     fn scaled(self, a: f64, c: Self) -> Self {
-        Self(std::array::from_fn(|lane| fma(a, self.0[lane], c.0[lane])))
+        let mut result = c.0;
+        for lane in 0..L {
+            result[lane] = fma(a, self.0[lane], c.0[lane]);
+        }
+        Self(result)
     }
 
     #[inline(always)]
     fn fused(self, b: Self, c: Self) -> Self {
-        Self(std::array::from_fn(|lane| fma(self.0[lane], b.0[lane], c.0[lane])))
+        let mut result = c.0;
+        for lane in 0..L {
+            result[lane] = fma(self.0[lane], b.0[lane], c.0[lane]);
+        }
+        Self(result)
     }
 }

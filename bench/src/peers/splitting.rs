@@ -87,6 +87,8 @@ pub struct Splitting {
     weights: Vec<f64>,
 }
 
+// All digits as published.
+#[allow(clippy::excessive_precision)]
 const KAHAN_LI_6: [f64; 5] = [
     0.392_161_444_007_314_139_28,
     0.332_599_136_789_359_438_60,
@@ -94,6 +96,7 @@ const KAHAN_LI_6: [f64; 5] = [
     0.082_213_596_293_550_800_23,
     0.798_543_990_934_829_963_40,
 ];
+#[allow(clippy::excessive_precision)]
 const KAHAN_LI_8: [f64; 9] = [
     0.130_202_483_088_890_080_88,
     0.561_162_981_775_108_384_56,

@@ -3,8 +3,8 @@
 /// The complete integral K(m) of the first kind, 0 ≤ m < 1 (Abramowitz and Stegun 17.6).
 #[must_use]
 pub fn complete(m: f64) -> f64 {
-    let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
-    while (a - b as f64).abs() > 1e-16 * a {
+    let (mut a, mut b) = (1.0f64, (1.0 - m).sqrt());
+    while (a - b).abs() > 1e-16 * a {
         let next = 0.5 * (a + b);
         b = (a * b).sqrt();
         if next == a {
