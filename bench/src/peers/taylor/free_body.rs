@@ -51,13 +51,7 @@ impl<const N: usize> Work<N> {
 #[inline(always)]
 pub(super) fn inwards<const K: usize>(n: usize) -> usize {
     let middle = K / 2;
-    if K % 2 == 0 {
-        if n % 2 == 0 { middle - n / 2 } else { middle + n.div_ceil(2) }
-    } else if n % 2 == 0 {
-        middle - n / 2
-    } else {
-        middle + n.div_ceil(2)
-    }
+    if n.is_multiple_of(2) { middle - n / 2 } else { middle + n.div_ceil(2) }
 }
 
 impl Recurrence<2> for FreeBody {
