@@ -1,4 +1,5 @@
 //! Each peer converges to the exact motion with its own order: slopes of log error against log step.
+#![allow(clippy::unwrap_used)]
 
 use coadjoint_bench::{
     method::{Method, Setting},
