@@ -130,6 +130,19 @@ fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
             predictor: Some(6),
         },
         Case {
+            name: "rigid body, six decimals",
+            hamiltonian: quadratic(
+                3,
+                [1_534_271, 2_117_933, 2_534_289]
+                    .into_iter()
+                    .enumerate()
+                    .map(|(i, d)| (vec![i, i], ratio(500_000, d))),
+            ),
+            algebra: so3.clone(),
+            truncations: &[3, 5, 7, 9],
+            predictor: Some(8),
+        },
+        Case {
             name: "full inertia tensor",
             hamiltonian: quadratic(3, full_inertia()),
             algebra: so3,

@@ -197,6 +197,19 @@ fn limits_stop_early() {
 }
 
 #[test]
+fn long_truncations_of_nothing_end() {
+    // S = t H for a linear H on an abelian algebra, and for a Casimir: nothing to do, for ever.
+    let so3 = catalogue::lookup("SO3").unwrap();
+    let h = Polynomial::variable(3, 0);
+    let limit = TermLimit::new(100);
+    let error = derive(&so3, Chart::Exponential, &h, 1_000_001, limit).unwrap_err();
+    assert!(matches!(error, DeriveError::TooMuchWork { .. }), "{error}");
+    let steep = Polynomial::from_factors(3, [(vec![(0, u32::MAX)], ratio(1, 2))]);
+    let error = derive(&so3, Chart::Exponential, &steep, 5, TermLimit::default()).unwrap_err();
+    assert!(matches!(error, DeriveError::Degree { degree: u32::MAX, .. }), "{error}");
+}
+
+#[test]
 fn hamiltonian_needs_all_momenta() {
     let se3 = catalogue::lookup("SE3").unwrap();
     let error = derive(&se3, Chart::Exponential, &rigid_body(), 3, TermLimit::default());

@@ -66,4 +66,12 @@ pub enum DeriveError {
         /// The limit.
         limit: u64,
     },
+    /// The Hamiltonian has too high a degree.
+    #[error("the Hamiltonian has degree {degree}; at most {limit} is supported")]
+    Degree {
+        /// The degree.
+        degree: u32,
+        /// The limit.
+        limit: u32,
+    },
 }

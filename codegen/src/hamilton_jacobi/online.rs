@@ -3,9 +3,12 @@
 use super::{DeriveError, TermLimit};
 use crate::lie::{LieAlgebra, StructureConstant};
 use crate::number::{Rational, integer};
-use crate::poly::{Polynomial, Product, sum_of_products};
+use crate::poly::{Polynomial, Product, SumError, sum_of_products};
 use num_traits::One;
 use std::collections::BTreeMap;
+
+/// The highest degree of a Hamiltonian.
+const HIGHEST_DEGREE: u32 = 1000;
 
 /// The coefficients of t⁰, t¹, … known so far.
 pub(crate) type Series = Vec<Polynomial>;
@@ -29,12 +32,23 @@ impl Work {
         products: &[(Rational, &Polynomial, &Polynomial)],
     ) -> Result<Polynomial, DeriveError> {
         let mut list = Vec::with_capacity(products.len());
+        let mut count = 1_usize;
         for (factor, left, right) in products {
-            self.products = self
-                .products
-                .saturating_add((left.len() as u64).saturating_mul(right.len() as u64));
+            count = count.saturating_add(left.len().saturating_mul(right.len()));
             list.push(Product { factor: factor.clone(), left, right });
         }
+        self.charge(count)?;
+        sum_of_products(self.variables, &list, self.limit.terms).map_err(|error| match error {
+            SumError::Terms(terms) => {
+                DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }
+            }
+            SumError::Degree => DeriveError::Degree { degree: u32::MAX, limit: HIGHEST_DEGREE },
+        })
+    }
+
+    /// Counts products of coefficients before they are made.
+    pub(crate) fn charge(&mut self, products: usize) -> Result<(), DeriveError> {
+        self.products = self.products.saturating_add(products as u64);
         if self.products > self.limit.products {
             return Err(DeriveError::TooMuchWork {
                 order: self.order,
@@ -42,9 +56,7 @@ impl Work {
                 limit: self.limit.products,
             });
         }
-        sum_of_products(self.variables, &list, self.limit.terms).map_err(|terms| {
-            DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }
-        })
+        Ok(())
     }
 }
 
@@ -94,6 +106,8 @@ fn bilinear<'a>(
     order: usize,
     select: impl Fn(&StructureConstant) -> (usize, &'a Series, &'a Series),
 ) -> Result<Vec<Polynomial>, DeriveError> {
+    // Looking through zeros is work too, or a long truncation of a trivial flow would never end.
+    work.charge(algebra.structure().len().saturating_mul(order + 1))?;
     let mut lists = vec![Vec::new(); algebra.dim()];
     for c in algebra.structure() {
         let (component, left, right) = select(c);
@@ -101,6 +115,9 @@ fn bilinear<'a>(
     }
     lists.iter().map(|list| work.sum(list)).collect()
 }
+
+/// The factors (variable, exponent) of a monomial and its coefficient.
+type Term = (Vec<(u32, u32)>, Rational);
 
 /// Polynomials in the momenta evaluated on a series, in nested (Horner) form with shared parts.
 pub(crate) struct Composition {
@@ -117,48 +134,55 @@ struct Node {
 }
 
 impl Composition {
-    pub(crate) fn new(dimension: usize, polynomials: &[Polynomial]) -> Self {
+    pub(crate) fn new(dimension: usize, polynomials: &[Polynomial]) -> Result<Self, DeriveError> {
         let mut composition = Self { nodes: Vec::new(), roots: Vec::new() };
-        let mut known = Vec::new();
+        let mut known = BTreeMap::new();
         for polynomial in polynomials {
-            let root = composition.insert(dimension, polynomial, &mut known);
+            // The form nests as deep as the degree.
+            let degree = polynomial.degree();
+            if degree > HIGHEST_DEGREE {
+                return Err(DeriveError::Degree { degree, limit: HIGHEST_DEGREE });
+            }
+            let terms = polynomial.factors().collect();
+            let root = composition.insert(dimension, polynomial.variables(), terms, &mut known);
             composition.roots.push(root);
         }
-        composition
+        Ok(composition)
     }
 
     fn insert(
         &mut self,
         dimension: usize,
-        polynomial: &Polynomial,
-        known: &mut Vec<(Polynomial, usize)>,
+        variables: usize,
+        terms: Vec<Term>,
+        known: &mut BTreeMap<Vec<Term>, usize>,
     ) -> usize {
-        if let Some((_, node)) = known.iter().find(|(p, _)| p == polynomial) {
+        if let Some(node) = known.get(&terms) {
             return *node;
         }
-        let variables = polynomial.variables();
         let mut constant = Vec::new();
-        let mut parts: BTreeMap<usize, Vec<(Vec<u32>, Rational)>> = BTreeMap::new();
-        for (mut exponents, value) in polynomial.terms() {
-            match exponents.iter().take(dimension).position(|&e| e > 0) {
-                None => constant.push((exponents, value)),
-                Some(a) => {
-                    exponents[a] -= 1;
-                    parts.entry(a).or_default().push((exponents, value));
+        let mut parts: BTreeMap<usize, Vec<Term>> = BTreeMap::new();
+        for (factors, value) in &terms {
+            // Factors ascend, so a momentum comes first if there is one.
+            match factors.first() {
+                Some(&(a, exponent)) if (a as usize) < dimension => {
+                    let mut rest = factors.clone();
+                    match exponent {
+                        1 => drop(rest.remove(0)),
+                        _ => rest[0].1 = exponent - 1,
+                    }
+                    parts.entry(a as usize).or_default().push((rest, value.clone()));
                 }
+                _ => constant.push((factors.clone(), value.clone())),
             }
         }
         let mut branches = Vec::new();
-        for (a, terms) in parts {
-            let part = Polynomial::from_terms(variables, terms);
-            branches.push((a, self.insert(dimension, &part, known)));
+        for (a, part) in parts {
+            branches.push((a, self.insert(dimension, variables, part, known)));
         }
-        self.nodes.push(Node {
-            constant: Polynomial::from_terms(variables, constant),
-            branches,
-            series: Vec::new(),
-        });
-        known.push((polynomial.clone(), self.nodes.len() - 1));
+        let constant = Polynomial::from_factors(variables, constant);
+        self.nodes.push(Node { constant, branches, series: Vec::new() });
+        known.insert(terms, self.nodes.len() - 1);
         self.nodes.len() - 1
     }
 

@@ -8,7 +8,7 @@ use super::online::{Composition, Series, Work, adjoint, coadjoint, identity, rec
 use super::recurrence::quadratic;
 use super::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
-use crate::number::{Rational, bernoulli_over_factorial, ratio};
+use crate::number::{BernoulliWeights, Rational, ratio};
 use crate::poly::Polynomial;
 use num_traits::{One, Zero};
 
@@ -33,14 +33,11 @@ pub fn predictor(
         Chart::Cayley => cubic(algebra)?,
     };
     let mut work = Work::new(variables, limit);
-    let mut gradient = Composition::new(
-        dimension,
-        &(0..dimension).map(|i| hamiltonian.derivative(i)).collect::<Vec<_>>(),
-    );
+    let mut gradient = Composition::new(dimension, &hamiltonian.gradient(dimension))?;
     let mut mu = identity(dimension, variables);
     let mut xi: Vec<Series> = vec![Vec::new(); dimension];
     let mut x = vec![vec![Polynomial::zero(variables)]; dimension];
-    let mut velocity = Velocity::new(dimension, variables, degree);
+    let mut velocity = Velocity::new(dimension, variables);
     for order in 0..degree {
         work.order = order + 1;
         gradient.extend(&mut work, &mu, order)?;
@@ -65,19 +62,15 @@ pub fn predictor(
 /// ẋ = (d^L τ_x)⁻¹ ξ, coefficient by coefficient.
 struct Velocity {
     variables: usize,
-    weights: Vec<Rational>,
+    dimension: usize,
+    weights: BernoulliWeights,
     /// ad_x^j ξ for j ≥ 1.
     powers: Vec<Vec<Series>>,
 }
 
 impl Velocity {
-    fn new(dimension: usize, variables: usize, degree: usize) -> Self {
-        let mut weights = bernoulli_over_factorial(degree);
-        if let Some(first) = weights.get_mut(1) {
-            *first = ratio(1, 2);
-        }
-        let powers = vec![vec![Vec::new(); dimension]; degree];
-        Self { variables, weights, powers }
+    fn new(dimension: usize, variables: usize) -> Self {
+        Self { variables, weights: BernoulliWeights::default(), dimension, powers: Vec::new() }
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -105,16 +98,22 @@ impl Velocity {
             }
             return Ok(result);
         }
-        for j in 1..self.powers.len() {
+        if order > 0 {
+            // A new power begins at this order; below it is zero.
+            let zeros = vec![Polynomial::zero(self.variables); order];
+            self.powers.push(vec![zeros; self.dimension]);
+        }
+        for j in 1..=order {
             let next = {
                 let below = if j == 1 { xi } else { &self.powers[j - 2] };
                 adjoint(work, algebra, x, below, order)?
             };
+            let weight = self.weights.get(j);
             for (i, coefficient) in next.into_iter().enumerate() {
-                if !self.weights[j].is_zero() {
+                if !weight.is_zero() {
                     result[i] = work.sum(&[
                         (Rational::one(), &result[i], &one),
-                        (self.weights[j].clone(), &coefficient, &one),
+                        (weight.clone(), &coefficient, &one),
                     ])?;
                 }
                 self.powers[j - 1][i].push(coefficient);
@@ -151,32 +150,35 @@ fn right_exponential(
     degree: usize,
 ) -> Result<Vec<Vec<Polynomial>>, DeriveError> {
     let one = Polynomial::constant(work.variables, Rational::one());
-    let mut result: Vec<Vec<Polynomial>> = (0..=degree)
-        .map(|m| {
-            start
-                .iter()
-                .map(|s| s.get(m).cloned().unwrap_or_else(|| Polynomial::zero(work.variables)))
-                .collect()
-        })
-        .collect();
-    let mut power = start.to_vec();
-    let mut factor = Rational::one();
-    for k in 1..=degree {
-        factor *= reciprocal(k + 1);
-        let mut next: Vec<Series> = vec![Vec::new(); start.len()];
-        for (order, coefficients) in result.iter_mut().enumerate() {
-            let value = coadjoint(work, algebra, x, &power, order)?;
-            for (i, coefficient) in value.into_iter().enumerate() {
-                coefficients[i] = work.sum(&[
-                    (Rational::one(), &coefficients[i], &one),
+    let mut rows: Vec<Vec<Polynomial>> = Vec::new();
+    // (ad_x^T)^k μ′ for k ≥ 1; x has no constant term, so power k begins at order k.
+    let mut powers: Vec<Vec<Series>> = Vec::new();
+    for order in 0..=degree {
+        work.order = order;
+        let mut row: Vec<Polynomial> = start
+            .iter()
+            .map(|s| s.get(order).cloned().unwrap_or_else(|| Polynomial::zero(work.variables)))
+            .collect();
+        if order > 0 {
+            let zeros = vec![Polynomial::zero(work.variables); order];
+            powers.push(vec![zeros; start.len()]);
+        }
+        let mut factor = Rational::one();
+        for k in 1..=order {
+            factor *= reciprocal(k + 1);
+            let below = if k == 1 { start } else { &powers[k - 2] };
+            let next = coadjoint(work, algebra, x, below, order)?;
+            for (i, coefficient) in next.into_iter().enumerate() {
+                row[i] = work.sum(&[
+                    (Rational::one(), &row[i], &one),
                     (factor.clone(), &coefficient, &one),
                 ])?;
-                next[i].push(coefficient);
+                powers[k - 1][i].push(coefficient);
             }
         }
-        power = next;
+        rows.push(row);
     }
-    Ok(result)
+    Ok(rows)
 }
 
 /// p from J_L = p − ½ ad_x^T p − ¼ ⟨p, x·x⟩ = μ′, order by order.

@@ -3,7 +3,7 @@
 use super::online::{Composition, Series, Work, coadjoint, convolve, identity, reciprocal};
 use super::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
-use crate::number::{Rational, bernoulli_over_factorial, ratio};
+use crate::number::{BernoulliWeights, Rational, ratio};
 use crate::poly::Polynomial;
 use num_traits::{One, Zero};
 
@@ -72,8 +72,8 @@ pub(super) fn derive_orders(
         return Err(DeriveError::Variables { variables, dimension });
     }
     let mut work = Work::new(variables, limit);
-    let mut momentum = BodyMomentum::new(algebra, chart, variables, truncation)?;
-    let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian));
+    let mut momentum = BodyMomentum::new(algebra, chart, variables)?;
+    let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian))?;
     let zero = Polynomial::zero(variables);
     let mut orders = vec![zero.clone()];
     for k in 1..=truncation {
@@ -106,8 +106,8 @@ pub(super) struct BodyMomentum<'a> {
 }
 
 enum Form {
-    /// Weights (−1)^k B_k/k! and the powers (ad_x^T)^j p, j ≥ 1.
-    Exponential { weights: Vec<Rational>, powers: Vec<Vec<Series>> },
+    /// The weights (−1)^k B_k/k! and the powers (ad_x^T)^j p, j ≥ 1.
+    Exponential { weights: BernoulliWeights, powers: Vec<Vec<Series>> },
     /// x ξ x in the basis, and the products x_a x_c.
     Cayley { cubic: Vec<CubicEntry> },
 }
@@ -117,10 +117,9 @@ impl<'a> BodyMomentum<'a> {
         algebra: &'a LieAlgebra,
         chart: Chart,
         variables: usize,
-        truncation: usize,
     ) -> Result<Self, DeriveError> {
         let p = identity(algebra.dim(), variables);
-        Self::at(algebra, chart, p, variables, truncation)
+        Self::at(algebra, chart, p, variables)
     }
 
     /// As [`new`](Self::new), at a given series p(t).
@@ -129,16 +128,11 @@ impl<'a> BodyMomentum<'a> {
         chart: Chart,
         p: Vec<Series>,
         variables: usize,
-        truncation: usize,
     ) -> Result<Self, DeriveError> {
         let dimension = algebra.dim();
         let form = match chart {
             Chart::Exponential => {
-                let mut weights = bernoulli_over_factorial(truncation);
-                if let Some(first) = weights.get_mut(1) {
-                    *first = ratio(1, 2);
-                }
-                Form::Exponential { weights, powers: Vec::new() }
+                Form::Exponential { weights: BernoulliWeights::default(), powers: Vec::new() }
             }
             Chart::Cayley => Form::Cayley { cubic: cubic(algebra)? },
         };
@@ -165,11 +159,12 @@ impl<'a> BodyMomentum<'a> {
                 for j in 1..=order {
                     let below = if j == 1 { &self.p } else { &powers[j - 2] };
                     let next = coadjoint(work, self.algebra, &self.x, below, order)?;
+                    let weight = weights.get(j);
                     for (i, coefficient) in next.into_iter().enumerate() {
-                        if !weights[j].is_zero() {
+                        if !weight.is_zero() {
                             result[i] = work.sum(&[
                                 (Rational::one(), &result[i], &one),
-                                (weights[j].clone(), &coefficient, &one),
+                                (weight.clone(), &coefficient, &one),
                             ])?;
                         }
                         powers[j - 1][i].push(coefficient);

@@ -62,11 +62,11 @@ fn spatial_momentum_is_initial(algebra: &LieAlgebra, chart: Chart, h: &Polynomia
     let gradients: Vec<Polynomial> =
         (1..=k).flat_map(|order| series.order(order).gradient(dimension)).collect();
     let mut work = Work::new(variables, limit);
-    let mut composed = Composition::new(dimension, &gradients);
+    let mut composed = Composition::new(dimension, &gradients).unwrap();
     for order in 0..=last {
         composed.extend(&mut work, &p, order).unwrap();
     }
-    let mut spatial = BodyMomentum::at(algebra, chart, p.clone(), variables, last).unwrap();
+    let mut spatial = BodyMomentum::at(algebra, chart, p.clone(), variables).unwrap();
     for order in 0..=last {
         if order > 0 {
             for i in 0..dimension {

@@ -3,27 +3,39 @@
 use super::{Rational, integer};
 use num_traits::{One, Zero};
 
-/// B_k / k! for k = 0..=`last`, with B_1 = -1/2.
+/// The numbers (−1)^k B_k / k!, computed as they are asked for: 1, 1/2, 1/12, 0, −1/720, ….
 ///
-/// These are the Taylor coefficients of z / (e^z - 1), so they follow from
-/// (e^z - 1)/z times the series being one: Σ_{j≤k} b_j / (k - j + 1)! = 0 for k ≥ 1.
-pub(crate) fn bernoulli_over_factorial(last: usize) -> Vec<Rational> {
-    let mut inverse_factorial = vec![Rational::one()];
-    for k in 1..=last + 1 {
-        let next = &inverse_factorial[k - 1] / integer(k as i64);
-        inverse_factorial.push(next);
-    }
-    let mut series = vec![Rational::one()];
-    for k in 1..=last {
-        let mut sum = Rational::zero();
-        if k == 1 || k % 2 == 0 {
-            for (j, b) in series.iter().enumerate() {
-                sum -= b * &inverse_factorial[k - j + 1];
-            }
+/// With B_1 = −1/2 the B_k / k! are the Taylor coefficients b_k of z / (e^z − 1), so they follow
+/// from (e^z − 1)/z times that series being one: Σ_{j≤k} b_j / (k − j + 1)! = 0 for k ≥ 1. The
+/// sign changes only b_1, all other odd ones being zero.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BernoulliWeights {
+    series: Vec<Rational>,
+    inverse_factorial: Vec<Rational>,
+}
+
+impl BernoulliWeights {
+    /// The number of this index.
+    pub(crate) fn get(&mut self, index: usize) -> Rational {
+        while self.inverse_factorial.len() < index + 2 {
+            let next = match self.inverse_factorial.last() {
+                None => Rational::one(),
+                Some(last) => last / integer(self.inverse_factorial.len() as i64),
+            };
+            self.inverse_factorial.push(next);
         }
-        series.push(sum);
+        while self.series.len() <= index {
+            let k = self.series.len();
+            let mut sum = if k == 0 { Rational::one() } else { Rational::zero() };
+            if k == 1 || k.is_multiple_of(2) {
+                for (j, b) in self.series.iter().enumerate() {
+                    sum -= b * &self.inverse_factorial[k - j + 1];
+                }
+            }
+            self.series.push(sum);
+        }
+        if index == 1 { -&self.series[1] } else { self.series[index].clone() }
     }
-    series
 }
 
 #[cfg(test)]
@@ -34,20 +46,11 @@ mod tests {
     #[test]
     fn first_values() {
         // Abramowitz and Stegun, Handbook of Mathematical Functions, table 23.2.
-        let b = bernoulli_over_factorial(8);
-        let expected = [
-            (1, 1),
-            (-1, 2),
-            (1, 12),
-            (0, 1),
-            (-1, 720),
-            (0, 1),
-            (1, 30240),
-            (0, 1),
-            (-1, 1209600),
-        ];
-        for (value, (n, d)) in b.iter().zip(expected) {
-            assert_eq!(*value, ratio(n, d));
+        let mut weights = BernoulliWeights::default();
+        let expected =
+            [(1, 1), (1, 2), (1, 12), (0, 1), (-1, 720), (0, 1), (1, 30240), (0, 1), (-1, 1209600)];
+        for (k, (n, d)) in expected.into_iter().enumerate().rev() {
+            assert_eq!(weights.get(k), ratio(n, d));
         }
     }
 }

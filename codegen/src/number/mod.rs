@@ -6,7 +6,7 @@ mod divisor;
 mod field;
 mod words;
 
-pub(crate) use bernoulli::bernoulli_over_factorial;
+pub(crate) use bernoulli::BernoulliWeights;
 pub(crate) use coefficients::Coefficients;
 pub(crate) use divisor::{bits, lcm};
 pub(crate) use field::{Field, Residue, reconstruct};

@@ -1,10 +1,12 @@
 //! Sparse multivariate polynomials over ℚ, fast in unoptimised builds too.
 
+mod accumulate;
 mod calculus;
 mod monomial;
+mod plan;
 mod polynomial;
 mod product;
 mod table;
 
 pub use polynomial::Polynomial;
-pub(crate) use product::{Product, sum_of_products};
+pub(crate) use product::{Product, SumError, sum_of_products};

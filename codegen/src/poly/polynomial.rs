@@ -26,7 +26,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// Binary operations expect both operands to have the same number of variables; if they differ
-/// the result has the larger number, the variables of both counted from the first.
+/// the result has the larger number, the variables of both counted from the first. The total
+/// degree of a product must be below 2³²: derivations refuse more, and `*` returns zero.
 #[derive(Clone)]
 pub struct Polynomial {
     variables: usize,

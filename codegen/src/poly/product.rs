@@ -1,12 +1,12 @@
 //! Sums of products, the operation everything else is made of.
 
+use super::accumulate::accumulate;
 use super::monomial::{Factors, Key};
+use super::plan::{LargePlan, SmallPlan};
 use super::polynomial::{Keys, Polynomial};
-use super::table::Table;
-use crate::number::{Coefficients, Rational, Sum, Words, bits, lcm};
+use crate::number::{Coefficients, Rational, Sum, Words};
 use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::Zero;
 
 /// factor · left · right.
 pub(crate) struct Product<'a> {
@@ -15,7 +15,16 @@ pub(crate) struct Product<'a> {
     pub(crate) right: &'a Polynomial,
 }
 
-/// The sum of products, or the number of terms reached when it exceeds `limit`.
+/// Why a sum was not computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SumError {
+    /// It has more terms than allowed; so many were reached.
+    Terms(usize),
+    /// Degrees do not fit into 32 bits.
+    Degree,
+}
+
+/// The sum of products, if it has no more than `limit` terms.
 ///
 /// All products are collected in one table over one common denominator. With machine integers
 /// the largest possible sum is bounded beforehand; big integers are used where it might not fit.
@@ -23,12 +32,16 @@ pub(crate) fn sum_of_products(
     variables: usize,
     products: &[Product<'_>],
     limit: usize,
-) -> Result<Polynomial, usize> {
+) -> Result<Polynomial, SumError> {
     let used: Vec<&Product<'_>> = products
         .iter()
         .filter(|p| !p.left.is_zero() && !p.right.is_zero() && !p.factor.is_zero())
         .collect();
-    let bound = used.iter().map(|p| p.left.bound.saturating_add(p.right.bound)).max().unwrap_or(0);
+    let mut bound = 0;
+    for product in &used {
+        let degree = product.left.bound.checked_add(product.right.bound);
+        bound = degree.ok_or(SumError::Degree)?.max(bound);
+    }
     let packed = Polynomial::packing(variables, bound).is_some();
     let mut keys = Vec::with_capacity(used.len());
     for product in &used {
@@ -38,57 +51,13 @@ pub(crate) fn sum_of_products(
     if packed {
         let lists: Vec<(&[u128], &[u128])> =
             keys.iter().map(|(a, b)| (a.packed(), b.packed())).collect();
-        let (keys, values) = run(&used, small, &lists, limit)?;
+        let (keys, values) = run(&used, small, &lists, limit).map_err(SumError::Terms)?;
         Ok(Polynomial::assemble(variables, bound, Keys::Packed(keys), values))
     } else {
         let lists: Vec<(&[Factors], &[Factors])> =
             keys.iter().map(|(a, b)| (a.sparse(), b.sparse())).collect();
-        let (keys, values) = run(&used, small, &lists, limit)?;
+        let (keys, values) = run(&used, small, &lists, limit).map_err(SumError::Terms)?;
         Ok(Polynomial::assemble(variables, bound, Keys::Sparse(keys), values))
-    }
-}
-
-/// The common denominator and the integer factor of each product, if machine integers suffice.
-struct SmallPlan {
-    denominator: i128,
-    factors: Vec<i128>,
-}
-
-impl SmallPlan {
-    fn new(products: &[&Product<'_>]) -> Option<Self> {
-        let mut denominator = 1_i128;
-        let mut parts = Vec::with_capacity(products.len());
-        for product in products {
-            let (
-                Coefficients::Small { denominator: a, .. },
-                Coefficients::Small { denominator: b, .. },
-            ) = (&product.left.values, &product.right.values)
-            else {
-                return None;
-            };
-            let part = a.checked_mul(*b)?.checked_mul(product.factor.denom().to_i128()?)?;
-            denominator = lcm(denominator, part)?;
-            parts.push(part);
-        }
-        let mut factors = Vec::with_capacity(products.len());
-        let mut largest = 0_u128;
-        for (product, part) in products.iter().zip(parts) {
-            let factor = (denominator / part).checked_mul(product.factor.numer().to_i128()?)?;
-            let (Coefficients::Small { bits: a, .. }, Coefficients::Small { bits: b, .. }) =
-                (&product.left.values, &product.right.values)
-            else {
-                return None;
-            };
-            let size = bits(factor) + a + b;
-            if size > 126 {
-                return None;
-            }
-            // A monomial receives at most one contribution from each term of the shorter factor.
-            let contributions = product.left.len().min(product.right.len()) as u128;
-            largest = largest.checked_add(contributions.checked_mul(1 << size)?)?;
-            factors.push(factor);
-        }
-        (largest <= i128::MAX as u128).then_some(Self { denominator, factors })
     }
 }
 
@@ -135,40 +104,6 @@ fn run<K: Key>(
     Ok((keys, Coefficients::big(values, plan.denominator)))
 }
 
-/// As [`SmallPlan`], with big integers, and the bits of the largest possible sum.
-struct LargePlan {
-    denominator: BigInt,
-    factors: Vec<BigInt>,
-    bits: u64,
-}
-
-impl LargePlan {
-    fn new(products: &[&Product<'_>]) -> Self {
-        let mut denominator = BigInt::one();
-        let mut parts = Vec::with_capacity(products.len());
-        for product in products {
-            let part = product.left.values.denominator()
-                * product.right.values.denominator()
-                * product.factor.denom();
-            if !(&denominator % &part).is_zero() {
-                denominator = denominator.lcm(&part);
-            }
-            parts.push(part);
-        }
-        let mut factors = Vec::with_capacity(products.len());
-        let (mut bits, mut contributions) = (0, 0);
-        for (product, part) in products.iter().zip(parts) {
-            let factor = product.factor.numer() * (&denominator / part);
-            let size = factor.bits() + product.left.values.bits() + product.right.values.bits();
-            bits = size.max(bits);
-            contributions += product.left.len().min(product.right.len()) as u64;
-            factors.push(factor);
-        }
-        bits += u64::from(u64::BITS - contributions.leading_zeros());
-        Self { denominator, factors, bits }
-    }
-}
-
 /// The sum in integers of N words, which the plan says suffice.
 fn wide<K: Key, const N: usize>(
     products: &[&Product<'_>],
@@ -193,117 +128,4 @@ fn wide<K: Key, const N: usize>(
         .collect();
     let (keys, sums) = accumulate::<K, Words<N>>(keys, &lists, limit)?;
     Ok((keys, sums.into_iter().map(Sum::to_integer).collect()))
-}
-
-/// The arithmetic of one kind of integer.
-trait Number: Sized {
-    type Sum;
-    fn times(&self, other: &Self) -> Self;
-    fn add_product(sum: &mut Self::Sum, left: &Self, right: &Self);
-    fn vanishes(sum: &Self::Sum) -> bool;
-    fn nothing() -> Self::Sum;
-}
-
-impl Number for i128 {
-    type Sum = Self;
-    // The plan bounds every sum, so wrapping operations never wrap.
-    #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        self.wrapping_mul(*other)
-    }
-    #[inline(always)]
-    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
-        *sum = sum.wrapping_add(left.wrapping_mul(*right));
-    }
-    #[inline(always)]
-    fn vanishes(sum: &Self) -> bool {
-        *sum == 0
-    }
-    #[inline(always)]
-    fn nothing() -> Self {
-        0
-    }
-}
-
-impl<const N: usize> Number for Words<N> {
-    type Sum = Sum<N>;
-    fn times(&self, other: &Self) -> Self {
-        self.times(other)
-    }
-    #[inline(always)]
-    fn add_product(sum: &mut Sum<N>, left: &Self, right: &Self) {
-        sum.add_product(left, right);
-    }
-    fn vanishes(sum: &Sum<N>) -> bool {
-        sum.vanishes()
-    }
-    fn nothing() -> Sum<N> {
-        Sum::nothing()
-    }
-}
-
-impl Number for BigInt {
-    type Sum = Self;
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
-        *sum += left * right;
-    }
-    fn vanishes(sum: &Self) -> bool {
-        sum.is_zero()
-    }
-    fn nothing() -> Self {
-        Self::zero()
-    }
-}
-
-/// The nonzero terms of Σ factor · left · right, sorted. Loops count by hand and index slices
-/// because iterators are function calls in an unoptimised build.
-fn accumulate<K: Key, N: Number>(
-    keys: &[(&[K], &[K])],
-    numbers: &[(N, &[N], &[N])],
-    limit: usize,
-) -> Result<(Vec<K>, Vec<N::Sum>), usize> {
-    let expected = keys.iter().map(|(a, b)| a.len() + b.len()).max().unwrap_or(0);
-    let mut table = Table::new(expected);
-    let mut sums: Vec<N::Sum> = Vec::with_capacity(expected);
-    let mut index = 0;
-    while index < keys.len() {
-        let (left_keys, right_keys) = keys[index];
-        let (factor, left, right) = &numbers[index];
-        let mut i = 0;
-        while i < left_keys.len() {
-            let scaled = factor.times(&left[i]);
-            let mut j = 0;
-            while j < right_keys.len() {
-                let place = table.place(left_keys[i].product(&right_keys[j]));
-                if place == sums.len() {
-                    sums.push(N::nothing());
-                }
-                N::add_product(&mut sums.as_mut_slice()[place], &scaled, &right[j]);
-                j += 1;
-            }
-            // Checked once a row: cancellation may still bring the count down, but memory is
-            // what the limit protects.
-            if sums.len() > limit {
-                return Err(sums.len());
-            }
-            i += 1;
-        }
-        index += 1;
-    }
-    Ok(sort::<K, N>(table.keys, sums))
-}
-
-/// Drops zeros and sorts keys descending.
-fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N::Sum>) -> (Vec<K>, Vec<N::Sum>) {
-    let mut terms: Vec<(K, N::Sum)> = Vec::with_capacity(keys.len());
-    for (key, sum) in keys.into_iter().zip(sums) {
-        if !N::vanishes(&sum) {
-            terms.push((key, sum));
-        }
-    }
-    terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
-    terms.into_iter().unzip()
 }
