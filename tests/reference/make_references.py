@@ -78,8 +78,8 @@ def named_basis(name):
     if name == "SO4":
         pairs = [(a, b) for a in range(4) for b in range(a + 1, 4)]
         return 4, [add(unit(4, b, a), unit(4, a, b, -1)) for a, b in pairs]
-    if name == "SU3":
-        return special_unitary(3)
+    if name in ("SU3", "SU5"):
+        return special_unitary(int(name[2]))
     raise SystemExit(f"no basis for {name}")
 
 
