@@ -3,7 +3,9 @@
 
 pub mod bridge;
 pub mod golden;
+pub mod moments;
 pub mod reference;
+pub mod run;
 pub mod series;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;

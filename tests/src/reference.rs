@@ -47,8 +47,8 @@ pub struct EndState {
 /// Every entry of both files.
 #[must_use]
 pub fn end_states() -> Vec<EndState> {
-    let mut all: Vec<EndState> =
-        serde_json::from_str(include_str!("../reference/end_states.json")).expect("end_states.json");
+    let mut all: Vec<EndState> = serde_json::from_str(include_str!("../reference/end_states.json"))
+        .expect("end_states.json");
     let systems: Vec<EndState> =
         serde_json::from_str(include_str!("../reference/systems.json")).expect("systems.json");
     all.extend(systems);

@@ -25,10 +25,14 @@ pub struct Series {
 
 /// S₁ … S_K of a Hamiltonian without parameters, exponential chart.
 #[must_use]
-pub fn orders(algebra: &LieAlgebra, hamiltonian: &Polynomial, truncation: usize) -> Vec<Polynomial> {
+pub fn orders(
+    algebra: &LieAlgebra,
+    hamiltonian: &Polynomial,
+    truncation: usize,
+) -> Vec<Polynomial> {
     let limit = TermLimit::default();
-    let series = derive(algebra, Chart::Exponential, hamiltonian, truncation, limit)
-        .expect("a derivation");
+    let series =
+        derive(algebra, Chart::Exponential, hamiltonian, truncation, limit).expect("a derivation");
     (1..=truncation).map(|k| series.order(k).clone()).collect()
 }
 
