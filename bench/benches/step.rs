@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use coadjoint_bench::{
     method::{Method, Setting},
-    peers,
+    ours, peers,
     problem::{self, Problem},
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -38,7 +38,8 @@ fn steps(criterion: &mut Criterion) {
 
 /// The methods that solve the problem with a fixed step.
 fn rows(problem: &Problem) -> Vec<Box<dyn Method>> {
-    let mut methods = peers::all();
+    let mut methods = ours::all();
+    methods.extend(peers::all());
     methods.retain(|method| {
         method.applies(problem)
             && matches!(method.settings(problem).first(), Some(Setting::Step(_)))

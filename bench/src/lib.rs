@@ -12,6 +12,7 @@ pub mod ensemble;
 pub mod measure;
 pub mod method;
 pub mod number;
+pub mod ours;
 pub mod peers;
 pub mod problem;
 pub mod report;

@@ -3,7 +3,7 @@
 
 use coadjoint_bench::{
     method::{Method, Setting},
-    peers,
+    ours, peers,
     problem::{self, Problem},
 };
 
@@ -55,7 +55,7 @@ const PROBLEMS: [&str; 4] = ["free-body-a", "heavy-top", "kirchhoff", "kovalevsk
 fn every_method_with_a_step_has_its_order() {
     for name in PROBLEMS {
         let problem = short(name);
-        for method in peers::all() {
+        for method in ours::all().into_iter().chain(peers::all()) {
             let fixed = matches!(method.settings(&problem).first(), Some(Setting::Step(_)));
             let (Some(order), true, true) = (method.order(), method.applies(&problem), fixed)
             else {

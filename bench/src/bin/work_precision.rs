@@ -5,7 +5,7 @@ use std::{error::Error, fs, path::PathBuf};
 use clap::Parser;
 use coadjoint_bench::{
     measure::{Effort, work_precision},
-    peers,
+    ours, peers,
     problem::{self, Problem},
     report::{Machine, Report, csv, diagram, markdown},
 };
@@ -34,7 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     } else {
         arguments.problem.iter().map(|name| problem::named(name)).collect::<Result<_, _>>()?
     };
-    let mut methods = peers::all();
+    let mut methods = ours::all();
+    methods.extend(peers::all());
     if !arguments.method.is_empty() {
         methods.retain(|method| arguments.method.iter().any(|text| method.name().contains(text)));
         if methods.is_empty() {
