@@ -3,6 +3,8 @@
 //! Time per step says nothing about accuracy; `work-precision` compares at equal error. These are for watching one
 //! method while changing it: `cargo bench -p coadjoint-bench -- "free-body-a/DMV10"`.
 
+#![allow(clippy::expect_used)]
+
 use std::hint::black_box;
 
 use coadjoint_bench::{

@@ -1,5 +1,8 @@
 //! Bodies people write, read as polynomials, and compared with the same function run by Rust.
 
+// The bodies are written as people write them.
+#![allow(clippy::unwrap_used, clippy::needless_return, clippy::unnecessary_cast)]
+
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::problem::Problem;
 use nalgebra::{Matrix3, Vector3, Vector6};

@@ -1,5 +1,7 @@
 //! Hamiltonians as text: precedence, exactness, messages, and that nothing hangs or overflows.
 
+#![allow(clippy::unwrap_used)]
+
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::number::{Rational, ratio};
 use coadjoint_codegen::problem::Problem;

@@ -17,6 +17,8 @@ fn destructured(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     HALF * (x.powi(2) / a + y.powi(2) / b + z.powi(2) / c)
 }
 
+// A cast of a literal is what this test wants to see read.
+#[allow(clippy::unnecessary_cast)]
 #[lie_poisson(group = SO3, truncation = 5)]
 fn looped(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     let mut twice = 0.0;

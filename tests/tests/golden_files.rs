@@ -2,6 +2,8 @@
 //!
 //! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test golden_files` rewrites the files.
 
+#![allow(clippy::unwrap_used)]
+
 use std::path::PathBuf;
 
 use coadjoint_codegen::emit;

@@ -1,5 +1,7 @@
 //! The committed emitted code, compiled and run against the interpreter.
 
+#![allow(clippy::unwrap_used)]
+
 use coadjoint::nalgebra::SVector;
 use coadjoint::{GeneratingFunction, StepError};
 use coadjoint_codegen::integrator::Integrator;

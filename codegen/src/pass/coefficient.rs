@@ -49,7 +49,7 @@ impl Coefficient {
     }
 
     pub(super) fn negate(&mut self) {
-        self.factor = -std::mem::replace(&mut self.factor, Rational::zero());
+        self.factor = -std::mem::take(&mut self.factor);
     }
 }
 
