@@ -78,8 +78,8 @@ def named_basis(name):
     if name == "SO4":
         pairs = [(a, b) for a in range(4) for b in range(a + 1, 4)]
         return 4, [add(unit(4, b, a), unit(4, a, b, -1)) for a, b in pairs]
-    if name == "SU3":
-        return special_unitary(3)
+    if name in ("SU3", "SU5"):
+        return special_unitary(int(name[2]))
     raise SystemExit(f"no basis for {name}")
 
 
@@ -140,7 +140,7 @@ def hamiltonian(data):
     known = {str(s): s for s in symbols}
     known |= {n: exact(v) for n, v in data.get("parameters", {}).items()}
     text = " ".join(data["hamiltonian"].split()).replace("^", "**")
-    text = re.sub(r"(?<![\w.])(\d+\.\d*|\.\d+)", lambda m: f"Rational('{m[0]}')", text)
+    text = re.sub(r"(?<![\w.])(\d+\.?\d*|\.\d+)", lambda m: f"Rational('{m[0]}')", text)
     value = eval(text, {"__builtins__": {}, "Rational": sympy.Rational, "sqrt": sympy.sqrt}, known)
     return sympy.Poly(sympy.expand(value), *symbols)
 
@@ -309,7 +309,7 @@ def digits(x, n=25):
 
 
 def reference(path):
-    data = tomllib.loads(path.read_text())
+    data = tomllib.loads(path.read_text(), parse_float=str)
     poly = hamiltonian(data)
     if "algebra" in data:
         size, basis, structure = algebra_of(data["algebra"])
@@ -345,7 +345,7 @@ def main():
     chosen = sys.argv[1:]
     entries = []
     for path in sorted((ROOT / "examples").glob("*.toml")):
-        data = tomllib.loads(path.read_text())
+        data = tomllib.loads(path.read_text(), parse_float=str)
         if (not chosen or data["name"] in chosen) and "potential" not in data:
             entries.append(json.dumps(reference(path)))
     print("[\n" + ",\n".join(entries) + "\n]")

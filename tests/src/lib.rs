@@ -1,7 +1,12 @@
 //! What the integration tests share.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 pub mod bridge;
 pub mod golden;
+pub mod moments;
+pub mod reference;
+pub mod run;
+pub mod series;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;

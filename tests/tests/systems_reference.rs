@@ -1,0 +1,62 @@
+//! Every system reaches the end state of its reference at the order theory says, K + 1 (shared
+//! mathematics, parity of the series), and keeps momentum and Casimirs to rounding.
+
+use coadjoint_tests::reference::end_state;
+use coadjoint_tests::run::run;
+use coadjoint_tests::series::orders;
+
+/// Runs with n and 2n steps at each truncation; the finer run must end within `bound`.
+fn reaches(system: &str, runs: &[(usize, usize, f64)]) {
+    let entry = end_state(system);
+    let (algebra, hamiltonian) = (entry.algebra(), entry.polynomial());
+    for &(truncation, n, bound) in runs {
+        let series = orders(&algebra, &hamiltonian, truncation);
+        let (_, coarse) = run(&entry, &series, (n, n), None, &[]);
+        let (_, fine) = run(&entry, &series, (2 * n, 2 * n), None, &[]);
+        let note = format!("{system}, K = {truncation}, n = {n}: {coarse:?} {fine:?}");
+        assert!(fine.momentum < bound && fine.group_element < 10.0 * bound, "{note}");
+        for (a, b) in [(coarse.momentum, fine.momentum), (coarse.group_element, fine.group_element)]
+        {
+            let order = (a / b).log2();
+            assert!((order - (truncation + 1) as f64).abs() < 0.3, "order {order}: {note}");
+        }
+        for outcome in [coarse, fine] {
+            assert!(outcome.spatial_momentum <= 1e-13 && outcome.casimirs <= 1e-13, "{note}");
+        }
+    }
+}
+
+macro_rules! reaches {
+    ($($test:ident: $system:literal, $runs:expr;)*) => {
+        $(#[test]
+        fn $test() {
+            reaches($system, &$runs);
+        })*
+    };
+}
+
+// Step counts put both runs into the asymptotic regime and above rounding; bounds are the
+// measured end errors, rounded up.
+reaches! {
+    rigid_body_of_the_paper: "rigid-body (paper)", [(3, 500, 1e-4), (5, 500, 2e-8), (7, 300, 1e-9)];
+    rigid_body_of_the_dmv_driver: "rigid-body (DMV driver)",
+        [(3, 100, 1e-5), (5, 100, 1e-7), (7, 60, 1e-8)];
+    rigid_body_of_geometric_problems: "rigid-body (GeometricProblems)",
+        [(3, 300, 1e-4), (5, 300, 1e-7), (7, 200, 1e-8)];
+    free_body_with_full_inertia: "free-body-full-inertia",
+        [(3, 200, 5e-6), (5, 200, 4e-9), (7, 200, 4e-12)];
+    lagrange_top: "lagrange-top", [(3, 200, 6e-7), (5, 100, 6e-8), (7, 100, 3e-10)];
+    kovalevskaya_top: "Kovalevskaya top", [(3, 100, 8e-6), (5, 100, 2e-8), (7, 100, 6e-11)];
+    goryachev_chaplygin_top: "goryachev-chaplygin-top",
+        [(3, 100, 7e-7), (5, 100, 3e-10), (7, 50, 4e-11)];
+    heavy_top_of_bruels: "heavy top (Bruels)", [(3, 500, 2e-5), (5, 400, 1e-7), (7, 400, 1e-9)];
+    kirchhoff_body: "Kirchhoff", [(3, 100, 4e-8), (5, 50, 1e-9), (7, 50, 1e-12)];
+    clebsch_case: "clebsch-case", [(3, 100, 7e-7), (5, 100, 3e-10), (7, 50, 5e-11)];
+    gyrostat: "gyrostat", [(3, 200, 6e-5), (5, 200, 2e-7), (7, 100, 5e-8)];
+    manakov_body: "Manakov so(4)", [(3, 50, 1e-8), (5, 50, 2e-12), (7, 12, 3e-11)];
+    su3_quadratic: "su3-quadratic", [(3, 50, 7e-7), (5, 50, 6e-10), (7, 25, 2e-10)];
+    three_wave_interaction: "three-wave", [(3, 100, 5e-5), (5, 50, 2e-5)];
+    heisenberg_spin_ring: "heisenberg-spin-ring", [(3, 50, 5e-4)];
+    zeitlin_3: "zeitlin-3", [(3, 50, 8e-6), (5, 25, 4e-7)];
+    toda_lattice: "toda-lattice", [(3, 50, 3e-7), (5, 50, 5e-10), (7, 25, 3e-10)];
+}
