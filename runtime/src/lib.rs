@@ -59,6 +59,7 @@ mod error;
 mod generating_function;
 mod group;
 mod heisenberg;
+mod kicked;
 mod lanes;
 #[cfg(feature = "alloc")]
 pub mod laws;
@@ -76,6 +77,7 @@ mod se2;
 mod se3;
 mod so3;
 mod solve;
+mod splitting;
 mod su2;
 mod table;
 
@@ -129,6 +131,7 @@ pub use error::StepError;
 pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 pub use group::{CayleyGroup, FixedDimension, LieGroup};
 pub use heisenberg::Heisenberg;
+pub use kicked::Kicked;
 pub use lanes::{F64x4, F64x8, LaneGroup, Lanes};
 pub use monitor::{Drift, Monitor};
 pub use phase::Phase;
@@ -142,6 +145,7 @@ pub use se2::SE2;
 pub use se3::SE3;
 pub use so3::SO3;
 pub use solve::{MAX_ITERATIONS, Solution, solve};
+pub use splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 pub use su2::SU2;
 pub use table::{
     BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, StaticAlgebra, StaticMatrixGroup,
