@@ -7,7 +7,8 @@ use crate::lie::ChartError;
 pub struct TermLimit {
     /// The most terms one polynomial may have.
     pub terms: usize,
-    /// The most products of coefficients in one derivation.
+    /// The most products of coefficients in one derivation. Products of coefficients beyond 127
+    /// bits count by their 64-bit words.
     pub products: u64,
 }
 

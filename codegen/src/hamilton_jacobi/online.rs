@@ -34,7 +34,9 @@ impl Work {
         let mut list = Vec::with_capacity(products.len());
         let mut count = 1_usize;
         for (factor, left, right) in products {
-            count = count.saturating_add(left.len().saturating_mul(right.len()));
+            let pairs = left.len().saturating_mul(right.len());
+            let cost = left.words().saturating_mul(right.words());
+            count = count.saturating_add(pairs.saturating_mul(cost));
             list.push(Product { factor: factor.clone(), left, right });
         }
         self.charge(count)?;
@@ -46,7 +48,7 @@ impl Work {
         })
     }
 
-    /// Counts products of coefficients before they are made.
+    /// Counts products of words before they are made.
     pub(crate) fn charge(&mut self, products: usize) -> Result<(), DeriveError> {
         self.products = self.products.saturating_add(products as u64);
         if self.products > self.limit.products {

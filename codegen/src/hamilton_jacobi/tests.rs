@@ -26,6 +26,16 @@ fn hamiltonian(dimension: usize, extra: usize) -> Polynomial {
     &(&h + &last.scale(&ratio(2, 5))) + &cubic.scale(&ratio(1, 11))
 }
 
+/// Unequal squares, coupled to the next.
+fn squares(n: usize) -> Polynomial {
+    let terms = (0..n as u32).flat_map(|i| {
+        let next = (i + 1) % n as u32;
+        let square = (vec![(i, 2)], ratio(1, 2 + i64::from(i)));
+        [square, (vec![(i, 1), (next, 1)], ratio(1, 5))]
+    });
+    Polynomial::from_factors(n, terms)
+}
+
 /// An algebra of no particular fame: a and the plane (b, c) it turns and stretches.
 fn unseen() -> LieAlgebra {
     LieAlgebra::from_brackets(
@@ -94,6 +104,12 @@ fn predictor_solves_for_the_chart_momentum() {
     for chart in [Chart::Exponential, Chart::Cayley] {
         spatial_momentum_is_initial(&so3, chart, &hamiltonian(3, 0));
         spatial_momentum_is_initial(&so3, chart, &hamiltonian(3, 2));
+        for name in ["SU2", "SE2", "SL2", "Heisenberg"] {
+            let algebra = catalogue::lookup(name).unwrap();
+            spatial_momentum_is_initial(&algebra, chart, &squares(algebra.dim()));
+        }
+        let pair = catalogue::lookup("SO3*SE2").unwrap();
+        spatial_momentum_is_initial(&pair, chart, &squares(6));
         spatial_momentum_is_initial(&catalogue::lookup("SE3").unwrap(), chart, &heavy_top());
     }
     spatial_momentum_is_initial(&unseen(), Chart::Exponential, &hamiltonian(3, 1));

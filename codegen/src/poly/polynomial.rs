@@ -190,6 +190,14 @@ impl Polynomial {
         self.is_zero()
     }
 
+    /// The words of the largest numerator; one for machine integers.
+    pub(crate) fn words(&self) -> usize {
+        match &self.values {
+            Coefficients::Small { .. } => 1,
+            large => usize::try_from(large.bits() / 64 + 1).unwrap_or(usize::MAX),
+        }
+    }
+
     /// The total degree; zero for the zero polynomial.
     #[must_use]
     pub fn degree(&self) -> u32 {
