@@ -160,6 +160,13 @@ fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
             predictor: None,
         },
     ];
+    cases.push(Case {
+        name: "Kirchhoff body, symbolic",
+        algebra: catalogue::lookup("SE3")?,
+        hamiltonian: quadratic(12, (0..6).map(|i| (vec![i, i, i + 6], half.clone()))),
+        truncations: &[3, 5, 7],
+        predictor: Some(6),
+    });
     let su3 = (0..8).map(|i| (vec![i, i], ratio(1, i as i64 + 2)));
     cases.push(Case {
         name: "SU3, diagonal",
