@@ -43,11 +43,14 @@
 //! # Features
 //!
 //! `std` (default), `alloc`, `libm` (for `no_std`), `ensemble` (many trajectories in SIMD lanes and
-//! threads).
+//! threads), `systems` (tops, bodies, spins and waves, ready to integrate).
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+// Generated code names the runtime by its absolute path, here too.
+#[cfg(feature = "systems")]
+extern crate self as coadjoint;
 
 mod chart;
 mod compensated;
@@ -79,6 +82,8 @@ mod so3;
 mod solve;
 mod splitting;
 mod su2;
+#[cfg(feature = "systems")]
+pub mod systems;
 mod table;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
