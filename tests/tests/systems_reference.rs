@@ -58,5 +58,6 @@ reaches! {
     three_wave_interaction: "three-wave", [(3, 100, 5e-5), (5, 50, 2e-5)];
     heisenberg_spin_ring: "heisenberg-spin-ring", [(3, 50, 5e-4)];
     zeitlin_3: "zeitlin-3", [(3, 50, 8e-6), (5, 25, 4e-7)];
+    zeitlin_5: "zeitlin-5", [(1, 60, 1e-2), (3, 16, 1e-2)];
     toda_lattice: "toda-lattice", [(3, 50, 3e-7), (5, 50, 5e-10), (7, 25, 3e-10)];
 }
