@@ -1,2 +1,39 @@
-//! The command line of coadjoint.
-fn main() {}
+//! `coadjoint`: derive, emit, simulate and check Lie–Poisson integrators from a system file.
+//!
+//! This crate only wires: reading and derivation are in `coadjoint-codegen`, groups and steps in
+//! `coadjoint`. Exit codes: 0 fine, 1 a failure while running (or a law that does not hold),
+//! 2 bad input.
+
+mod arguments;
+mod casimirs;
+mod check;
+mod derive;
+mod emit;
+mod engine;
+mod error;
+mod load;
+mod progress;
+mod simulate;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Verb};
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().verb {
+        Verb::Derive(options) => derive::run(&options),
+        Verb::Emit(options) => emit::run(&options),
+        Verb::Simulate(options) => simulate::run(&options),
+        Verb::Check(options) => check::run(&options),
+        Verb::Casimirs(options) => casimirs::run(&options),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprint!("{}", error.text());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The command line itself.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use coadjoint_codegen::lie::Chart;
+
+/// Momentum-preserving integrators from a Hamiltonian.
+///
+/// FILE is a system file in TOML: a Hamiltonian, a group, and what to run. Exit codes: 0 fine,
+/// 1 a failure while running, 2 bad input.
+#[derive(Debug, Parser)]
+#[command(name = "coadjoint", version)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Print the exact series S₁ … S_K of the generating function
+    Derive(DeriveOptions),
+    /// Write the integrator as a Rust module
+    Emit(EmitOptions),
+    /// Run the system and report how well momentum, Casimirs and energy are kept
+    Simulate(SimulateOptions),
+    /// Try the laws of the method on this system, at random points
+    Check(CheckOptions),
+    /// Find the polynomial Casimirs of the system's algebra
+    Casimirs(CasimirOptions),
+}
+
+/// A chart by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ChartName {
+    /// The exponential.
+    Exp,
+    /// The Cayley map.
+    Cayley,
+}
+
+impl From<ChartName> for Chart {
+    fn from(name: ChartName) -> Self {
+        match name {
+            ChartName::Exp => Self::Exponential,
+            ChartName::Cayley => Self::Cayley,
+        }
+    }
+}
+
+/// For people or for programs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// For programs.
+    Json,
+}
+
+/// Formats of a series.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum SeriesFormat {
+    /// One line per term.
+    #[default]
+    Text,
+    /// One object with group, chart and S.
+    Json,
+    /// An aligned display.
+    Latex,
+}
+
+/// A system file and what replaces its settings.
+#[derive(Args, Debug)]
+pub struct Source {
+    /// The system file
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Use this chart instead of the file's
+    #[arg(long)]
+    pub chart: Option<ChartName>,
+}
+
+/// Options of `derive`.
+#[derive(Args, Debug)]
+pub struct DeriveOptions {
+    /// The system.
+    #[command(flatten)]
+    pub source: Source,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: SeriesFormat,
+}
+
+/// Options of `emit`.
+#[derive(Args, Debug)]
+pub struct EmitOptions {
+    /// The system.
+    #[command(flatten)]
+    pub source: Source,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// Write to this file instead of the standard output
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Keep the parameters as arguments of the integrator instead of putting in their values
+    #[arg(long)]
+    pub keep_parameters: bool,
+}
+
+/// What to run beside the integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rival {
+    /// The adaptive Runge–Kutta method of orders 4 and 5 of Dormand and Prince.
+    Rk45,
+}
+
+/// Options of `simulate`.
+#[derive(Args, Debug)]
+pub struct SimulateOptions {
+    /// The system.
+    #[command(flatten)]
+    pub source: Source,
+    /// Keep S₁ … S_K, K odd; several, such as 3,5,7, are run one after the other
+    #[arg(long, value_name = "K", value_delimiter = ',')]
+    pub truncation: Vec<usize>,
+    /// The step size h
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// The duration T
+    #[arg(long, value_name = "T")]
+    pub time: Option<f64>,
+    /// Record every n-th step
+    #[arg(long, value_name = "n")]
+    pub every: Option<usize>,
+    /// Write the trajectory, as .csv or .npy by the name
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draw the drift of energy, momentum and Casimirs
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+    /// Run another method beside it
+    #[arg(long, value_enum)]
+    pub compare: Option<Rival>,
+    /// The relative and absolute tolerance of the method beside it
+    #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
+    pub compare_tolerance: f64,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Options of `check`.
+#[derive(Args, Debug)]
+pub struct CheckOptions {
+    /// The system.
+    #[command(flatten)]
+    pub source: Source,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// The step size h
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// How many random points
+    #[arg(long, value_name = "n", default_value_t = 3)]
+    pub points: usize,
+    /// The seed of the random points
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Options of `casimirs`.
+#[derive(Args, Debug)]
+pub struct CasimirOptions {
+    /// The system file
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The highest degree looked for
+    #[arg(long, value_name = "d", default_value_t = 3)]
+    pub degree: u32,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}

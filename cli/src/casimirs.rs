@@ -1,0 +1,43 @@
+//! `coadjoint casimirs`: the polynomial Casimirs of the system's algebra.
+
+use coadjoint_codegen::lie;
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::system;
+use serde_json::json;
+
+use crate::arguments::{CasimirOptions, Format};
+use crate::derive::polynomial;
+use crate::error::CliError;
+use crate::load;
+
+/// Prints generators of the Casimirs up to the degree asked for.
+pub fn run(options: &CasimirOptions) -> Result<(), CliError> {
+    let problem = load::file(&options.file, system::Options::default())?.problem;
+    let found = lie::casimirs(&problem.algebra, options.degree).map_err(|error| {
+        CliError::Option(format!("{}: {error}; use --degree", options.file.display()))
+    })?;
+    match options.format {
+        Format::Text => {
+            println!(
+                "{}: {} generating Casimirs of degree up to {}",
+                problem.algebra.name(),
+                found.len(),
+                options.degree
+            );
+            for casimir in &found {
+                println!("{}", text(&problem, casimir));
+            }
+        }
+        Format::Json => {
+            let list: Vec<String> = found.iter().map(|c| text(&problem, c)).collect();
+            println!("{:#}", json!({ "group": problem.algebra.name(), "casimirs": list }));
+        }
+    }
+    Ok(())
+}
+
+/// A Casimir has no variables but the momentum's.
+fn text(problem: &Problem, casimir: &Polynomial) -> String {
+    polynomial(problem, casimir)
+}

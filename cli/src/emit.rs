@@ -1,0 +1,26 @@
+//! `coadjoint emit`: the integrator as a Rust module.
+
+use coadjoint_codegen::emit::{Options, file};
+use coadjoint_codegen::system::Parameters;
+
+use crate::arguments::EmitOptions;
+use crate::error::CliError;
+use crate::load;
+
+/// Writes the module to `--out` or the standard output.
+pub fn run(options: &EmitOptions) -> Result<(), CliError> {
+    let parameters =
+        if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
+    let system = load::source(&options.source, options.truncation, parameters)?;
+    let style = Options::for_problem(&system.problem.name);
+    let integrator = load::integrator(&options.source.file, system.problem)?;
+    let module = file(&integrator, &style);
+    match &options.out {
+        Some(path) => std::fs::write(path, module)
+            .map_err(|error| CliError::Write { path: path.clone(), message: error.to_string() }),
+        None => {
+            print!("{module}");
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The run-time group of a Lie algebra.
+
+use std::path::Path;
+
+use coadjoint::{MatrixGroup, Terms};
+use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
+use nalgebra::DMatrix;
+use num_traits::ToPrimitive;
+
+use crate::error::CliError;
+
+/// The degree up to which Casimirs are looked for to watch their drift.
+const CASIMIR_DEGREE: u32 = 3;
+
+/// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
+/// size, or adjoint matrices where only brackets are known.
+pub fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, CliError> {
+    let structure: Vec<_> =
+        algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
+    let group = match algebra.basis() {
+        Some(basis) => {
+            let basis: Vec<DMatrix<f64>> = basis.iter().map(matrix).collect();
+            MatrixGroup::from_structure_and_basis(&structure, &basis)
+        }
+        None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
+    };
+    let terms = casimirs(algebra).iter().map(terms).collect();
+    group
+        .and_then(|group| group.with_casimirs(terms))
+        .map_err(|source| CliError::Group { file: path.into(), source })
+}
+
+/// The Casimirs whose drift is watched: generators up to the highest degree that is not too much
+/// work.
+fn casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
+    (1..=CASIMIR_DEGREE)
+        .rev()
+        .find_map(|degree| lie::casimirs(algebra, degree).ok())
+        .unwrap_or_default()
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+fn matrix(exact: &RationalMatrix) -> DMatrix<f64> {
+    let mut result = DMatrix::zeros(exact.rows(), exact.columns());
+    for (i, j, value) in exact.entries() {
+        result[(i, j)] = float(value);
+    }
+    result
+}
+
+fn terms(polynomial: &Polynomial) -> Terms {
+    polynomial
+        .terms()
+        .map(|(exponents, value)| {
+            let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
+            (float(&value), powers.collect())
+        })
+        .collect()
+}

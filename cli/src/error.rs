@@ -1,0 +1,108 @@
+//! What can go wrong, and the exit code it means.
+
+use std::path::PathBuf;
+
+use coadjoint::{ElementError, StepError, TableError};
+use coadjoint_codegen::hamilton_jacobi::DeriveError;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// Mistakes in the system file, rendered with file, line and advice.
+    #[error("{0}")]
+    Input(String),
+    /// An option that does not make sense.
+    #[error("{0}")]
+    Option(String),
+    /// Something the file must say for this command.
+    #[error("{file}: `{key}` is missing: write for example `{example}`, or give {option}", file = .file.display())]
+    Missing {
+        /// The system file.
+        file: PathBuf,
+        /// The key.
+        key: &'static str,
+        /// A line with it.
+        example: &'static str,
+        /// The option that replaces it.
+        option: &'static str,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The series cannot be derived, or is too large.
+    #[error("{}: {source}", .file.display())]
+    Derive {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: DeriveError,
+    },
+    /// The data defines no group.
+    #[error("{}: {source}", .file.display())]
+    Group {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TableError,
+    },
+    /// The initial group element is none.
+    #[error("{}: `group_element` in [initial]: {source}", .file.display())]
+    Element {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: ElementError,
+    },
+    /// A file that cannot be written.
+    #[error("cannot write {}: {message}", .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        message: String,
+    },
+    /// A step that could not be made.
+    #[error("at time {time}: {source}")]
+    Step {
+        /// When.
+        time: f64,
+        /// Why.
+        source: StepError,
+    },
+    /// The method run beside the integrator failed.
+    #[error("the comparison with rk45 failed: {0}")]
+    Rival(String),
+    /// Laws that do not hold; the table has been printed.
+    #[error("{0}")]
+    Laws(String),
+}
+
+impl CliError {
+    /// 2 for bad input, 1 for everything else.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Input(_)
+            | Self::Option(_)
+            | Self::Missing { .. }
+            | Self::Read { .. }
+            | Self::Derive { .. }
+            | Self::Group { .. }
+            | Self::Element { .. } => 2,
+            Self::Write { .. } | Self::Step { .. } | Self::Rival(_) | Self::Laws(_) => 1,
+        }
+    }
+
+    /// The message for the terminal, with its line end.
+    pub fn text(&self) -> String {
+        match self {
+            // Rendered mistakes begin with their own places.
+            Self::Input(text) => text.clone(),
+            other => format!("error: {other}\n"),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What a run did, for people and for programs.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::trajectory::Trajectory;
+use crate::arguments::Format;
+
+/// The text to print: one block per run, or one JSON object (an array of them for several runs).
+pub fn report(runs: &[Trajectory], format: Format) -> String {
+    match format {
+        Format::Text => runs.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Json => {
+            let value = match runs {
+                [single] => object(single),
+                several => Value::Array(several.iter().map(object).collect()),
+            };
+            format!("{value:#}\n")
+        }
+    }
+}
+
+fn object(run: &Trajectory) -> Value {
+    let solver = run.truncation.map(
+        |_| json!({ "mean_iterations": run.mean_iterations, "max_residual": run.max_residual }),
+    );
+    json!({
+        "method": run.label,
+        "truncation": run.truncation,
+        "steps": run.steps,
+        "time": run.time(),
+        "momentum": run.momentum,
+        "group_element": run.group_element,
+        "drift": {
+            "spatial_momentum": run.drift.spatial_momentum,
+            "casimirs": run.drift.casimirs,
+            "energy": run.drift.energy,
+        },
+        "solver": solver,
+    })
+}
+
+fn text(run: &Trajectory) -> String {
+    let mut out = String::new();
+    // Writing into a string cannot fail.
+    let _ = writeln!(out, "{}: {} steps to time {}", run.label, run.steps, run.time());
+    for (name, value) in run.coordinates.iter().zip(&run.momentum) {
+        let _ = writeln!(out, "  {name:<10} {value:>22.16}");
+    }
+    let _ = writeln!(out, "  group element");
+    for row in &run.group_element {
+        let entries: Vec<String> = row.iter().map(|value| format!("{value:>20.16}")).collect();
+        let _ = writeln!(out, "    {}", entries.join(" "));
+    }
+    let drift = run.drift;
+    let _ = writeln!(out, "  largest relative drift");
+    let _ = writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum);
+    match run.casimirs {
+        0 => {
+            let _ = writeln!(out, "    Casimirs         none known");
+        }
+        count => {
+            let _ = writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs);
+        }
+    }
+    let _ = writeln!(out, "    energy           {:>10.1e}", drift.energy);
+    if run.truncation.is_some() {
+        let _ = writeln!(
+            out,
+            "  solver: {:.2} Newton iterations a step, largest residual {:.1e}",
+            run.mean_iterations, run.max_residual
+        );
+    }
+    out
+}

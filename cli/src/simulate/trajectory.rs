@@ -1,0 +1,179 @@
+//! What is kept of a run: records, and the largest drift of every invariant.
+
+use coadjoint::Phase;
+use coadjoint_codegen::integrator::Integrator;
+use nalgebra::DVector;
+
+use crate::engine::Group;
+
+/// The largest differences from the start so far, each relative to the largest value at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Of the spatial momentum J_L, relative to its largest coordinate.
+    pub spatial_momentum: f64,
+    /// Of all Casimirs known, each relative to itself (absolute where it is 0).
+    pub casimirs: f64,
+    /// Of the energy, relative to itself (absolute where it is 0).
+    pub energy: f64,
+}
+
+impl Drift {
+    fn raise(&mut self, other: Self) {
+        self.spatial_momentum = self.spatial_momentum.max(other.spatial_momentum);
+        self.casimirs = self.casimirs.max(other.casimirs);
+        self.energy = self.energy.max(other.energy);
+    }
+}
+
+/// A recorded moment.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// t.
+    pub time: f64,
+    /// μ.
+    pub momentum: Vec<f64>,
+    /// g, row by row.
+    pub element: Vec<f64>,
+    /// H_red(μ).
+    pub energy: f64,
+    /// The differences at this moment.
+    pub drift: Drift,
+}
+
+/// A whole run.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    /// What made it, for tables and pictures.
+    pub label: String,
+    /// K; `None` for a method beside ours.
+    pub truncation: Option<usize>,
+    /// Names of the momentum's coordinates.
+    pub coordinates: Vec<String>,
+    /// The recorded moments, the start first.
+    pub records: Vec<Record>,
+    /// Steps made.
+    pub steps: u64,
+    /// The end: momentum and group element.
+    pub momentum: Vec<f64>,
+    /// Row by row.
+    pub group_element: Vec<Vec<f64>>,
+    /// The maxima over all steps, recorded or not.
+    pub drift: Drift,
+    /// How many Casimirs were watched.
+    pub casimirs: usize,
+    /// Newton iterations per step.
+    pub mean_iterations: f64,
+    /// The largest residual a solve left, relative to the momentum.
+    pub max_residual: f64,
+}
+
+impl Trajectory {
+    /// The time reached.
+    pub fn time(&self) -> f64 {
+        self.records.last().map_or(0.0, |record| record.time)
+    }
+}
+
+/// Watches a run.
+pub struct Recorder<'a, G: Group> {
+    group: &'a G,
+    energy: &'a dyn Fn(&DVector<f64>) -> f64,
+    start: Invariants,
+    iterations: u64,
+    trajectory: Trajectory,
+}
+
+struct Invariants {
+    spatial_momentum: DVector<f64>,
+    casimirs: Vec<f64>,
+    energy: f64,
+}
+
+impl<'a, G: Group> Recorder<'a, G> {
+    /// Starts at `phase`, which is recorded.
+    pub fn new(
+        group: &'a G,
+        energy: &'a dyn Fn(&DVector<f64>) -> f64,
+        phase: &Phase<G>,
+        integrator: &Integrator,
+        label: String,
+    ) -> Self {
+        let start = invariants(group, energy, phase);
+        let trajectory = Trajectory {
+            label,
+            truncation: Some(integrator.problem.truncation),
+            coordinates: integrator.problem.coordinates.clone(),
+            records: Vec::new(),
+            steps: 0,
+            momentum: Vec::new(),
+            group_element: Vec::new(),
+            drift: Drift::default(),
+            casimirs: group.casimir_count(),
+            mean_iterations: 0.0,
+            max_residual: 0.0,
+        };
+        let mut recorder = Self { group, energy, start, iterations: 0, trajectory };
+        recorder.visit(0.0, phase, true);
+        recorder
+    }
+
+    /// Takes note of how a solve went.
+    pub fn solved(&mut self, iterations: u32, residual: f64) {
+        self.iterations += u64::from(iterations);
+        self.trajectory.max_residual = self.trajectory.max_residual.max(residual);
+    }
+
+    /// Measures the drift at this moment, and records it if asked to.
+    pub fn visit(&mut self, time: f64, phase: &Phase<G>, record: bool) {
+        let now = invariants(self.group, self.energy, phase);
+        let start = &self.start;
+        let casimirs = start.casimirs.iter().zip(&now.casimirs);
+        let drift = Drift {
+            spatial_momentum: relative(
+                (&now.spatial_momentum - &start.spatial_momentum).amax(),
+                start.spatial_momentum.amax(),
+            ),
+            casimirs: casimirs.map(|(c, d)| relative(c - d, *c)).fold(0.0, f64::max),
+            energy: relative(now.energy - start.energy, start.energy),
+        };
+        self.trajectory.drift.raise(drift);
+        if record {
+            let momentum = phase.momentum.iter().copied().collect();
+            let element = self.matrix(phase).concat();
+            let energy = now.energy;
+            self.trajectory.records.push(Record { time, momentum, element, energy, drift });
+        }
+    }
+
+    fn matrix(&self, phase: &Phase<G>) -> Vec<Vec<f64>> {
+        let size = self.group.matrix_size();
+        let entry = |i, j| self.group.matrix_entry(&phase.group_element, i, j);
+        (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    /// The run, which ended at `phase`.
+    pub fn finish(mut self, steps: u64, phase: &Phase<G>) -> Trajectory {
+        self.trajectory.steps = steps;
+        self.trajectory.momentum = phase.momentum.iter().copied().collect();
+        self.trajectory.group_element = self.matrix(phase);
+        self.trajectory.mean_iterations = self.iterations as f64 / (steps.max(1)) as f64;
+        self.trajectory
+    }
+}
+
+fn invariants<G: Group>(
+    group: &G,
+    energy: &dyn Fn(&DVector<f64>) -> f64,
+    phase: &Phase<G>,
+) -> Invariants {
+    let count = group.casimir_count();
+    Invariants {
+        spatial_momentum: phase.spatial_momentum(group),
+        casimirs: (0..count).map(|i| group.casimir(i, &phase.momentum)).collect(),
+        energy: energy(&phase.momentum),
+    }
+}
+
+fn relative(difference: f64, size: f64) -> f64 {
+    if size == 0.0 { difference.abs() } else { (difference / size).abs() }
+}
