@@ -12,8 +12,8 @@ use super::trajectory::{Recorder, Trajectory};
 use crate::engine::Interpreter;
 use crate::error::CliError;
 
-/// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at the times of the
-/// steps of our own.
+/// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at its own steps
+/// (between them it would be the interpolation that is measured).
 pub fn rk45<C: Chart<MatrixGroup>>(
     step: &Interpreter<'_, MatrixGroup, C>,
     integrator: &Integrator,
@@ -45,15 +45,10 @@ pub fn rk45<C: Chart<MatrixGroup>>(
         rate[n..].copy_from_slice(moved.as_slice());
     };
     let end = setup.steps as f64 * setup.step;
-    let times: Vec<f64> = (0..=setup.steps)
-        .filter(|k| k % setup.every == 0 || *k == setup.steps)
-        .map(|k| k as f64 * setup.step)
-        .collect();
     let solution = IVP::ode_from_fn(flow, 0.0, end, state)
         .method(ExplicitRungeKutta::dopri5().max_steps(usize::MAX))
         .rtol(tolerance)
         .atol(tolerance)
-        .t_eval(times)
         .solve()
         .map_err(|error| CliError::Rival(format!("{error:?}")))?;
 

@@ -1,0 +1,134 @@
+//! Bad input: exit code 2, the file, the line, and what to write instead.
+
+mod support;
+
+use support::{file, run};
+
+const GOOD: &str = r#"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = "x^2 + y^2/2"
+[integrator]
+step = 0.1
+[initial]
+momentum = [1, 2, 3]
+[run]
+time = 1.0
+"#;
+
+/// Every mistake in a file is reported at once, with its line.
+#[test]
+fn mistakes_are_reported_with_file_and_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = GOOD
+        .replace("x^2 + y^2/2", "x^2 + sin(y) + w")
+        .replace("step = 0.1", "step = 0.1\ntrucnation = 7");
+    let system = file(&directory, &text);
+    for verb in ["derive", "emit", "simulate", "check", "casimirs"] {
+        let (code, out, error) = run(&[verb, &system]);
+        assert_eq!((code, out.as_str()), (2, ""), "{verb}");
+        for expected in [
+            format!("{system}:4:22: error: `sin` of the momentum is not a polynomial"),
+            format!("{system}:4:31: error: unknown variable `w`"),
+            format!(
+                "{system}:7:1: error: unknown key `trucnation` in [integrator]; did you mean `truncation`?"
+            ),
+            "help: known here: x, y, z".to_owned(),
+        ] {
+            assert!(error.contains(&expected), "{verb}: {expected}\n{error}");
+        }
+    }
+}
+
+#[test]
+fn one_line_reasons() {
+    let cases = [
+        // The bracket of E₁₂ and E₂₁ is diagonal.
+        (
+            "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]",
+            "is not a combination of the basis",
+        ),
+        (
+            "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]], [[0, 2], [0, 0]]]",
+            "linear combination of those before it",
+        ),
+        (
+            "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = a\", \"[b, c] = b\", \"[c, a] = c\"]",
+            "the Jacobi identity fails for a, b, c",
+        ),
+        (
+            "group = \"SU3\"\nhamiltonian = \"mu[0]\"\n[integrator]\nchart = \"cayley\"",
+            "no Cayley chart",
+        ),
+        (
+            "group = \"SO3\"\nhamiltonian = \"mu[0]\"\n[integrator]\ntruncation = 6",
+            "truncation 6 is even",
+        ),
+    ];
+    for (text, reason) in cases {
+        let directory = tempfile::tempdir().unwrap();
+        let system = file(&directory, text);
+        let (code, _, error) = run(&["derive", &system]);
+        assert_eq!(code, 2, "{error}");
+        assert!(error.lines().next().unwrap().contains(reason), "{error}");
+    }
+}
+
+#[test]
+fn options_are_checked_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(&directory, GOOD);
+    for (arguments, reason) in [
+        (&["simulate", &system, "--step", "0"][..], "other than zero"),
+        (&["simulate", &system, "--time", "-1"], ""),
+        (&["simulate", &system, "--every", "0"], "from 1"),
+        (&["simulate", &system, "--truncation", "3,4"], "truncation 4 is even"),
+        (&["derive", &system, "--truncation", "0"], "truncation 0"),
+        (&["derive", &system, "--chart", "caley"], "cayley"),
+        (&["derive", "nowhere.toml"], "cannot read nowhere.toml"),
+        (&["derive"], "FILE"),
+        (&["deriv", &system], "derive"),
+    ] {
+        let (code, _, error) = run(arguments);
+        assert_eq!(code, 2, "{arguments:?}: {error}");
+        assert!(error.contains(reason), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn what_a_run_needs_is_asked_for() {
+    let directory = tempfile::tempdir().unwrap();
+    for (line, key) in
+        [("step = 0.1", "step"), ("time = 1.0", "time"), ("momentum = [1, 2, 3]", "momentum")]
+    {
+        let system = file(&directory, &GOOD.replace(line, ""));
+        let (code, _, error) = run(&["simulate", &system]);
+        assert_eq!(code, 2);
+        assert!(
+            error.contains(&format!("{key}` is missing")) && error.contains("write for example"),
+            "{error}"
+        );
+    }
+    let far = GOOD.replace(
+        "momentum = [1, 2, 3]",
+        "momentum = [1, 2, 3]\ngroup_element = [[1, 0, 0], [0, 1, 0], [0, 0, 2]]",
+    );
+    let (code, _, error) = run(&["simulate", &file(&directory, &far)]);
+    assert_eq!(code, 2);
+    assert!(error.contains("group_element"), "{error}");
+}
+
+/// Too large to derive: refused with a count, not by running out of memory.
+#[test]
+fn a_problem_too_large_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let terms: Vec<String> =
+        (0..6).flat_map(|i| (0..=i).map(move |j| format!("mu[{i}]^2*mu[{j}]^2"))).collect();
+    let text = format!(
+        "group = \"SO4\"\nhamiltonian = \"{}\"\n[integrator]\ntruncation = 15",
+        terms.join(" + ")
+    );
+    let (code, _, error) = run(&["derive", &file(&directory, &text)]);
+    assert_eq!(code, 2);
+    assert!(error.contains("too large") && error.contains("lower the truncation"), "{error}");
+}
