@@ -1,5 +1,5 @@
 //! Running the binary. Each test file uses its share.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::path::{Path, PathBuf};
 
