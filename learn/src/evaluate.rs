@@ -70,33 +70,45 @@ where
     M: MomentumFunction,
 {
     let dim = group.dim();
-    let [mut x, mut momentum, mut attitude] = [(); 3].map(|()| Gauge::default());
+    let mut x = Gauge::default();
     let mut found = vec![0.0; dim];
     for (p, expected) in reduced.p.column_iter().zip(reduced.x.column_iter()) {
         map.function.gradient(p.as_slice(), &mut found);
         found.iter().zip(expected.iter()).for_each(|(a, b)| x.add(a - b));
     }
+    let mut figures = evaluate_with(group, pairs, |before| {
+        let mut phase = before.clone();
+        advance(map, &mut phase).ok()?;
+        Some(phase)
+    });
+    figures.mse.x = x.mse();
+    figures.max_error.x = x.largest();
+    figures
+}
+
+/// Errors of any map of phase points on pairs; `None` marks a point the map cannot take.
+pub fn evaluate_with<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    pairs: &PairRows<G>,
+    map: impl Fn(&Phase<G>) -> Option<Phase<G>>,
+) -> Figures {
+    let [mut momentum, mut attitude] = [(); 2].map(|()| Gauge::default());
     let mut unsolved = Vec::new();
     for (row, pair) in &pairs.pairs {
-        let mut phase = pair.before.clone();
-        if advance(map, &mut phase).is_err() {
+        let Some(phase) = map(&pair.before) else {
             unsolved.push(*row);
             continue;
-        }
+        };
         let expected = &pair.after;
-        (0..dim).for_each(|i| momentum.add(phase.momentum[i] - expected.momentum[i]));
+        (0..group.dim()).for_each(|i| momentum.add(phase.momentum[i] - expected.momentum[i]));
         let difference =
             matrix_of(group, &phase.group_element) - matrix_of(group, &expected.group_element);
         difference.iter().for_each(|&e| attitude.add(e));
     }
     Figures {
         samples: pairs.pairs.len(),
-        mse: Errors { x: x.mse(), momentum: momentum.mse(), group: attitude.mse() },
-        max_error: Errors {
-            x: x.largest(),
-            momentum: momentum.largest(),
-            group: attitude.largest(),
-        },
+        mse: Errors { x: None, momentum: momentum.mse(), group: attitude.mse() },
+        max_error: Errors { x: None, momentum: momentum.largest(), group: attitude.largest() },
         unsolved,
     }
 }

@@ -12,9 +12,12 @@
 pub mod data;
 mod error;
 mod evaluate;
+pub mod experiment;
 mod function;
 mod gaussian_process;
 mod group;
+mod hamilton_jacobi;
+mod hamiltonian;
 #[cfg(feature = "neural")]
 mod hybrid;
 mod least_squares;
@@ -23,18 +26,22 @@ pub mod momentum;
 pub mod network;
 pub mod polynomial;
 mod save;
+mod series;
 mod trivialisation;
 pub mod truth;
 
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
-pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta};
+pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
 pub use function::{Generating, MomentumFunction, Scaled, Zero};
 pub use gaussian_process::{
     GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
 };
 pub use group::{MatrixGroup, matrix_of};
+pub use hamilton_jacobi::{CollocationOptions, TimeDependent, solve_hamilton_jacobi};
+pub use hamiltonian::fit_hamiltonian;
 #[cfg(feature = "neural")]
 pub use hybrid::fit_hybrid;
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
 pub use save::{ModelFile, TrainingRecord};
+pub use series::Monomials;

@@ -193,7 +193,7 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
         let right = even.add(odd).sub(mu_next.clone());
         left.clone().mul(left).mean().add(right.clone().mul(right).mean())
     };
-    let (unknowns, history) = minimise(unknowns, &options.training, loss, progress)?;
+    let (unknowns, history) = minimise(unknowns, &options.training, loss, None, progress)?;
     let (hidden, output) = generating.layers(&unknowns)?;
     let activation = options.training.activation;
     let network = DenseNetwork::new(activation, scaling, vec![0.0; dim], scale, hidden, output)

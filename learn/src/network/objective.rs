@@ -145,11 +145,15 @@ impl Architecture {
     }
 }
 
+/// Steps of Adam between two looks at the validation data.
+const WATCH: usize = 10;
+
 /// Lowers `loss` from `unknowns`: Adam with a cosine schedule, then L-BFGS.
 pub(super) fn minimise(
     mut unknowns: Unknowns,
     options: &TrainingOptions,
     loss: impl Fn(&Unknowns) -> Tensor<1>,
+    watch: Option<&dyn Fn(&Unknowns) -> Tensor<1>>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Unknowns, Vec<f64>), LearnError> {
     let mut history = Vec::new();
@@ -159,7 +163,9 @@ pub(super) fn minimise(
         let now = loss(&unknowns);
         let gradients = GradientsParams::from_grads(now.backward(), &unknowns);
         let value: f64 = now.into_scalar();
-        report(&mut history, value, step, total, progress)?;
+        let validation =
+            watch.filter(|_| step % WATCH == 0).map(|watch| watch(&unknowns).into_scalar::<f64>());
+        report(&mut history, Progress { step, total, loss: value, validation }, progress)?;
         unknowns = adam.step(options.rate(step), unknowns, gradients);
     }
     // The L-BFGS of the framework has absolute thresholds (curvature 1e-10): the loss is put on a
@@ -194,7 +200,8 @@ pub(super) fn minimise(
         let end: f64 = loss(&next).into_scalar();
         for value in seen {
             let step = options.adam_steps + done;
-            report(&mut history, value, step, total, progress)?;
+            let now = Progress { step, total, loss: value, validation: None };
+            report(&mut history, now, progress)?;
             done += 1;
         }
         if end.is_finite() && end < start {
@@ -211,16 +218,14 @@ pub(super) fn minimise(
 
 fn report(
     history: &mut Vec<f64>,
-    loss: f64,
-    step: usize,
-    total: usize,
+    now: Progress,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(), LearnError> {
-    if !loss.is_finite() && step == 0 {
+    if !now.loss.is_finite() && now.step == 0 {
         let reason = "the loss is not finite at the first weights".into();
         return Err(LearnError::NotConverged { reason });
     }
-    history.push(loss);
-    progress(Progress { step, total, loss });
+    history.push(now.loss);
+    progress(now);
     Ok(())
 }

@@ -77,6 +77,8 @@ pub struct Progress {
     pub total: usize,
     /// The loss, in normalised units: 1 is the variance of the data.
     pub loss: f64,
+    /// The same on validation data, where there are any; looked at every tenth step of Adam.
+    pub validation: Option<f64>,
 }
 
 /// Fits S = mean·p + scale·N(u) to reduced data, min Σ|xᵢ − ∂S/∂p(pᵢ)|² with inputs and targets
@@ -90,16 +92,18 @@ pub fn fit_network(
     options: &TrainingOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(DenseNetwork, Vec<f64>), LearnError> {
-    fit_network_to_gradients(&data.p, &data.x, options, progress)
+    fit_network_to_gradients(&data.p, &data.x, None, options, progress)
 }
 
 /// As [`fit_network`], for any function f of which ∂f/∂p is known at points: a sample per column.
+/// `validation` points and gradients are watched, not fitted.
 ///
 /// # Errors
 /// As [`fit_network`].
 pub fn fit_network_to_gradients(
     points: &DMatrix<f64>,
     gradients: &DMatrix<f64>,
+    validation: Option<(&DMatrix<f64>, &DMatrix<f64>)>,
     options: &TrainingOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(DenseNetwork, Vec<f64>), LearnError> {
@@ -107,24 +111,22 @@ pub fn fit_network_to_gradients(
     if points.ncols() == 0 {
         return Err(LearnError::NoSamples);
     }
-    let (dim, samples) = points.shape();
+    let dim = points.nrows();
     let scaling = Scaling::of(points);
     let mean: Vec<f64> = gradients.row_iter().map(|row| row.mean()).collect();
     // Targets ∂N/∂u_j = (x_j − mean_j) w_j / scale, of unit variance together.
-    let mut targets = gradients.transpose();
-    for (j, mean) in mean.iter().enumerate() {
-        for entry in targets.column_mut(j).iter_mut() {
-            *entry = (*entry - mean) * scaling.half_width[j];
-        }
-    }
+    let weighted = |gradients: &DMatrix<f64>| {
+        DMatrix::from_fn(gradients.nrows(), gradients.ncols(), |j, i| {
+            (gradients[(j, i)] - mean[j]) * scaling.half_width[j]
+        })
+    };
+    let targets = weighted(gradients);
     let spread = (targets.norm_squared() / targets.len() as f64).sqrt();
     let scale = if spread > 0.0 { spread } else { 1.0 };
-    // Row-major values of a samples×dim matrix are the column-major ones of its transpose.
-    let inputs: Vec<f64> = points
-        .column_iter()
-        .flat_map(|p| (0..dim).map(|j| scaling.normalise(j, p[j])).collect::<Vec<_>>())
-        .collect();
-    let targets: Vec<f64> = targets.transpose().iter().map(|t| t / scale).collect();
+    // The column-major entries of a dim×samples matrix are the row-major ones of its transpose.
+    let normalised = |points: &DMatrix<f64>| {
+        DMatrix::from_fn(dim, points.ncols(), |j, i| scaling.normalise(j, points[(j, i)]))
+    };
 
     let device = device();
     let architecture = Architecture {
@@ -135,13 +137,22 @@ pub fn fit_network_to_gradients(
         activation: options.activation,
     };
     let unknowns = Unknowns::new(&architecture.draw(options.seed), &device);
-    let u = matrix(&inputs, samples, dim, &device);
-    let y = matrix(&targets, samples, dim, &device);
-    let loss = |unknowns: &Unknowns| -> Tensor<1> {
+    let tensors = |points: &DMatrix<f64>, gradients: &DMatrix<f64>| {
+        let targets = weighted(gradients) / scale;
+        let rows = points.ncols();
+        let u = matrix(normalised(points).as_slice(), rows, dim, &device);
+        (u, matrix(targets.as_slice(), rows, dim, &device))
+    };
+    let miss = |unknowns: &Unknowns, (u, y): &(Tensor<2>, Tensor<2>)| -> Tensor<1> {
         let miss = architecture.slope(unknowns, u.clone()).sub(y.clone());
         miss.clone().mul(miss).mean()
     };
-    let (unknowns, history) = minimise(unknowns, options, loss, progress)?;
+    let train = tensors(points, gradients);
+    let held_out = validation.map(|(points, gradients)| tensors(points, gradients));
+    let loss = |unknowns: &Unknowns| miss(unknowns, &train);
+    let watched = held_out.as_ref().map(|data| |unknowns: &Unknowns| miss(unknowns, data));
+    let watch = watched.as_ref().map(|w| w as &dyn Fn(&Unknowns) -> Tensor<1>);
+    let (unknowns, history) = minimise(unknowns, options, loss, watch, progress)?;
     let (hidden, output) = architecture.layers(&unknowns)?;
     let network = DenseNetwork::new(options.activation, scaling, mean, scale, hidden, output)
         .map_err(|reason| LearnError::NotConverged { reason })?;

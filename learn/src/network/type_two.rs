@@ -90,7 +90,8 @@ where
     let mut gradients = DMatrix::zeros(2 * dim, before.ncols());
     gradients.rows_mut(0, dim).copy_from(&(before.rows(dim, dim) - after.rows(dim, dim)));
     gradients.rows_mut(dim, dim).copy_from(&(after.rows(0, dim) - before.rows(0, dim)));
-    let (network, history) = fit_network_to_gradients(&points, &gradients, options, progress)?;
+    let (network, history) =
+        fit_network_to_gradients(&points, &gradients, None, options, progress)?;
     Ok((TypeTwo { network }, history))
 }
 

@@ -1,0 +1,17 @@
+//! The experiments of the paper by name, seeded: figures beside the paper's, curves as CSV.
+
+mod geometrize;
+mod hamilton_jacobi;
+mod hamiltonian;
+mod noise;
+mod reduction_error;
+mod report;
+mod run;
+mod runge_kutta;
+mod simulation;
+mod table_one;
+mod table_two;
+
+pub use report::{Cell, Curve, Report, Table};
+pub use run::{NAMES, RunOptions, run};
+pub use runge_kutta::{RungeKuttaError, dormand_prince};
