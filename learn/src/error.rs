@@ -80,10 +80,8 @@ pub enum LearnError {
     )]
     NoAttitude,
     /// Attitudes are given in a form the group does not have.
-    #[error("attitudes of {group} cannot be given as {form}; give g_11 … and g_next_11 … matrices")]
+    #[error("attitudes of this group cannot be given as {form}; give g_11 … and g_next_11 …")]
     AttitudeForm {
-        /// The group.
-        group: String,
         /// The form given.
         form: &'static str,
     },
@@ -115,6 +113,24 @@ pub enum LearnError {
     #[error("the fit did not converge: {reason}")]
     NotConverged {
         /// What happened.
+        reason: String,
+    },
+    /// The catalogue has no such group.
+    #[error("group {name}: {reason}")]
+    UnknownGroup {
+        /// The name given.
+        name: String,
+        /// Why not.
+        reason: String,
+    },
+    /// The group has no such chart.
+    #[error("{group} has no chart {chart}: {reason}")]
+    NoChart {
+        /// The group.
+        group: String,
+        /// The chart asked for.
+        chart: String,
+        /// Why not.
         reason: String,
     },
     /// An option is out of its range.

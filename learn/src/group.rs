@@ -1,16 +1,21 @@
 //! What learning asks of a group beyond the runtime: reading elements from data.
 
-use coadjoint::{Coordinates, LieGroup, SO3};
+use coadjoint::{CayleyMatrixGroup, Coordinates, LieGroup, MatrixGroup, SE3, SO3};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-/// A group whose elements can be read from matrices, for data and models on disk.
-pub trait MatrixGroup: LieGroup<Scalar = f64> {
-    /// The name users write: `SO3`.
-    fn name(&self) -> String;
-
-    /// The element nearest to `matrix` (in the representation of
-    /// [`LieGroup::matrix_entry`]); `None` where there is none.
-    fn element_near(&self, matrix: &DMatrix<f64>) -> Option<Self::Element>;
+/// A group whose elements can be read from data.
+pub trait DataGroup: LieGroup<Scalar = f64> {
+    /// The element nearest to `matrix` (in the representation of [`LieGroup::matrix_entry`]);
+    /// `None` where there is none, or none can be found.
+    ///
+    /// By default a matrix must be an element to 8 digits; SO(3) projects any matrix.
+    fn element_near(&self, matrix: &DMatrix<f64>) -> Option<Self::Element> {
+        let size = self.matrix_size();
+        if matrix.shape() != (size, size) {
+            return None;
+        }
+        self.element_from_matrix(|i, j| matrix[(i, j)]).ok()
+    }
 
     /// The element of the quaternion (w, x, y, z) of about unit length, where the group has them.
     fn element_of_quaternion(&self, _wxyz: [f64; 4]) -> Option<Self::Element> {
@@ -24,11 +29,18 @@ pub trait MatrixGroup: LieGroup<Scalar = f64> {
     }
 }
 
-impl MatrixGroup for SO3<f64> {
-    fn name(&self) -> String {
-        "SO3".into()
+/// The fold of rotations. Cayley: along a fixed axis p = μ cos²(θ/2), which grows with the angle
+/// θ = t|Ω| only up to θ tan(θ/2) = 1 (θ ≈ 1.3065 rad); beyond it two increments share one p.
+/// Exponential: along an axis p = μ, so the limit is the half turn, where the coordinate jumps.
+fn rotation_fold(chart: &str, norm: f64) -> Option<f64> {
+    match chart {
+        "cayley" => Some(2.0 * (0.5 * norm).atan() * 0.5 * norm),
+        "exp" => Some(norm / (std::f64::consts::PI * 0.95)),
+        _ => None,
     }
+}
 
+impl DataGroup for SO3<f64> {
     fn element_near(&self, matrix: &DMatrix<f64>) -> Option<Self::Element> {
         if matrix.shape() != (3, 3) || !matrix.iter().all(|v| v.is_finite()) {
             return None;
@@ -48,18 +60,21 @@ impl MatrixGroup for SO3<f64> {
         (norm.is_finite() && norm > 0.0).then(|| UnitQuaternion::from_quaternion(quaternion))
     }
 
-    /// Cayley: along a fixed axis p = μ cos²(θ/2), which grows with the angle θ = t|Ω| only up to
-    /// θ tan(θ/2) = 1 (θ ≈ 1.3065 rad); beyond it two increments share one p. Exponential: along
-    /// an axis p = μ, so the limit is the half turn, where the coordinate jumps.
     fn fold_measure(&self, chart: &str, x: &Vector3<f64>) -> Option<f64> {
-        let norm = x.pairing(x).sqrt();
-        match chart {
-            "cayley" => Some(2.0 * (0.5 * norm).atan() * 0.5 * norm),
-            "exp" => Some(norm / (std::f64::consts::PI * 0.95)),
-            _ => None,
-        }
+        rotation_fold(chart, x.pairing(x).sqrt())
     }
 }
+
+impl DataGroup for SE3<f64> {
+    /// The rotation part decides; translations do not fold.
+    fn fold_measure(&self, chart: &str, x: &Self::Vector) -> Option<f64> {
+        rotation_fold(chart, (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt())
+    }
+}
+
+impl DataGroup for MatrixGroup {}
+
+impl DataGroup for CayleyMatrixGroup {}
 
 /// The matrix of a group element.
 pub fn matrix_of<G: LieGroup<Scalar = f64>>(group: &G, g: &G::Element) -> DMatrix<f64> {

@@ -9,7 +9,9 @@
 //! Source: M. Vaquero, J. Cortés, D. Martín de Diego, *Symmetry Preservation in Hamiltonian
 //! Systems: Simulation and Learning*, sections 5.2–5.4 and conclusions.
 
+pub mod catalogue;
 pub mod data;
+mod emit;
 mod error;
 mod evaluate;
 pub mod experiment;
@@ -27,16 +29,18 @@ pub mod network;
 pub mod polynomial;
 mod save;
 mod series;
+mod session;
 mod trivialisation;
 pub mod truth;
 
+pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
 pub use function::{Generating, MomentumFunction, Scaled, Zero};
 pub use gaussian_process::{
     GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
 };
-pub use group::{MatrixGroup, matrix_of};
+pub use group::{DataGroup, matrix_of};
 pub use hamilton_jacobi::{CollocationOptions, TimeDependent, solve_hamilton_jacobi};
 pub use hamiltonian::fit_hamiltonian;
 #[cfg(feature = "neural")]
@@ -45,3 +49,4 @@ pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
 pub use save::{ModelFile, TrainingRecord};
 pub use series::Monomials;
+pub use session::{Kind, Request, Summary, learn};

@@ -7,7 +7,7 @@ use super::npy::{matrix, numbered, quaternion};
 use super::reduce::{MomentumPairs, PairRows, PhasePair};
 use crate::error::{BadRow, LearnError, RowProblem};
 use crate::function::vector;
-use crate::group::{MatrixGroup, matrix_of};
+use crate::group::{DataGroup, matrix_of};
 use coadjoint::Phase;
 
 /// Attitudes as they stand in a file: a sample per column.
@@ -87,7 +87,7 @@ impl Recording {
     /// # Errors
     /// [`LearnError::NoAttitude`] for momenta only, [`LearnError::AttitudeForm`] for quaternions
     /// of a group that has none.
-    pub fn phase_pairs<G: MatrixGroup>(
+    pub fn phase_pairs<G: DataGroup>(
         &self,
         group: &G,
         tolerance: f64,
@@ -98,7 +98,7 @@ impl Recording {
             Attitudes::Quaternions { before, after } => (before, after, true),
         };
         if quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
-            return Err(LearnError::AttitudeForm { group: group.name(), form: "quaternions" });
+            return Err(LearnError::AttitudeForm { form: "quaternions" });
         }
         let size = group.matrix_size();
         let element = |column: &[f64]| -> Result<G::Element, RowProblem> {

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::function::{entries, vector};
-use crate::group::MatrixGroup;
+use crate::group::DataGroup;
 
 /// A pair of phase points, before and after a step.
 #[derive(Debug)]
@@ -60,6 +60,15 @@ impl MomentumPairs {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// The samples with the numbers given.
+    #[must_use]
+    pub fn select(&self, samples: &[usize]) -> Self {
+        Self {
+            before: self.before.select_columns(samples),
+            after: self.after.select_columns(samples),
+        }
+    }
 }
 
 /// Reduced data: points (x, p) of the Lagrangian submanifold to be learned, a sample per column,
@@ -99,10 +108,7 @@ impl ReducedData {
         Self {
             x: self.x.select_columns(samples),
             p: self.p.select_columns(samples),
-            momenta: MomentumPairs {
-                before: self.momenta.before.select_columns(samples),
-                after: self.momenta.after.select_columns(samples),
-            },
+            momenta: self.momenta.select(samples),
         }
     }
 }
@@ -165,7 +171,7 @@ pub fn reduce<G, C>(
     policy: RowPolicy,
 ) -> Result<Reduction, LearnError>
 where
-    G: MatrixGroup,
+    G: DataGroup,
     C: Chart<G>,
 {
     let total = given.pairs.len() + given.bad.len();
@@ -204,7 +210,7 @@ fn reduce_pair<G, C>(
     tolerance: f64,
 ) -> Result<(G::Vector, G::Vector), RowProblem>
 where
-    G: MatrixGroup,
+    G: DataGroup,
     C: Chart<G>,
 {
     let chart = C::default();

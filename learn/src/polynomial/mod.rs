@@ -11,3 +11,4 @@ pub use fit::{fit_gradients, fit_polynomial};
 pub use group_loss::fit_group_loss;
 pub use model::PolynomialModel;
 pub use select::{Candidate, Selection, SelectionOptions, select_polynomial};
+pub(crate) use select::{folds, gradient_error, split};

@@ -1,0 +1,82 @@
+//! Groups and charts by name.
+
+use coadjoint::{Cayley, Chart, Exponential, MatrixGroup, SE3, SO3};
+use coadjoint_codegen::lie::{LieAlgebra, casimirs, catalogue};
+use nalgebra::DMatrix;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use crate::error::LearnError;
+use crate::group::DataGroup;
+
+/// Work to be done for a group and chart known only by name.
+pub trait Visitor {
+    /// What the work gives.
+    type Output;
+
+    /// Does the work for `group` in the chart `C`.
+    fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output;
+}
+
+/// Calls `visitor` with the group of the catalogue called `group` and the chart called `chart`
+/// (`exp` or `cayley`).
+///
+/// SO3 and SE3 are the compiled groups; every other one of the catalogue is made from its basis.
+///
+/// # Errors
+/// [`LearnError::UnknownGroup`] and [`LearnError::NoChart`].
+pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Output, LearnError> {
+    let unknown = |reason: String| LearnError::UnknownGroup { name: group.into(), reason };
+    let no_chart =
+        |reason: String| LearnError::NoChart { group: group.into(), chart: chart.into(), reason };
+    match (group, chart) {
+        (_, name) if name != "exp" && name != "cayley" => {
+            Err(no_chart("charts are exp and cayley".into()))
+        }
+        ("SO3", "exp") => Ok(visitor.visit::<SO3, Exponential>(SO3::new())),
+        ("SO3", _) => Ok(visitor.visit::<SO3, Cayley>(SO3::new())),
+        ("SE3", "exp") => Ok(visitor.visit::<SE3, Exponential>(SE3::new())),
+        ("SE3", _) => Ok(visitor.visit::<SE3, Cayley>(SE3::new())),
+        _ => {
+            let algebra = catalogue::lookup(group).map_err(|e| unknown(e.to_string()))?;
+            let made = run_time_group(&algebra).map_err(|e| unknown(e.to_string()))?;
+            if chart == "exp" {
+                return Ok(visitor.visit::<_, Exponential>(made));
+            }
+            let made = made.into_cayley().map_err(|e| no_chart(e.to_string()))?;
+            Ok(visitor.visit::<_, Cayley>(made))
+        }
+    }
+}
+
+/// The run-time group of an algebra, with its Casimirs up to degree 3.
+fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::TableError> {
+    let float = |value: &BigRational| value.to_f64().unwrap_or(f64::NAN);
+    let structure: Vec<_> =
+        algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
+    let group = match algebra.basis() {
+        Some(basis) => {
+            let basis: Vec<DMatrix<f64>> = basis
+                .iter()
+                .map(|exact| {
+                    let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
+                    for (i, j, value) in exact.entries() {
+                        matrix[(i, j)] = float(value);
+                    }
+                    matrix
+                })
+                .collect();
+            MatrixGroup::from_structure_and_basis(&structure, &basis)
+        }
+        None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
+    }?;
+    let found = (1..=3).rev().find_map(|degree| casimirs(algebra, degree).ok());
+    let terms = found.unwrap_or_default().iter().map(|polynomial| {
+        let terms = polynomial.terms().map(|(exponents, value)| {
+            let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
+            (float(&value), powers.collect())
+        });
+        terms.collect()
+    });
+    group.with_casimirs(terms.collect())
+}
