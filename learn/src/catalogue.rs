@@ -71,7 +71,7 @@ fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::TableE
         None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
     }?;
     let found = (1..=3).rev().find_map(|degree| casimirs(algebra, degree).ok());
-    let terms = found.unwrap_or_default().iter().map(|polynomial| {
+    let terms = found.unwrap_or_default().into_iter().map(|polynomial| {
         let terms = polynomial.terms().map(|(exponents, value)| {
             let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
             (float(&value), powers.collect())

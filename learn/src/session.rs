@@ -63,9 +63,13 @@ pub struct Request {
     pub tolerances: Tolerances,
     /// What to do with bad rows.
     pub policy: RowPolicy,
+    /// Leave attitudes aside and learn the Poisson map of momenta.
+    pub momenta_only: bool,
+    /// The momentum drifts are measured from; `None`: the first sample.
+    pub start: Option<Vec<f64>>,
     /// The seed of folds and weights.
     pub seed: u64,
-    /// Steps over which drifts are measured, from the first sample.
+    /// Steps over which drifts are measured.
     pub drift_steps: usize,
 }
 
@@ -80,7 +84,7 @@ pub struct Summary {
     pub train: Figures,
     /// Errors on the test data.
     pub test: Option<Figures>,
-    /// Drifts from the first sample.
+    /// Drifts along a trajectory; absent where a step could not be made.
     pub drifts: Option<Drifts>,
     /// Rows left out of the training data, with the reason.
     pub dropped: Vec<(usize, String)>,
@@ -120,7 +124,14 @@ impl Visitor for Learner<'_> {
         };
         let recording = read(&request.data)?;
         let test = request.test.as_ref().map(read).transpose()?;
-        if recording.attitudes.is_none() {
+        if let Some(start) = &request.start
+            && start.len() != group.dim()
+        {
+            let (expected, found) = (group.dim(), start.len());
+            let what = "the start".into();
+            return Err(LearnError::Shape { what, expected, found });
+        }
+        if request.momenta_only || recording.attitudes.is_none() {
             return from_momenta::<G, C>(request, &group, &recording, test.as_ref());
         }
         let pairs = |recording: &Recording| -> Result<(PairRows<G>, Reduction), LearnError> {
@@ -137,7 +148,10 @@ impl Visitor for Learner<'_> {
         let map = Generating::<G, C, _>::new(group.clone(), &model);
         let train = evaluate(&map, &group, &rows, data);
         let test = test.map(|(rows, reduction)| evaluate(&map, &group, &rows, &reduction.data));
-        let start = rows.pairs.first().map(|(_, pair)| pair.before.clone());
+        let start = match &request.start {
+            Some(mu) => Some(Phase::new(group.identity(), vector::<G>(mu))),
+            None => rows.pairs.first().map(|(_, pair)| pair.before.clone()),
+        };
         let summary = Summary {
             model: model.name().into(),
             choice: record.choice.clone(),
@@ -226,11 +240,9 @@ fn from_momenta<G: DataGroup, C: Chart<G>>(
     let model = Model::Polynomial(fitted.model);
     let train = figures(&model, &pairs);
     let map = Generating::<G, C, _>::new(group.clone(), &model);
-    let start = pairs
-        .before
-        .column_iter()
-        .next()
-        .map(|mu| Phase::<G>::new(group.identity(), vector::<G>(mu.as_slice())));
+    let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
+    let start: Option<Vec<f64>> = request.start.clone().or(first);
+    let start = start.map(|mu| Phase::<G>::new(group.identity(), vector::<G>(&mu)));
     let summary = Summary {
         model: model.name().into(),
         choice: choice.clone(),
