@@ -52,6 +52,7 @@ extern crate alloc;
 #[cfg(feature = "systems")]
 extern crate self as coadjoint;
 
+mod catalogue;
 mod chart;
 mod compensated;
 mod coordinates;
@@ -79,6 +80,7 @@ mod scalar;
 mod se2;
 mod se3;
 mod so3;
+mod so3_matrix;
 mod solve;
 mod splitting;
 mod su2;
@@ -128,6 +130,10 @@ mod table;
 pub use coadjoint_macros::lie_poisson;
 pub use nalgebra;
 
+pub use catalogue::{
+    Aff1, Aff1Algebra, SL2, SL2Algebra, SO4, SO4Algebra, SO5, SO5Algebra, SU3, SU3Algebra, SU4,
+    SU4Algebra, U2, U2Algebra, U3, U3Algebra,
+};
 pub use chart::{Cayley, Chart, Exponential};
 pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
 pub use coordinates::Coordinates;
@@ -149,6 +155,7 @@ pub use scalar::Scalar;
 pub use se2::SE2;
 pub use se3::SE3;
 pub use so3::SO3;
+pub use so3_matrix::SO3Matrix;
 pub use solve::{MAX_ITERATIONS, Solution, solve};
 pub use splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 pub use su2::SU2;

@@ -5,8 +5,9 @@
 mod common;
 
 use coadjoint::{
-    CayleyAlgebra, ElementError, Heisenberg, LieGroup, MatrixGroup, Power, Product, SE2, SE3, SO3,
-    SU2, StaticAlgebra, StaticMatrixGroup, TableError,
+    Aff1, CayleyAlgebra, ElementError, Heisenberg, LieGroup, MatrixGroup, Power, Product, SE2, SE3,
+    SL2, SO3, SO3Matrix, SO4, SO5, SU2, SU3, SU4, StaticAlgebra, StaticMatrixGroup, TableError, U2,
+    U3,
 };
 use common::{cayley_laws, distance, element_distance, group_laws, small};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
@@ -126,6 +127,67 @@ fn small_groups_in_closed_form() {
     cayley_laws(&SU2::<f64>::new(), 1.0);
     cayley_laws(&SE2::<f64>::new(), 1.0);
     cayley_laws(&Heisenberg::<f64>::new(), 1.0);
+}
+
+#[test]
+fn groups_by_name() {
+    group_laws(&SO3Matrix::<f64>::new(), 1.0, true);
+    cayley_laws(&SO3Matrix::<f64>::new(), 1.0);
+    group_laws(&SO4::<f64>::new(), 0.7, true);
+    cayley_laws(&SO4::<f64>::new(), 0.7);
+    group_laws(&SO5::<f64>::new(), 0.5, true);
+    group_laws(&SU3::<f64>::new(), 0.6, true);
+    group_laws(&U2::<f64>::new(), 0.8, true);
+    cayley_laws(&U2::<f64>::new(), 0.8);
+    group_laws(&U3::<f64>::new(), 0.6, true);
+    group_laws(&SL2::<f64>::new(), 0.7, true);
+    cayley_laws(&SL2::<f64>::new(), 0.5);
+    group_laws(&Aff1::<f64>::new(), 1.0, true);
+    cayley_laws(&Aff1::<f64>::new(), 0.7);
+    // SU(4) has 15 dimensions: its laws are those of its tables, tried lightly.
+    let x = nalgebra::SVector::<f64, 15>::from_fn(|i, _| 0.1 * (i as f64 - 7.0));
+    let su4 = SU4::<f64>::new();
+    let g = su4.exp(&x);
+    let identity = su4.compose(&g, &su4.exp(&-x));
+    small("SU(4)", element_distance(&su4, &identity, &su4.identity()), 1e-14);
+}
+
+/// f32 and four lanes of f64 agree with f64, lane by lane, to their own rounding.
+#[test]
+fn other_scalars() {
+    use coadjoint::{F64x4, Scalar};
+    use nalgebra::{SVector, SimdValue};
+    let x: [SVector<f64, 8>; 4] = core::array::from_fn(|lane| {
+        SVector::from_fn(|i, _| (0.3 + lane as f64) * ((i * 5 % 8) as f64 / 8.0 - 0.4))
+    });
+    let mu = SVector::<f64, 8>::from_fn(|i, _| 1.0 - i as f64 / 5.0);
+    let lanes = SU3::<F64x4>::new();
+    let xs = SVector::<F64x4, 8>::from_fn(|i, _| {
+        let mut value = F64x4::of(0.0);
+        for (lane, x) in x.iter().enumerate() {
+            value.replace(lane, x[i]);
+        }
+        value
+    });
+    let mus = SVector::<F64x4, 8>::from_fn(|i, _| F64x4::of(mu[i]));
+    let (g, moved) = lanes.exp_transport(&xs, &mus);
+    let (p, slope) = lanes.dexp_transpose_with_derivative(&xs, &mus);
+    let log = lanes.log(&lanes.exp(&(xs * F64x4::of(0.3)))).unwrap();
+    for (lane, x) in x.iter().enumerate() {
+        let (h, expected) = SU3::<f64>::new().exp_transport(x, &mu);
+        let (q, t) = SU3::<f64>::new().dexp_transpose_with_derivative(x, &mu);
+        for i in 0..8 {
+            small("lane's momentum", (moved[i].extract(lane) - expected[i]).abs(), 1e-14);
+            small("lane's dexp", (p[i].extract(lane) - q[i]).abs(), 1e-14);
+            small("lane's slope", (slope[(i, 0)].extract(lane) - t[(i, 0)]).abs(), 1e-13);
+            small("lane's log", (log[i].extract(lane) - 0.3 * x[i]).abs(), 1e-13);
+        }
+        small("lane's exp", (g[(0, 4)].extract(lane) - h[(0, 4)]).abs(), 1e-14);
+    }
+    let small_x = x[1].map(|v| v as f32);
+    let single = SU3::<f32>::new().exp(&small_x);
+    let double = SU3::<f64>::new().exp(&x[1]);
+    small("f32", f64::from((single[(1, 2)] - double[(1, 2)] as f32).abs()), 3e-6);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 pub mod bridge;
+pub mod catalogue;
 pub mod golden;
 pub mod moments;
 pub mod reference;

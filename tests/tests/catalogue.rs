@@ -1,0 +1,106 @@
+//! The runtime's groups against codegen's catalogue: the tables are the catalogue's, and closed
+//! forms agree with table-driven groups of the same basis.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use coadjoint::{Coordinates, Heisenberg, LieGroup, MatrixGroup, SE2, SE3, SO3, SU2};
+use coadjoint_codegen::lie::catalogue::lookup;
+use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::catalogue::{GROUPS, source};
+use nalgebra::DVector;
+
+/// With `BLESS=1` the files are written anew.
+#[test]
+fn tables_in_the_runtime_are_those_of_the_catalogue() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/catalogue");
+    for (name, what, basis) in GROUPS {
+        let text = source(&lookup(name).unwrap(), what, basis).unwrap();
+        let path = folder.join(format!("{}.rs", name.to_lowercase()));
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(&path, &text).unwrap();
+        }
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(found == text, "{name} differs from the catalogue: run this test with BLESS=1");
+    }
+}
+
+/// Numbers in (−1, 1) from a fixed seed.
+fn numbers(mut seed: u64, count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|_| {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        })
+        .collect()
+}
+
+fn gap(a: &impl Coordinates<f64>, b: &DVector<f64>) -> f64 {
+    (0..b.len()).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
+}
+
+/// Compares along a direction, from 0 to beyond a full turn of its rotation part.
+fn agree<G: LieGroup<Scalar = f64>>(closed: &G, name: &str) {
+    let table: MatrixGroup = matrix_group(&lookup(name).unwrap()).unwrap();
+    let n = table.dim();
+    let fixed = |v: &[f64]| G::Vector::from_entries(n, |i| v[i]);
+    for seed in 0..4 {
+        let direction = numbers(seed, n);
+        let turning: f64 = direction.iter().take(3.min(n)).map(|v| v * v).sum::<f64>().sqrt();
+        let mu = numbers(seed + 10, n);
+        for angle in [0.0, 1e-10, 1e-5, 0.01, 0.5, 1.4999, 1.5001, 3.1, 3.2, 5.0, 6.25, 6.3, 20.0] {
+            let x: Vec<f64> = direction.iter().map(|v| v * angle / turning).collect();
+            let what = format!("{name} at {angle}");
+            let (xf, muf) = (fixed(&x), fixed(&mu));
+            let (xd, mud) = (DVector::from_vec(x), DVector::from_vec(mu.clone()));
+            let bound = 3e-14 * (1.0 + angle * angle);
+
+            let (g, moved) = closed.exp_transport(&xf, &muf);
+            let (gd, movedd) = table.exp_transport(&xd, &mud);
+            for i in 0..table.matrix_size() {
+                for j in 0..table.matrix_size() {
+                    let d = (closed.matrix_entry(&g, i, j) - gd[(i, j)]).abs();
+                    assert!(d <= bound, "{what}: exp differs by {d:e}");
+                }
+            }
+            assert!(gap(&moved, &movedd) <= bound, "{what}: transport");
+            let carried = closed.coadjoint(&g, &muf);
+            assert!(gap(&carried, &table.coadjoint(&gd, &mud)) <= bound, "{what}: Ad*");
+            let carried = closed.adjoint(&g, &muf);
+            assert!(gap(&carried, &table.adjoint(&gd, &mud)) <= bound, "{what}: Ad");
+
+            let (p, slope) = closed.dexp_transpose_with_derivative(&xf, &muf);
+            let (pd, sloped) = table.dexp_transpose_with_derivative(&xd, &mud);
+            assert!(gap(&p, &pd) <= bound, "{what}: dexp");
+            for i in 0..n {
+                for j in 0..n {
+                    let d = (slope[(i, j)] - sloped[(i, j)]).abs();
+                    assert!(d <= bound, "{what}: slope of dexp differs by {d:e}");
+                }
+            }
+            if angle < 6.0 {
+                let found = closed.dexp_inverse_transpose(&xf, &muf);
+                let expected = table.dexp_inverse_transpose(&xd, &mud);
+                // A pole of second order at a full turn.
+                let bound = bound * (1.0 + 40.0 / (std::f64::consts::TAU - angle).powi(2));
+                assert!(gap(&found, &expected) <= bound, "{what}: dexp⁻¹");
+            }
+            if angle < 3.12 {
+                let (log, logd) = (closed.log(&g).unwrap(), table.log(&gd).unwrap());
+                let bound = bound * (1.0 + 1.0 / (std::f64::consts::PI - angle));
+                assert!(gap(&log, &logd) <= bound, "{what}: log {:e}", gap(&log, &logd));
+            }
+        }
+    }
+}
+
+#[test]
+fn closed_forms_agree_with_the_catalogue() {
+    agree(&SO3::new(), "SO3");
+    agree(&SU2::new(), "SU2");
+    agree(&SE2::new(), "SE2");
+    agree(&SE3::new(), "SE3");
+    agree(&Heisenberg::new(), "Heisenberg");
+}
