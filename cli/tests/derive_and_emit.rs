@@ -1,4 +1,5 @@
 //! `derive` against the reference series, `emit`, and `casimirs`.
+#![allow(clippy::unwrap_used)]
 
 mod support;
 

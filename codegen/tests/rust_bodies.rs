@@ -167,6 +167,26 @@ fn equal_coefficients_share_a_symbol() {
     assert_eq!(texts, ["(a - b)^2", "(a + b)/a"]);
 }
 
+/// so(3) written into the attribute, by its matrices and by its brackets, and products of groups.
+#[test]
+fn groups_are_read_as_people_write_them() {
+    let so3 = read("group = SO3", "fn h(mu: [f64; 3]) -> f64 { mu[0] }").unwrap().algebra;
+    for group in [
+        "algebra(basis = [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1.0, 0, 0]], \
+         [[0, \"-1\", 0], [2 / 2, 0, 0], [0, 0, 0]]])",
+        "algebra(generators = [a, b, c], brackets = [\"[a, b] = c\", \"[b, c] = a\", \"[c, a] = b\"])",
+    ] {
+        let problem =
+            read(&format!("group = {group}"), "fn h(mu: [f64; 3]) -> f64 { mu[0] }").unwrap();
+        assert_eq!(problem.algebra.structure(), so3.structure());
+    }
+    for (group, dim) in [("SO3 * SO3", 6), ("SO3^2", 6), ("\"SO3 |x R3\"", 6), ("SE3", 6)] {
+        let problem =
+            read(&format!("group = {group}"), "fn h(mu: [f64; 6]) -> f64 { mu[0] }").unwrap();
+        assert_eq!(problem.algebra.dim(), dim, "{group}");
+    }
+}
+
 /// Every mistake at once, each at its place.
 #[test]
 fn mistakes() {
@@ -179,6 +199,18 @@ fn mistakes() {
         ("group = SO3, truncation = 99999, chart = caley", "fn h(mu: [f64; 3]) -> f64 { mu[0] }"),
         ("group SO3, truncation = x", "fn h(mu: [f64; 3]) -> f64 { mu[0] }"),
         ("group = SO3, truncation = 5", "fn h(mu: [f64; 4]) -> f64 { mu[0] }"),
+        (
+            "group = algebra(basis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]])",
+            "fn h(mu: [f64; 2]) -> f64 { mu[0] }",
+        ),
+        (
+            "group = algebra(bases = [[0, x]], basis = [[0, x], [[y]]], 3)",
+            "fn h(mu: [f64; 2]) -> f64 { mu[0] }",
+        ),
+        (
+            "group = algebra(generators = [a, b], brackets = [\"[a, b] = c\", \"a = b\"])",
+            "fn h(mu: [f64; 2]) -> f64 { mu[0] }",
+        ),
         ("group = SO3, truncation = 5", "fn h(mu: Vec<f64>) -> f64 { mu[0] }"),
         (
             "group = SO3, truncation = 5",

@@ -1,15 +1,11 @@
 //! The table `[algebra]`: a Lie algebra by a basis of matrices, or by generators and brackets.
 
-use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, matrix, span, wrong_kind};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
-use crate::expr::Arena;
-use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix};
-use crate::number::Rational;
-use crate::parse::{Name, Names, text};
-use crate::pass::linear;
+use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix, catalogue};
+use crate::parse::{Name, Names, bracket};
 
 const BASIS: &str = "basis = [[[\"0\", \"-1\"], [\"1\", \"0\"]]]";
 const GENERATORS: &str = "generators = [\"a\", \"b\", \"c\"]";
@@ -23,6 +19,12 @@ pub(super) fn read(
 ) -> Option<LieAlgebra> {
     table.check_keys(&["name", "basis", "generators", "brackets"], diagnostics);
     let name = table.string("name", "name = \"my-algebra\"", diagnostics);
+    if let Some((name, place)) = name
+        && catalogue::lookup(name).is_ok()
+    {
+        let taken = Mistake::NameTaken(name.to_owned(), "a known group".to_owned());
+        diagnostics.report(place, taken);
+    }
     let name = name.map_or_else(|| format!("the algebra of {system}"), |(name, _)| name.to_owned());
     match (table.has("basis"), table.has("brackets")) {
         (true, false) => by_basis(table, name, diagnostics),
@@ -117,7 +119,9 @@ fn by_brackets(
     for value in list {
         match value.get_ref() {
             DeValue::String(line) => {
-                brackets.extend(bracket(line, value, &names, diagnostics));
+                // After the opening quote.
+                let offset = value.span().start + 1;
+                brackets.extend(bracket(line, offset, span(value), &names, diagnostics));
             }
             _ => wrong_kind("brackets", "a list of texts", value, BRACKETS, diagnostics),
         }
@@ -133,46 +137,4 @@ fn by_brackets(
             None
         }
     }
-}
-
-/// \[e_i, e_j\] with its components along the generators.
-type Bracket = (usize, usize, Vec<(usize, Rational)>);
-
-/// `[a, b] = -1/2*c + d`.
-fn bracket(
-    line: &str,
-    value: &Spanned<DeValue<'_>>,
-    names: &Names,
-    diagnostics: &mut Diagnostics,
-) -> Option<Bracket> {
-    // After the opening quote.
-    let offset = value.span().start + 1;
-    let parts = line.split_once('=').and_then(|(left, right)| {
-        let inside = left.trim().strip_prefix('[')?.strip_suffix(']')?;
-        let (a, b) = inside.split_once(',')?;
-        Some((a.trim(), b.trim(), right))
-    });
-    let Some((a, b, right)) = parts else {
-        let message = format!("`{line}` is no bracket");
-        let help = "write for example \"[a, b] = c\" or \"[a, c] = -1/2*b\"".to_owned();
-        diagnostics.report(span(value), Mistake::Other(message, Some(help)));
-        return None;
-    };
-    let mut generator = |name: &str| match names.get(name) {
-        Some(Name::Coordinate(i)) => Some(*i),
-        _ => {
-            diagnostics.report(span(value), names.unknown(name));
-            None
-        }
-    };
-    let (i, j) = (generator(a), generator(b));
-    let mut arena = Arena::new();
-    let start = offset + line.len() - right.len();
-    let before = diagnostics.len();
-    let root = text::parse(right, start, names, &mut arena, diagnostics);
-    if diagnostics.len() > before {
-        return None;
-    }
-    let components = linear(&arena, root, diagnostics)?;
-    Some((i?, j?, components))
 }

@@ -111,6 +111,9 @@ fn text(value: &TokenStream) -> String {
 }
 
 fn group(value: &TokenStream, span: Span, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
+    if let Some(algebra) = super::algebra::read(value, diagnostics) {
+        return algebra;
+    }
     match catalogue::lookup(&text(value)) {
         Ok(algebra) => Some(algebra),
         Err(error) => {

@@ -4,6 +4,7 @@
 //! along the way becomes an expression. So every body works whose course is known beforehand:
 //! `let`, patterns, constants, literal loops, iterator chains, closures.
 
+mod algebra;
 mod arguments;
 mod evaluate;
 mod function;
