@@ -110,7 +110,10 @@ mod table;
 ///
 /// # Arguments
 ///
-/// - `group`: the Lie group, `SO3` or `SE3`; the momentum's coordinates are dual to its basis.
+/// - `group`: the Lie group: `SO3`, `SE3`, `SO4`, `SU3`, …, products such as `SO3 * SO3` and `SO3^4`,
+///   `"SO3 |x R3"` (in quotes), or one of your own: `algebra(basis = [[[0, -1], [1, 0]]])`,
+///   `algebra(generators = [a, b, c], brackets = ["[a, b] = c", "[a, c] = -1/2*b"])`. The momentum's
+///   coordinates are dual to its basis.
 /// - `truncation = K`, odd, 7 by default: S₁ … S_K are kept. The order of accuracy is K + 1.
 /// - `chart = exp` (default) or `chart = cayley`.
 ///
