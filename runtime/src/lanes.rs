@@ -5,10 +5,14 @@ pub use simba::simd::{AutoF64x4 as F64x4, AutoF64x8 as F64x8};
 
 use crate::generating_function::GeneratingFunction;
 use crate::group::LieGroup;
+use crate::heisenberg::Heisenberg;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
+use crate::se2::SE2;
 use crate::se3::SE3;
 use crate::so3::SO3;
+use crate::so3_matrix::SO3Matrix;
+use crate::su2::SU2;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group over `f64` that exists over lanes too.
@@ -86,7 +90,7 @@ macro_rules! lane_group {
     )*};
 }
 
-lane_group!(SO3, SE3);
+lane_group!(SO3, SO3Matrix, SU2, SE2, SE3, Heisenberg);
 
 impl<A: StaticAlgebra, const N: usize, const D: usize> LaneGroup for StaticMatrixGroup<A, N, D> {
     type Over<L: Scalar + SimdValue<Element = f64>> = StaticMatrixGroup<A, N, D, L>;

@@ -78,7 +78,7 @@ pub fn bound<T: Scalar, const DEGREES: usize>(
     bound
 }
 
-/// Σ coefficients[k] sizeᵏ.
+/// Σ coefficients\[k\] sizeᵏ.
 #[inline(always)]
 pub fn polynomial<T: Scalar, const DEGREES: usize>(coefficients: &[T; DEGREES], size: T) -> T {
     let mut sum = T::of(0.0);

@@ -11,7 +11,7 @@ use crate::lie::{Chart, LieAlgebra, casimirs};
 use crate::poly::Polynomial;
 
 /// Groups the runtime has a type of its own for, under the catalogue's name.
-const RUNTIME_TYPES: [&str; 2] = ["SO3", "SE3"];
+const RUNTIME_TYPES: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
 
 /// How generated code names the group.
 pub struct GroupType {

@@ -1,0 +1,70 @@
+//! The attribute on the runtime's closed-form groups.
+#![allow(clippy::unwrap_used)]
+
+use coadjoint::{Heisenberg, Monitor, Phase, SE2, SU2, lie_poisson};
+use nalgebra::Vector3;
+
+/// A planar body in an ideal fluid.
+#[lie_poisson(group = SE2, truncation = 7)]
+fn planar_body(mu: [f64; 3], inertia: f64, mass: [f64; 2]) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia + mu[1] * mu[1] / mass[0] + mu[2] * mu[2] / mass[1])
+}
+
+/// A spin with a quartic anisotropy.
+#[lie_poisson(group = SU2, truncation = 5)]
+fn spin(mu: [f64; 3], field: f64) -> f64 {
+    mu[0].powi(2) / 3.0 + mu[1].powi(4) / 8.0 + field * mu[2]
+}
+
+/// A charge in a homogeneous magnetic field of strength μ₃.
+#[lie_poisson(group = Heisenberg, truncation = 7, chart = cayley)]
+fn charge(mu: [f64; 3]) -> f64 {
+    0.5 * (mu[0] * mu[0] + mu[1] * mu[1])
+}
+
+#[test]
+fn planar_body_conserves() {
+    let step = PlanarBody::new(0.05, 1.0, [1.0, 2.0]).unwrap();
+    let mut state = Phase::<SE2>::at_identity(Vector3::new(0.4, 0.8, -0.3));
+    let energy = |state: &Phase<SE2>| planar_body(state.momentum.into(), 1.0, [1.0, 2.0]);
+    let mut monitor = Monitor::new(SE2::new(), &state, energy(&state));
+    for _ in 0..2000 {
+        step.advance(&mut state).unwrap();
+        monitor.observe(&state, energy(&state));
+    }
+    let drift = monitor.drift();
+    // The body drifts away, and the spatial angular momentum is a difference of products with the
+    // distance.
+    let distance = state.group_element.translation.vector.norm().max(1.0);
+    assert!(drift.spatial_momentum < 1e-13 * distance, "{drift:?}");
+    assert!(drift.casimirs < 1e-13 && drift.energy < 1e-10, "{drift:?}");
+}
+
+#[test]
+fn spin_conserves() {
+    let step = Spin::new(0.05, 0.7).unwrap();
+    let mut state = Phase::<SU2>::at_identity(Vector3::new(0.4, 0.8, -0.3));
+    let energy = |state: &Phase<SU2>| spin(state.momentum.into(), 0.7);
+    let mut monitor = Monitor::new(SU2::new(), &state, energy(&state));
+    for _ in 0..2000 {
+        step.advance(&mut state).unwrap();
+        monitor.observe(&state, energy(&state));
+    }
+    let drift = monitor.drift();
+    assert!(drift.spatial_momentum < 1e-13 && drift.casimirs < 1e-13, "{drift:?}");
+    assert!(drift.energy < 1e-9, "{drift:?}");
+}
+
+/// (μ₁, μ₂) turns at the rate μ₃: the end is known.
+#[test]
+fn charge_turns() {
+    let step = Charge::new(0.1).unwrap();
+    let mut state = Phase::<Heisenberg>::at_identity(Vector3::new(1.0, 0.0, 0.5));
+    for _ in 0..100 {
+        step.advance(&mut state).unwrap();
+    }
+    // μ̇₁ = −μ₂ μ₃, μ̇₂ = μ₁ μ₃
+    let (sine, cosine) = 5.0_f64.sin_cos();
+    let expected = Vector3::new(cosine, sine, 0.5);
+    assert!((state.momentum - expected).amax() < 1e-12, "{}", state.momentum);
+}
