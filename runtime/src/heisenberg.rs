@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 ///
 /// Basis: e₁ = E₁₂, e₂ = E₂₃, e₃ = E₁₃ with [e₁, e₂] = e₃, the centre. Casimir: μ₃. Both charts,
 /// which agree here: cubes of the matrices vanish, so that cay = exp.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Heisenberg<T = f64>(PhantomData<T>);
 
 impl<T> Heisenberg<T> {
@@ -20,6 +20,13 @@ impl<T> Heisenberg<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for Heisenberg<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

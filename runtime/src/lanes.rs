@@ -1,12 +1,14 @@
 //! Several trajectories in the lanes of one SIMD number.
 
-use nalgebra::SimdValue;
+use nalgebra::{SVector, SimdValue};
 pub use simba::simd::{AutoF64x4 as F64x4, AutoF64x8 as F64x8};
 
+use crate::coordinates::Coordinates;
 use crate::generating_function::GeneratingFunction;
-use crate::group::LieGroup;
+use crate::group::{FixedDimension, LieGroup};
 use crate::heisenberg::Heisenberg;
 use crate::phase::Phase;
+use crate::product::Power;
 use crate::scalar::Scalar;
 use crate::se2::SE2;
 use crate::se3::SE3;
@@ -18,7 +20,7 @@ use crate::table::{StaticAlgebra, StaticMatrixGroup};
 /// A group over `f64` that exists over lanes too.
 pub trait LaneGroup: LieGroup<Scalar = f64> {
     /// The same group over lanes.
-    type Over<L: Scalar + SimdValue<Element = f64>>: LieGroup<Scalar = L>;
+    type Over<L: Scalar + SimdValue<Element = f64>>: LieGroup<Scalar = L> + FixedDimension + Default;
 
     /// A phase point with `phase` in every lane.
     fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>>;
@@ -119,5 +121,81 @@ impl<A: StaticAlgebra, const N: usize, const D: usize> LaneGroup for StaticMatri
             group_element: SimdValue::extract(&lanes.group_element, lane),
             momentum: SimdValue::extract(&lanes.momentum, lane),
         }
+    }
+}
+
+/// The phase point of one copy.
+fn copy_of<G, const COPIES: usize, const N: usize>(
+    phase: &Phase<Power<G, COPIES, N>>,
+    copy: usize,
+) -> Phase<G>
+where
+    G: LieGroup + Default,
+{
+    let n = G::default().dim();
+    let momentum = G::Vector::from_entries(n, |i| phase.momentum[copy * n + i]);
+    Phase { group_element: phase.group_element[copy].clone(), momentum }
+}
+
+/// Puts back the phase point of one copy.
+fn put_copy<G, const COPIES: usize, const N: usize>(
+    phase: &mut Phase<Power<G, COPIES, N>>,
+    copy: usize,
+    part: Phase<G>,
+) where
+    G: LieGroup + Default,
+{
+    let n = G::default().dim();
+    for i in 0..n {
+        phase.momentum[copy * n + i] = part.momentum[i];
+    }
+    phase.group_element[copy] = part.group_element;
+}
+
+impl<G, const COPIES: usize, const N: usize> LaneGroup for Power<G, COPIES, N>
+where
+    G: LaneGroup + FixedDimension + Default,
+{
+    type Over<L: Scalar + SimdValue<Element = f64>> = Power<G::Over<L>, COPIES, N>;
+
+    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>> {
+        let n = G::default().dim();
+        let mut momentum = SVector::repeat(L::of(0.0));
+        let group_element = core::array::from_fn(|copy| {
+            let part = G::splat::<L>(&copy_of(phase, copy));
+            for i in 0..n {
+                momentum[copy * n + i] = part.momentum[i];
+            }
+            part.group_element
+        });
+        Phase { group_element, momentum }
+    }
+
+    fn insert<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &mut Phase<Self::Over<L>>,
+        lane: usize,
+        phase: &Phase<Self>,
+    ) {
+        for copy in 0..COPIES {
+            let mut part = copy_of(lanes, copy);
+            G::insert::<L>(&mut part, lane, &copy_of(phase, copy));
+            put_copy(lanes, copy, part);
+        }
+    }
+
+    fn extract<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &Phase<Self::Over<L>>,
+        lane: usize,
+    ) -> Phase<Self> {
+        let n = G::default().dim();
+        let mut momentum = SVector::repeat(0.0);
+        let group_element = core::array::from_fn(|copy| {
+            let part = G::extract::<L>(&copy_of(lanes, copy), lane);
+            for i in 0..n {
+                momentum[copy * n + i] = part.momentum[i];
+            }
+            part.group_element
+        });
+        Phase { group_element, momentum }
     }
 }

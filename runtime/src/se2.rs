@@ -19,7 +19,7 @@ use crate::so3::kernel;
 /// Basis: e₁ the rotation, e₂ and e₃ the translations, with [e₁, e₂] = e₃, [e₁, e₃] = −e₂.
 /// Matrices: 3×3, rotation and translation column. Casimir: μ₂² + μ₃². Both charts. The
 /// differentials are those of SE(3), whose subgroup this is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SE2<T = f64>(PhantomData<T>);
 
 impl<T> SE2<T> {
@@ -27,6 +27,13 @@ impl<T> SE2<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for SE2<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

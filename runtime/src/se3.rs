@@ -19,7 +19,7 @@ use crate::so3::{
 /// the dual μ = (Π, Γ), the angular and the linear momentum (for a heavy top, the momentum and the
 /// advected vertical). Brackets: [(ω, v), (η, w)] = (ω×η, ω×w − η×v). Matrices: 4×4, rotation and
 /// translation column. Ad\*_g (Π, Γ) = (RΠ + t×RΓ, RΓ). Casimirs: |Γ|², Π·Γ. Both charts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SE3<T = f64>(PhantomData<T>);
 
 impl<T> SE3<T> {
@@ -27,6 +27,13 @@ impl<T> SE3<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for SE3<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

@@ -14,7 +14,7 @@ use crate::so3::{SO3, rotation_from};
 ///
 /// Basis: the hat matrices about the three axes, [e₁, e₂] = e₃ and cyclic. Casimir: |μ|². Both
 /// charts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SO3Matrix<T = f64>(PhantomData<T>);
 
 impl<T> SO3Matrix<T> {
@@ -22,6 +22,13 @@ impl<T> SO3Matrix<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for SO3Matrix<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

@@ -15,7 +15,7 @@ use crate::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
 /// Ad and Ad\* are those of [`SO3`]. Matrices: the complex 2×2 matrix a + ib as the real 4×4
 /// matrix ((a, −b), (b, a)). Casimir: |μ|². Both charts; the Cayley map is that of the 2×2
 /// matrices, which differs from SO(3)'s.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SU2<T = f64>(PhantomData<T>);
 
 impl<T> SU2<T> {
@@ -23,6 +23,13 @@ impl<T> SU2<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for SU2<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

@@ -16,6 +16,31 @@ fn spin(mu: [f64; 3], field: f64) -> f64 {
     mu[0].powi(2) / 3.0 + mu[1].powi(4) / 8.0 + field * mu[2]
 }
 
+/// Two coupled spins.
+#[lie_poisson(group = SO3^2, truncation = 3)]
+fn spins(mu: [f64; 6], coupling: f64) -> f64 {
+    coupling * (mu[0] * mu[3] + mu[1] * mu[4] + mu[2] * mu[5]) + mu[2] * mu[2] / 3.0
+}
+
+#[test]
+fn coupled_spins_conserve() {
+    let step = Spins::new(0.05, 0.8).unwrap();
+    let start = nalgebra::Vector6::new(0.4, 0.8, -0.3, 0.1, 0.2, 0.9);
+    let mut state = Phase::<SpinsGroup>::at_identity(start);
+    let energy = |state: &Phase<SpinsGroup>| spins(state.momentum.into(), 0.8);
+    let mut monitor = Monitor::new(SpinsGroup::new(), &state, energy(&state));
+    for _ in 0..1000 {
+        step.advance(&mut state).unwrap();
+        monitor.observe(&state, energy(&state));
+    }
+    let drift = monitor.drift();
+    assert!(drift.spatial_momentum < 1e-13 && drift.casimirs < 1e-13, "{drift:?}");
+    assert!(drift.energy < 1e-6, "{drift:?}");
+    // The total spin along the third axis commutes with both terms.
+    let total = state.momentum[2] + state.momentum[5];
+    assert!((total - 0.6).abs() < 1e-12);
+}
+
 /// A charge in a homogeneous magnetic field of strength μ₃.
 #[lie_poisson(group = Heisenberg, truncation = 7, chart = cayley)]
 fn charge(mu: [f64; 3]) -> f64 {

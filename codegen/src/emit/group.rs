@@ -35,10 +35,30 @@ pub fn group_type(
         return GroupType { ty: quote!(#krate::#group<T>), definition: TokenStream::new() };
     }
     let group = format_ident!("{name}Group");
+    if let Some((factor, copies)) = power(algebra) {
+        // Copies act on their own coordinates: far cheaper than one group of large matrices.
+        let (factor, n) = (format_ident!("{factor}"), index(algebra.dim()));
+        let (copies_literal, about) = (index(copies), format!(" The group {}.", algebra.name()));
+        return GroupType {
+            ty: quote!(#group<T>),
+            definition: quote! {
+                #[doc = #about]
+                #visibility type #group<T = f64> =
+                    #krate::Power<#krate::#factor<T>, #copies_literal, #n>;
+            },
+        };
+    }
     GroupType {
         ty: quote!(#group<T>),
         definition: definition(algebra, name, &group, visibility, krate),
     }
+}
+
+/// The factor and the exponent of a power of one of the runtime's own types.
+fn power(algebra: &LieAlgebra) -> Option<(&str, usize)> {
+    let (factor, copies) = algebra.name().split_once('^')?;
+    let copies = copies.parse().ok().filter(|&copies: &usize| copies > 1)?;
+    RUNTIME_TYPES.contains(&factor).then_some((factor, copies))
 }
 
 fn definition(

@@ -1,5 +1,8 @@
 //! The product of two groups.
 
+use core::fmt;
+use core::marker::PhantomData;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::{part, place, place_block};
@@ -16,32 +19,41 @@ use crate::scalar::Scalar;
 /// ```
 /// use coadjoint::{LieGroup, Product, SE2, SO3};
 ///
-/// let group = Product::<SO3, SE2, 6>::default();
+/// let group = Product::<SO3, SE2, 6>::new();
 /// assert_eq!((group.dim(), group.matrix_size(), group.casimir_count()), (6, 6, 2));
 /// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Product<A, B, const N: usize> {
-    first: A,
-    second: B,
-}
+pub struct Product<A, B, const N: usize>(PhantomData<(A, B)>);
 
 impl<A: FixedDimension, B: FixedDimension, const N: usize> Product<A, B, N> {
     const DIMENSIONS_ADD_UP: () =
         assert!(A::DIM + B::DIM == N, "N must be the sum of the factors' dimensions");
 
-    /// The product of these groups.
+    /// The group; there is nothing to choose.
     #[must_use]
-    pub const fn new(first: A, second: B) -> Self {
+    pub const fn new() -> Self {
         const { Self::DIMENSIONS_ADD_UP };
-        Self { first, second }
+        Self(PhantomData)
     }
 }
 
-impl<A: FixedDimension + Default, B: FixedDimension + Default, const N: usize> Default
-    for Product<A, B, N>
-{
+impl<A: FixedDimension, B: FixedDimension, const N: usize> Default for Product<A, B, N> {
     fn default() -> Self {
-        Self::new(A::default(), B::default())
+        Self::new()
+    }
+}
+
+// Derived impls would ask the same of the factors.
+impl<A, B, const N: usize> Clone for Product<A, B, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<A, B, const N: usize> Copy for Product<A, B, N> {}
+
+impl<A, B, const N: usize> fmt::Debug for Product<A, B, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Product")
     }
 }
 
@@ -51,25 +63,25 @@ impl<A, B, const N: usize> FixedDimension for Product<A, B, N> {
 
 /// Splits coordinates, applies the factors' functions, and joins the results.
 macro_rules! by_factor {
-    ($self:ident, $x:ident, $y:ident, $method:ident) => {{
-        let (n, m) = ($self.first.dim(), $self.second.dim());
+    ($x:ident, $y:ident, $method:ident) => {{
+        let (n, m) = (A::default().dim(), B::default().dim());
         let mut result = SVector::repeat(T::of(0.0));
-        place(&$self.first.$method(&part($x, 0, n), &part($y, 0, n)), 0, &mut result);
-        place(&$self.second.$method(&part($x, n, m), &part($y, n, m)), n, &mut result);
+        place(&A::default().$method(&part($x, 0, n), &part($y, 0, n)), 0, &mut result);
+        place(&B::default().$method(&part($x, n, m), &part($y, n, m)), n, &mut result);
         result
     }};
 }
 
 /// The same for functions with a derivative.
 macro_rules! by_factor_with_derivative {
-    ($self:ident, $x:ident, $mu:ident, $method:ident) => {{
-        let (n, m) = ($self.first.dim(), $self.second.dim());
+    ($x:ident, $mu:ident, $method:ident) => {{
+        let (n, m) = (A::default().dim(), B::default().dim());
         let mut value = SVector::repeat(T::of(0.0));
         let mut slope = SMatrix::repeat(T::of(0.0));
-        let (p, d) = $self.first.$method(&part($x, 0, n), &part($mu, 0, n));
+        let (p, d) = A::default().$method(&part($x, 0, n), &part($mu, 0, n));
         place(&p, 0, &mut value);
         place_block::<T, A::Vector, N>(&d, 0, n, &mut slope);
-        let (p, d) = $self.second.$method(&part($x, n, m), &part($mu, n, m));
+        let (p, d) = B::default().$method(&part($x, n, m), &part($mu, n, m));
         place(&p, n, &mut value);
         place_block::<T, B::Vector, N>(&d, n, m, &mut slope);
         (value, slope)
@@ -78,12 +90,12 @@ macro_rules! by_factor_with_derivative {
 
 /// The same for the transport of a chart.
 macro_rules! by_factor_transport {
-    ($self:ident, $x:ident, $mu:ident, $method:ident) => {{
-        let (n, m) = ($self.first.dim(), $self.second.dim());
+    ($x:ident, $mu:ident, $method:ident) => {{
+        let (n, m) = (A::default().dim(), B::default().dim());
         let mut moved = SVector::repeat(T::of(0.0));
-        let (g, nu) = $self.first.$method(&part($x, 0, n), &part($mu, 0, n));
+        let (g, nu) = A::default().$method(&part($x, 0, n), &part($mu, 0, n));
         place(&nu, 0, &mut moved);
-        let (h, nu) = $self.second.$method(&part($x, n, m), &part($mu, n, m));
+        let (h, nu) = B::default().$method(&part($x, n, m), &part($mu, n, m));
         place(&nu, n, &mut moved);
         ((g, h), moved)
     }};
@@ -92,8 +104,8 @@ macro_rules! by_factor_transport {
 impl<T, A, B, const N: usize> LieGroup for Product<A, B, N>
 where
     T: Scalar,
-    A: LieGroup<Scalar = T>,
-    B: LieGroup<Scalar = T>,
+    A: LieGroup<Scalar = T> + Default,
+    B: LieGroup<Scalar = T> + Default,
 {
     type Scalar = T;
     type Vector = SVector<T, N>;
@@ -105,59 +117,59 @@ where
     }
 
     fn identity(&self) -> Self::Element {
-        (self.first.identity(), self.second.identity())
+        (A::default().identity(), B::default().identity())
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        (self.first.compose(&g.0, &h.0), self.second.compose(&g.1, &h.1))
+        (A::default().compose(&g.0, &h.0), B::default().compose(&g.1, &h.1))
     }
 
     fn inverse(&self, g: &Self::Element) -> Self::Element {
-        (self.first.inverse(&g.0), self.second.inverse(&g.1))
+        (A::default().inverse(&g.0), B::default().inverse(&g.1))
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        let (n, m) = (self.first.dim(), self.second.dim());
-        (self.first.exp(&part(x, 0, n)), self.second.exp(&part(x, n, m)))
+        let (n, m) = (A::default().dim(), B::default().dim());
+        (A::default().exp(&part(x, 0, n)), B::default().exp(&part(x, n, m)))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
         let mut result = SVector::repeat(T::of(0.0));
-        place(&self.first.log(&g.0)?, 0, &mut result);
-        place(&self.second.log(&g.1)?, self.first.dim(), &mut result);
+        place(&A::default().log(&g.0)?, 0, &mut result);
+        place(&B::default().log(&g.1)?, A::default().dim(), &mut result);
         Some(result)
     }
 
     fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, y, bracket)
+        by_factor!(x, y, bracket)
     }
 
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, mu, ad_star)
+        by_factor!(x, mu, ad_star)
     }
 
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let (n, m) = (self.first.dim(), self.second.dim());
+        let (n, m) = (A::default().dim(), B::default().dim());
         let mut result = SVector::repeat(T::of(0.0));
-        place(&self.first.adjoint(&g.0, &part(x, 0, n)), 0, &mut result);
-        place(&self.second.adjoint(&g.1, &part(x, n, m)), n, &mut result);
+        place(&A::default().adjoint(&g.0, &part(x, 0, n)), 0, &mut result);
+        place(&B::default().adjoint(&g.1, &part(x, n, m)), n, &mut result);
         result
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let (n, m) = (self.first.dim(), self.second.dim());
+        let (n, m) = (A::default().dim(), B::default().dim());
         let mut result = SVector::repeat(T::of(0.0));
-        place(&self.first.coadjoint(&g.0, &part(mu, 0, n)), 0, &mut result);
-        place(&self.second.coadjoint(&g.1, &part(mu, n, m)), n, &mut result);
+        place(&A::default().coadjoint(&g.0, &part(mu, 0, n)), 0, &mut result);
+        place(&B::default().coadjoint(&g.1, &part(mu, n, m)), n, &mut result);
         result
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        by_factor_transport!(self, x, mu, exp_transport)
+        by_factor_transport!(x, mu, exp_transport)
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, mu, dexp_transpose)
+        by_factor!(x, mu, dexp_transpose)
     }
 
     fn dexp_transpose_with_derivative(
@@ -165,34 +177,34 @@ where
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_factor_with_derivative!(self, x, mu, dexp_transpose_with_derivative)
+        by_factor_with_derivative!(x, mu, dexp_transpose_with_derivative)
     }
 
     fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, p, dexp_inverse_transpose)
+        by_factor!(x, p, dexp_inverse_transpose)
     }
 
     fn casimir_count(&self) -> usize {
-        self.first.casimir_count() + self.second.casimir_count()
+        A::default().casimir_count() + B::default().casimir_count()
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let (n, m) = (self.first.dim(), self.second.dim());
-        match index.checked_sub(self.first.casimir_count()) {
-            None => self.first.casimir(index, &part(mu, 0, n)),
-            Some(index) => self.second.casimir(index, &part(mu, n, m)),
+        let (n, m) = (A::default().dim(), B::default().dim());
+        match index.checked_sub(A::default().casimir_count()) {
+            None => A::default().casimir(index, &part(mu, 0, n)),
+            Some(index) => B::default().casimir(index, &part(mu, n, m)),
         }
     }
 
     fn matrix_size(&self) -> usize {
-        self.first.matrix_size() + self.second.matrix_size()
+        A::default().matrix_size() + B::default().matrix_size()
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        let d = self.first.matrix_size();
+        let d = A::default().matrix_size();
         match (row < d, column < d) {
-            (true, true) => self.first.matrix_entry(&g.0, row, column),
-            (false, false) => self.second.matrix_entry(&g.1, row - d, column - d),
+            (true, true) => A::default().matrix_entry(&g.0, row, column),
+            (false, false) => B::default().matrix_entry(&g.1, row - d, column - d),
             _ => T::of(0.0),
         }
     }
@@ -201,7 +213,7 @@ where
         &self,
         entry: impl Fn(usize, usize) -> T,
     ) -> Result<Self::Element, ElementError> {
-        let (d, size) = (self.first.matrix_size(), self.matrix_size());
+        let (d, size) = (A::default().matrix_size(), self.matrix_size());
         finite(size, &entry)?;
         for row in 0..size {
             for column in (0..size).filter(|&column| (row < d) != (column < d)) {
@@ -210,34 +222,34 @@ where
         }
         // As `dyn`, so that products of products do not nest closure types without end.
         let entry: &dyn Fn(usize, usize) -> T = &entry;
-        let g = self.first.element_from_matrix(entry)?;
-        Ok((g, self.second.element_from_matrix(|i, j| entry(i + d, j + d))?))
+        let g = A::default().element_from_matrix(entry)?;
+        Ok((g, B::default().element_from_matrix(|i, j| entry(i + d, j + d))?))
     }
 }
 
 impl<T, A, B, const N: usize> CayleyGroup for Product<A, B, N>
 where
     T: Scalar,
-    A: CayleyGroup<Scalar = T>,
-    B: CayleyGroup<Scalar = T>,
+    A: CayleyGroup<Scalar = T> + Default,
+    B: CayleyGroup<Scalar = T> + Default,
 {
     fn cayley_transport(
         &self,
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Element, Self::Vector) {
-        by_factor_transport!(self, x, mu, cayley_transport)
+        by_factor_transport!(x, mu, cayley_transport)
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
         let mut result = SVector::repeat(T::of(0.0));
-        place(&self.first.cayley_inverse(&g.0)?, 0, &mut result);
-        place(&self.second.cayley_inverse(&g.1)?, self.first.dim(), &mut result);
+        place(&A::default().cayley_inverse(&g.0)?, 0, &mut result);
+        place(&B::default().cayley_inverse(&g.1)?, A::default().dim(), &mut result);
         Some(result)
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, mu, dcay_transpose)
+        by_factor!(x, mu, dcay_transpose)
     }
 
     fn dcay_transpose_with_derivative(
@@ -245,10 +257,10 @@ where
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_factor_with_derivative!(self, x, mu, dcay_transpose_with_derivative)
+        by_factor_with_derivative!(x, mu, dcay_transpose_with_derivative)
     }
 
     fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_factor!(self, x, p, dcay_inverse_transpose)
+        by_factor!(x, p, dcay_inverse_transpose)
     }
 }

@@ -1,5 +1,8 @@
 //! Powers of a group: spin chains, clusters of bodies.
 
+use core::fmt;
+use core::marker::PhantomData;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::{part, place, place_block};
@@ -17,13 +20,10 @@ use crate::scalar::Scalar;
 /// ```
 /// use coadjoint::{LieGroup, Power, SO3};
 ///
-/// let spins = Power::<SO3, 4, 12>::default();
+/// let spins = Power::<SO3, 4, 12>::new();
 /// assert_eq!((spins.dim(), spins.casimir_count()), (12, 4));
 /// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Power<G, const COPIES: usize, const N: usize> {
-    factor: G,
-}
+pub struct Power<G, const COPIES: usize, const N: usize>(PhantomData<G>);
 
 impl<G: FixedDimension, const COPIES: usize, const N: usize> Power<G, COPIES, N> {
     const DIMENSIONS_MULTIPLY: () = assert!(
@@ -31,19 +31,32 @@ impl<G: FixedDimension, const COPIES: usize, const N: usize> Power<G, COPIES, N>
         "N must be COPIES times the factor's dimension"
     );
 
-    /// COPIES copies of this group.
+    /// The group; there is nothing to choose.
     #[must_use]
-    pub const fn new(factor: G) -> Self {
+    pub const fn new() -> Self {
         const { Self::DIMENSIONS_MULTIPLY };
-        Self { factor }
+        Self(PhantomData)
     }
 }
 
-impl<G: FixedDimension + Default, const COPIES: usize, const N: usize> Default
-    for Power<G, COPIES, N>
-{
+impl<G: FixedDimension, const COPIES: usize, const N: usize> Default for Power<G, COPIES, N> {
     fn default() -> Self {
-        Self::new(G::default())
+        Self::new()
+    }
+}
+
+// Derived impls would ask the same of the factors.
+impl<G, const COPIES: usize, const N: usize> Clone for Power<G, COPIES, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<G, const COPIES: usize, const N: usize> Copy for Power<G, COPIES, N> {}
+
+impl<G, const COPIES: usize, const N: usize> fmt::Debug for Power<G, COPIES, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Power")
     }
 }
 
@@ -53,12 +66,12 @@ impl<G, const COPIES: usize, const N: usize> FixedDimension for Power<G, COPIES,
 
 /// Applies a function of G to every part of x and y.
 macro_rules! by_copy {
-    ($self:ident, $x:ident, $y:ident, $method:ident) => {{
-        let n = $self.factor.dim();
+    ($x:ident, $y:ident, $method:ident) => {{
+        let n = G::default().dim();
         let mut result = SVector::repeat(T::of(0.0));
         for copy in 0..COPIES {
             let at = copy * n;
-            let value = $self.factor.$method(&part($x, at, n), &part($y, at, n));
+            let value = G::default().$method(&part($x, at, n), &part($y, at, n));
             place(&value, at, &mut result);
         }
         result
@@ -67,13 +80,13 @@ macro_rules! by_copy {
 
 /// The same for functions with a derivative.
 macro_rules! by_copy_with_derivative {
-    ($self:ident, $x:ident, $mu:ident, $method:ident) => {{
-        let n = $self.factor.dim();
+    ($x:ident, $mu:ident, $method:ident) => {{
+        let n = G::default().dim();
         let mut value = SVector::repeat(T::of(0.0));
         let mut slope = SMatrix::repeat(T::of(0.0));
         for copy in 0..COPIES {
             let at = copy * n;
-            let (p, d) = $self.factor.$method(&part($x, at, n), &part($mu, at, n));
+            let (p, d) = G::default().$method(&part($x, at, n), &part($mu, at, n));
             place(&p, at, &mut value);
             place_block::<T, G::Vector, N>(&d, at, n, &mut slope);
         }
@@ -83,12 +96,12 @@ macro_rules! by_copy_with_derivative {
 
 /// The same for the transport of a chart.
 macro_rules! by_copy_transport {
-    ($self:ident, $x:ident, $mu:ident, $method:ident) => {{
-        let n = $self.factor.dim();
+    ($x:ident, $mu:ident, $method:ident) => {{
+        let n = G::default().dim();
         let mut moved = SVector::repeat(T::of(0.0));
         let elements = core::array::from_fn(|copy| {
             let at = copy * n;
-            let (g, nu) = $self.factor.$method(&part($x, at, n), &part($mu, at, n));
+            let (g, nu) = G::default().$method(&part($x, at, n), &part($mu, at, n));
             place(&nu, at, &mut moved);
             g
         });
@@ -99,7 +112,7 @@ macro_rules! by_copy_transport {
 impl<T, G, const COPIES: usize, const N: usize> LieGroup for Power<G, COPIES, N>
 where
     T: Scalar,
-    G: LieGroup<Scalar = T>,
+    G: LieGroup<Scalar = T> + Default,
 {
     type Scalar = T;
     type Vector = SVector<T, N>;
@@ -111,62 +124,62 @@ where
     }
 
     fn identity(&self) -> Self::Element {
-        core::array::from_fn(|_| self.factor.identity())
+        core::array::from_fn(|_| G::default().identity())
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        core::array::from_fn(|copy| self.factor.compose(&g[copy], &h[copy]))
+        core::array::from_fn(|copy| G::default().compose(&g[copy], &h[copy]))
     }
 
     fn inverse(&self, g: &Self::Element) -> Self::Element {
-        core::array::from_fn(|copy| self.factor.inverse(&g[copy]))
+        core::array::from_fn(|copy| G::default().inverse(&g[copy]))
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        let n = self.factor.dim();
-        core::array::from_fn(|copy| self.factor.exp(&part(x, copy * n, n)))
+        let n = G::default().dim();
+        core::array::from_fn(|copy| G::default().exp(&part(x, copy * n, n)))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
         let mut result = SVector::repeat(T::of(0.0));
         for (copy, g) in g.iter().enumerate() {
-            place(&self.factor.log(g)?, copy * self.factor.dim(), &mut result);
+            place(&G::default().log(g)?, copy * G::default().dim(), &mut result);
         }
         Some(result)
     }
 
     fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, y, bracket)
+        by_copy!(x, y, bracket)
     }
 
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, mu, ad_star)
+        by_copy!(x, mu, ad_star)
     }
 
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let n = self.factor.dim();
+        let n = G::default().dim();
         let mut result = SVector::repeat(T::of(0.0));
         for (copy, g) in g.iter().enumerate() {
-            place(&self.factor.adjoint(g, &part(x, copy * n, n)), copy * n, &mut result);
+            place(&G::default().adjoint(g, &part(x, copy * n, n)), copy * n, &mut result);
         }
         result
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let n = self.factor.dim();
+        let n = G::default().dim();
         let mut result = SVector::repeat(T::of(0.0));
         for (copy, g) in g.iter().enumerate() {
-            place(&self.factor.coadjoint(g, &part(mu, copy * n, n)), copy * n, &mut result);
+            place(&G::default().coadjoint(g, &part(mu, copy * n, n)), copy * n, &mut result);
         }
         result
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        by_copy_transport!(self, x, mu, exp_transport)
+        by_copy_transport!(x, mu, exp_transport)
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, mu, dexp_transpose)
+        by_copy!(x, mu, dexp_transpose)
     }
 
     fn dexp_transpose_with_derivative(
@@ -174,42 +187,42 @@ where
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_copy_with_derivative!(self, x, mu, dexp_transpose_with_derivative)
+        by_copy_with_derivative!(x, mu, dexp_transpose_with_derivative)
     }
 
     fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, p, dexp_inverse_transpose)
+        by_copy!(x, p, dexp_inverse_transpose)
     }
 
     fn casimir_count(&self) -> usize {
-        COPIES * self.factor.casimir_count()
+        COPIES * G::default().casimir_count()
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let (n, each) = (self.factor.dim(), self.factor.casimir_count());
+        let (n, each) = (G::default().dim(), G::default().casimir_count());
         if index >= COPIES * each {
             return T::of(0.0);
         }
-        self.factor.casimir(index % each, &part(mu, index / each * n, n))
+        G::default().casimir(index % each, &part(mu, index / each * n, n))
     }
 
     fn matrix_size(&self) -> usize {
-        COPIES * self.factor.matrix_size()
+        COPIES * G::default().matrix_size()
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        let d = self.factor.matrix_size();
+        let d = G::default().matrix_size();
         if row / d != column / d {
             return T::of(0.0);
         }
-        self.factor.matrix_entry(&g[row / d], row % d, column % d)
+        G::default().matrix_entry(&g[row / d], row % d, column % d)
     }
 
     fn element_from_matrix(
         &self,
         entry: impl Fn(usize, usize) -> T,
     ) -> Result<Self::Element, ElementError> {
-        let (d, size) = (self.factor.matrix_size(), self.matrix_size());
+        let (d, size) = (G::default().matrix_size(), self.matrix_size());
         finite(size, &entry)?;
         for row in 0..size {
             for column in (0..size).filter(|&column| row / d != column / d) {
@@ -220,7 +233,8 @@ where
         let entry: &dyn Fn(usize, usize) -> T = &entry;
         let mut elements = self.identity();
         for (copy, element) in elements.iter_mut().enumerate() {
-            *element = self.factor.element_from_matrix(|i, j| entry(copy * d + i, copy * d + j))?;
+            *element =
+                G::default().element_from_matrix(|i, j| entry(copy * d + i, copy * d + j))?;
         }
         Ok(elements)
     }
@@ -229,26 +243,26 @@ where
 impl<T, G, const COPIES: usize, const N: usize> CayleyGroup for Power<G, COPIES, N>
 where
     T: Scalar,
-    G: CayleyGroup<Scalar = T>,
+    G: CayleyGroup<Scalar = T> + Default,
 {
     fn cayley_transport(
         &self,
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Element, Self::Vector) {
-        by_copy_transport!(self, x, mu, cayley_transport)
+        by_copy_transport!(x, mu, cayley_transport)
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
         let mut result = SVector::repeat(T::of(0.0));
         for (copy, g) in g.iter().enumerate() {
-            place(&self.factor.cayley_inverse(g)?, copy * self.factor.dim(), &mut result);
+            place(&G::default().cayley_inverse(g)?, copy * G::default().dim(), &mut result);
         }
         Some(result)
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, mu, dcay_transpose)
+        by_copy!(x, mu, dcay_transpose)
     }
 
     fn dcay_transpose_with_derivative(
@@ -256,10 +270,10 @@ where
         x: &Self::Vector,
         mu: &Self::Vector,
     ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_copy_with_derivative!(self, x, mu, dcay_transpose_with_derivative)
+        by_copy_with_derivative!(x, mu, dcay_transpose_with_derivative)
     }
 
     fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_copy!(self, x, p, dcay_inverse_transpose)
+        by_copy!(x, p, dcay_inverse_transpose)
     }
 }
