@@ -3,11 +3,13 @@
 
 pub mod bridge;
 pub mod catalogue;
+pub mod elliptic;
 pub mod golden;
 pub mod moments;
 pub mod reference;
 pub mod run;
 pub mod series;
+pub mod toutatis;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
