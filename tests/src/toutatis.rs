@@ -93,7 +93,7 @@ impl LongAxisMode {
             mode(x).precession_period() / mode(x).rotation_period() - precession / rotation
         };
         let (mut low, mut high) = (i1 + 1e-9, i2 - 1e-9);
-        if !(ratio(low) * ratio(high) < 0.0) {
+        if ratio(low) * ratio(high) > 0.0 {
             return None;
         }
         for _ in 0..100 {

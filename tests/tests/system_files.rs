@@ -1,4 +1,5 @@
 //! The files of `examples/`: each is read without a complaint, and is the system of its reference.
+#![allow(clippy::expect_used, clippy::panic)]
 
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_tests::reference::end_states;

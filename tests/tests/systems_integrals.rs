@@ -3,6 +3,7 @@
 //!
 //! Formulas and sources are in the files of `examples/`; that each is an integral of the exact flow
 //! is checked in exact arithmetic by `every_integral_commutes_with_its_hamiltonian`.
+#![allow(clippy::expect_used)]
 
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;

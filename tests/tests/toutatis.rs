@@ -1,4 +1,5 @@
 //! Asteroid 4179 Toutatis: the state from radar data, and the light curve's frequencies.
+#![allow(clippy::expect_used)]
 
 use coadjoint::StepError;
 use coadjoint_tests::toutatis::{
