@@ -7,6 +7,9 @@ use serde_json::{Value, json};
 use super::trajectory::Trajectory;
 use crate::arguments::Format;
 
+/// Group elements wider than this are not printed for people.
+const WIDEST: usize = 12;
+
 /// The text to print: one block per run, or one JSON object (an array of them for several runs).
 pub fn report(runs: &[Trajectory], format: Format) -> String {
     match format {
@@ -48,10 +51,15 @@ fn text(run: &Trajectory) -> String {
     for (name, value) in run.coordinates.iter().zip(&run.momentum) {
         let _ = writeln!(out, "  {name:<10} {value:>22.16}");
     }
-    let _ = writeln!(out, "  group element");
-    for row in &run.group_element {
-        let entries: Vec<String> = row.iter().map(|value| format!("{value:>20.16}")).collect();
-        let _ = writeln!(out, "    {}", entries.join(" "));
+    let size = run.group_element.len();
+    if size <= WIDEST {
+        let _ = writeln!(out, "  group element");
+        for row in &run.group_element {
+            let entries: Vec<String> = row.iter().map(|value| format!("{value:>20.16}")).collect();
+            let _ = writeln!(out, "    {}", entries.join(" "));
+        }
+    } else {
+        let _ = writeln!(out, "  group element: {size} × {size}, see --format json or --out");
     }
     let drift = run.drift;
     let _ = writeln!(out, "  largest relative drift");
