@@ -27,7 +27,8 @@ use crate::splitting::{MAX_FLOWS, Splitting};
 /// // A heavy top: V = m·g·l times the height of the body's third axis; torque mgl e₃ × Rᵀ(−ẑ).
 /// let flow = |h: f64| {
 ///     let terms = [1.5, 1.5, 1.0].iter().enumerate().map(|(i, m)| (0.5 * h / m, vec![(i, 2)]));
-///     Ok(PolynomialFunction::new(SO3::new(), Exponential, terms.collect::<Vec<_>>()))
+///     let map = PolynomialFunction::new(SO3::new(), Exponential, terms.collect::<Vec<_>>());
+///     Ok(map.expect("three coordinates"))
 /// };
 /// let torque = |_time: f64, attitude: &nalgebra::UnitQuaternion<f64>| {
 ///     Vector3::z().cross(&(attitude.inverse() * -Vector3::z()))

@@ -8,6 +8,7 @@ use crate::coordinates::Coordinates;
 use crate::generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::scalar::Scalar;
+use crate::table::TableError;
 
 /// The polynomial S(p) = Σ c·∏ pᵢ^power as a generating function on the group `G` in the chart
 /// `C`: a series derived elsewhere, or any polynomial at all.
@@ -19,11 +20,11 @@ use crate::scalar::Scalar;
 /// // The rigid body at truncation 1: S = h·H.
 /// let h = 0.1;
 /// let terms = [(h / 3.0, vec![(0, 2)]), (h / 4.0, vec![(1, 2)]), (h / 5.0, vec![(2, 2)])];
-/// let map = PolynomialFunction::new(SO3::new(), Exponential, terms);
+/// let map = PolynomialFunction::new(SO3::new(), Exponential, terms)?;
 /// let mut body = Phase::<SO3>::at_identity(Vector3::new(2.0, 0.5, 1.0));
 /// advance(&map, &mut body)?;
 /// assert!((body.momentum.norm_squared() - 5.25_f64).abs() < 1e-14);
-/// # Ok::<(), coadjoint::StepError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct PolynomialFunction<G, C> {
@@ -37,12 +38,15 @@ pub struct PolynomialFunction<G, C> {
 
 impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
     /// The polynomial with these terms (c, [(i, power), …]); factors of the same coordinate are
-    /// merged, and a term with a coordinate the group does not have is left out.
+    /// merged.
+    ///
+    /// # Errors
+    /// [`TableError::IndexOutOfRange`] for a coordinate the group does not have.
     pub fn new(
         group: G,
         _chart: C,
         terms: impl IntoIterator<Item = (f64, Vec<(usize, u32)>)>,
-    ) -> Self {
+    ) -> Result<Self, TableError> {
         let dim = group.dim();
         let mut result = Self {
             group,
@@ -53,8 +57,8 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
         };
         for (c, mut factors) in terms {
             factors.retain(|f| f.1 > 0);
-            if factors.iter().any(|f| f.0 >= dim) {
-                continue;
+            if let Some(&(index, _)) = factors.iter().find(|f| f.0 >= dim) {
+                return Err(TableError::IndexOutOfRange { index, dim });
             }
             factors.sort_unstable();
             let start = result.factors.len();
@@ -69,7 +73,7 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
             result.coefficients.push(c);
             result.ends.push(result.factors.len());
         }
-        result
+        Ok(result)
     }
 
     fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {

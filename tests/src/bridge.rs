@@ -33,12 +33,15 @@ pub fn matrix_group(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
 }
 
 /// S_h = Σ h^k S_k as a generating function.
+///
+/// # Errors
+/// [`TableError::IndexOutOfRange`] for a series with opaque symbols.
 pub fn series_function<G: LieGroup, C: Chart<G>>(
     group: G,
     chart: C,
     series: &GeneratingSeries,
     h: f64,
-) -> PolynomialFunction<G, C> {
+) -> Result<PolynomialFunction<G, C>, TableError> {
     let mut terms = Vec::new();
     for k in 1..=series.truncation() {
         let step = (0..k).fold(1.0, |product, _| product * h);

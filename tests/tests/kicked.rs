@@ -34,7 +34,7 @@ fn series(quartic: bool) -> GeneratingSeries {
 }
 
 fn flow(series: &GeneratingSeries, h: f64) -> Result<Flow, StepError> {
-    Ok(series_function(SO3::new(), Exponential, series, h))
+    Ok(series_function(SO3::new(), Exponential, series, h).unwrap())
 }
 
 /// The body torque of V = c·(third axis in body coordinates) plus a quadratic in it, which no

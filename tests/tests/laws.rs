@@ -68,8 +68,8 @@ fn laws_hold<G, C>(
     let mut random = Random(17);
     let count = if algebra.dim() > 4 { 1 } else { 2 };
     let points: Vec<_> = (0..count).map(|_| random_phase(group, &mut random)).collect();
-    let map = series_function(group.clone(), chart, &series, 0.3);
-    let backward = series_function(group.clone(), chart, &series, -0.3);
+    let map = series_function(group.clone(), chart, &series, 0.3).unwrap();
+    let backward = series_function(group.clone(), chart, &series, -0.3).unwrap();
     for law in check(&map, Some(&backward), &points).unwrap() {
         assert!(law.pass(), "{what}: {} {:e} exceeds {:e}", law.name, law.value, law.bound);
     }
@@ -78,7 +78,7 @@ fn laws_hold<G, C>(
     let mut order = None;
     for steps in [1, 2, 4, 8, 16, 32] {
         let measured = measured_order(group, &points[0], 4.0, steps, |h, steps, state| {
-            let map = series_function(group.clone(), chart, &series, h);
+            let map = series_function(group.clone(), chart, &series, h).unwrap();
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         });
         match measured {
