@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
 
+use crate::learn::{GeometrizeOptions, LearnOptions};
+use crate::reproduce::ReproduceOptions;
+
 /// Momentum-preserving integrators from a Hamiltonian.
 ///
 /// FILE is a system file in TOML: a Hamiltonian, a group, and what to run. Exit codes: 0 fine,
@@ -30,6 +33,12 @@ pub enum Verb {
     Check(CheckOptions),
     /// Find the polynomial Casimirs of the system's algebra
     Casimirs(CasimirOptions),
+    /// Learn the map behind pairs of states
+    Learn(LearnOptions),
+    /// Find the Poisson map nearest to pairs of momenta made by any method
+    Geometrize(GeometrizeOptions),
+    /// Run the experiments of the paper and print its figures beside ours
+    Reproduce(ReproduceOptions),
 }
 
 /// A chart by its name.
@@ -83,6 +92,27 @@ pub struct Source {
     pub chart: Option<ChartName>,
 }
 
+/// A system file, or a learned model.
+#[derive(Args, Debug)]
+pub struct Input {
+    /// The system file
+    #[arg(value_name = "FILE", required_unless_present = "model")]
+    pub file: Option<PathBuf>,
+    /// Use this chart instead of the file's
+    #[arg(long)]
+    pub chart: Option<ChartName>,
+    /// A model learned by `coadjoint learn`, instead of a system file
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "truncation"])]
+    pub model: Option<PathBuf>,
+}
+
+impl Input {
+    /// The system file; clap has seen to it that there is one without a model.
+    pub fn source(&self) -> Source {
+        Source { file: self.file.clone().unwrap_or_default(), chart: self.chart }
+    }
+}
+
 /// Options of `derive`.
 #[derive(Args, Debug)]
 pub struct DeriveOptions {
@@ -100,9 +130,9 @@ pub struct DeriveOptions {
 /// Options of `emit`.
 #[derive(Args, Debug)]
 pub struct EmitOptions {
-    /// The system.
+    /// The system or the model.
     #[command(flatten)]
-    pub source: Source,
+    pub input: Input,
     /// Keep S₁ … S_K, K odd; instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
@@ -124,18 +154,22 @@ pub enum Rival {
 /// Options of `simulate`.
 #[derive(Args, Debug)]
 pub struct SimulateOptions {
-    /// The system.
+    /// The system or the model.
     #[command(flatten)]
-    pub source: Source,
+    pub input: Input,
     /// Keep S₁ … S_K, K odd; several, such as 3,5,7, are run one after the other
     #[arg(long, value_name = "K", value_delimiter = ',')]
     pub truncation: Vec<usize>,
     /// The step size h
-    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    #[arg(long, value_name = "h", allow_negative_numbers = true, conflicts_with = "model")]
     pub step: Option<f64>,
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
+    /// The momentum at the start of a learned model, with commas
+    #[arg(long, value_name = "mu", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(requires = "model")]
+    pub start: Vec<f64>,
     /// Record every n-th step
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,
@@ -143,10 +177,10 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw the drift of energy, momentum and Casimirs
-    #[arg(long, value_name = "SVG")]
+    #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,
     /// Run another method beside it
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, conflicts_with = "model")]
     pub compare: Option<Rival>,
     /// The relative and absolute tolerance of the method beside it
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]

@@ -5,15 +5,19 @@ use coadjoint_codegen::system::Parameters;
 
 use crate::arguments::EmitOptions;
 use crate::error::CliError;
-use crate::load;
+use crate::{load, model};
 
 /// Writes the module to `--out` or the standard output.
 pub fn run(options: &EmitOptions) -> Result<(), CliError> {
+    if let Some(path) = &options.input.model {
+        return model::emit(path, options.out.as_deref());
+    }
+    let source = options.input.source();
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
-    let system = load::source(&options.source, options.truncation, parameters)?;
+    let system = load::source(&source, options.truncation, parameters)?;
     let style = Options::for_problem(&system.problem.name);
-    let integrator = load::integrator(&options.source.file, system.problem)?;
+    let integrator = load::integrator(&source.file, system.problem)?;
     let module = file(&integrator, &style);
     match &options.out {
         Some(path) => std::fs::write(path, module)

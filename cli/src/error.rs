@@ -77,6 +77,9 @@ pub enum CliError {
     /// The method run beside the integrator failed.
     #[error("the comparison with rk45 failed: {0}")]
     Rival(String),
+    /// Learning failed, or its data or model cannot be used.
+    #[error(transparent)]
+    Learn(#[from] coadjoint_learn::LearnError),
     /// Laws that do not hold; the table has been printed.
     #[error("{0}")]
     Laws(String),
@@ -93,6 +96,13 @@ impl CliError {
             | Self::Derive { .. }
             | Self::Group { .. }
             | Self::Element { .. } => 2,
+            Self::Learn(error) => {
+                if error.is_input() {
+                    2
+                } else {
+                    1
+                }
+            }
             Self::Write { .. } | Self::Step { .. } | Self::Rival(_) | Self::Laws(_) => 1,
         }
     }

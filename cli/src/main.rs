@@ -1,7 +1,7 @@
 //! `coadjoint`: derive, emit, simulate and check Lie–Poisson integrators from a system file.
 //!
 //! This crate only wires: reading and derivation are in `coadjoint-codegen`, groups and steps in
-//! `coadjoint`. Exit codes: 0 fine, 1 a failure while running (or a law that does not hold),
+//! `coadjoint`, learning in `coadjoint-learn`. Exit codes: 0 fine, 1 a failure while running (or a law that does not hold),
 //! 2 bad input.
 
 mod arguments;
@@ -11,8 +11,11 @@ mod derive;
 mod emit;
 mod engine;
 mod error;
+mod learn;
 mod load;
+mod model;
 mod progress;
+mod reproduce;
 mod simulate;
 
 use std::process::ExitCode;
@@ -28,6 +31,9 @@ fn main() -> ExitCode {
         Verb::Simulate(options) => simulate::run(&options),
         Verb::Check(options) => check::run(&options),
         Verb::Casimirs(options) => casimirs::run(&options),
+        Verb::Learn(options) => learn::run(&options),
+        Verb::Geometrize(options) => learn::geometrize(&options),
+        Verb::Reproduce(options) => reproduce::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -153,6 +153,14 @@ pub enum LearnError {
     },
 }
 
+impl LearnError {
+    /// Whether the mistake is in what was given (a file, an option), not in a computation.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        !matches!(self, Self::NotConverged { .. } | Self::OutOfChart { .. })
+    }
+}
+
 /// What is wrong with one row of data.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -15,15 +15,36 @@ use coadjoint_codegen::system::{Parameters, System};
 use crate::arguments::SimulateOptions;
 use crate::engine::{Group, Interpreter, matrix_group};
 use crate::error::CliError;
-use crate::{load, progress};
+use crate::{load, model, progress};
 use nalgebra::DVector;
 use setup::Setup;
 use trajectory::{Recorder, Trajectory};
 
+/// Follows a learned map, which has its own step.
+fn learned(path: &std::path::Path, options: &SimulateOptions) -> Result<(), CliError> {
+    let missing = |option: &str| {
+        CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
+    };
+    if options.start.is_empty() {
+        return Err(missing("start"));
+    }
+    model::simulate(&model::Run {
+        model: path.into(),
+        start: options.start.clone(),
+        time: options.time.ok_or_else(|| missing("time"))?,
+        every: options.every.unwrap_or(1),
+        out: options.out.clone(),
+    })
+}
+
 /// Runs every truncation asked for.
 pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
-    let path = &options.source.file;
-    let read = |truncation| load::source(&options.source, truncation, Parameters::Substituted);
+    if let Some(path) = &options.input.model {
+        return learned(path, options);
+    }
+    let source = options.input.source();
+    let path = &source.file;
+    let read = |truncation| load::source(&source, truncation, Parameters::Substituted);
     let systems: Vec<System> = if options.truncation.is_empty() {
         vec![read(None)?]
     } else {

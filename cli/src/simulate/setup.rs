@@ -30,9 +30,9 @@ pub struct Setup {
 impl Setup {
     /// Puts the settings together, or says which one is missing.
     pub fn new(options: &SimulateOptions, run: &Run, dim: usize) -> Result<Self, CliError> {
-        let file = options.source.file.clone();
+        let file = options.input.source().file;
         let missing = |key, example, option| CliError::Missing {
-            file: options.source.file.clone(),
+            file: options.input.source().file,
             key,
             example,
             option,

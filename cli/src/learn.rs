@@ -1,0 +1,212 @@
+//! `coadjoint learn` and `coadjoint geometrize`: fit a map to pairs of states.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use coadjoint_learn::data::{RowPolicy, Tolerances};
+use coadjoint_learn::{Errors, Figures, Kind, Request, Summary, learn};
+
+use crate::arguments::{ChartName, Format};
+use crate::error::CliError;
+use crate::progress;
+
+/// Kinds of models.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ModelName {
+    /// Whichever cross-validates best.
+    #[default]
+    Auto,
+    /// A polynomial by least squares.
+    Polynomial,
+    /// A Gaussian process.
+    Gp,
+    /// A network of widths 500, 500.
+    Network,
+    /// A quadratic polynomial and a network.
+    Hybrid,
+}
+
+/// What is minimised.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Loss {
+    /// Differences of chart coordinates.
+    #[default]
+    Chart,
+    /// Distances on the group.
+    Group,
+}
+
+/// What `learn` and `geometrize` share.
+#[derive(Args, Debug)]
+pub struct Fit {
+    /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
+    /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
+    #[arg(value_name = "DATA")]
+    data: PathBuf,
+    /// The group, by its name in the catalogue
+    #[arg(long, default_value = "SO3")]
+    group: String,
+    /// The chart
+    #[arg(long, value_enum, default_value = "exp")]
+    chart: ChartName,
+    /// The time between the two states of a pair
+    #[arg(long, value_name = "dt", allow_negative_numbers = true)]
+    dt: f64,
+    /// Pairs to test the model on
+    #[arg(long, value_name = "DATA")]
+    test: Option<PathBuf>,
+    /// The total degree of a polynomial; chosen by cross-validation if not given
+    #[arg(long, value_name = "d")]
+    degree: Option<usize>,
+    /// Write the model here
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Leave rows out that cannot be used, instead of refusing the data
+    #[arg(long)]
+    drop_bad_rows: bool,
+    /// The seed of folds and weights
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Steps over which the drifts are measured
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    steps: usize,
+    /// The momentum the drifts are measured from, with commas; the first sample if not given
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    start: Option<Vec<f64>>,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+/// Options of `learn`.
+#[derive(Args, Debug)]
+pub struct LearnOptions {
+    #[command(flatten)]
+    fit: Fit,
+    /// The kind of model
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelName,
+    /// The ridge of a polynomial of given degree
+    #[arg(long, default_value_t = 0.0)]
+    ridge: f64,
+    /// What is minimised
+    #[arg(long, value_enum, default_value_t)]
+    loss: Loss,
+    /// How far attitudes may be off the group and momenta off conservation; `inf` for noisy data
+    #[arg(long, default_value_t = 1e-6)]
+    tolerance: f64,
+}
+
+/// Options of `geometrize`.
+#[derive(Args, Debug)]
+pub struct GeometrizeOptions {
+    #[command(flatten)]
+    fit: Fit,
+}
+
+impl Fit {
+    fn request(&self) -> Request {
+        let chart = match self.chart {
+            ChartName::Exp => "exp",
+            ChartName::Cayley => "cayley",
+        };
+        Request {
+            data: self.data.clone(),
+            test: self.test.clone(),
+            group: self.group.clone(),
+            chart: chart.into(),
+            step: self.dt,
+            kind: Kind::Auto,
+            degree: self.degree,
+            ridge: 0.0,
+            group_loss: false,
+            tolerances: Tolerances::default(),
+            policy: if self.drop_bad_rows { RowPolicy::Drop } else { RowPolicy::Refuse },
+            momenta_only: false,
+            start: self.start.clone(),
+            seed: self.seed,
+            drift_steps: self.steps,
+        }
+    }
+}
+
+/// Learns the map behind pairs of states.
+pub fn run(options: &LearnOptions) -> Result<(), CliError> {
+    let kind = match options.model {
+        ModelName::Auto => Kind::Auto,
+        ModelName::Polynomial => Kind::Polynomial,
+        ModelName::Gp => Kind::GaussianProcess,
+        ModelName::Network => Kind::Network,
+        ModelName::Hybrid => Kind::Hybrid,
+    };
+    let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
+    let request = Request {
+        kind,
+        ridge: options.ridge,
+        group_loss: options.loss == Loss::Group,
+        tolerances,
+        ..options.fit.request()
+    };
+    finish(&options.fit, &request)
+}
+
+/// Finds the Poisson map nearest to pairs of momenta, of any method.
+pub fn geometrize(options: &GeometrizeOptions) -> Result<(), CliError> {
+    let request = Request { kind: Kind::Polynomial, momenta_only: true, ..options.fit.request() };
+    finish(&options.fit, &request)
+}
+
+fn finish(fit: &Fit, request: &Request) -> Result<(), CliError> {
+    let bar = progress::bar(1, "learning");
+    let (file, summary) = learn(request, &mut |step, total, loss| {
+        bar.set_length(total as u64);
+        bar.set_position(step as u64);
+        bar.set_message(format!("loss {loss:.2e}"));
+    })?;
+    bar.finish_and_clear();
+    if let Some(path) = &fit.out {
+        file.save(path)?;
+    }
+    match fit.format {
+        Format::Json => {
+            let text = serde_json::to_string_pretty(&summary)
+                .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
+            println!("{text}");
+        }
+        Format::Text => print(&summary),
+    }
+    Ok(())
+}
+
+fn print(summary: &Summary) {
+    println!("{}", summary.choice);
+    let show = |name: &str, figures: &Figures| {
+        let line = |what: &str, errors: &Errors| {
+            let parts: Vec<String> =
+                [("x", errors.x), ("momentum", errors.momentum), ("group", errors.group)]
+                    .iter()
+                    .filter_map(|(q, value)| value.map(|v| format!("{q} {v:.2e}")))
+                    .collect();
+            println!("  {what:<10}{}", parts.join("  "));
+        };
+        println!("{name}: {} samples", figures.samples);
+        line("mse", &figures.mse);
+        line("max error", &figures.max_error);
+        if !figures.unsolved.is_empty() {
+            println!("  no step could be made at rows {:?}", figures.unsolved);
+        }
+    };
+    show("train", &summary.train);
+    if let Some(test) = &summary.test {
+        show("test", test);
+    }
+    if let Some(drifts) = &summary.drifts {
+        println!(
+            "drift over {} steps: momentum {:.1e}, Casimirs {:.1e}",
+            drifts.steps, drifts.momentum, drifts.casimir
+        );
+    }
+    for (row, reason) in &summary.dropped {
+        println!("left out row {row}: {reason}");
+    }
+}

@@ -1,0 +1,87 @@
+//! `learn`, `simulate --model`, `emit --model`, `geometrize` and `reproduce`.
+#![allow(clippy::unwrap_used)]
+
+use assert_cmd::Command;
+use coadjoint::SO3;
+use coadjoint_learn::data::write_csv;
+use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+
+fn coadjoint() -> Command {
+    Command::cargo_bin("coadjoint").unwrap()
+}
+
+/// From data on disk to a model, its drifts, and its code.
+#[test]
+fn learn_simulate_and_emit() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let group = SO3::new();
+    let pairs = |count, seed| {
+        let wide = MomentumBox { low: -2.0, high: 2.0 };
+        phase_pairs(&group, &Quadratic::paper(), 0.1, wide, count, seed)
+    };
+    write_csv(&at("train.csv"), &group, &pairs(60, 1)).unwrap();
+    write_csv(&at("test.csv"), &group, &pairs(20, 2)).unwrap();
+    let output = coadjoint()
+        .args(["learn"])
+        .arg(at("train.csv"))
+        .args(["--group", "SO3", "--dt", "0.1", "--degree", "4", "--format", "json", "--test"])
+        .arg(at("test.csv"))
+        .arg("--out")
+        .arg(at("model.json"))
+        .assert()
+        .success();
+    let summary: serde_json::Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    for data in ["train", "test"] {
+        for quantity in ["x", "momentum", "group"] {
+            assert!(summary[data]["mse"][quantity].as_f64().unwrap() < 1e-13, "{summary}");
+            assert!(summary[data]["max_error"][quantity].as_f64().unwrap() < 1e-5);
+        }
+    }
+    assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12);
+
+    let run = coadjoint()
+        .args(["simulate", "--start", "2,0.5,1", "--time", "10", "--model"])
+        .arg(at("model.json"))
+        .arg("--out")
+        .arg(at("run.csv"))
+        .assert()
+        .success();
+    assert!(String::from_utf8_lossy(&run.get_output().stdout).starts_with("100 steps of 0.1"));
+    let rows = std::fs::read_to_string(at("run.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 102);
+    assert!(rows.starts_with("t,mu_1,mu_2,mu_3,g_11,"));
+
+    let code = coadjoint().args(["emit", "--model"]).arg(at("model.json")).assert().success();
+    let code = String::from_utf8_lossy(&code.get_output().stdout).into_owned();
+    assert!(code.contains("pub struct Learned"), "{code}");
+}
+
+#[test]
+fn bad_data_and_models_exit_with_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    std::fs::write(&path, "{}").unwrap();
+    let run = coadjoint()
+        .args(["simulate", "--start", "2,0.5,1", "--time", "10", "--model"])
+        .arg(&path)
+        .assert()
+        .code(2);
+    let message = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    assert!(message.contains("is not `coadjoint-model`"), "{message}");
+    coadjoint().args(["learn", "missing.csv", "--dt", "0.1"]).assert().code(2);
+    coadjoint().args(["reproduce", "table-3"]).assert().code(2);
+}
+
+#[test]
+fn reproduce_prints_tables_and_writes_curves() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = coadjoint()
+        .args(["reproduce", "reduction-error", "--quick", "--format", "json", "--out"])
+        .arg(folder.path())
+        .assert()
+        .success();
+    let reports: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    assert_eq!(reports[0]["name"], "reduction-error");
+    assert!(folder.path().join("reduction-error.csv").exists());
+}
