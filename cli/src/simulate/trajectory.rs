@@ -79,6 +79,8 @@ pub struct Recorder<'a, G: Group> {
     group: &'a G,
     energy: &'a dyn Fn(&DVector<f64>) -> f64,
     start: Invariants,
+    /// What each Casimir's drift is measured against.
+    casimir_scales: Vec<f64>,
     iterations: u64,
     trajectory: Trajectory,
 }
@@ -112,7 +114,8 @@ impl<'a, G: Group> Recorder<'a, G> {
             mean_iterations: 0.0,
             max_residual: 0.0,
         };
-        let mut recorder = Self { group, energy, start, iterations: 0, trajectory };
+        let casimir_scales = casimir_scales(group, &phase.momentum);
+        let mut recorder = Self { group, energy, start, casimir_scales, iterations: 0, trajectory };
         recorder.visit(0.0, phase, true);
         recorder
     }
@@ -127,13 +130,13 @@ impl<'a, G: Group> Recorder<'a, G> {
     pub fn visit(&mut self, time: f64, phase: &Phase<G>, record: bool) {
         let now = invariants(self.group, self.energy, phase);
         let start = &self.start;
-        let casimirs = start.casimirs.iter().zip(&now.casimirs);
+        let casimirs = start.casimirs.iter().zip(&now.casimirs).zip(&self.casimir_scales);
         let drift = Drift {
             spatial_momentum: relative(
                 (&now.spatial_momentum - &start.spatial_momentum).amax(),
                 start.spatial_momentum.amax(),
             ),
-            casimirs: casimirs.map(|(c, d)| relative(c - d, *c)).fold(0.0, f64::max),
+            casimirs: casimirs.map(|((c, d), scale)| relative(c - d, *scale)).fold(0.0, f64::max),
             energy: relative(now.energy - start.energy, start.energy),
         };
         self.trajectory.drift.raise(drift);
@@ -172,6 +175,23 @@ fn invariants<G: Group>(
         casimirs: (0..count).map(|i| group.casimir(i, &phase.momentum)).collect(),
         energy: energy(&phase.momentum),
     }
+}
+
+/// The largest value each Casimir takes at ±|μ₁|, … with at most one sign changed: one that starts
+/// at zero, such as Π·Γ for a top, is measured against the size of its terms, not against rounding.
+fn casimir_scales<G: Group>(group: &G, momentum: &DVector<f64>) -> Vec<f64> {
+    let scale = |index: usize| {
+        let mut point = momentum.abs();
+        let value = |point: &DVector<f64>| group.casimir(index, point).abs();
+        let mut largest = value(momentum).max(value(&point));
+        for i in 0..point.len() {
+            point[i] = -point[i];
+            largest = largest.max(value(&point));
+            point[i] = -point[i];
+        }
+        largest
+    };
+    (0..group.casimir_count()).map(scale).collect()
 }
 
 fn relative(difference: f64, size: f64) -> f64 {
