@@ -108,7 +108,7 @@ fn definition(
         });
         quote!(&[#(#terms),*])
     });
-    let about = format!(" The Lie algebra {} as tables.", algebra.name());
+    let about = format!(" Tables of {}.", algebra.name());
     let about_group = format!(" The group of {}.", algebra.name());
     quote! {
         #[doc = #about]

@@ -16,7 +16,7 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
         format!(" Hamiltonian: `{}`", one_line(&problem.source)),
         String::new(),
         format!(
-            " Group {}, chart {}, truncation K = {}, order of accuracy {}.",
+            " Group: {}. Chart {}, truncation K = {}, order of accuracy {}.",
             problem.algebra.name(),
             problem.chart,
             problem.truncation,
