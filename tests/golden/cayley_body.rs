@@ -2,14 +2,14 @@
 //
 // Hamiltonian: `mu[0] * mu[0] / 3.0 + mu[1] * mu[1] / 4.0 + mu[2] * mu[2] / 5.0 + 0.1 * mu[0].powi(3)`
 //
-// Group SO3, chart cayley, truncation K = 3, order of accuracy 4.
+// Group: SO3. Chart cayley, truncation K = 3, order of accuracy 4.
 // Terms: S1: 4, S3: 14.
 // Operations: gradient and Hessian 52 multiplications and 40 additions; predictor of degree 4 132 and 114.
 
 ///
 /// Hamiltonian: `mu[0] * mu[0] / 3.0 + mu[1] * mu[1] / 4.0 + mu[2] * mu[2] / 5.0 + 0.1 * mu[0].powi(3)`
 ///
-/// Group SO3, chart cayley, truncation K = 3, order of accuracy 4.
+/// Group: SO3. Chart cayley, truncation K = 3, order of accuracy 4.
 /// Terms: S1: 4, S3: 14.
 /// Operations: gradient and Hessian 52 multiplications and 40 additions; predictor of degree 4 132 and 114.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]

@@ -2,14 +2,14 @@
 //
 // Hamiltonian: `let [a, b, c, _, _, up] = mu; 0.5 * (a * a / inertia[0] + b * b / inertia[1] + c * c / inertia[2]) + m * g * l * up`
 //
-// Group SE3, chart exp, truncation K = 3, order of accuracy 4.
+// Group: SE3. Chart exp, truncation K = 3, order of accuracy 4.
 // Terms: S1: 4, S3: 15.
 // Operations: gradient and Hessian 37 multiplications and 14 additions; predictor of degree 4 301 and 217.
 
 ///
 /// Hamiltonian: `let [a, b, c, _, _, up] = mu; 0.5 * (a * a / inertia[0] + b * b / inertia[1] + c * c / inertia[2]) + m * g * l * up`
 ///
-/// Group SE3, chart exp, truncation K = 3, order of accuracy 4.
+/// Group: SE3. Chart exp, truncation K = 3, order of accuracy 4.
 /// Terms: S1: 4, S3: 15.
 /// Operations: gradient and Hessian 37 multiplications and 14 additions; predictor of degree 4 301 and 217.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]

@@ -2,14 +2,14 @@
 //
 // Hamiltonian: `let [x, y, z] = mu; 0.5 * (x * x / 1.5 + y * y / 2.0 + z * z / 2.5)`
 //
-// Group SO3, chart exp, truncation K = 9, order of accuracy 10.
+// Group: SO3. Chart exp, truncation K = 9, order of accuracy 10.
 // Terms: S1: 3, S3: 3, S5: 7, S7: 12, S9: 18.
 // Operations: gradient and Hessian 146 multiplications and 131 additions; predictor of degree 8 159 and 150.
 
 ///
 /// Hamiltonian: `let [x, y, z] = mu; 0.5 * (x * x / 1.5 + y * y / 2.0 + z * z / 2.5)`
 ///
-/// Group SO3, chart exp, truncation K = 9, order of accuracy 10.
+/// Group: SO3. Chart exp, truncation K = 9, order of accuracy 10.
 /// Terms: S1: 3, S3: 3, S5: 7, S7: 12, S9: 18.
 /// Operations: gradient and Hessian 146 multiplications and 131 additions; predictor of degree 8 159 and 150.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]

@@ -2,11 +2,11 @@
 //
 // Hamiltonian: `mu[0] * mu[0] / 8.0 + s * mu[1] * mu[2]`
 //
-// Group SL2, chart exp, truncation K = 5, order of accuracy 6.
+// Group: SL2. Chart exp, truncation K = 5, order of accuracy 6.
 // Terms: S1: 2, S3: 3, S5: 9.
 // Operations: gradient and Hessian 32 multiplications and 11 additions; predictor of degree 6 42 and 26.
 
-/// The Lie algebra SL2 as tables.
+/// Tables of SL2.
 #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
 pub struct ThreeWaveAlgebra;
 impl ::coadjoint::StaticAlgebra for ThreeWaveAlgebra {
@@ -38,7 +38,7 @@ pub type ThreeWaveGroup<T = f64> = ::coadjoint::StaticMatrixGroup<
 ///
 /// Hamiltonian: `mu[0] * mu[0] / 8.0 + s * mu[1] * mu[2]`
 ///
-/// Group SL2, chart exp, truncation K = 5, order of accuracy 6.
+/// Group: SL2. Chart exp, truncation K = 5, order of accuracy 6.
 /// Terms: S1: 2, S3: 3, S5: 9.
 /// Operations: gradient and Hessian 32 multiplications and 11 additions; predictor of degree 6 42 and 26.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
