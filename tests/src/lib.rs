@@ -24,3 +24,8 @@ pub fn from_function(arguments: &str, function: &str) -> syn::Result<Integrator>
     Integrator::build(problem, TermLimit::default())
         .map_err(|error| syn::Error::new(proc_macro2::Span::call_site(), error))
 }
+
+/// The README's snippets, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
