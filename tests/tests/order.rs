@@ -24,7 +24,7 @@ rigid_body!(cayley3, 3, cayley);
 rigid_body!(cayley5, 5, cayley);
 rigid_body!(cayley7, 7, cayley);
 
-/// shared/reference/end_states.json, "rigid-body (paper)": the momentum at T = 100.
+/// tests/reference/end_states.json, "rigid-body (paper)": the momentum at T = 100.
 const END: [f64; 3] = [2.010707126264523070, -0.368082789199028512, -1.035167577102806352];
 
 macro_rules! order {
