@@ -54,14 +54,14 @@ pub trait Lanes: GeneratingFunction<Group: LaneGroup> {
 
 /// [`LaneGroup`] for groups whose elements and vectors are nalgebra types over the scalar.
 macro_rules! lane_group {
-    ($($group:ident),*) => {$(
-        impl LaneGroup for $group<f64> {
-            type Over<L: Scalar + SimdValue<Element = f64>> = $group<L>;
+    ($(($($generics:tt)*) $group:ty => $lane:ident: $over:ty;)*) => {$(
+        impl<$($generics)*> LaneGroup for $group {
+            type Over<$lane: Scalar + SimdValue<Element = f64>> = $over;
 
             #[inline(always)]
             fn splat<L: Scalar + SimdValue<Element = f64>>(
                 phase: &Phase<Self>,
-            ) -> Phase<$group<L>> {
+            ) -> Phase<Self::Over<L>> {
                 Phase {
                     group_element: SimdValue::splat(phase.group_element),
                     momentum: SimdValue::splat(phase.momentum),
@@ -70,7 +70,7 @@ macro_rules! lane_group {
 
             #[inline(always)]
             fn insert<L: Scalar + SimdValue<Element = f64>>(
-                lanes: &mut Phase<$group<L>>,
+                lanes: &mut Phase<Self::Over<L>>,
                 lane: usize,
                 phase: &Phase<Self>,
             ) {
@@ -80,7 +80,7 @@ macro_rules! lane_group {
 
             #[inline(always)]
             fn extract<L: Scalar + SimdValue<Element = f64>>(
-                lanes: &Phase<$group<L>>,
+                lanes: &Phase<Self::Over<L>>,
                 lane: usize,
             ) -> Phase<Self> {
                 Phase {
@@ -92,36 +92,15 @@ macro_rules! lane_group {
     )*};
 }
 
-lane_group!(SO3, SO3Matrix, SU2, SE2, SE3, Heisenberg);
-
-impl<A: StaticAlgebra, const N: usize, const D: usize> LaneGroup for StaticMatrixGroup<A, N, D> {
-    type Over<L: Scalar + SimdValue<Element = f64>> = StaticMatrixGroup<A, N, D, L>;
-
-    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>> {
-        Phase {
-            group_element: SimdValue::splat(phase.group_element),
-            momentum: SimdValue::splat(phase.momentum),
-        }
-    }
-
-    fn insert<L: Scalar + SimdValue<Element = f64>>(
-        lanes: &mut Phase<Self::Over<L>>,
-        lane: usize,
-        phase: &Phase<Self>,
-    ) {
-        lanes.group_element.replace(lane, phase.group_element);
-        lanes.momentum.replace(lane, phase.momentum);
-    }
-
-    fn extract<L: Scalar + SimdValue<Element = f64>>(
-        lanes: &Phase<Self::Over<L>>,
-        lane: usize,
-    ) -> Phase<Self> {
-        Phase {
-            group_element: SimdValue::extract(&lanes.group_element, lane),
-            momentum: SimdValue::extract(&lanes.momentum, lane),
-        }
-    }
+lane_group! {
+    () SO3<f64> => L: SO3<L>;
+    () SO3Matrix<f64> => L: SO3Matrix<L>;
+    () SU2<f64> => L: SU2<L>;
+    () SE2<f64> => L: SE2<L>;
+    () SE3<f64> => L: SE3<L>;
+    () Heisenberg<f64> => L: Heisenberg<L>;
+    (A: StaticAlgebra, const N: usize, const D: usize)
+        StaticMatrixGroup<A, N, D> => L: StaticMatrixGroup<A, N, D, L>;
 }
 
 /// The phase point of one copy.
