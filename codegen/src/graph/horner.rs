@@ -1,12 +1,19 @@
 //! Horner's scheme in several variables, with shared powers.
 
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::hash::Hash;
+
 use super::node::{Graph, Id};
+
+/// Above this many variables a polynomial is split by the first variable of its terms, so that the
+/// work grows with the terms and not with terms times variables.
+const WIDE: usize = 32;
 
 /// One term: a folded coefficient times a monomial of the inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlotTerm {
-    /// The exponent of each input.
-    pub exponents: Vec<u32>,
+    /// (input, exponent), ascending, exponents positive.
+    pub factors: Vec<(u32, u32)>,
     /// The coefficient's number.
     pub slot: usize,
 }
@@ -23,10 +30,21 @@ pub fn lower(graph: &mut Graph, polynomial: &[SlotTerm]) -> Id {
     if polynomial.is_empty() {
         return graph.zero();
     }
+    let variables: BTreeSet<u32> =
+        polynomial.iter().flat_map(|term| &term.factors).map(|&(variable, _)| variable).collect();
+    if variables.len() > WIDE {
+        let parts = grouped(polynomial, |term| term.factors.first().map(|&(first, _)| first));
+        if parts.len() > 1 {
+            return parts.iter().fold(graph.zero(), |sum, part| {
+                let value = lower(graph, part);
+                graph.add(value, sum)
+            });
+        }
+    }
     let mark = graph.mark();
     let id = horner(graph, polynomial.to_vec());
     let whole = graph.cost_since(mark).total();
-    let classes = parity_classes(polynomial);
+    let classes = grouped(polynomial, odd);
     if classes.len() == 1 || classes.len() == polynomial.len() {
         return id;
     }
@@ -39,24 +57,33 @@ pub fn lower(graph: &mut Graph, polynomial: &[SlotTerm]) -> Id {
     horner(graph, polynomial.to_vec())
 }
 
-/// The terms grouped by exponents modulo 2, groups in order of first appearance.
-fn parity_classes(polynomial: &[SlotTerm]) -> Vec<Vec<SlotTerm>> {
-    let mut classes: Vec<(Vec<u32>, Vec<SlotTerm>)> = Vec::new();
+/// The terms grouped by a key, groups in order of first appearance.
+fn grouped<K: Eq + Hash>(
+    polynomial: &[SlotTerm],
+    key: impl Fn(&SlotTerm) -> K,
+) -> Vec<Vec<SlotTerm>> {
+    let mut places: HashMap<K, usize> = HashMap::new();
+    let mut groups: Vec<Vec<SlotTerm>> = Vec::new();
     for term in polynomial {
-        let parity: Vec<u32> = term.exponents.iter().map(|e| e % 2).collect();
-        match classes.iter_mut().find(|(known, _)| *known == parity) {
-            Some((_, members)) => members.push(term.clone()),
-            None => classes.push((parity, vec![term.clone()])),
+        let place = *places.entry(key(term)).or_insert(groups.len());
+        match groups.get_mut(place) {
+            Some(group) => group.push(term.clone()),
+            None => groups.push(vec![term.clone()]),
         }
     }
-    classes.into_iter().map(|(_, members)| members).collect()
+    groups
+}
+
+/// The exponents modulo 2, zeros left out.
+fn odd(term: &SlotTerm) -> Vec<(u32, u32)> {
+    term.factors.iter().filter(|(_, e)| e % 2 == 1).map(|&(variable, _)| (variable, 1)).collect()
 }
 
 fn by_parity(graph: &mut Graph, classes: &[Vec<SlotTerm>]) -> Id {
     let mut sum = graph.zero();
     for class in classes {
-        let parity: Vec<u32> = match class.first() {
-            Some(term) => term.exponents.iter().map(|e| e % 2).collect(),
+        let parity = match class.first() {
+            Some(term) => odd(term),
             None => continue,
         };
         let rest = class.iter().map(|term| divide(term, &parity)).collect();
@@ -69,40 +96,57 @@ fn by_parity(graph: &mut Graph, classes: &[Vec<SlotTerm>]) -> Id {
     sum
 }
 
-fn divide(term: &SlotTerm, divisor: &[u32]) -> SlotTerm {
-    let exponents = term.exponents.iter().zip(divisor).map(|(e, d)| e - d).collect();
-    SlotTerm { exponents, slot: term.slot }
+/// The term divided by a monomial, as far as it goes.
+fn divide(term: &SlotTerm, divisor: &[(u32, u32)]) -> SlotTerm {
+    let mut divisor = divisor.iter().peekable();
+    let mut factors = Vec::with_capacity(term.factors.len());
+    for &(variable, exponent) in &term.factors {
+        while divisor.next_if(|(other, _)| *other < variable).is_some() {}
+        let by = divisor.next_if(|(other, _)| *other == variable).map_or(0, |&(_, by)| by);
+        if exponent > by {
+            factors.push((variable, exponent - by));
+        }
+    }
+    SlotTerm { factors, slot: term.slot }
 }
 
 /// The product of powers, or `None` for the empty product.
-pub(super) fn monomial(graph: &mut Graph, exponents: &[u32]) -> Option<Id> {
+pub(super) fn monomial(graph: &mut Graph, factors: &[(u32, u32)]) -> Option<Id> {
     let mut product: Option<Id> = None;
-    for (index, &exponent) in exponents.iter().enumerate() {
-        if exponent > 0 {
-            let input = graph.input(index);
-            let power = graph.power(input, exponent);
-            product = Some(match product {
-                Some(product) => graph.mul(product, power),
-                None => power,
-            });
-        }
+    for &(variable, exponent) in factors {
+        let input = graph.input(variable as usize);
+        let power = graph.power(input, exponent);
+        product = Some(match product {
+            Some(product) => graph.mul(product, power),
+            None => power,
+        });
     }
     product
+}
+
+/// What all terms have in common.
+fn content(terms: &[SlotTerm]) -> Vec<(u32, u32)> {
+    let Some((first, rest)) = terms.split_first() else { return Vec::new() };
+    let mut content = first.factors.clone();
+    for term in rest {
+        content.retain_mut(|(variable, shared)| {
+            match term.factors.binary_search_by_key(variable, |&(other, _)| other) {
+                Ok(at) => *shared = (*shared).min(term.factors[at].1),
+                Err(_) => return false,
+            }
+            true
+        });
+    }
+    content
 }
 
 /// Greedy Horner (Ceberio and Kreinovich 2004): take out what all terms share, then split on the
 /// variable that occurs in most terms.
 fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
-    let Some(first) = terms.first() else {
+    if terms.is_empty() {
         return graph.zero();
-    };
-    let variables = first.exponents.len();
-    let mut content = first.exponents.clone();
-    for term in &terms {
-        for (shared, &e) in content.iter_mut().zip(&term.exponents) {
-            *shared = (*shared).min(e);
-        }
     }
+    let content = content(&terms);
     if let Some(factor) = monomial(graph, &content) {
         for term in &mut terms {
             *term = divide(term, &content);
@@ -113,21 +157,25 @@ fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
     if let [only] = terms.as_slice() {
         return graph.slot(only.slot);
     }
-    // No common factor and at least two distinct monomials: some variable splits the terms.
-    let occurrences = |v: usize| terms.iter().filter(|term| term.exponents[v] > 0).count();
-    let variable = (0..variables).rev().max_by_key(|&v| occurrences(v)).unwrap_or(0);
-    let lowest = terms.iter().map(|t| t.exponents[variable]).filter(|&e| e > 0).min();
-    let Some(lowest) = lowest else {
+    // No common factor and at least two distinct monomials: some variable splits the terms. How
+    // many terms it occurs in, and its lowest exponent there:
+    let mut occurrences: BTreeMap<u32, (usize, u32)> = BTreeMap::new();
+    for &(variable, exponent) in terms.iter().flat_map(|term| &term.factors) {
+        let (count, lowest) = occurrences.entry(variable).or_insert((0, exponent));
+        *count += 1;
+        *lowest = (*lowest).min(exponent);
+    }
+    // Of equal counts the first variable, which comes last.
+    let most = occurrences.into_iter().rev().max_by_key(|&(_, (count, _))| count);
+    let Some((variable, (_, lowest))) = most else {
         // Equal monomials twice (not normalised input): add them up.
         let slots: Vec<Id> = terms.iter().map(|t| graph.slot(t.slot)).collect();
         return slots.into_iter().reduce(|a, b| graph.add(a, b)).unwrap_or_else(|| graph.zero());
     };
-    let (mut with, without): (Vec<_>, Vec<_>) =
-        terms.into_iter().partition(|term| term.exponents[variable] > 0);
-    for term in &mut with {
-        term.exponents[variable] -= lowest;
-    }
-    let input = graph.input(variable);
+    let has = |term: &SlotTerm| term.factors.iter().any(|&(other, _)| other == variable);
+    let (with, without): (Vec<_>, Vec<_>) = terms.into_iter().partition(has);
+    let with = with.iter().map(|term| divide(term, &[(variable, lowest)])).collect();
+    let input = graph.input(variable as usize);
     let power = graph.power(input, lowest);
     let quotient = horner(graph, with);
     let remainder = horner(graph, without);

@@ -1,7 +1,7 @@
 //! Lowering: the programs a step runs.
 
 use super::coefficients::Coefficients;
-use super::terms::{BaseTerm, value, weighted};
+use super::terms::{BaseTerm, by_coordinate, value, weighted};
 use crate::graph::{Graph, Id, Program, lower};
 
 /// S(p).
@@ -36,8 +36,11 @@ pub fn gradient_program(
     terms: &[BaseTerm],
 ) -> Program {
     let mut graph = Graph::new();
-    let outputs: Vec<Id> =
-        (0..dim).map(|i| gradient_entry(coefficients, &mut graph, terms, i).gradient).collect();
+    let outputs: Vec<Id> = by_coordinate(terms, dim)
+        .iter()
+        .enumerate()
+        .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i).gradient)
+        .collect();
     graph.finish(dim, &outputs)
 }
 
@@ -49,20 +52,28 @@ pub fn hessian_program(
     terms: &[BaseTerm],
     hessian_truncation: u32,
 ) -> Program {
-    let kept: Vec<BaseTerm> =
-        terms.iter().filter(|term| term.order <= hessian_truncation).cloned().collect();
+    let with = by_coordinate(terms, dim);
     let mut graph = Graph::new();
-    let entries: Vec<GradientEntry> =
-        (0..dim).map(|i| gradient_entry(coefficients, &mut graph, terms, i)).collect();
+    let entries: Vec<GradientEntry> = with
+        .iter()
+        .enumerate()
+        .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i))
+        .collect();
     let mut outputs: Vec<Id> = entries.iter().map(|entry| entry.gradient).collect();
     for (i, entry) in entries.iter().enumerate() {
+        let kept = || with[i].iter().copied().filter(|term| term.order <= hessian_truncation);
         // ∂ᵢ(pᵢ G + B) = G + pᵢ ∂ᵢG: the diagonal shares G with the gradient, and keeps it whole
         // even where the rest of the Hessian is truncated.
-        let bend = weighted(coefficients, &kept, &[(i, 2)], |m| m[i] * m[i].saturating_sub(2));
+        let bend = weighted(coefficients, kept(), &[(i, 2)], |term| {
+            let m = term.exponent(i);
+            m * m.saturating_sub(2)
+        });
         let bend = lower(&mut graph, &bend);
         outputs.push(graph.add(bend, entry.slope));
         for j in i + 1..dim {
-            let mixed = weighted(coefficients, &kept, &[(i, 1), (j, 1)], |m| m[i] * m[j]);
+            let mixed = weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
+                term.exponent(i) * term.exponent(j)
+            });
             outputs.push(lower(&mut graph, &mixed));
         }
     }
@@ -79,11 +90,15 @@ struct GradientEntry {
 fn gradient_entry(
     coefficients: &mut Coefficients,
     graph: &mut Graph,
-    terms: &[BaseTerm],
+    terms: &[&BaseTerm],
     i: usize,
 ) -> GradientEntry {
-    let slope = weighted(coefficients, terms, &[(i, 2)], |m| if m[i] >= 2 { m[i] } else { 0 });
-    let rest = weighted(coefficients, terms, &[(i, 1)], |m| u32::from(m[i] == 1));
+    let terms = || terms.iter().copied();
+    let slope = weighted(coefficients, terms(), &[(i, 2)], |term| match term.exponent(i) {
+        m if m >= 2 => m,
+        _ => 0,
+    });
+    let rest = weighted(coefficients, terms(), &[(i, 1)], |m| u32::from(m.exponent(i) == 1));
     let slope = lower(graph, &slope);
     let rest = lower(graph, &rest);
     let p = graph.input(i);
@@ -114,13 +129,14 @@ pub fn defect(
     omitted
         .map(|term| DefectTerm {
             slot: coefficients.slot(term.base, 1),
-            weight: hessian_norm(&term.exponents),
-            degree: term.exponents.iter().sum::<u32>().saturating_sub(2),
+            weight: hessian_norm(&term.factors.iter().map(|&(_, e)| e).collect::<Vec<_>>()),
+            degree: term.factors.iter().map(|&(_, e)| e).sum::<u32>().saturating_sub(2),
         })
         .collect()
 }
 
-/// A bound on the row-sum norm of the Hessian of pᵐ for |p| = 1, from the bound of each entry.
+/// A bound on the row-sum norm of the Hessian of pᵐ for |p| = 1, from the bound of each entry; m
+/// without its zeros.
 fn hessian_norm(m: &[u32]) -> f64 {
     let entry = |i: usize, j: usize| {
         let mut rest = m.to_vec();

@@ -132,7 +132,11 @@ impl Integrator {
     #[must_use]
     pub fn is_quadratic(&self) -> bool {
         let dim = self.problem.algebra.dim();
-        self.problem.hamiltonian.terms().all(|(e, _)| e[..dim].iter().sum::<u32>() <= 2)
+        let degree = |factors: &[(u32, u32)]| {
+            let momenta = factors.iter().filter(|(variable, _)| (*variable as usize) < dim);
+            momenta.map(|(_, power)| power).sum::<u32>()
+        };
+        self.problem.hamiltonian.factors().all(|(factors, _)| degree(&factors) <= 2)
     }
 
     /// The order of accuracy, K + 1: the method is symmetric and even terms vanish.

@@ -102,26 +102,25 @@ impl Plan {
 fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {
     let monomials = |component: usize| {
         let orders = predictor.iter().filter_map(|order| order.get(component));
-        let exponents = orders.flat_map(Polynomial::terms).map(|(mut exponents, _)| {
-            exponents.truncate(dim);
-            exponents
+        let momenta = orders.flat_map(Polynomial::factors).map(|(mut factors, _)| {
+            factors.retain(|&(variable, _)| (variable as usize) < dim);
+            factors
         });
-        exponents.collect::<BTreeSet<_>>().len()
+        momenta.collect::<BTreeSet<_>>().len()
     };
     2 * (0..dim).map(monomials).sum::<usize>()
 }
 
 /// About one and a half operations for each monomial of each entry, since entries share powers.
 fn gradient_operations(terms: &[BaseTerm]) -> usize {
-    let entries = |term: &BaseTerm| term.exponents.iter().filter(|&&e| e > 0).count();
-    terms.iter().map(entries).sum::<usize>() * 3 / 2
+    terms.iter().map(|term| term.factors.len()).sum::<usize>() * 3 / 2
 }
 
 /// The same for the upper triangle of the Hessian of the terms up to `truncation`.
 fn hessian_operations(terms: &[BaseTerm], truncation: usize) -> usize {
     let entries = |term: &BaseTerm| {
-        let present = term.exponents.iter().filter(|&&e| e > 0).count();
-        let bent = term.exponents.iter().filter(|&&e| e > 2).count();
+        let present = term.factors.len();
+        let bent = term.factors.iter().filter(|&&(_, e)| e > 2).count();
         present * present.saturating_sub(1) / 2 + bent
     };
     let kept = terms.iter().filter(|term| term.order as usize <= truncation);

@@ -4,18 +4,27 @@ use std::collections::BTreeMap;
 
 use super::coefficients::{Coefficients, Contribution};
 use crate::graph::{SlotPolynomial, SlotTerm};
-use crate::poly::Polynomial;
+use crate::poly::{Factors, Polynomial};
 
 /// A polynomial in the momenta whose coefficients are bases of a [`Coefficients`] table: S_h(p),
 /// one component of the predictor, or the energy.
 #[derive(Clone, Debug)]
 pub struct BaseTerm {
-    /// The exponent of each momentum coordinate.
-    pub exponents: Vec<u32>,
+    /// (coordinate, exponent), ascending, exponents positive.
+    pub factors: Vec<(u32, u32)>,
     /// The number of the base coefficient.
     pub base: usize,
     /// The lowest power of h in the coefficient, k for a term of S_k.
     pub order: u32,
+}
+
+impl BaseTerm {
+    /// The exponent of a coordinate.
+    #[must_use]
+    pub fn exponent(&self, coordinate: usize) -> u32 {
+        let found = self.factors.binary_search_by_key(&coordinate, |&(i, _)| i as usize);
+        found.map_or(0, |at| self.factors[at].1)
+    }
 }
 
 /// Collects Σ h^power · polynomial into terms over the first `dim` variables, the other variables
@@ -25,24 +34,39 @@ pub fn collect<'a>(
     dim: usize,
     orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
 ) -> Vec<BaseTerm> {
-    let mut grouped: BTreeMap<Vec<u32>, Vec<Contribution>> = BTreeMap::new();
+    let mut grouped: BTreeMap<Factors, Vec<Contribution>> = BTreeMap::new();
     for (step_power, polynomial) in orders {
-        for (exponents, factor) in polynomial.terms() {
-            let (momenta, symbols) = exponents.split_at(dim);
-            grouped.entry(momenta.to_vec()).or_default().push(Contribution {
-                factor,
-                step_power,
-                symbol_powers: symbols.to_vec(),
-            });
+        let symbols = polynomial.variables().saturating_sub(dim);
+        for (factors, factor) in polynomial.factors() {
+            let momenta = factors.partition_point(|&(variable, _)| (variable as usize) < dim);
+            let (momenta, powers) = factors.split_at(momenta);
+            let mut symbol_powers = vec![0; symbols];
+            for &(variable, power) in powers {
+                symbol_powers[variable as usize - dim] = power;
+            }
+            let contribution = Contribution { factor, step_power, symbol_powers };
+            grouped.entry(Factors(momenta.into())).or_default().push(contribution);
         }
     }
     grouped
         .into_iter()
-        .map(|(exponents, contributions)| {
+        .map(|(factors, contributions)| {
             let order = contributions.iter().map(|c| c.step_power).min().unwrap_or(0);
-            BaseTerm { exponents, base: coefficients.add_base(contributions), order }
+            let base = coefficients.add_base(contributions);
+            BaseTerm { factors: factors.0.into(), base, order }
         })
         .collect()
+}
+
+/// For each coordinate the terms in which it occurs.
+pub fn by_coordinate(terms: &[BaseTerm], dim: usize) -> Vec<Vec<&BaseTerm>> {
+    let mut result = vec![Vec::new(); dim];
+    for term in terms {
+        for &(coordinate, _) in &term.factors {
+            result[coordinate as usize].push(term);
+        }
+    }
+    result
 }
 
 /// The polynomial itself, over slots.
@@ -50,7 +74,7 @@ pub fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynom
     terms
         .iter()
         .map(|term| SlotTerm {
-            exponents: term.exponents.clone(),
+            factors: term.factors.clone(),
             slot: coefficients.slot(term.base, 1),
         })
         .collect()
@@ -58,23 +82,25 @@ pub fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynom
 
 /// The terms of Σ weight(m) C_m p^{m − shift}: derivatives, and the parts of derivatives that are
 /// shared. Terms of weight 0 vanish; `weight` must be 0 wherever an exponent is below its shift.
-pub fn weighted(
+pub fn weighted<'a>(
     coefficients: &mut Coefficients,
-    terms: &[BaseTerm],
+    terms: impl IntoIterator<Item = &'a BaseTerm>,
     shift: &[(usize, u32)],
-    weight: impl Fn(&[u32]) -> u32,
+    weight: impl Fn(&BaseTerm) -> u32,
 ) -> SlotPolynomial {
     let mut result = SlotPolynomial::new();
     for term in terms {
-        let scale = weight(&term.exponents);
+        let scale = weight(term);
         if scale == 0 {
             continue;
         }
-        let mut exponents = term.exponents.clone();
-        for &(variable, by) in shift {
-            exponents[variable] = exponents[variable].saturating_sub(by);
+        let mut factors = term.factors.clone();
+        for (coordinate, exponent) in &mut factors {
+            let by = shift.iter().filter(|(i, _)| *i == *coordinate as usize).map(|(_, by)| by);
+            *exponent = exponent.saturating_sub(by.sum());
         }
-        result.push(SlotTerm { exponents, slot: coefficients.slot(term.base, scale) });
+        factors.retain(|&(_, exponent)| exponent > 0);
+        result.push(SlotTerm { factors, slot: coefficients.slot(term.base, scale) });
     }
     result
 }
