@@ -15,6 +15,17 @@ pub enum StepError {
         /// The largest remaining residual, relative to the largest momentum coordinate.
         residual: f64,
     },
+    /// The fixed point for J_L(∂S/∂p(p), p) = μ was not reached to rounding.
+    #[error(
+        "the fixed point did not converge: relative residual {residual:.1e} after {iterations} \
+         evaluations; take a smaller step, or the solver `newton`"
+    )]
+    FixedPointNotConverged {
+        /// Evaluations made.
+        iterations: u32,
+        /// The largest remaining residual, relative to the largest momentum coordinate.
+        residual: f64,
+    },
     /// A coordinate of the momentum or the group element is infinite or not a number.
     #[error("the state is not finite: a coordinate of the momentum is NaN or infinite")]
     NonFiniteState,

@@ -1,8 +1,12 @@
 //! The one interface everything meets at: a generating function S(p) on 𝔤\*.
 
+use nalgebra::SimdComplexField;
+
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::group::LieGroup;
+use crate::scalar::Scalar;
+use crate::solve::Solver;
 
 /// The number type of a generating function's group.
 pub type ScalarOf<S> = <<S as GeneratingFunction>::Group as LieGroup>::Scalar;
@@ -24,6 +28,10 @@ pub trait GeneratingFunction {
     /// The chart whose canonical coordinates (x, p) are meant.
     type Chart: Chart<Self::Group>;
 
+    /// How steps solve for p. [`MatrixFree`](crate::MatrixFree) chooses
+    /// [`Solver::FixedPoint`] for any function.
+    const SOLVER: Solver = Solver::Newton;
+
     /// The group.
     fn group(&self) -> &Self::Group;
 
@@ -40,7 +48,12 @@ pub trait GeneratingFunction {
     fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self>;
 
     /// ∂S/∂p and the full Hessian ∂²S/∂p² at p.
-    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>);
+    ///
+    /// The default takes the Hessian by central differences of the gradient, to about 1e-10: give
+    /// the exact one where steps go by Newton's method.
+    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        (self.gradient(p), hessian_by_differences(self, p))
+    }
 
     /// A first guess of the p with J_L(∂S/∂p(p), p) = μ; better guesses save Newton steps.
     #[inline(always)]
@@ -62,7 +75,7 @@ pub trait GeneratingFunction {
     #[inline(always)]
     fn bend(&self, x: ScalarOf<Self>) -> ScalarOf<Self> {
         let _ = x;
-        crate::scalar::Scalar::of(1.0)
+        Scalar::of(1.0)
     }
 
     /// A bound on ‖Hess S − H‖ (row sums) for the H of [`GeneratingFunction::newton_model`], at
@@ -70,6 +83,31 @@ pub trait GeneratingFunction {
     #[inline(always)]
     fn hessian_defect(&self, size: ScalarOf<Self>) -> ScalarOf<Self> {
         let _ = size;
-        crate::scalar::Scalar::of(0.0)
+        Scalar::of(0.0)
     }
+}
+
+/// The Hessian by central differences of the gradient.
+fn hessian_by_differences<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    p: &VectorOf<S>,
+) -> MatrixOf<S> {
+    let dim = p.dim();
+    // The third root of rounding balances both errors.
+    let spacing =
+        (p.largest_entry() + ScalarOf::<S>::of(1e-3)) * ScalarOf::<S>::epsilon().simd_cbrt();
+    let factor = ScalarOf::<S>::of(0.5) / spacing;
+    let mut hessian = VectorOf::<S>::zero_matrix(dim);
+    for j in 0..dim {
+        let shifted = |by| {
+            let mut shifted = p.clone();
+            shifted[j] += by;
+            generating.gradient(&shifted)
+        };
+        let (right, left) = (shifted(spacing), shifted(-spacing));
+        for i in 0..dim {
+            hessian[(i, j)] = (right[i] - left[i]) * factor;
+        }
+    }
+    hessian
 }

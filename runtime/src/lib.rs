@@ -152,14 +152,14 @@ pub use phase::Phase;
 #[cfg(feature = "alloc")]
 pub use polynomial_function::PolynomialFunction;
 pub use product::{Power, Product};
-pub use reconstruct::{StepReport, advance, poisson_map};
+pub use reconstruct::{StepReport, advance, poisson_map, reconstruct};
 pub use reversed::Reversed;
 pub use scalar::Scalar;
 pub use se2::SE2;
 pub use se3::SE3;
 pub use so3::SO3;
 pub use so3_matrix::SO3Matrix;
-pub use solve::{MAX_ITERATIONS, Solution, solve};
+pub use solve::{MAX_EVALUATIONS, MAX_ITERATIONS, MatrixFree, Solution, Solver, solve};
 pub use splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 pub use su2::SU2;
 pub use table::{

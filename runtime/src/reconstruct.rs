@@ -10,7 +10,7 @@ use crate::solve::solve;
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport<T> {
-    /// Newton iterations made.
+    /// Newton iterations, or evaluations of the fixed point.
     pub iterations: u32,
     /// An estimate of the residual left in J_L(x, p) = μ, relative to the largest coordinate of μ.
     pub residual: T,
@@ -42,10 +42,21 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let group = generating.group();
     let solution = solve(generating, &phase.momentum)?;
-    let (increment, momentum) = generating.chart().transport(group, &solution.x, &phase.momentum);
+    reconstruct(generating, phase, &solution.x);
+    Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
+}
+
+/// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that
+/// [`solve`] has found for μ′.
+#[inline(always)]
+pub fn reconstruct<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    phase: &mut Phase<S::Group>,
+    x: &VectorOf<S>,
+) {
+    let group = generating.group();
+    let (increment, momentum) = generating.chart().transport(group, x, &phase.momentum);
     phase.group_element = group.compose(&phase.group_element, &increment);
     phase.momentum = momentum;
-    Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
 }

@@ -3,6 +3,7 @@
 use crate::coordinates::Coordinates;
 use crate::generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;
+use crate::solve::Solver;
 
 /// The generating function −S: its map is the inverse of that of S.
 ///
@@ -13,6 +14,7 @@ pub struct Reversed<'a, S: ?Sized>(pub &'a S);
 impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
     type Group = S::Group;
     type Chart = S::Chart;
+    const SOLVER: Solver = S::SOLVER;
 
     fn group(&self) -> &Self::Group {
         self.0.group()

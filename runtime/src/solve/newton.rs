@@ -1,7 +1,8 @@
-//! Solving J_L(∂S/∂p(p), p) = μ for p.
+//! Newton's method, for groups of few dimensions.
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
+use super::{MAX_ITERATIONS, Solution, Solver, failure};
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
@@ -9,30 +10,9 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::scalar::Scalar;
 
-/// Newton iterations allowed before the solver gives up.
-pub const MAX_ITERATIONS: u32 = 20;
-
-/// A point (x, p) of the Lagrangian submanifold over a given momentum.
-#[derive(Clone, Debug)]
-pub struct Solution<V, T> {
-    /// The canonical momentum.
-    pub p: V,
-    /// x = ∂S/∂p(p), the chart coordinate of the group increment.
-    pub x: V,
-    /// Newton iterations made (in lanes: until the last lane was done).
-    pub iterations: u32,
-    /// An estimate of the residual left, relative to the largest coordinate of μ.
-    pub residual: T,
-}
-
-/// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, by Newton's
-/// method from [`GeneratingFunction::predict`].
-///
-/// # Errors
-/// [`StepError::NonFiniteState`] for a μ with NaN or infinity, [`StepError::NotConverged`] when
-/// rounding is not reached within [`MAX_ITERATIONS`].
+/// [`solve`](super::solve) by [`Solver::Newton`].
 #[inline(always)]
-pub fn solve<S: GeneratingFunction + ?Sized>(
+pub fn newton<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
@@ -90,15 +70,5 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
         }
         p = next;
     }
-    Err(failure(mu, iterations, remaining))
-}
-
-/// Names the reason of a failure; off the hot path.
-#[cold]
-fn failure<T: Scalar, V: Coordinates<T>>(mu: &V, iterations: u32, remaining: T) -> StepError {
-    if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
-        StepError::NonFiniteState
-    } else {
-        StepError::NotConverged { iterations, residual: remaining.largest_lane() }
-    }
+    Err(failure(Solver::Newton, mu, iterations, remaining))
 }

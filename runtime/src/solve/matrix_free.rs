@@ -1,0 +1,74 @@
+//! Choosing the matrix-free solver for a generating function that has a Hessian.
+
+use nalgebra::SimdValue;
+
+use super::Solver;
+use crate::generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
+use crate::lanes::Lanes;
+use crate::scalar::Scalar;
+
+/// The same generating function, solved by [`Solver::FixedPoint`].
+///
+/// ```
+/// use coadjoint::{MatrixFree, Phase, SO3, advance, lie_poisson};
+///
+/// #[lie_poisson(group = SO3, truncation = 3)]
+/// fn body(mu: [f64; 3]) -> f64 {
+///     mu[0] * mu[0] / 2.0 + mu[1] * mu[1] / 3.0 + mu[2] * mu[2] / 4.0
+/// }
+///
+/// # fn main() -> Result<(), coadjoint::StepError> {
+/// let step = Body::<f64>::new(0.1)?;
+/// let (mut a, mut b) = (Phase::<SO3>::at_identity([1.0, 2.0, 3.0]), Phase::at_identity([1.0, 2.0, 3.0]));
+/// advance(&step, &mut a)?;
+/// advance(&MatrixFree(step), &mut b)?;
+/// assert!((a.momentum - b.momentum).amax() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MatrixFree<S>(pub S);
+
+impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
+    type Group = S::Group;
+    type Chart = S::Chart;
+    const SOLVER: Solver = Solver::FixedPoint;
+
+    #[inline(always)]
+    fn group(&self) -> &Self::Group {
+        self.0.group()
+    }
+
+    #[inline(always)]
+    fn chart(&self) -> Self::Chart {
+        self.0.chart()
+    }
+
+    #[inline(always)]
+    fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        self.0.value(p)
+    }
+
+    #[inline(always)]
+    fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        self.0.gradient(p)
+    }
+
+    #[inline(always)]
+    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        self.0.gradient_and_hessian(p)
+    }
+
+    #[inline(always)]
+    fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
+        self.0.predict(mu)
+    }
+}
+
+impl<S: Lanes> Lanes for MatrixFree<S> {
+    type Over<L: Scalar + SimdValue<Element = f64>> = MatrixFree<S::Over<L>>;
+
+    fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L> {
+        MatrixFree(self.0.splat())
+    }
+}

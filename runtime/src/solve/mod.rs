@@ -1,0 +1,83 @@
+//! Solving J_L(∂S/∂p(p), p) = μ for p.
+
+mod fixed_point;
+mod matrix_free;
+mod newton;
+
+pub use matrix_free::MatrixFree;
+
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::scalar::Scalar;
+
+/// Newton iterations allowed before the solver gives up.
+pub const MAX_ITERATIONS: u32 = 20;
+
+/// Evaluations of the fixed point allowed before the solver gives up.
+pub const MAX_EVALUATIONS: u32 = 60;
+
+/// How the equation is solved. Both go to rounding, so the map is the same; the cost is not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Solver {
+    /// Newton's method: one to three iterations, each with the Hessian of S and a dense linear
+    /// system. For groups of few dimensions.
+    #[default]
+    Newton,
+    /// The fixed point p ↦ (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), with Anderson acceleration: more iterations,
+    /// each with the gradient of S alone and work linear in the dimension. For spin chains and
+    /// other large groups. Contracts for about h|Ω| < 1.
+    FixedPoint,
+}
+
+/// A point (x, p) of the Lagrangian submanifold over a given momentum.
+#[derive(Clone, Debug)]
+pub struct Solution<V, T> {
+    /// The canonical momentum.
+    pub p: V,
+    /// x = ∂S/∂p(p), the chart coordinate of the group increment.
+    pub x: V,
+    /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was
+    /// done).
+    pub iterations: u32,
+    /// The residual left, relative to the largest coordinate of μ: an estimate for Newton's method,
+    /// which spares the evaluation.
+    pub residual: T,
+}
+
+/// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, from
+/// [`GeneratingFunction::predict`], as [`GeneratingFunction::SOLVER`] says.
+///
+/// # Errors
+/// [`StepError::NonFiniteState`] for a μ with NaN or infinity; [`StepError::NotConverged`] or
+/// [`StepError::FixedPointNotConverged`] when rounding is not reached within [`MAX_ITERATIONS`] or
+/// [`MAX_EVALUATIONS`].
+#[inline(always)]
+pub fn solve<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
+    match S::SOLVER {
+        Solver::Newton => newton::newton(generating, mu),
+        Solver::FixedPoint => fixed_point::fixed_point(generating, mu),
+    }
+}
+
+/// Names the reason of a failure; off the hot path.
+#[cold]
+fn failure<T: Scalar, V: Coordinates<T>>(
+    solver: Solver,
+    mu: &V,
+    iterations: u32,
+    remaining: T,
+) -> StepError {
+    if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
+        return StepError::NonFiniteState;
+    }
+    let residual = remaining.largest_lane();
+    match solver {
+        Solver::Newton => StepError::NotConverged { iterations, residual },
+        Solver::FixedPoint => StepError::FixedPointNotConverged { iterations, residual },
+    }
+}
