@@ -151,6 +151,8 @@ pub use monitor::{Drift, Monitor};
 pub use phase::Phase;
 #[cfg(feature = "alloc")]
 pub use polynomial_function::PolynomialFunction;
+#[cfg(feature = "alloc")]
+pub use product::DirectProduct;
 pub use product::{Power, Product};
 pub use reconstruct::{StepReport, advance, poisson_map, reconstruct};
 pub use reversed::Reversed;

@@ -1,8 +1,12 @@
-//! Direct products of groups: of two, and of many copies of one.
+//! Direct products of groups: of two, of many copies of one, and of a number known at run time.
 
+#[cfg(feature = "alloc")]
+mod direct;
 mod pair;
 mod power;
 
+#[cfg(feature = "alloc")]
+pub use direct::DirectProduct;
 pub use pair::Product;
 pub use power::Power;
 
