@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::emit;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Kick};
 use crate::lie::Chart;
 use crate::system::{self, Parameters};
 
@@ -130,6 +130,10 @@ impl Build {
         let options = emit::Options::for_problem(&system.problem.name);
         let integrator = Integrator::build(system.problem, self.limit)
             .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
-        std::fs::write(path, emit::file(&integrator, &options)).map_err(io(path))
+        let mut module = emit::file(&integrator, &options);
+        if let Some((potential, _)) = system.potential {
+            module.push_str(&emit::potential_items(&Kick::build(potential), &options));
+        }
+        std::fs::write(path, module).map_err(io(path))
     }
 }

@@ -11,6 +11,7 @@ pub mod number;
 pub mod parse;
 pub mod pass;
 pub mod poly;
+pub mod potential;
 pub mod problem;
 #[cfg(feature = "system")]
 pub mod system;

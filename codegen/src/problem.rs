@@ -101,3 +101,16 @@ pub struct Problem {
     /// K: S₁ … S_K are kept.
     pub truncation: usize,
 }
+
+impl Problem {
+    /// Whether H_red is of degree two or less in the momenta.
+    #[must_use]
+    pub fn is_quadratic(&self) -> bool {
+        let dim = self.algebra.dim();
+        let degree = |factors: &[(u32, u32)]| {
+            let momenta = factors.iter().filter(|(variable, _)| (*variable as usize) < dim);
+            momenta.map(|(_, power)| power).sum::<u32>()
+        };
+        self.hamiltonian.factors().all(|(factors, _)| degree(&factors) <= 2)
+    }
+}

@@ -1,10 +1,13 @@
-//! The attribute `lie_poisson` of the crate `coadjoint`, which re-exports and documents it.
+//! The attributes `lie_poisson` and `potential` of the crate `coadjoint`, which re-exports and
+//! documents them.
 //!
 //! This crate only wires: the reading of the function, the derivation and the emission are in
 //! `coadjoint-codegen`.
 
+mod expansion;
 mod fallback;
 mod lie_poisson;
+mod potential;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator. See
 /// `coadjoint::lie_poisson`.
@@ -14,4 +17,13 @@ pub fn lie_poisson(
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
     lie_poisson::expand(arguments.into(), item.into()).into()
+}
+
+/// Turns a function computing a potential into its torque. See `coadjoint::potential`.
+#[proc_macro_attribute]
+pub fn potential(
+    arguments: proc_macro::TokenStream,
+    item: proc_macro::TokenStream,
+) -> proc_macro::TokenStream {
+    potential::expand(arguments.into(), item.into()).into()
 }

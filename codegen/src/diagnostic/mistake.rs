@@ -169,6 +169,23 @@ fn did_you_mean(suggestion: &Option<String>) -> String {
 }
 
 impl Mistake {
+    /// The same mistake in a potential, which is a polynomial in the group element's matrix where a
+    /// Hamiltonian is one in the momentum.
+    #[must_use]
+    pub fn in_potential(self) -> Self {
+        let words = |text: &str| {
+            text.replace("the momentum's coordinates", "entries of the group element's matrix")
+                .replace("the momentum", "the group element")
+                .replace("Hamiltonian", "potential")
+        };
+        let (message, help) = (self.to_string(), self.help());
+        let said = words(&message);
+        if said == message && help.as_deref().map(words) == help {
+            return self;
+        }
+        Self::Other(said, help.as_deref().map(words))
+    }
+
     /// What to write instead, where there is more to say than the message does.
     #[must_use]
     pub fn help(&self) -> Option<String> {

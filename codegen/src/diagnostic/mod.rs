@@ -57,6 +57,13 @@ impl Diagnostics {
         }
     }
 
+    /// Records the mistakes of `other`.
+    pub fn append(&mut self, other: Self) {
+        for diagnostic in other.list {
+            self.report(diagnostic.span, diagnostic.mistake);
+        }
+    }
+
     /// Whether nothing is wrong.
     #[must_use]
     pub fn is_empty(&self) -> bool {

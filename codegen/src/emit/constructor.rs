@@ -6,25 +6,13 @@ use quote::{format_ident, quote};
 use super::number::float;
 use super::{parameter, table};
 use crate::integrator::Integrator;
-use crate::problem::Shape;
+use crate::problem::{Parameter, Shape};
 
 /// The constructor `new(step, parameters…)`.
 #[must_use]
 pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
     let problem = &integrator.problem;
-    let mut arguments = Vec::new();
-    let mut scalars = Vec::new();
-    for parameter in &problem.parameters {
-        let name = argument_name(&parameter.name);
-        let ty = parameter_type(&parameter.shape, krate);
-        arguments.push(quote!(#name: #ty));
-        scalars.extend(parameter.scalar_names().iter().map(|scalar| {
-            // `inertia[0]`: the name, then how the scalar is reached.
-            let access = scalar.strip_prefix(parameter.name.as_str()).unwrap_or_default();
-            let access: TokenStream = access.parse().unwrap_or_default();
-            quote!(#name #access)
-        }));
-    }
+    let Arguments { arguments, scalars } = arguments(&problem.parameters, krate);
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
@@ -61,6 +49,32 @@ pub fn constructor(integrator: &Integrator, krate: &TokenStream) -> TokenStream 
             ::core::result::Result::Ok(Self { step, coefficients, defect })
         }
     }
+}
+
+/// Parameters as arguments of a function.
+pub struct Arguments {
+    /// `name: type` for each.
+    pub arguments: Vec<TokenStream>,
+    /// How each of their scalars is reached.
+    pub scalars: Vec<TokenStream>,
+}
+
+/// The arguments for these parameters.
+#[must_use]
+pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
+    let mut result = Arguments { arguments: Vec::new(), scalars: Vec::new() };
+    for parameter in parameters {
+        let name = argument_name(&parameter.name);
+        let ty = parameter_type(&parameter.shape, krate);
+        result.arguments.push(quote!(#name: #ty));
+        result.scalars.extend(parameter.scalar_names().iter().map(|scalar| {
+            // `inertia[0]`: the name, then how the scalar is reached.
+            let access = scalar.strip_prefix(parameter.name.as_str()).unwrap_or_default();
+            let access: TokenStream = access.parse().unwrap_or_default();
+            quote!(#name #access)
+        }));
+    }
+    result
 }
 
 /// A parameter's name as an argument; an underscore is added where it would be a keyword or one of

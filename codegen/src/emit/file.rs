@@ -1,7 +1,10 @@
 //! A whole module as formatted text: for build scripts, the command line, and checking in.
 
+use proc_macro2::TokenStream;
+use quote::format_ident;
+
 use super::{Options, header, tokens};
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Kick};
 
 /// The integrator as a Rust source file: a header that says where it comes from, then the items.
 #[must_use]
@@ -13,11 +16,24 @@ pub fn file(integrator: &Integrator, options: &Options) -> String {
         text.push('\n');
     }
     text.push('\n');
-    match syn::parse2(tokens(integrator, options)) {
-        Ok(items) => text.push_str(&prettyplease::unparse(&items)),
+    text.push_str(&formatted(tokens(integrator, options)));
+    text
+}
+
+/// The potential of a system, to stand after the integrator `options` was used for: the same name
+/// with `Potential` after it.
+#[must_use]
+pub fn potential_items(kick: &Kick, options: &Options) -> String {
+    let name = format_ident!("{}Potential", options.name);
+    let items = super::kick(kick, &Options { name, ..options.clone() });
+    format!("\n{}", formatted(items))
+}
+
+fn formatted(tokens: TokenStream) -> String {
+    match syn::parse2(tokens.clone()) {
+        Ok(items) => prettyplease::unparse(&items),
         // Emitted tokens are items by construction; if not, unformatted text still compiles or
         // shows the compiler what is wrong.
-        Err(_) => text.push_str(&tokens(integrator, options).to_string()),
+        Err(_) => tokens.to_string(),
     }
-    text
 }

@@ -31,7 +31,7 @@ pub fn generating_function(
             }
         }
     });
-    let bend = integrator.is_quadratic().then(|| {
+    let bend = integrator.problem.is_quadratic().then(|| {
         quote! {
             #[inline(always)]
             fn bend(&self, x: T) -> T {
@@ -97,7 +97,9 @@ pub fn scalar_function(program: &Program) -> TokenStream {
     quote!(#statements #(#outputs)*)
 }
 
-fn vector_function(program: &Program, vector: &TokenStream) -> TokenStream {
+/// The body of a function with as many outputs as `vector` has entries.
+#[must_use]
+pub fn vector_function(program: &Program, vector: &TokenStream) -> TokenStream {
     let Body { statements, outputs } = body(program);
     quote!(#statements <#vector>::from([#(#outputs),*]))
 }

@@ -35,6 +35,7 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
     ]
 }
 
-fn one_line(text: &str) -> String {
+/// The text on one line, fit for a doc comment.
+pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "'")
 }

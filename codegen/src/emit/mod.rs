@@ -11,9 +11,11 @@ mod generating_function;
 mod group;
 mod header;
 mod item;
+mod kick;
 mod number;
 mod parameter;
 mod table;
 
-pub use file::file;
+pub use file::{file, potential_items};
 pub use item::{Options, camel_case, tokens};
+pub use kick::kick;

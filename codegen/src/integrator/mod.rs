@@ -1,11 +1,13 @@
 //! One builder for every front end: a problem becomes an integrator, ready for any back end.
 
 mod coefficients;
+mod kick;
 mod lower;
 mod plan;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
+pub use kick::Kick;
 pub use lower::DefectTerm;
 pub use plan::Plan;
 
@@ -126,17 +128,6 @@ impl Integrator {
     #[must_use]
     pub fn defect_len(&self) -> usize {
         self.defect.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
-    }
-
-    /// Whether H_red is of degree two or less in the momenta.
-    #[must_use]
-    pub fn is_quadratic(&self) -> bool {
-        let dim = self.problem.algebra.dim();
-        let degree = |factors: &[(u32, u32)]| {
-            let momenta = factors.iter().filter(|(variable, _)| (*variable as usize) < dim);
-            momenta.map(|(_, power)| power).sum::<u32>()
-        };
-        self.problem.hamiltonian.factors().all(|(factors, _)| degree(&factors) <= 2)
     }
 
     /// The order of accuracy, K + 1: the method is symmetric and even terms vanish.

@@ -16,5 +16,6 @@ pub use error::LieAlgebraError;
 pub use matrix::RationalMatrix;
 pub use product::symmetric_square;
 
+pub(crate) use casimir::Echelon;
 pub(crate) use chart::{CubicEntry, cubic};
 pub(crate) use span::Span;

@@ -3,12 +3,13 @@
 use num_integer::Integer;
 
 use super::coefficient::{ONE, Table};
-use super::polynomial::polynomial;
+use super::polynomial::{Sum, polynomial};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
+use crate::potential::{Potential, matrix_size};
 use crate::problem::{Parameter, Problem, Symbol};
 
 /// The truncation where none is given: order of accuracy 8.
@@ -73,8 +74,93 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         return Err(diagnostics);
     };
 
-    let scalar_names: Vec<String> =
-        draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
+    let (hamiltonian, symbols) = exact(sum, count, &mut table, &draft.parameters);
+    Ok(Problem {
+        name: draft.name,
+        algebra,
+        coordinates: draft.coordinates,
+        hamiltonian,
+        symbols,
+        parameters: draft.parameters,
+        source: draft.source,
+        chart: draft.chart.0,
+        truncation,
+    })
+}
+
+/// What a front end has read of a potential.
+#[derive(Clone, Debug)]
+pub struct PotentialDraft {
+    /// The name.
+    pub name: String,
+    /// 𝔤.
+    pub algebra: Option<LieAlgebra>,
+    /// The rows and columns of the matrix as it was declared, and where; `None` where the group
+    /// says.
+    pub declared: Option<((usize, usize), Span)>,
+    /// The operations of the potential.
+    pub arena: Arena,
+    /// The potential itself, and where it stands.
+    pub energy: Option<(ExprId, Span)>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// The potential as the user wrote it.
+    pub source: String,
+}
+
+/// Checks what was read and turns it into a potential. Coordinates of the arena are the entries of
+/// the group element's matrix, row by row.
+///
+/// # Errors
+/// All mistakes: those already in `diagnostics`, and those found here.
+pub fn assemble_potential(
+    draft: PotentialDraft,
+    mut diagnostics: Diagnostics,
+) -> Result<Potential, Diagnostics> {
+    let size = draft.algebra.as_ref().map(matrix_size);
+    if let (Some(size), Some(((rows, columns), span)), Some(algebra)) =
+        (size, draft.declared, &draft.algebra)
+        && (rows, columns) != (size, size)
+    {
+        let name = algebra.name();
+        let message =
+            format!("elements of {name} are {size} × {size} matrices, not {rows} × {columns}");
+        let help = format!("write for example g: [[f64; {size}]; {size}]");
+        diagnostics.report(span, Mistake::Other(message, Some(help)));
+    }
+    let mut table = Table::new();
+    let root = draft.energy.map(|(root, _)| root);
+    let mut found = Diagnostics::new();
+    let sum = polynomial(&draft.arena, root, &mut table, &mut found);
+    for mistake in found.iter() {
+        diagnostics.report(mistake.span, mistake.mistake.clone().in_potential());
+    }
+    if let (Some(sum), Some((_, span))) = (&sum, draft.energy)
+        && sum.terms.keys().all(Vec::is_empty)
+    {
+        diagnostics.report(span, Mistake::NoDependence.in_potential());
+    }
+    let (Some(algebra), Some(size), Some(sum), true) =
+        (draft.algebra, size, sum, diagnostics.is_empty())
+    else {
+        if diagnostics.is_empty() {
+            diagnostics.report(Span::Whole, Mistake::Unreadable);
+        }
+        return Err(diagnostics);
+    };
+    let (energy, symbols) = exact(sum, size * size, &mut table, &draft.parameters);
+    let PotentialDraft { name, parameters, source, .. } = draft;
+    Ok(Potential { name, algebra, energy, symbols, parameters, source })
+}
+
+/// The polynomial in `count` variables and the symbols, and the symbols.
+fn exact(
+    sum: Sum,
+    count: usize,
+    table: &mut Table,
+    parameters: &[Parameter],
+) -> (Polynomial, Vec<Symbol>) {
+    let scalar_names: Vec<String> = parameters.iter().flat_map(Parameter::scalar_names).collect();
     // Symbols are numbered in the order of the terms they first occur in, highest terms first.
     let mut terms: Vec<(Vec<u32>, Rational, usize)> = sum
         .terms
@@ -102,8 +188,8 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         }
         (exponents, factor)
     });
-    let hamiltonian = Polynomial::from_terms(variables, terms);
-    let symbols = products
+    let polynomial = Polynomial::from_terms(variables, terms);
+    let symbols: Vec<Symbol> = products
         .iter()
         .map(|&product| {
             let expr = table.expression(product);
@@ -111,17 +197,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
             Symbol { expr, text }
         })
         .collect();
-    Ok(Problem {
-        name: draft.name,
-        algebra,
-        coordinates: draft.coordinates,
-        hamiltonian,
-        symbols,
-        parameters: draft.parameters,
-        source: draft.source,
-        chart: draft.chart.0,
-        truncation,
-    })
+    (polynomial, symbols)
 }
 
 /// The truncation, if it is usable; otherwise reports why not.

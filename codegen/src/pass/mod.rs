@@ -5,6 +5,6 @@ mod coefficient;
 mod polynomial;
 
 pub use assemble::{
-    DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, assemble, chart, check_chart, check_truncation,
-    linear,
+    DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, PotentialDraft, assemble, assemble_potential, chart,
+    check_chart, check_truncation, linear,
 };

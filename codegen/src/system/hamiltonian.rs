@@ -94,7 +94,8 @@ fn coordinates(
     (names, whole)
 }
 
-fn parameters(
+/// Reads `[parameters]` and adds their names to `names`.
+pub(super) fn parameters(
     table: &Table<'_>,
     treatment: Parameters,
     names: &mut Names,
@@ -145,7 +146,7 @@ fn parameter(
 }
 
 /// Where the content of a TOML string begins in the file.
-fn content_offset(file: &str, place: Span, content: &str) -> usize {
+pub(super) fn content_offset(file: &str, place: Span, content: &str) -> usize {
     let Span::Text { start, end } = place else { return 0 };
     // Strings with escapes do not occur literally; their places are then approximate.
     let inside = file.get(start..end).and_then(|raw| raw.find(content)).unwrap_or(1);

@@ -21,21 +21,30 @@
 //!
 //! Numbers are read from their decimals, so `0.1` is exactly 1/10. Instead of `group`, an
 //! `[algebra]` table gives a `basis` of matrices, or `generators` and `brackets`.
+//!
+//! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
+//! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
 
 mod algebra;
 mod hamiltonian;
+mod potential;
 mod run;
+mod splitting;
 mod table;
 
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::{DEFAULT_TRUNCATION, Draft, assemble, chart, check_truncation};
+use crate::pass::{
+    DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
+};
+use crate::potential::Potential;
 use crate::problem::Problem;
 use table::Table;
 
 pub use run::Run;
+pub use splitting::Splitting;
 
 /// The system of a file that names none.
 const DEFAULT_NAME: &str = "system";
@@ -66,6 +75,8 @@ pub struct Options {
 pub struct System {
     /// The system.
     pub problem: Problem,
+    /// The potential V(g), if the file has one, and the splitting to compose its kicks by.
+    pub potential: Option<(Potential, Splitting)>,
     /// Where to start, how far and in which steps; each as far as the file says.
     pub run: Run,
 }
@@ -94,6 +105,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
             "algebra",
             "coordinates",
             "hamiltonian",
+            "potential",
             "parameters",
             "integrator",
             "initial",
@@ -116,6 +128,8 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     };
     let chart = options.chart.map_or(chart, |chart| (chart, Span::Whole));
     let run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
+    let potential = potential::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
+    let splitting = splitting::read(&root, integrator.as_ref(), &mut diagnostics);
     let draft = Draft {
         name,
         algebra,
@@ -128,7 +142,18 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         chart,
         truncation,
     };
-    Ok(System { problem: assemble(draft, diagnostics)?, run })
+    // Mistakes of both energies at once.
+    let potential = potential.and_then(|draft| {
+        assemble_potential(draft, Diagnostics::new())
+            .map_err(|mistakes| diagnostics.append(mistakes))
+            .ok()
+    });
+    let problem = assemble(draft, diagnostics)?;
+    let potential = match potential {
+        Some(potential) => Some((potential, splitting::choose(splitting, &problem)?)),
+        None => None,
+    };
+    Ok(System { problem, potential, run })
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.
@@ -167,7 +192,7 @@ fn integrator_table(
     options: Options,
     diagnostics: &mut Diagnostics,
 ) -> (Option<usize>, (Chart, Span)) {
-    table.check_keys(&["truncation", "chart", "step"], diagnostics);
+    table.check_keys(&["truncation", "chart", "step", "splitting"], diagnostics);
     let mut truncation = Some(DEFAULT_TRUNCATION);
     if table.has("truncation") && options.truncation.is_none() {
         truncation = table

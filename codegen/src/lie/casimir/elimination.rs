@@ -4,24 +4,24 @@ use crate::number::Field;
 use std::collections::BTreeMap;
 
 /// Rows by pivot. The pivot of a row is its first column; its entry there is one.
-pub(super) struct Echelon<F> {
+pub(crate) struct Echelon<F> {
     rows: BTreeMap<u32, BTreeMap<u32, F>>,
     operations: u64,
     limit: u64,
 }
 
 /// More multiplications than allowed.
-pub(super) struct Exceeded;
+pub(crate) struct Exceeded;
 
 impl<F: Field> Echelon<F> {
-    pub(super) fn new(limit: u64) -> Self {
+    pub(crate) fn new(limit: u64) -> Self {
         Self { rows: BTreeMap::new(), operations: 0, limit }
     }
 
     /// Adds a row. Returns what is left of it after reduction, scaled to a leading one, or nothing
     /// if it depends on the rows before (or the work exceeds the limit; see
     /// [`within_limit`](Self::within_limit)).
-    pub(super) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
+    pub(crate) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
         let mut row = row;
         let mut lead = None;
         let mut at = row.keys().next().copied();
@@ -47,13 +47,13 @@ impl<F: Field> Echelon<F> {
         Some(row)
     }
 
-    pub(super) fn within_limit(&self) -> Result<(), Exceeded> {
+    pub(crate) fn within_limit(&self) -> Result<(), Exceeded> {
         if self.operations > self.limit { Err(Exceeded) } else { Ok(()) }
     }
 
     /// Vectors spanning what all rows annihilate, in columns 0..`columns`: one for each column
     /// without pivot, being one there and zero at the others without pivot.
-    pub(super) fn kernel(mut self, columns: u32) -> Result<Vec<BTreeMap<u32, F>>, Exceeded> {
+    pub(crate) fn kernel(mut self, columns: u32) -> Result<Vec<BTreeMap<u32, F>>, Exceeded> {
         // From the last pivot to the first, every row is freed of other pivots.
         let pivots: Vec<u32> = self.rows.keys().rev().copied().collect();
         for pivot in pivots {

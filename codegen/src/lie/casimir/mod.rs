@@ -6,9 +6,10 @@ mod invariants;
 use super::LieAlgebra;
 use crate::number::Rational;
 use crate::poly::Polynomial;
-use elimination::Echelon;
 use num_traits::One;
 use std::collections::BTreeMap;
+
+pub(crate) use elimination::Echelon;
 
 /// Monomials of one degree that are looked through at most.
 const MONOMIALS: usize = 50_000;

@@ -54,6 +54,30 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
     arguments
 }
 
+/// Reads `group = SO3`, all a potential needs.
+pub(super) fn potential(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
+    const OWNER: &str = "#[potential(…)]";
+    let mut found = None;
+    for (key, span, value) in entries(tokens, diagnostics) {
+        match key.as_str() {
+            "group" if found.is_some() => diagnostics.report(span, Mistake::RepeatedKey(key)),
+            "group" => found = Some(group(&value, Span::of(&value), diagnostics)),
+            _ => {
+                let suggestion = nearest(&key, ["group"]).map(str::to_owned);
+                let known = vec!["group".to_owned()];
+                let unknown = Mistake::UnknownKey(key, OWNER.to_owned(), suggestion, known);
+                diagnostics.report(span, unknown);
+            }
+        }
+    }
+    if found.is_none() {
+        let mistake =
+            Mistake::MissingKey("group".to_owned(), OWNER.to_owned(), "group = SO3".to_owned());
+        diagnostics.report(Span::from_tokens(proc_macro2::Span::call_site()), mistake);
+    }
+    found.flatten()
+}
+
 /// Splits `key = value, …`. Values are any tokens up to the next comma, so that groups may be
 /// written as people write them: `SO3 * SO3`, `SO3^4`.
 fn entries(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Vec<(String, Span, TokenStream)> {

@@ -1,6 +1,7 @@
-//! Hamiltonians as Rust functions: `#[lie_poisson(group = SO3, truncation = 7)]`.
+//! Hamiltonians as Rust functions, `#[lie_poisson(group = SO3, truncation = 7)]`, and potentials,
+//! `#[potential(group = SO3)]`.
 //!
-//! The function is run once, with symbols for the momentum and the parameters: what it computes
+//! The function is run once, with symbols for its arguments: what it computes
 //! along the way becomes an expression. So every body works whose course is known beforehand:
 //! `let`, patterns, constants, literal loops, iterator chains, closures.
 
@@ -23,9 +24,12 @@ use quote::ToTokens;
 use syn::ItemFn;
 
 use crate::diagnostic::{Diagnostics, Span};
-use crate::pass::{Draft, assemble};
-use crate::problem::Problem;
+use crate::expr::{Arena, ExprId};
+use crate::pass::{Draft, PotentialDraft, assemble, assemble_potential};
+use crate::potential::Potential;
+use crate::problem::{Parameter, Problem, Shape};
 use evaluate::Evaluator;
+use signature::Variable;
 
 /// Reads `#[lie_poisson(arguments)] function`.
 ///
@@ -42,28 +46,77 @@ pub fn lie_poisson(arguments: TokenStream, function: &ItemFn) -> syn::Result<Pro
 pub fn read(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let arguments = arguments::read(arguments, &mut diagnostics);
-    let mut evaluator = Evaluator::new(&mut diagnostics);
-    let signature = signature::read(&function.sig, &mut evaluator);
+    let function = Function::read(function, Variable::Momentum, &mut diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
-    let hamiltonian = signature.coordinates.is_some().then(|| evaluator.body(&function.block));
-    let arena = evaluator.into_arena();
-    if signature.coordinates.is_none() {
+    let Some((_, coordinates, coordinates_span)) = function.variable else {
         return Err(diagnostics);
-    }
-    let (coordinates, coordinates_span) = signature.coordinates.unwrap_or_default();
+    };
     let draft = Draft {
-        name: function.sig.ident.to_string(),
+        name: function.name,
         algebra: arguments.algebra,
         coordinates,
         coordinates_span,
-        arena,
-        hamiltonian: hamiltonian.flatten(),
-        parameters: signature.parameters,
-        source: function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" "),
+        arena: function.arena,
+        hamiltonian: function.energy,
+        parameters: function.parameters,
+        source: function.source,
         chart: arguments.chart,
         truncation: arguments.truncation,
     };
     assemble(draft, diagnostics)
+}
+
+/// Reads `#[potential(arguments)] function`.
+///
+/// # Errors
+/// Every mistake of the arguments, the signature and the body.
+pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let algebra = arguments::potential(arguments, &mut diagnostics);
+    let function = Function::read(function, Variable::Element, &mut diagnostics);
+    let declared = match function.variable {
+        Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) => {
+            Some(((rows, columns), span))
+        }
+        _ => return Err(diagnostics),
+    };
+    let draft = PotentialDraft {
+        name: function.name,
+        algebra,
+        declared,
+        arena: function.arena,
+        energy: function.energy,
+        parameters: function.parameters,
+        source: function.source,
+    };
+    assemble_potential(draft, diagnostics)
+}
+
+/// A function as it was read.
+struct Function {
+    name: String,
+    variable: Option<(Shape, Vec<String>, Span)>,
+    parameters: Vec<Parameter>,
+    arena: Arena,
+    energy: Option<(ExprId, Span)>,
+    source: String,
+}
+
+impl Function {
+    fn read(function: &ItemFn, variable: Variable, diagnostics: &mut Diagnostics) -> Self {
+        let mut evaluator = Evaluator::new(diagnostics);
+        let signature = signature::read(&function.sig, variable, &mut evaluator);
+        // Without its variable every name of the body would be unknown.
+        let energy = signature.variable.is_some().then(|| evaluator.body(&function.block));
+        Self {
+            name: function.sig.ident.to_string(),
+            variable: signature.variable,
+            parameters: signature.parameters,
+            arena: evaluator.into_arena(),
+            energy: energy.flatten(),
+            source: function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" "),
+        }
+    }
 }
 
 /// What the user wrote, as far as the compiler tells.

@@ -9,17 +9,55 @@ use crate::diagnostic::{Mistake, Span};
 use crate::expr::Node;
 use crate::problem::{Parameter, Shape};
 
+/// What a function is of, besides the parameters: its first argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variable {
+    /// The momentum, an array or a vector.
+    Momentum,
+    /// The matrix of a group element.
+    Element,
+}
+
+impl Variable {
+    /// Whether an argument of this shape can be it.
+    fn accepts(self, shape: &Shape) -> bool {
+        match self {
+            Self::Momentum => matches!(shape, Shape::Array(_) | Shape::Vector(_)),
+            Self::Element => matches!(shape, Shape::Grid(..) | Shape::Matrix(..)),
+        }
+    }
+
+    fn expected(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Momentum => (
+                "the first argument is the momentum: an array or a vector of f64 with a literal \
+                 length",
+                "write for example mu: [f64; 3] or mu: nalgebra::Vector3<f64>",
+            ),
+            Self::Element => (
+                "the first argument is the group element: a matrix of f64 of literal size",
+                "write for example g: [[f64; 3]; 3] or g: nalgebra::Matrix3<f64>",
+            ),
+        }
+    }
+}
+
 /// What the signature says.
 pub(super) struct Signature {
-    /// The names of the momentum's coordinates, and where; `None` if there is no usable momentum.
-    pub coordinates: Option<(Vec<String>, Span)>,
+    /// The shape of the first argument, the names of its entries, and where; `None` if it is not
+    /// usable.
+    pub variable: Option<(Shape, Vec<String>, Span)>,
     pub parameters: Vec<Parameter>,
 }
 
 /// Reads a signature and binds its arguments.
-pub(super) fn read(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) -> Signature {
+pub(super) fn read(
+    signature: &syn::Signature,
+    variable: Variable,
+    evaluator: &mut Evaluator<'_>,
+) -> Signature {
     qualifiers(signature, evaluator);
-    let mut result = Signature { coordinates: None, parameters: Vec::new() };
+    let mut result = Signature { variable: None, parameters: Vec::new() };
     let mut scalars = 0;
     for (position, argument) in signature.inputs.iter().enumerate() {
         let typed = match argument {
@@ -28,8 +66,8 @@ pub(super) fn read(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) ->
                 unsupported(
                     evaluator,
                     Span::of(receiver),
-                    "a method cannot be a Hamiltonian",
-                    "write a free function of the momentum and the parameters",
+                    "a method cannot be read",
+                    "write a free function of its variables and parameters",
                 );
                 continue;
             }
@@ -37,23 +75,16 @@ pub(super) fn read(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) ->
         let span = Span::of(&typed.ty);
         let shape = shape(&typed.ty);
         if position == 0 {
-            let count = match &shape {
-                Some(Shape::Array(n) | Shape::Vector(n)) => *n,
-                _ => {
-                    unsupported(
-                        evaluator,
-                        span,
-                        "the first argument is the momentum: an array or a vector of f64 with a \
-                         literal length",
-                        "write for example mu: [f64; 3] or mu: nalgebra::Vector3<f64>",
-                    );
-                    continue;
-                }
+            let Some(shape) = shape.filter(|shape| variable.accepts(shape)) else {
+                let (what, help) = variable.expected();
+                unsupported(evaluator, span, what, help);
+                continue;
             };
             let place = Span::of(&typed.pat);
-            let value = shaped(shape.as_ref(), |i| evaluator.push(Node::Coordinate(i), place));
+            let value = shaped(Some(&shape), |i| evaluator.push(Node::Coordinate(i), place));
             evaluator.bind(&typed.pat, value);
-            result.coordinates = Some((coordinate_names(&typed.pat, count), span));
+            let names = coordinate_names(&typed.pat, shape.len());
+            result.variable = Some((shape, names, span));
             continue;
         }
         let Some(name) = name(&typed.pat) else {
@@ -88,12 +119,12 @@ pub(super) fn read(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) ->
         result.parameters.push(Parameter { name, shape, default: None });
     }
     if signature.inputs.is_empty() {
-        unsupported(
-            evaluator,
-            Span::of(&signature.ident),
-            "the function has no arguments: the first one must be the momentum",
-            "write for example mu: [f64; 3]",
-        );
+        let (what, help) = match variable {
+            Variable::Momentum => ("the momentum", "write for example mu: [f64; 3]"),
+            Variable::Element => ("the group element", "write for example g: [[f64; 3]; 3]"),
+        };
+        let what = format!("the function has no arguments: the first one must be {what}");
+        unsupported(evaluator, Span::of(&signature.ident), &what, help);
     }
     result
 }
@@ -104,12 +135,12 @@ fn unsupported(evaluator: &mut Evaluator<'_>, span: Span, what: &str, help: &str
 
 fn qualifiers(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) {
     if let Some(token) = &signature.asyncness {
-        unsupported(evaluator, Span::of(token), "a Hamiltonian cannot be async", "remove `async`");
+        unsupported(evaluator, Span::of(token), "an energy cannot be async", "remove `async`");
     }
     if !signature.generics.params.is_empty() {
         let span = Span::of(&signature.generics);
-        let help = "write the function for f64; the integrator is generic by itself";
-        unsupported(evaluator, span, "a Hamiltonian cannot be generic", help);
+        let help = "write the function for f64; what is generated is generic by itself";
+        unsupported(evaluator, span, "an energy cannot be generic", help);
     }
     let returns_f64 = match &signature.output {
         ReturnType::Type(_, ty) => is_f64(ty),
@@ -120,7 +151,7 @@ fn qualifiers(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) {
             ReturnType::Default => Span::of(&signature.ident),
             output => Span::of(output),
         };
-        unsupported(evaluator, span, "a Hamiltonian returns the energy as f64", "write -> f64");
+        unsupported(evaluator, span, "the energy is returned as f64", "write -> f64");
     }
 }
 

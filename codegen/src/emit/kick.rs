@@ -1,0 +1,102 @@
+//! A potential as Rust: a struct with its value and its torque.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::constructor::{Arguments, arguments};
+use super::generating_function::{scalar_function, vector_function};
+use super::group::group_type;
+use super::header::one_line;
+use super::{Options, parameter, table};
+use crate::integrator::Kick;
+
+/// The potential as items: a struct and its implementation.
+#[must_use]
+pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
+    let Options { krate, visibility, name, attributes } = options;
+    let potential = &kick.potential;
+    let group = group_type(&potential.algebra, name, visibility, krate);
+    let (definition, group) = (group.definition, group.ty);
+    let n = Literal::usize_unsuffixed(potential.algebra.dim());
+    let vector = quote!(#krate::nalgebra::SVector<T, #n>);
+    let size = Literal::usize_unsuffixed(potential.size());
+    let entries = Literal::usize_unsuffixed(potential.size() * potential.size());
+
+    let Arguments { arguments, scalars } = arguments(&potential.parameters, krate);
+    let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let texts = potential.symbols.iter().map(|s| &s.text);
+    let count = Literal::usize_unsuffixed(potential.symbols.len());
+    let bases = Literal::usize_unsuffixed(kick.coefficients.bases().len());
+    let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
+    let table = table::table(krate, &kick.coefficients);
+
+    let energy = scalar_function(&kick.energy);
+    let torque = vector_function(&kick.torque, &vector);
+    let cost = kick.torque.cost();
+    let summary = [
+        format!(" Potential: `{}`", one_line(&potential.source)),
+        String::new(),
+        format!(
+            " Group: {}. Torque: {} multiplications and {} additions.",
+            potential.algebra.name(),
+            cost.multiplications,
+            cost.additions
+        ),
+    ];
+    let entries_of_g = quote! {
+        let group = const { &<#group>::new() };
+        let input: [T; #entries] = ::core::array::from_fn(|k| {
+            #krate::LieGroup::matrix_entry(group, g, k / #size, k % #size)
+        });
+        let c = &self.coefficients;
+    };
+    quote! {
+        #definition
+
+        #attributes
+        #[doc = ""]
+        #(#[doc = #summary])*
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        #visibility struct #name<T = f64> {
+            coefficients: [T; #slots],
+        }
+
+        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables)]
+        const _: () = {
+            impl<T: #krate::Scalar> #name<T> {
+                /// Folds all coefficients for the parameters.
+                ///
+                /// # Errors
+                /// `StepError::InvalidParameter` where a parameter expression is not finite.
+                pub fn new(
+                    #(#arguments),*
+                ) -> ::core::result::Result<Self, #krate::StepError> {
+                    static TABLE: #krate::plumbing::Table<#count> = #table;
+                    let symbols: [T; #count] = [#(#symbols),*];
+                    // No coefficient holds the step size.
+                    let coefficients = #krate::plumbing::fold::<T, #count, #bases, #slots>(
+                        &TABLE,
+                        &[#(#texts),*],
+                        T::of(1.0),
+                        &symbols,
+                    )?;
+                    ::core::result::Result::Ok(Self { coefficients })
+                }
+
+                /// V(g).
+                #[inline]
+                pub fn energy(&self, g: &<#group as #krate::LieGroup>::Element) -> T {
+                    #entries_of_g
+                    #energy
+                }
+
+                /// The body torque −g⁻¹dV(g): component k is −d/ds V(g·exp(s e_k)) at s = 0.
+                #[inline]
+                pub fn torque(&self, g: &<#group as #krate::LieGroup>::Element) -> #vector {
+                    #entries_of_g
+                    #torque
+                }
+            }
+        };
+    }
+}

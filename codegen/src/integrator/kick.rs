@@ -1,0 +1,40 @@
+//! The programs of a potential: its value and its torque.
+
+use super::coefficients::Coefficients;
+use super::{lower, terms};
+use crate::graph::Program;
+use crate::potential::Potential;
+
+/// Everything a back end needs to write or run kicks.
+///
+/// Programs read the entries of the group element's matrix as inputs, row by row, and folded
+/// coefficients as slots. The coefficients hold no power of the step size.
+#[derive(Clone, Debug)]
+pub struct Kick {
+    /// What was asked for.
+    pub potential: Potential,
+    /// The coefficients of the torque and of the potential.
+    pub coefficients: Coefficients,
+    /// g ↦ V(g).
+    pub energy: Program,
+    /// g ↦ the body torque −g⁻¹dV(g).
+    pub torque: Program,
+}
+
+impl Kick {
+    /// Derives the torque and lowers it.
+    #[must_use]
+    pub fn build(potential: Potential) -> Self {
+        let entries = potential.size() * potential.size();
+        let mut coefficients = Coefficients::default();
+        let energy = terms::collect(&mut coefficients, entries, [(0, &potential.energy)]);
+        let energy = lower::value_program(&mut coefficients, entries, &energy);
+        let components: Vec<_> = potential
+            .torque()
+            .iter()
+            .map(|component| terms::collect(&mut coefficients, entries, [(0, component)]))
+            .collect();
+        let torque = lower::vector_program(&mut coefficients, entries, &components);
+        Self { potential, coefficients, energy, torque }
+    }
+}

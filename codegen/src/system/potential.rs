@@ -1,0 +1,47 @@
+//! The key `potential`: a polynomial in the entries of the group element's matrix.
+
+use super::Options;
+use super::hamiltonian::{content_offset, parameters};
+use super::table::Table;
+use crate::diagnostic::{Diagnostics, Span};
+use crate::expr::Arena;
+use crate::lie::LieAlgebra;
+use crate::parse::{Name, Names, text};
+use crate::pass::PotentialDraft;
+use crate::potential::matrix_size;
+
+const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
+
+/// Reads `potential`, if the file has one and its group is known.
+pub(super) fn read(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    file: &str,
+    options: Options,
+    diagnostics: &mut Diagnostics,
+) -> Option<PotentialDraft> {
+    let (text, place) = root.string("potential", POTENTIAL, diagnostics)?;
+    let algebra = algebra?;
+    let size = matrix_size(algebra);
+    let mut names = Names::default();
+    for at in 0..size * size {
+        let name = format!("g[{}][{}]", at / size, at % size);
+        names.add(&name, Name::Coordinate(at), Span::Whole, diagnostics);
+    }
+    let parameters = match root.table("parameters", diagnostics) {
+        Some(table) => parameters(&table, options.parameters, &mut names, diagnostics),
+        None => Vec::new(),
+    };
+    let mut arena = Arena::new();
+    let offset = content_offset(file, place, text);
+    let energy = text::parse(text, offset, &names, &mut arena, diagnostics);
+    Some(PotentialDraft {
+        name: "potential".to_owned(),
+        algebra: Some(algebra.clone()),
+        declared: None,
+        arena,
+        energy: Some((energy, place)),
+        parameters,
+        source: text.to_owned(),
+    })
+}
