@@ -8,7 +8,7 @@ use crate::generating_function::GeneratingFunction;
 use crate::group::{FixedDimension, LieGroup};
 use crate::heisenberg::Heisenberg;
 use crate::phase::Phase;
-use crate::product::Power;
+use crate::product::{Power, Product};
 use crate::scalar::Scalar;
 use crate::se2::SE2;
 use crate::se3::SE3;
@@ -176,5 +176,67 @@ where
             part.group_element
         });
         Phase { group_element, momentum }
+    }
+}
+
+/// The phase points of the two factors.
+fn factors<A, B, const N: usize>(phase: &Phase<Product<A, B, N>>) -> (Phase<A>, Phase<B>)
+where
+    A: LieGroup + FixedDimension + Default,
+    B: LieGroup<Scalar = A::Scalar> + FixedDimension + Default,
+{
+    let (a, b) = &phase.group_element;
+    let left = A::Vector::from_entries(A::DIM, |i| phase.momentum[i]);
+    let right = B::Vector::from_entries(B::DIM, |i| phase.momentum[A::DIM + i]);
+    (
+        Phase { group_element: a.clone(), momentum: left },
+        Phase { group_element: b.clone(), momentum: right },
+    )
+}
+
+/// Puts the phase points of the two factors together.
+fn joined<A, B, const N: usize>(left: Phase<A>, right: Phase<B>) -> Phase<Product<A, B, N>>
+where
+    A: LieGroup + FixedDimension + Default,
+    B: LieGroup<Scalar = A::Scalar> + FixedDimension + Default,
+{
+    let momentum =
+        SVector::from_fn(
+            |i, _| {
+                if i < A::DIM { left.momentum[i] } else { right.momentum[i - A::DIM] }
+            },
+        );
+    Phase { group_element: (left.group_element, right.group_element), momentum }
+}
+
+impl<A, B, const N: usize> LaneGroup for Product<A, B, N>
+where
+    A: LaneGroup + FixedDimension + Default,
+    B: LaneGroup + FixedDimension + Default,
+{
+    type Over<L: Scalar + SimdValue<Element = f64>> = Product<A::Over<L>, B::Over<L>, N>;
+
+    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>> {
+        let (left, right) = factors(phase);
+        joined(A::splat::<L>(&left), B::splat::<L>(&right))
+    }
+
+    fn insert<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &mut Phase<Self::Over<L>>,
+        lane: usize,
+        phase: &Phase<Self>,
+    ) {
+        let ((mut left, mut right), (a, b)) = (factors(lanes), factors(phase));
+        A::insert::<L>(&mut left, lane, &a);
+        B::insert::<L>(&mut right, lane, &b);
+        *lanes = joined(left, right);
+    }
+
+    fn extract<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &Phase<Self::Over<L>>,
+        lane: usize,
+    ) -> Phase<Self> {
+        let (left, right) = factors(lanes);
+        joined(A::extract::<L>(&left, lane), B::extract::<L>(&right, lane))
     }
 }

@@ -1,7 +1,7 @@
 //! The attribute on the runtime's closed-form groups.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Heisenberg, Monitor, Phase, SE2, SU2, lie_poisson};
+use coadjoint::{Heisenberg, Monitor, Phase, Product, SE2, SO3, SU2, lie_poisson};
 use nalgebra::Vector3;
 
 /// A planar body in an ideal fluid.
@@ -92,4 +92,44 @@ fn charge_turns() {
     let (sine, cosine) = 5.0_f64.sin_cos();
     let expected = Vector3::new(cosine, sine, 0.5);
     assert!((state.momentum - expected).amax() < 1e-12, "{}", state.momentum);
+}
+
+/// A body in space and one in the plane, side by side.
+#[lie_poisson(group = SO3 * SE2, truncation = 5)]
+fn side_by_side(mu: [f64; 6]) -> f64 {
+    let [a, b, c, x, y, z] = mu;
+    a * a / 2.0 + b * b / 3.0 + c * c / 4.0 + x * x / 2.0 + y * y / 2.0 + z * z / 4.0
+}
+
+/// The first.
+#[lie_poisson(group = SO3, truncation = 5)]
+fn alone(mu: [f64; 3]) -> f64 {
+    mu[0] * mu[0] / 2.0 + mu[1] * mu[1] / 3.0 + mu[2] * mu[2] / 4.0
+}
+
+/// The group of a product is the runtime's product of its closed forms, and without coupling each
+/// factor moves as it does alone; in lanes as in scalars.
+#[test]
+fn a_product_moves_as_its_factors() {
+    let start = [0.4, 0.8, -0.3, 0.2, -0.6, 0.5];
+    let mut both = Phase::<Product<SO3, SE2, 6>>::at_identity(start);
+    let mut first = Phase::<SO3>::at_identity([0.4, 0.8, -0.3]);
+    let mut second = Phase::<SE2>::at_identity([0.2, -0.6, 0.5]);
+    let step = SideBySide::new(0.05).unwrap();
+    let one = Alone::new(0.05).unwrap();
+    // Truncations 5 and 7 differ in the ninth digit here.
+    let other = PlanarBody::new(0.05, 1.0, [1.0, 2.0]).unwrap();
+    let mut lanes = vec![both.clone(); 9];
+    for _ in 0..200 {
+        step.advance(&mut both).unwrap();
+        one.advance(&mut first).unwrap();
+        other.advance(&mut second).unwrap();
+    }
+    assert!((both.momentum.fixed_rows::<3>(0) - first.momentum).amax() < 1e-13);
+    assert!((both.momentum.fixed_rows::<3>(3) - second.momentum).amax() < 1e-8);
+    assert!(both.group_element.0.angle_to(&first.group_element) < 1e-13);
+    assert!(coadjoint::ensemble::advance_all(&step, &mut lanes, 200).is_empty());
+    for lane in lanes {
+        assert_eq!(lane.momentum, both.momentum);
+    }
 }

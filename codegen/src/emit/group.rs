@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::number::exact;
-use crate::lie::{Chart, LieAlgebra, casimirs};
+use crate::lie::{Chart, LieAlgebra, casimirs, catalogue};
 use crate::poly::Polynomial;
 
 /// Groups the runtime has a type of its own for, under the catalogue's name.
@@ -35,30 +35,47 @@ pub fn group_type(
         return GroupType { ty: quote!(#krate::#group<T>), definition: TokenStream::new() };
     }
     let group = format_ident!("{name}Group");
-    if let Some((factor, copies)) = power(algebra) {
-        // Copies act on their own coordinates: far cheaper than one group of large matrices.
-        let (factor, n) = (format_ident!("{factor}"), index(algebra.dim()));
-        let (copies_literal, about) = (index(copies), format!(" The group {}.", algebra.name()));
-        return GroupType {
-            ty: quote!(#group<T>),
-            definition: quote! {
+    let definition = match product(algebra, krate) {
+        // Factors act on their own coordinates: far cheaper than one group of large matrices.
+        Some(ty) => {
+            let about = format!(" The group {}.", algebra.name());
+            quote! {
                 #[doc = #about]
-                #visibility type #group<T = f64> =
-                    #krate::Power<#krate::#factor<T>, #copies_literal, #n>;
-            },
-        };
-    }
-    GroupType {
-        ty: quote!(#group<T>),
-        definition: definition(algebra, name, &group, visibility, krate),
-    }
+                #visibility type #group<T = f64> = #ty;
+            }
+        }
+        None => definition(algebra, name, &group, visibility, krate),
+    };
+    GroupType { ty: quote!(#group<T>), definition }
 }
 
-/// The factor and the exponent of a power of one of the runtime's own types.
-fn power(algebra: &LieAlgebra) -> Option<(&str, usize)> {
-    let (factor, copies) = algebra.name().split_once('^')?;
-    let copies = copies.parse().ok().filter(|&copies: &usize| copies > 1)?;
-    RUNTIME_TYPES.contains(&factor).then_some((factor, copies))
+/// The type of a product of the runtime's own types and powers of them, by its name.
+fn product(algebra: &LieAlgebra, krate: &TokenStream) -> Option<TokenStream> {
+    let factors: Option<Vec<(TokenStream, usize)>> =
+        algebra.name().split('*').map(|factor| power(factor.trim(), krate)).collect();
+    let mut factors = factors?.into_iter().rev();
+    let last = factors.next()?;
+    let (ty, dim) = factors.fold(last, |(right, dim), (left, left_dim)| {
+        let n = index(left_dim + dim);
+        (quote!(#krate::Product<#left, #right, #n>), left_dim + dim)
+    });
+    (dim == algebra.dim()).then_some(ty)
+}
+
+/// The type and the dimension of `SO3` or `SO3^4`.
+fn power(factor: &str, krate: &TokenStream) -> Option<(TokenStream, usize)> {
+    let (base, copies) = match factor.split_once('^') {
+        Some((base, copies)) => (base, copies.parse().ok().filter(|&copies: &usize| copies > 0)?),
+        None => (factor, 1),
+    };
+    let base = RUNTIME_TYPES.iter().find(|known| **known == base)?;
+    let dim = catalogue::lookup(base).ok()?.dim();
+    let ty = format_ident!("{base}");
+    if copies == 1 {
+        return Some((quote!(#krate::#ty<T>), dim));
+    }
+    let (n, count) = (index(copies * dim), index(copies));
+    Some((quote!(#krate::Power<#krate::#ty<T>, #count, #n>), copies * dim))
 }
 
 fn definition(
