@@ -8,7 +8,7 @@
 //! `cargo run --release -p coadjoint --example satellite`
 
 use coadjoint::nalgebra::{UnitQuaternion, Vector3};
-use coadjoint::{Kicked, LieGroup, Phase, Rkn6, SO3, lie_poisson};
+use coadjoint::{Kicked, LieGroup, Phase, Rkn6, SO3, lie_poisson, potential};
 
 const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
 
@@ -18,14 +18,28 @@ fn satellite(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
 }
 
+/// The potential for the direction `earth` to the Earth, in space.
+#[potential(group = SO3)]
+fn gravity_gradient(g: [[f64; 3]; 3], inertia: [f64; 3], earth: [f64; 3]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..3 {
+        // The direction in body axes is gᵀ·earth.
+        let r = g[0][i] * earth[0] + g[1][i] * earth[1] + g[2][i] * earth[2];
+        sum += 1.5 * inertia[i] * r * r;
+    }
+    sum
+}
+
 /// The direction to the Earth, seen from the body.
 fn nadir(time: f64, attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
     attitude.inverse() * Vector3::new(time.cos(), time.sin(), 0.0)
 }
 
 fn torque(time: f64, attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
-    let r = nadir(time, attitude);
-    r.cross(&Vector3::from(INERTIA).component_mul(&r)) * 3.0
+    let earth = [time.cos(), time.sin(), 0.0];
+    // Finite parameters cannot fail; if one were not, the step would say so.
+    GravityGradient::new(INERTIA, earth)
+        .map_or(Vector3::repeat(f64::NAN), |potential| potential.torque(attitude))
 }
 
 fn jacobi(time: f64, state: &Phase<SO3>) -> f64 {

@@ -131,6 +131,47 @@ mod table;
 /// parameters…)`, `advance`, `poisson_map`, `energy`, `step`, and the implementations of
 /// [`GeneratingFunction`] and [`Lanes`]. Every mistake in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
+
+/// Turns a function computing a potential V(g) into its body torque −g⁻¹dV(g), derived exactly, for
+/// the kicks of [`Kicked`].
+///
+/// ```
+/// use coadjoint::{Kicked, LieGroup, Phase, Rkn4, SO3, lie_poisson, potential};
+///
+/// #[lie_poisson(group = SO3)]
+/// fn pendulum(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+///     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+/// }
+///
+/// /// The height of the body's third axis.
+/// #[potential(group = SO3)]
+/// fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
+///     weight * g[2][2]
+/// }
+///
+/// # fn main() -> Result<(), coadjoint::StepError> {
+/// let height = Height::new(1.2)?;
+/// let torque = |_time: f64, g: &_| height.torque(g);
+/// let step = Kicked::<Rkn4, _, _>::new(0.05, torque, |h| Pendulum::new(h, [1.0, 1.5, 1.0]))?;
+/// let mut state = Phase::<SO3>::new(SO3::new().exp(&[0.4, 0.0, 0.0].into()), [0.3, 0.2, 0.0]);
+/// let energy = |s: &Phase<SO3>| {
+///     pendulum(s.momentum.into(), [1.0, 1.5, 1.0]) + height.energy(&s.group_element)
+/// };
+/// let before = energy(&state);
+/// for n in 0..200 {
+///     step.advance(&mut state, 0.05 * f64::from(n))?;
+/// }
+/// assert!((energy(&state) - before).abs() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// The only argument is `group`, as for [`lie_poisson`]. The function's first argument is the group
+/// element's matrix, `[[f64; d]; d]` or an nalgebra matrix, in which it must be a polynomial; the
+/// others are parameters. What is generated is a struct with `new(parameters…)`, `energy(&g)` and
+/// `torque(&g)`. Making one is cheap, so a potential that moves in time is one whose parameters
+/// (the direction to the Earth, say) change from kick to kick.
+pub use coadjoint_macros::potential;
 pub use nalgebra;
 
 pub use catalogue::{

@@ -35,16 +35,23 @@
 //! | quadratic Hamiltonian on su(3)* | SU3 | [`Su3Body`] |
 //! | three-wave interaction | SU3 | [`ThreeWaveInteraction`] |
 //! | Zeitlin's vorticity, N = 3 | SU3 | [`ZeitlinVorticity3`] |
+//! | Zeitlin's vorticity, N = 5 | SU5 | [`ZeitlinVorticity5`] |
 //! | Heisenberg spin ring | SO3^4 | [`HeisenbergSpinRing`] |
+//! | Toda's lattice, four particles | by brackets | [`TodaLattice`] |
+//! | gravity gradient on a satellite, a potential | SO3 | [`GravityGradient`] |
 
 mod body;
 mod fluid;
+mod lattice;
+mod orbit;
 mod spin;
 mod top;
 mod unitary;
 
 pub use body::*;
 pub use fluid::*;
+pub use lattice::*;
+pub use orbit::*;
 pub use spin::*;
 pub use top::*;
 pub use unitary::*;

@@ -1,4 +1,4 @@
-//! Systems on su(3)*.
+//! Systems on su(3)* and su(5)*.
 //!
 //! su(3)* is identified with su(3) by ⟨M, ξ⟩ = −½ tr Mξ; the coordinates are Re M₁₂, Im M₁₂,
 //! Re M₁₃, Im M₁₃, Re M₂₃, Im M₂₃, and ½(d₁ − d₂), ½(d₂ − d₃) for the diagonal i(d₁, d₂, d₃).
@@ -46,4 +46,48 @@ pub fn zeitlin_vorticity_3(mu: [f64; 8]) -> f64 {
         ((4.0 * h1 + 2.0 * h2) / 3.0, (2.0 * h2 - 2.0 * h1) / 3.0, (-2.0 * h1 - 4.0 * h2) / 3.0);
     let diagonal = d1 * d1 + d2 * d2 + d3 * d3;
     diagonal / 2.0 + (2.0 * squares + neighbours) / 3.0
+}
+
+/// Zeitlin's truncation of two-dimensional ideal flow on a torus, N = 5, modes m₁, m₂ = −2 … 2:
+/// H = ½ Σ |ω_m|²/|m|², ω_m = tr(M T_m†)/√5.
+///
+/// su(5)* as su(3)* above: Re M_ab, Im M_ab for a < b in lexicographic order, then ½(d_a − d_a+1). On
+/// the m₂-th diagonal H is a circulant form with the coefficients
+/// Σ_m₁ cos(2πm₁n/5)/(m₁² + m₂²), cos 72° = (√5 − 1)/4. Casimirs tr Mᵏ, k = 2 … 5: the vorticity's
+/// moments. Dimensionless. V. Zeitlin, Physica D 49 (1991) 353.
+#[lie_poisson(group = SU5, truncation = 3)]
+pub fn zeitlin_vorticity_5(mu: [f64; 24]) -> f64 {
+    let root = 2.2360679774997896964;
+    let [r12, q12, r13, q13, r14, q14, r15, q15, r23, q23, r24, q24, ..] = mu;
+    let [.., r25, q25, r34, q34, r35, q35, r45, q45, h1, h2, h3, h4] = mu;
+    // Entries below the main diagonal: M_ba = −M̄_ab.
+    let first = [[r12, q12], [r23, q23], [r34, q34], [r45, q45], [-r15, q15]];
+    let second = [[r13, q13], [r24, q24], [r35, q35], [-r14, q14], [-r25, q25]];
+    // 5/2 of the main diagonal.
+    let top = 4.0 * h1 + 3.0 * h2 + 2.0 * h3 + h4;
+    let main = [
+        top,
+        top - 5.0 * h1,
+        top - 5.0 * (h1 + h2),
+        top - 5.0 * (h1 + h2 + h3),
+        top - 5.0 * (h1 + h2 + h3 + h4),
+    ];
+    let mut energy = 0.0;
+    for a in 0..5 {
+        let (b, c) = ((a + 1) % 5, (a + 2) % 5);
+        for part in 0..2 {
+            let [x, y, z] = [first[a][part], first[b][part], first[c][part]];
+            energy += 12.0 / 25.0 * x * x
+                + (13.0 + 3.0 * root) / 50.0 * x * y
+                + (13.0 - 3.0 * root) / 50.0 * x * z;
+            let [x, y, z] = [second[a][part], second[b][part], second[c][part]];
+            energy += 9.0 / 50.0 * x * x
+                + (7.0 + 3.0 * root) / 200.0 * x * y
+                + (7.0 - 3.0 * root) / 200.0 * x * z;
+        }
+        let [x, y, z] = [main[a], main[b], main[c]];
+        energy +=
+            x * x / 25.0 + (3.0 * root - 5.0) / 250.0 * x * y - (3.0 * root + 5.0) / 250.0 * x * z;
+    }
+    energy
 }

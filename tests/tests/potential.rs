@@ -1,0 +1,181 @@
+//! Potentials: the torque derived from V(g), its kicks, and what they leave conserved.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint::laws::{measured_order, symplectic_defect_of};
+use coadjoint::{
+    Kicked, LieGroup, Phase, Rkn4, Rkn6, SO3, Splitting, StepError, Strang, lie_poisson, potential,
+};
+use coadjoint_codegen::diagnostic::Diagnostics;
+use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::number::{Rational, integer};
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::system::{Options, Parameters, System, read};
+use coadjoint_tests::bridge::matrix_group;
+use nalgebra::{DVector, UnitQuaternion, Vector3};
+
+const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
+
+/// The satellite's rotation without torque.
+#[lie_poisson(group = SO3, truncation = 7)]
+fn satellite(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+/// Gravity gradient, 3/2 r·Ir with r = gᵀ·earth.
+#[potential(group = SO3)]
+fn gravity_gradient(g: [[f64; 3]; 3], inertia: [f64; 3], earth: [f64; 3]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..3 {
+        let r = g[0][i] * earth[0] + g[1][i] * earth[1] + g[2][i] * earth[2];
+        sum += 1.5 * inertia[i] * r * r;
+    }
+    sum
+}
+
+fn attitude() -> UnitQuaternion<f64> {
+    SO3::new().exp(&Vector3::new(0.4, -0.7, 0.2))
+}
+
+/// 3 r × Ir, P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 9.1.
+fn hand_written(earth: [f64; 3], attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let r = attitude.inverse() * Vector3::from(earth);
+    r.cross(&Vector3::from(INERTIA).component_mul(&r)) * 3.0
+}
+
+#[test]
+fn the_derived_torque_is_the_hand_written_one() {
+    let earth = [0.36, 0.48, 0.8];
+    let derived = GravityGradient::<f64>::new(INERTIA, earth).unwrap();
+    let torque = derived.torque(&attitude());
+    let expected = hand_written(earth, &attitude());
+    assert!((torque - expected).amax() < 1e-15 && expected.amax() > 0.1, "{torque} {expected}");
+    let m = attitude().to_rotation_matrix();
+    let g = [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
+    let energy = derived.energy(&attitude());
+    assert!((energy - gravity_gradient(g, INERTIA, earth)).abs() < 1e-15);
+    assert!(GravityGradient::new(INERTIA, [f64::NAN, 0.0, 0.0]).is_err());
+}
+
+/// The system file with these lines before an initial state that is not used.
+fn system(lines: &str) -> System {
+    let options = Options { parameters: Parameters::Substituted, ..Default::default() };
+    read(lines, options).unwrap_or_else(|d: Diagnostics| panic!("{}", d.render("file", lines)))
+}
+
+fn of_file(lines: &str) -> Potential {
+    system(lines).potential.unwrap().0
+}
+
+/// Component k is −d/ds V(g·exp(s e_k)), by differences of eighth order, on a group of matrices,
+/// on one of block matrices, and on one of adjoint matrices.
+#[test]
+fn the_torque_is_minus_the_derivative_of_the_potential() {
+    for file in [
+        "group = \"SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[0][1]^3 - 2*g[2][2]*g[1][0] + g[0][0]/3\"",
+        "group = \"SE3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[0][3]^2*g[1][1] + g[2][3]*g[0][2] - g[1][3]\"",
+        "group = \"SO3*SO2\"\nhamiltonian = \"mu[0]^2\"\npotential = \"(g[0][0]*g[3][3] + g[1][0]*g[4][3])^2 - g[2][1]\"",
+        "hamiltonian = \"a^2\"\npotential = \"g[0][1]^2 + g[2][0]*g[1][1]\"\n[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = 2*b\", \"[a, c] = -2*c\", \"[b, c] = a\"]",
+    ] {
+        let potential = of_file(file);
+        let group = matrix_group(&potential.algebra).unwrap();
+        let (n, size) = (group.dim(), group.matrix_size());
+        let x = DVector::from_fn(n, |i, _| 0.3 - 0.17 * i as f64);
+        let g = group.exp(&x);
+        let entries = |g: &_| -> Vec<f64> {
+            (0..size * size).map(|at| group.matrix_entry(g, at / size, at % size)).collect()
+        };
+        for (k, torque) in potential.torque().iter().enumerate() {
+            let value = |s: f64| {
+                let mut turn = DVector::zeros(n);
+                turn[k] = s;
+                potential.energy.evaluate(&entries(&group.compose(&g, &group.exp(&turn))))
+            };
+            // B. Fornberg, Math. Comp. 51 (1988) 699, table 1.
+            let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+            let h = 0.01;
+            let slope: f64 = weights
+                .iter()
+                .zip(1..)
+                .map(|(w, j)| w * (value(h * f64::from(j)) - value(-h * f64::from(j))) / h)
+                .sum();
+            let exact = torque.evaluate(&entries(&g));
+            assert!((exact + slope).abs() < 1e-12, "{file}: component {k}: {exact} and {slope}");
+        }
+    }
+}
+
+fn step<M: Splitting>(
+    h: f64,
+) -> Result<impl Fn(&mut Phase<SO3>, f64) -> Result<(), StepError>, StepError> {
+    let torque = |time: f64, g: &_| {
+        let earth = [time.cos(), time.sin(), 0.0];
+        GravityGradient::new(INERTIA, earth).map_or(Vector3::repeat(f64::NAN), |v| v.torque(g))
+    };
+    let step = Kicked::<M, _, _>::new(h, torque, |part| Satellite::new(part, INERTIA))?;
+    Ok(move |state: &mut Phase<SO3>, time| step.advance(state, time))
+}
+
+fn start() -> Phase<SO3> {
+    Phase::new(attitude(), Vector3::new(0.7, -0.4, 0.9))
+}
+
+#[test]
+fn kicks_by_the_derived_torque_are_symplectic() {
+    let step = step::<Rkn6>(0.2).unwrap();
+    let defect = symplectic_defect_of(&SO3::new(), &start(), &mut |state| step(state, 0.3));
+    let defect = defect.unwrap().unwrap();
+    assert!(defect < 1e-10, "{defect:e}");
+}
+
+#[test]
+fn orders_two_four_and_six() {
+    fn near<M: Splitting>(steps: u32) {
+        let order = measured_order(&SO3::new(), &start(), 2.0, steps, |h, steps, state| {
+            let step = step::<M>(h)?;
+            (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
+        });
+        let order = order.unwrap();
+        assert!((order - f64::from(M::ORDER)).abs() < 0.3, "order {order:.2}, not {}", M::ORDER);
+    }
+    near::<Strang>(40);
+    near::<Rkn4>(16);
+    near::<Rkn6>(6);
+}
+
+fn kernel(file: &str) -> Vec<Vec<Rational>> {
+    of_file(file).symmetries()
+}
+
+#[test]
+fn symmetries_that_are_left() {
+    let unit = |entries: &[i64]| entries.iter().map(|&x| integer(x)).collect::<Vec<_>>();
+    let top = "group = \"SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"2*g[2][2] + g[2][0]^2\"";
+    assert_eq!(kernel(top), [unit(&[0, 0, 1])], "turning about the vertical");
+    let pulled = "group = \"SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[2][2] + g[0][1]\"";
+    assert!(kernel(pulled).is_empty());
+    let file = include_str!("../../examples/satellite.toml");
+    assert_eq!(kernel(file), [unit(&[0, 0, 1, 1])], "attitude and orbit together");
+}
+
+#[test]
+fn casimirs_that_survive() {
+    let potential = of_file(
+        "group = \"SO3*SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[3][5] + g[4][4]^2\"",
+    );
+    let norm = |from: usize| {
+        let square = |i: usize| (vec![(i as u32, 2)], integer(1));
+        Polynomial::from_factors(6, (from..from + 3).map(square))
+    };
+    assert!(potential.keeps(&norm(0)));
+    assert!(!potential.keeps(&norm(3)));
+}
+
+/// The matrices of a group known by its brackets are the adjoint ones.
+#[test]
+fn sizes() {
+    let size = |algebra: &LieAlgebra| coadjoint_codegen::potential::matrix_size(algebra);
+    let lookup = |name| coadjoint_codegen::lie::catalogue::lookup(name).unwrap();
+    assert_eq!(size(&lookup("SO3*SO2")), 5);
+    assert_eq!(size(&lookup("SU3")), 6);
+}
