@@ -81,12 +81,12 @@ impl<T: Scalar> LieGroup for SU2<T> {
 
     #[inline(always)]
     fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        cross(x, y)
+        SO3::new().bracket(x, y)
     }
 
     #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        cross(mu, x)
+        SO3::new().ad_star(x, mu)
     }
 
     #[inline(always)]
@@ -127,8 +127,8 @@ impl<T: Scalar> LieGroup for SU2<T> {
         1
     }
 
-    fn casimir(&self, _index: usize, mu: &Self::Vector) -> T {
-        dot(mu, mu)
+    fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
+        SO3::new().casimir(index, mu)
     }
 
     fn matrix_size(&self) -> usize {
