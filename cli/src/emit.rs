@@ -1,6 +1,7 @@
 //! `coadjoint emit`: the integrator as a Rust module.
 
-use coadjoint_codegen::emit::{Options, file};
+use coadjoint_codegen::emit::{Options, file, potential_items};
+use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::system::Parameters;
 
 use crate::arguments::EmitOptions;
@@ -18,7 +19,10 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
     let system = load::source(&source, options.truncation, parameters)?;
     let style = Options::for_problem(&system.problem.name);
     let integrator = load::integrator(&source.file, system.problem)?;
-    let module = file(&integrator, &style);
+    let mut module = file(&integrator, &style);
+    if let Some((potential, _)) = system.potential {
+        module.push_str(&potential_items(&Kick::build(potential), &style));
+    }
     match &options.out {
         Some(path) => std::fs::write(path, module)
             .map_err(|error| CliError::Write { path: path.clone(), message: error.to_string() }),

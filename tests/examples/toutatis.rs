@@ -1,11 +1,12 @@
 //! Asteroid 4179 Toutatis for a thousand years, and the frequencies of its light curve.
 //!
-//! `cargo run --release -p coadjoint-tests --example toutatis`
+//! `cargo run --release -p coadjoint-tests --example toutatis [-- PICTURE.svg]`
 #![allow(clippy::print_stdout)]
 
 use coadjoint_tests::toutatis::{
-    Geometry, LongAxisMode, PRECESSION, ROTATION, light_curve, spectrum,
+    Geometry, LongAxisMode, MEASURED, PRECESSION, ROTATION, light_curve, spectrum,
 };
+use coadjoint_tests::toutatis_figure::figure;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mode = LongAxisMode::with_periods(ROTATION, PRECESSION).ok_or("no such mode")?;
@@ -20,6 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let error = (curve.end.momentum - closed).norm() / closed.norm();
     println!("{:.0} years in steps of {step} d:", time / 365.25);
     println!("  drift of the spatial angular momentum {:.1e}", curve.drift);
+    println!("  drift of its square, the Casimir {:.1e}", curve.casimir_drift);
     println!("  body momentum against Jacobi's elliptic functions {error:.1e}");
     println!("lines of the light curve, per day (measured: 0.135, 0.271, 0.643 ± 0.008):");
     let (rotation, precession) = (1.0 / ROTATION, 1.0 / PRECESSION);
@@ -38,6 +40,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "  {:.6}  amplitude {:.3}  = {} f_precession + {} f_rotation (off by {:.0e})",
             line.frequency, line.amplitude, best.1, best.2, best.0
         );
+    }
+    if let Some(path) = std::env::args().nth(1) {
+        std::fs::write(path, figure(&curve, &MEASURED))?;
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ pub mod reference;
 pub mod run;
 pub mod series;
 pub mod toutatis;
+pub mod toutatis_figure;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;

@@ -50,7 +50,7 @@ pub fn report(trial: &Trial<'_>, laws: &[Law], format: Format) -> String {
                 trial.seed
             );
             for law in laws {
-                let order = law.name == "order";
+                let order = law.name.starts_with("order");
                 let (relation, value, bound) = if order {
                     (">=", format!("{:.2}", law.value), format!("{:.1}", law.bound))
                 } else {

@@ -6,6 +6,7 @@ use coadjoint::{MatrixGroup, Terms};
 use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::potential::Potential;
 use nalgebra::DMatrix;
 use num_traits::ToPrimitive;
 
@@ -15,8 +16,13 @@ use crate::error::CliError;
 const CASIMIR_DEGREE: u32 = 3;
 
 /// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
-/// size, or adjoint matrices where only brackets are known.
-pub fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, CliError> {
+/// size, or adjoint matrices where only brackets are known. With a potential, only the Casimirs
+/// that its kicks leave as they are.
+pub fn matrix_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+    potential: Option<&Potential>,
+) -> Result<MatrixGroup, CliError> {
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
     let group = match algebra.basis() {
@@ -26,7 +32,8 @@ pub fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, Cl
         }
         None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
     };
-    let terms = casimirs(algebra).iter().map(terms).collect();
+    let kept = |casimir: &&Polynomial| potential.is_none_or(|v| v.keeps(casimir));
+    let terms = casimirs(algebra).iter().filter(kept).map(terms).collect();
     group
         .and_then(|group| group.with_casimirs(terms))
         .map_err(|source| CliError::Group { file: path.into(), source })

@@ -36,11 +36,6 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
         Ok(Self { integrator, group, slots, scratch, chart: PhantomData })
     }
 
-    /// H_red(μ).
-    pub fn energy(&self, mu: &DVector<f64>) -> f64 {
-        self.run(&self.integrator.energy, mu, 1)[0]
-    }
-
     fn run(&self, program: &Program, p: &DVector<f64>, outputs: usize) -> Vec<f64> {
         let mut result = vec![0.0; outputs];
         program.run(p.as_slice(), &self.slots, &mut self.scratch.borrow_mut(), &mut result);

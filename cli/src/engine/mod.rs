@@ -2,9 +2,13 @@
 
 mod group;
 mod interpreter;
+mod kick;
+mod polynomial;
 
 pub use group::matrix_group;
 pub use interpreter::Interpreter;
+pub use kick::{Forces, Torque};
+pub use polynomial::{Energy, FloatPolynomial};
 
 use coadjoint::LieGroup;
 use nalgebra::DVector;

@@ -1,4 +1,4 @@
-//! The drift of energy, spatial momentum and Casimirs over time, as SVG.
+//! The motion, and the drift of energy, spatial momentum and Casimirs over time, as SVG.
 
 use std::path::Path;
 
@@ -8,7 +8,13 @@ use plotters::prelude::*;
 use super::trajectory::{Drift, Trajectory};
 use crate::error::CliError;
 
-const SIZE: (u32, u32) = (900, 940);
+const WIDTH: u32 = 900;
+/// The height of a panel.
+const PANEL: u32 = 270;
+/// The motion is shown over this many records, so that its oscillations can be told apart.
+const SHOWN: usize = 400;
+/// With more coordinates than this their names are left out.
+const NAMED: usize = 8;
 /// The height of the strip that names the lines.
 const LEGEND: i32 = 40;
 /// Drawn for a difference of zero, which has no logarithm.
@@ -24,29 +30,81 @@ const COLORS: [RGBColor; 6] = [
     RGBColor(110, 110, 110),
 ];
 
-type Quantity = (&'static str, fn(&Drift) -> f64);
+/// A panel's title, what it shows, and whether a run conserves it.
+type Quantity = (&'static str, fn(&Drift) -> f64, fn(&Trajectory) -> bool);
 
 const PANELS: [Quantity; 3] = [
-    ("energy", |drift| drift.energy),
-    ("spatial momentum", |drift| drift.spatial_momentum),
-    ("Casimirs", |drift| drift.casimirs),
+    ("energy", |drift| drift.energy, |_| true),
+    ("spatial momentum", |drift| drift.spatial_momentum, |run| run.momenta > 0),
+    ("Casimirs", |drift| drift.casimirs, |run| run.casimirs > 0),
 ];
 
-/// Draws three panels, with a line for every run.
+/// Draws the motion of the first run, and a panel for each conserved quantity with a line for every
+/// run.
 pub fn draw(path: &Path, runs: &[Trajectory]) -> Result<(), CliError> {
     panels(path, runs)
         .map_err(|error| CliError::Write { path: path.to_owned(), message: error.to_string() })
 }
 
 fn panels(path: &Path, runs: &[Trajectory]) -> Result<(), Box<dyn std::error::Error>> {
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    let conserved = PANELS.iter().filter(|(_, _, kept)| runs.iter().any(kept));
+    let conserved: Vec<&Quantity> = conserved.collect();
+    let count = conserved.len() as u32 + 1;
+    let size = (WIDTH, LEGEND as u32 + PANEL * count);
+    let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(LEGEND);
+    let (top, body) = root.split_vertically(PANEL);
+    if let Some(run) = runs.first() {
+        motion(&top, run)?;
+    }
+    let (head, body) = body.split_vertically(LEGEND);
     legend(&head, runs)?;
-    for (area, (title, quantity)) in body.split_evenly((3, 1)).iter().zip(PANELS) {
-        panel(area, title, quantity, runs)?;
+    let areas = body.split_evenly((conserved.len(), 1));
+    for (area, (title, quantity, _)) in areas.iter().zip(conserved) {
+        panel(area, title, *quantity, runs)?;
     }
     root.present()?;
+    Ok(())
+}
+
+/// The coordinates of the momentum over the first records.
+fn motion(
+    area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
+    run: &Trajectory,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let records = &run.records[..run.records.len().min(SHOWN)];
+    let values = || records.iter().flat_map(|record| record.momentum.iter().copied());
+    let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+    let margin = 0.06 * (high - low).max(f64::MIN_POSITIVE);
+    let times = || records.iter().map(|record| record.time);
+    let (first, last) = (times().fold(0.0, f64::min), times().fold(0.0, f64::max));
+    let mut chart = ChartBuilder::on(area)
+        .caption("momentum in the body", ("sans-serif", 18))
+        .margin(8)
+        .margin_right(34)
+        .x_label_area_size(38)
+        .y_label_area_size(64)
+        .build_cartesian_2d(first..last, low - margin..high + margin)?;
+    chart
+        .configure_mesh()
+        .x_desc("time")
+        .label_style(("sans-serif", 14))
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .draw()?;
+    for (i, name) in run.coordinates.iter().enumerate() {
+        let color = COLORS[i % COLORS.len()];
+        let points = records.iter().filter_map(|r| Some((r.time, *r.momentum.get(i)?)));
+        chart.draw_series(LineSeries::new(points, color))?;
+        if run.coordinates.len() <= NAMED {
+            let place = (76 + 70 * i as i32, 12);
+            area.draw(&Text::new(
+                name.clone(),
+                place,
+                ("sans-serif", 14).into_font().color(&color),
+            ))?;
+        }
+    }
     Ok(())
 }
 
@@ -55,7 +113,7 @@ fn legend(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
     runs: &[Trajectory],
 ) -> Result<(), Box<dyn std::error::Error>> {
-    let width = (SIZE.0 as i32 - 90) / runs.len().max(1) as i32;
+    let width = (WIDTH as i32 - 90) / runs.len().max(1) as i32;
     for (i, (run, color)) in runs.iter().zip(COLORS.iter().cycle()).enumerate() {
         let (x, y) = (76 + i as i32 * width, LEGEND / 2 + 6);
         area.draw(&PathElement::new([(x, y), (x + 24, y)], color.stroke_width(2)))?;

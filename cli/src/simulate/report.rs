@@ -25,9 +25,15 @@ pub fn report(runs: &[Trajectory], format: Format) -> String {
 }
 
 fn object(run: &Trajectory) -> Value {
-    let solver = run.truncation.map(
-        |_| json!({ "mean_iterations": run.mean_iterations, "max_residual": run.max_residual }),
-    );
+    let solver = run.solver.map(|solver| {
+        json!({
+            "mean_iterations": solver.mean_iterations,
+            "max_residual": solver.max_residual,
+        })
+    });
+    // What is not conserved has no drift.
+    let momentum = (run.momenta > 0).then_some(run.drift.spatial_momentum);
+    let casimirs = (run.casimirs > 0 || !run.potential).then_some(run.drift.casimirs);
     json!({
         "method": run.label,
         "truncation": run.truncation,
@@ -36,10 +42,12 @@ fn object(run: &Trajectory) -> Value {
         "momentum": run.momentum,
         "group_element": run.group_element,
         "drift": {
-            "spatial_momentum": run.drift.spatial_momentum,
-            "casimirs": run.drift.casimirs,
+            "spatial_momentum": momentum,
+            "casimirs": casimirs,
             "energy": run.drift.energy,
         },
+        "conserved_momenta": run.momenta,
+        "conserved_casimirs": run.casimirs,
         "solver": solver,
     })
 }
@@ -63,21 +71,29 @@ fn text(run: &Trajectory) -> String {
     }
     let drift = run.drift;
     let _ = writeln!(out, "  largest relative drift");
-    let _ = writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum);
-    match run.casimirs {
-        0 => {
-            let _ = writeln!(out, "    Casimirs         none known");
+    let _ = match (run.potential, run.momenta) {
+        (false, _) => writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum),
+        (true, 0) => {
+            writeln!(out, "    spatial momentum not conserved: the potential breaks the symmetry")
         }
-        count => {
-            let _ = writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs);
-        }
-    }
+        (true, count) => writeln!(
+            out,
+            "    spatial momentum {:>10.1e} ({count} of its components; the potential breaks the \
+             other symmetries)",
+            drift.spatial_momentum
+        ),
+    };
+    let _ = match (run.potential, run.casimirs) {
+        (false, 0) => writeln!(out, "    Casimirs         none known"),
+        (true, 0) => writeln!(out, "    Casimirs         none that the kicks keep"),
+        (_, count) => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
+    };
     let _ = writeln!(out, "    energy           {:>10.1e}", drift.energy);
-    if run.truncation.is_some() {
+    if let Some(solver) = run.solver {
         let _ = writeln!(
             out,
             "  solver: {:.2} Newton iterations a step, largest residual {:.1e}",
-            run.mean_iterations, run.max_residual
+            solver.mean_iterations, solver.max_residual
         );
     }
     out

@@ -4,16 +4,17 @@ use coadjoint::Phase;
 use coadjoint_codegen::integrator::Integrator;
 use nalgebra::DVector;
 
-use crate::engine::Group;
+use crate::engine::{Energy, Group};
 
 /// The largest differences from the start so far, each relative to the largest value at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of the spatial momentum J_L, relative to its largest coordinate.
+    /// Of the spatial momentum J_L, or of the components that a potential leaves conserved,
+    /// relative to its largest coordinate.
     pub spatial_momentum: f64,
-    /// Of all Casimirs known, each relative to itself (absolute where it is 0).
+    /// Of all Casimirs watched, each relative to the size of its terms.
     pub casimirs: f64,
-    /// Of the energy, relative to itself (absolute where it is 0).
+    /// Of the energy, relative to the size of its terms.
     pub energy: f64,
 }
 
@@ -34,10 +35,19 @@ pub struct Record {
     pub momentum: Vec<f64>,
     /// g, row by row.
     pub element: Vec<f64>,
-    /// H_red(μ).
+    /// H_red(μ), plus V(g) where there is a potential.
     pub energy: f64,
     /// The differences at this moment.
     pub drift: Drift,
+}
+
+/// The solves of a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver {
+    /// Newton iterations per step.
+    pub mean_iterations: f64,
+    /// The largest residual left, relative to the momentum.
+    pub max_residual: f64,
 }
 
 /// A whole run.
@@ -61,10 +71,12 @@ pub struct Trajectory {
     pub drift: Drift,
     /// How many Casimirs were watched.
     pub casimirs: usize,
-    /// Newton iterations per step.
-    pub mean_iterations: f64,
-    /// The largest residual a solve left, relative to the momentum.
-    pub max_residual: f64,
+    /// Whether a potential breaks the symmetry.
+    pub potential: bool,
+    /// How many independent components of the spatial momentum are conserved, and were watched.
+    pub momenta: usize,
+    /// How the solves went, where they are ours and one a step.
+    pub solver: Option<Solver>,
 }
 
 impl Trajectory {
@@ -74,11 +86,24 @@ impl Trajectory {
     }
 }
 
+/// What is watched of a run.
+#[derive(Clone, Copy)]
+pub struct Watched<'a> {
+    /// The energy.
+    pub energy: &'a Energy,
+    /// Where a potential breaks the symmetry, the ξ with ⟨J_L, ξ⟩ conserved.
+    pub symmetries: Option<&'a [DVector<f64>]>,
+}
+
 /// Watches a run.
 pub struct Recorder<'a, G: Group> {
     group: &'a G,
-    energy: &'a dyn Fn(&DVector<f64>) -> f64,
+    watched: Watched<'a>,
     start: Invariants,
+    /// What the energy's drift is measured against.
+    energy_scale: f64,
+    /// The size of the spatial momentum.
+    momentum_scale: f64,
     /// What each Casimir's drift is measured against.
     casimir_scales: Vec<f64>,
     iterations: u64,
@@ -86,7 +111,7 @@ pub struct Recorder<'a, G: Group> {
 }
 
 struct Invariants {
-    spatial_momentum: DVector<f64>,
+    momenta: DVector<f64>,
     casimirs: Vec<f64>,
     energy: f64,
 }
@@ -95,12 +120,12 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Starts at `phase`, which is recorded.
     pub fn new(
         group: &'a G,
-        energy: &'a dyn Fn(&DVector<f64>) -> f64,
+        watched: Watched<'a>,
         phase: &Phase<G>,
         integrator: &Integrator,
         label: String,
     ) -> Self {
-        let start = invariants(group, energy, phase);
+        let start = invariants(group, &watched, phase);
         let trajectory = Trajectory {
             label,
             truncation: Some(integrator.problem.truncation),
@@ -111,11 +136,22 @@ impl<'a, G: Group> Recorder<'a, G> {
             group_element: Vec::new(),
             drift: Drift::default(),
             casimirs: group.casimir_count(),
-            mean_iterations: 0.0,
-            max_residual: 0.0,
+            potential: watched.symmetries.is_some(),
+            momenta: start.momenta.len(),
+            solver: None,
         };
+        let momentum_scale = phase.spatial_momentum(group).amax();
         let casimir_scales = casimir_scales(group, &phase.momentum);
-        let mut recorder = Self { group, energy, start, casimir_scales, iterations: 0, trajectory };
+        let mut recorder = Self {
+            group,
+            watched,
+            start,
+            energy_scale: watched.energy.magnitude(group, phase),
+            momentum_scale,
+            casimir_scales,
+            iterations: 0,
+            trajectory,
+        };
         recorder.visit(0.0, phase, true);
         recorder
     }
@@ -123,21 +159,19 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Takes note of how a solve went.
     pub fn solved(&mut self, iterations: u32, residual: f64) {
         self.iterations += u64::from(iterations);
-        self.trajectory.max_residual = self.trajectory.max_residual.max(residual);
+        let solver = self.trajectory.solver.get_or_insert_default();
+        solver.max_residual = solver.max_residual.max(residual);
     }
 
     /// Measures the drift at this moment, and records it if asked to.
     pub fn visit(&mut self, time: f64, phase: &Phase<G>, record: bool) {
-        let now = invariants(self.group, self.energy, phase);
+        let now = invariants(self.group, &self.watched, phase);
         let start = &self.start;
         let casimirs = start.casimirs.iter().zip(&now.casimirs).zip(&self.casimir_scales);
         let drift = Drift {
-            spatial_momentum: relative(
-                (&now.spatial_momentum - &start.spatial_momentum).amax(),
-                start.spatial_momentum.amax(),
-            ),
+            spatial_momentum: relative(largest(&now.momenta, &start.momenta), self.momentum_scale),
             casimirs: casimirs.map(|((c, d), scale)| relative(c - d, *scale)).fold(0.0, f64::max),
-            energy: relative(now.energy - start.energy, start.energy),
+            energy: relative(now.energy - start.energy, self.energy_scale),
         };
         self.trajectory.drift.raise(drift);
         if record {
@@ -159,22 +193,33 @@ impl<'a, G: Group> Recorder<'a, G> {
         self.trajectory.steps = steps;
         self.trajectory.momentum = phase.momentum.iter().copied().collect();
         self.trajectory.group_element = self.matrix(phase);
-        self.trajectory.mean_iterations = self.iterations as f64 / (steps.max(1)) as f64;
+        if let Some(solver) = &mut self.trajectory.solver {
+            solver.mean_iterations = self.iterations as f64 / steps.max(1) as f64;
+        }
         self.trajectory
     }
 }
 
-fn invariants<G: Group>(
-    group: &G,
-    energy: &dyn Fn(&DVector<f64>) -> f64,
-    phase: &Phase<G>,
-) -> Invariants {
+fn invariants<G: Group>(group: &G, watched: &Watched<'_>, phase: &Phase<G>) -> Invariants {
     let count = group.casimir_count();
+    let spatial = phase.spatial_momentum(group);
+    let momenta = match watched.symmetries {
+        None => spatial,
+        // Each relative to the largest component of its ξ.
+        Some(list) => {
+            DVector::from_iterator(list.len(), list.iter().map(|xi| xi.dot(&spatial) / xi.amax()))
+        }
+    };
     Invariants {
-        spatial_momentum: phase.spatial_momentum(group),
+        momenta,
         casimirs: (0..count).map(|i| group.casimir(i, &phase.momentum)).collect(),
-        energy: energy(&phase.momentum),
+        energy: watched.energy.value(group, phase),
     }
+}
+
+/// The largest difference; 0 for vectors without entries.
+fn largest(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    a.iter().zip(b.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// The largest value each Casimir takes at ±|μ₁|, … with at most one sign changed: one that starts
