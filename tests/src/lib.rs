@@ -4,6 +4,7 @@
 pub mod bridge;
 pub mod catalogue;
 pub mod elliptic;
+pub mod erased;
 pub mod golden;
 pub mod moments;
 pub mod reference;

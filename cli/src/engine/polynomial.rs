@@ -18,15 +18,16 @@ impl FloatPolynomial {
     pub fn new(polynomial: &Polynomial, variables: usize, symbols: &[Symbol]) -> Self {
         // Parameters are substituted; what symbols are left (sqrt(2)) need none.
         let symbols: Vec<f64> = symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
-        let term = |(exponents, value): (Vec<u32>, Rational)| {
-            let (powers, symbol_powers) = exponents.split_at(variables.min(exponents.len()));
-            let scale: f64 =
-                symbols.iter().zip(symbol_powers).map(|(s, &p)| s.powi(p as i32)).product();
-            let factors = powers.iter().enumerate().filter(|(_, power)| **power > 0);
-            let factors = factors.map(|(i, &power)| (i, power as i32)).collect();
+        let term = |(factors, value): (Vec<(u32, u32)>, Rational)| {
+            let (own, of_symbols): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|&(i, _)| (i as usize) < variables);
+            let symbol =
+                |&(i, power): &(u32, u32)| symbols[i as usize - variables].powi(power as i32);
+            let scale: f64 = of_symbols.iter().map(symbol).product();
+            let factors = own.into_iter().map(|(i, power)| (i as usize, power as i32)).collect();
             (scale * value.to_f64().unwrap_or(f64::NAN), factors)
         };
-        Self(polynomial.terms().map(term).collect())
+        Self(polynomial.factors().map(term).collect())
     }
 
     /// The value at x.

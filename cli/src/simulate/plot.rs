@@ -79,8 +79,8 @@ fn motion(
     let times = || records.iter().map(|record| record.time);
     let (first, last) = (times().fold(0.0, f64::min), times().fold(0.0, f64::max));
     let mut chart = ChartBuilder::on(area)
-        .caption("momentum in the body", ("sans-serif", 18))
         .margin(8)
+        .margin_top(LEGEND)
         .margin_right(34)
         .x_label_area_size(38)
         .y_label_area_size(64)
@@ -92,12 +92,13 @@ fn motion(
         .light_line_style(WHITE)
         .bold_line_style(RGBColor(225, 225, 225))
         .draw()?;
+    area.draw(&Text::new("momentum in the body", (76, 12), ("sans-serif", 18)))?;
     for (i, name) in run.coordinates.iter().enumerate() {
         let color = COLORS[i % COLORS.len()];
         let points = records.iter().filter_map(|r| Some((r.time, *r.momentum.get(i)?)));
         chart.draw_series(LineSeries::new(points, color))?;
         if run.coordinates.len() <= NAMED {
-            let place = (76 + 70 * i as i32, 12);
+            let place = (260 + 70 * i as i32, 14);
             area.draw(&Text::new(
                 name.clone(),
                 place,
