@@ -143,6 +143,17 @@ pub enum LearnError {
         /// What it must be.
         requirement: String,
     },
+    /// A checkpoint of training cannot be gone on from.
+    #[error(
+        "cannot go on from the checkpoint {}: {reason}; delete it to begin anew",
+        path.display()
+    )]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A model file is damaged or not one of ours.
     #[error("{} is not a usable model file: {reason}", path.display())]
     Model {
@@ -179,6 +190,11 @@ pub enum RowProblem {
     },
     /// The increment g′⁻¹g″ has no coordinate in the chart.
     OutOfChart,
+    /// By the samples around it, the increment lies beyond the fold of the canonical momentum.
+    Folded {
+        /// det ∂p/∂μ′, which is positive short of the fold.
+        determinant: f64,
+    },
     /// The increment lies beyond the fold of the canonical momentum in the chart.
     BeyondFold {
         /// How far: the fold is at 1.
@@ -197,6 +213,11 @@ impl fmt::Display for RowProblem {
                 write!(f, "the spatial momentum differs by {relative:.1e} across the pair")
             }
             Self::OutOfChart => write!(f, "the increment g'^-1 g'' has no coordinate in the chart"),
+            Self::Folded { determinant } => write!(
+                f,
+                "the chart has folded here (det dp/dmu' is about {determinant:.1e}): two increments \
+                 share one p"
+            ),
             Self::BeyondFold { measure } => write!(
                 f,
                 "the increment lies beyond the fold of the chart ({measure:.3}, the fold is at 1)"
@@ -238,7 +259,12 @@ impl fmt::Display for BadRows {
             write!(f, "\n  and {} more", self.rows.len() - LISTED)?;
         }
         let has = |test: fn(&RowProblem) -> bool| self.rows.iter().any(|b| test(&b.problem));
-        if has(|p| matches!(p, RowProblem::BeyondFold { .. } | RowProblem::OutOfChart)) {
+        if has(|p| {
+            matches!(
+                p,
+                RowProblem::BeyondFold { .. } | RowProblem::Folded { .. } | RowProblem::OutOfChart
+            )
+        }) {
             if self.chart == "cayley" {
                 write!(f, "\nuse the exponential chart, which reaches further, or a smaller step")?;
             } else {

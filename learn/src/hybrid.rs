@@ -1,31 +1,47 @@
 //! Hybrid models: a polynomial by least squares, a network for what it leaves.
 
+use nalgebra::DMatrix;
+
 use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::function::MomentumFunction;
 use crate::model::Model;
-use crate::network::{Progress, TrainingOptions, fit_network};
-use crate::polynomial::fit_polynomial;
+use crate::network::{Progress, TrainingOptions, fit_network_to_gradients};
+use crate::polynomial::fit_gradients;
 
 /// Fits a polynomial of total degree `degree`, then a network to the normalised residual.
 ///
 /// # Errors
-/// As [`fit_polynomial`] and [`fit_network`].
+/// As [`fit_gradients`] and [`fit_network_to_gradients`].
 pub fn fit_hybrid(
     data: &ReducedData,
     degree: usize,
     options: &TrainingOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Model, Vec<f64>), LearnError> {
-    let polynomial = fit_polynomial(data, degree, 0.0)?;
-    let mut rest = data.clone();
-    let mut slope = vec![0.0; data.dim()];
-    for i in 0..data.len() {
-        polynomial.gradient(data.p.column(i).as_slice(), &mut slope);
+    fit_hybrid_to_gradients(&data.p, &data.x, degree, options, progress)
+}
+
+/// As [`fit_hybrid`], for any function f of which ∂f/∂p is known at points: a sample per column.
+///
+/// # Errors
+/// As [`fit_hybrid`].
+pub fn fit_hybrid_to_gradients(
+    points: &DMatrix<f64>,
+    gradients: &DMatrix<f64>,
+    degree: usize,
+    options: &TrainingOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Model, Vec<f64>), LearnError> {
+    let polynomial = fit_gradients(points, gradients, degree, 0.0)?;
+    let mut rest = gradients.clone();
+    let mut slope = vec![0.0; points.nrows()];
+    for i in 0..points.ncols() {
+        polynomial.gradient(points.column(i).as_slice(), &mut slope);
         for (j, s) in slope.iter().enumerate() {
-            rest.x[(j, i)] -= s;
+            rest[(j, i)] -= s;
         }
     }
-    let (network, history) = fit_network(&rest, options, progress)?;
+    let (network, history) = fit_network_to_gradients(points, &rest, None, options, progress)?;
     Ok((Model::Hybrid { polynomial, network }, history))
 }

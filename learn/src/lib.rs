@@ -32,6 +32,7 @@ mod series;
 mod session;
 mod trivialisation;
 pub mod truth;
+mod type_two;
 
 pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
@@ -44,9 +45,17 @@ pub use group::{DataGroup, matrix_of};
 pub use hamilton_jacobi::{CollocationOptions, TimeDependent, solve_hamilton_jacobi};
 pub use hamiltonian::fit_hamiltonian;
 #[cfg(feature = "neural")]
-pub use hybrid::fit_hybrid;
+pub use hybrid::{fit_hybrid, fit_hybrid_to_gradients};
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
 pub use save::{ModelFile, TrainingRecord};
 pub use series::Monomials;
-pub use session::{Kind, Request, Summary, learn};
+pub use session::{
+    Kind, NetworkSettings, Request, Summary, learn, learn_momenta, remove_checkpoints,
+};
+pub use type_two::{TypeTwo, TypeTwoData, canonical_pairs, type_two_data};
+
+/// The page on learning; its snippets are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/learning.md")]
+mod page {}

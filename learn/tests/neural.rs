@@ -6,7 +6,6 @@ use coadjoint::{Cayley, Exponential, SO3};
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{
     Activation, LatentOptions, MomentumModel, TrainingOptions, fit_latent, fit_network,
-    fit_type_two,
 };
 use coadjoint_learn::truth::{
     MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs, phase_pairs,
@@ -79,14 +78,21 @@ fn latent_momenta_and_a_network_for_them_learn_a_poisson_map() {
     }
 }
 
+/// A training interrupted in the middle of Adam ends with the bits of one that was not. (The same
+/// for a killed process: `cli/tests/resume.rs`.)
 #[test]
-fn the_type_two_baseline_learns_but_does_not_conserve_momentum() {
-    let group = SO3::new();
-    let (train, _) = sample(200, 1);
-    let (map, history) = fit_type_two::<_, Cayley>(&group, &train, &small(), &mut |_| {}).unwrap();
-    assert!(history.last().unwrap() < &(0.2 * history[0]));
-    let start = &train.pairs[0].1.before;
-    let end = map.advance::<_, Cayley>(&group, start).unwrap();
-    let drift = end.spatial_momentum(&group) - start.spatial_momentum(&group);
-    assert!(drift.norm() > 1e-6);
+fn training_goes_on_from_a_checkpoint() {
+    let (_, train) = sample(50, 1);
+    let path = std::env::temp_dir().join(format!("coadjoint-neural-{}", std::process::id()));
+    let plain = TrainingOptions { adam_steps: 80, lbfgs_steps: 60, ..small() };
+    let whole = fit_network(&train, &plain, &mut |_| {}).unwrap();
+    let kept = TrainingOptions { checkpoint: Some(path.clone()), ..plain };
+    let interrupted = std::panic::catch_unwind(|| {
+        fit_network(&train, &kept, &mut |now| assert!(now.step < 70, "killed"))
+    });
+    assert!(interrupted.is_err() && path.exists());
+    let mut first = None;
+    let again = fit_network(&train, &kept, &mut |now| first = first.or(Some(now.step))).unwrap();
+    assert_eq!((again, first), (whole, Some(50)));
+    std::fs::remove_file(path).unwrap();
 }

@@ -5,9 +5,11 @@ use coadjoint::LieGroup;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
+use super::architecture::Architecture;
 use super::dense::DenseNetwork;
-use super::objective::{Architecture, Unknowns, device, matrix, minimise};
-use super::train::{Progress, TrainingOptions};
+use super::minimise::minimise;
+use super::objective::{Layout, Unknowns, device, matrix};
+use super::options::{Progress, TrainingOptions};
 use crate::data::MomentumPairs;
 use crate::error::LearnError;
 use crate::function::vector;
@@ -157,7 +159,7 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
             Some(network)
         }
     };
-    let unknowns = Unknowns::new(&parts, &device);
+    let (layout, start) = Layout::of(parts, &device);
     let both: Vec<f64> = before
         .chunks_exact(dim)
         .zip(after.chunks_exact(dim))
@@ -193,8 +195,11 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
         let right = even.add(odd).sub(mu_next.clone());
         left.clone().mul(left).mean().add(right.clone().mul(right).mean())
     };
-    let (unknowns, history) = minimise(unknowns, &options.training, loss, None, progress)?;
-    let (hidden, output) = generating.layers(&unknowns)?;
+    let mut evaluate = |flat: &[f64]| layout.value_and_gradient(flat, &loss);
+    let kind = format!("momenta {:?}", options.momenta);
+    let task = options.training.task(&kind, &[pairs.before.as_slice(), pairs.after.as_slice()]);
+    let (flat, history) = minimise(start, task, &options.training, &mut evaluate, None, progress)?;
+    let (hidden, output) = generating.layers(&flat);
     let activation = options.training.activation;
     let network = DenseNetwork::new(activation, scaling, vec![0.0; dim], scale, hidden, output)
         .map_err(|reason| LearnError::NotConverged { reason })?;

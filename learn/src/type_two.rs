@@ -3,23 +3,25 @@
 //! R. Chen and M. Tao, *Data-driven prediction of general Hamiltonian dynamics via learning
 //! exactly-symplectic maps* (2021), as the paper uses it: (q, p) are the canonical coordinates of
 //! the phase point in a chart of the whole group, and S(q′, p″) gives p′ = p″ + ∂S/∂q′,
-//! q″ = q′ + ∂S/∂p″. The map is symplectic, and knows nothing of the symmetry.
+//! q″ = q′ + ∂S/∂p″. The map is symplectic, and knows nothing of the symmetry. S may be of any
+//! kind the symmetric models have: a polynomial, a network, or a network on top of a polynomial.
 
 use coadjoint::{Chart, LieGroup, Phase};
 use nalgebra::{DMatrix, DVector};
 
-use super::dense::DenseNetwork;
-use super::train::{Progress, TrainingOptions, fit_network_to_gradients};
 use crate::data::PairRows;
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::function::{MomentumFunction, entries, vector};
 
 /// The map of a type-II generating function S(q′, p″).
 #[derive(Clone, Debug)]
-pub struct TypeTwo {
+pub struct TypeTwo<M> {
     /// S, of 2n arguments.
-    pub network: DenseNetwork,
+    pub function: M,
 }
+
+/// Points (q′, p″) and the gradients (p′ − p″, q″ − q′) of S there, 2n×N each.
+pub type TypeTwoData = (DMatrix<f64>, DMatrix<f64>);
 
 /// Canonical coordinates (q, p) of a phase point: g = τ(q), p = (d^Lτ_q)ᵀ μ.
 fn canonical<G, C>(group: &G, phase: &Phase<G>) -> Option<Vec<f64>>
@@ -68,34 +70,26 @@ where
     Ok((DMatrix::from_vec(width, count, before), DMatrix::from_vec(width, count, after)))
 }
 
-/// Trains S on the canonical coordinates of pairs, with the budget of the symmetric network.
+/// What S has to fit.
 ///
 /// # Errors
-/// As [`canonical_pairs`] and [`fit_network_to_gradients`].
-pub fn fit_type_two<G, C>(
-    group: &G,
-    pairs: &PairRows<G>,
-    options: &TrainingOptions,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<(TypeTwo, Vec<f64>), LearnError>
+/// As [`canonical_pairs`].
+pub fn type_two_data<G, C>(group: &G, pairs: &PairRows<G>) -> Result<TypeTwoData, LearnError>
 where
     G: LieGroup<Scalar = f64>,
     C: Chart<G>,
 {
     let dim = group.dim();
     let (before, after) = canonical_pairs::<G, C>(group, pairs)?;
-    // Points (q′, p″); gradients (p′ − p″, q″ − q′).
     let mut points = before.clone();
     points.rows_mut(dim, dim).copy_from(&after.rows(dim, dim));
     let mut gradients = DMatrix::zeros(2 * dim, before.ncols());
     gradients.rows_mut(0, dim).copy_from(&(before.rows(dim, dim) - after.rows(dim, dim)));
     gradients.rows_mut(dim, dim).copy_from(&(after.rows(0, dim) - before.rows(0, dim)));
-    let (network, history) =
-        fit_network_to_gradients(&points, &gradients, None, options, progress)?;
-    Ok((TypeTwo { network }, history))
+    Ok((points, gradients))
 }
 
-impl TypeTwo {
+impl<M: MomentumFunction> TypeTwo<M> {
     /// (q″, p″) from (q′, p′) by Newton's method on p′ = p″ + ∂S/∂q′(q′, p″); `None` where it does
     /// not converge.
     #[must_use]
@@ -106,7 +100,7 @@ impl TypeTwo {
         let (mut slope, mut hessian) = (vec![0.0; width], vec![0.0; width * width]);
         let scale = state.iter().map(|v| v.abs()).fold(1.0, f64::max);
         for _ in 0..50 {
-            self.network.gradient_and_hessian(&point, &mut slope, &mut hessian);
+            self.function.gradient_and_hessian(&point, &mut slope, &mut hessian);
             let residual = DVector::from_fn(dim, |i, _| point[dim + i] + slope[i] - state[dim + i]);
             let jacobian = DMatrix::from_fn(dim, dim, |i, j| {
                 hessian[i * width + dim + j] + if i == j { 1.0 } else { 0.0 }
@@ -116,7 +110,7 @@ impl TypeTwo {
                 point[dim + i] -= correction[i];
             }
             if correction.amax() <= 1e-13 * scale {
-                self.network.gradient(&point, &mut slope);
+                self.function.gradient(&point, &mut slope);
                 for i in 0..dim {
                     point[i] += slope[dim + i];
                 }

@@ -1,0 +1,93 @@
+//! How networks are trained, and how training reports.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::activation::Activation;
+#[cfg(feature = "neural")]
+use crate::error::LearnError;
+
+/// How a network is trained.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrainingOptions {
+    /// Widths of the hidden layers; the paper's are 500, 500.
+    pub widths: Vec<usize>,
+    /// The activation.
+    pub activation: Activation,
+    /// Full-batch steps of Adam; the paper's are 1000.
+    pub adam_steps: usize,
+    /// Adam's first step size; the paper's is 0.001.
+    pub rate: f64,
+    /// The step size falls along half a cosine to this fraction of the first (1: constant, as in
+    /// the paper).
+    pub final_fraction: f64,
+    /// Evaluations of the loss by L-BFGS after Adam.
+    pub lbfgs_steps: usize,
+    /// Seed of the first weights.
+    pub seed: u64,
+    /// Where training keeps its state. If there is one of the same task, training goes on from it
+    /// and ends with the bits of an uninterrupted run; one of another task is refused.
+    #[serde(skip)]
+    pub checkpoint: Option<PathBuf>,
+}
+
+impl Default for TrainingOptions {
+    /// The paper's net and budget of 1000 evaluations, spent as 300 of Adam and 700 of L-BFGS.
+    fn default() -> Self {
+        Self {
+            widths: vec![500, 500],
+            activation: Activation::Tanh,
+            adam_steps: 300,
+            rate: 1e-3,
+            final_fraction: 0.01,
+            lbfgs_steps: 700,
+            seed: 0,
+            checkpoint: None,
+        }
+    }
+}
+
+impl TrainingOptions {
+    /// Adam's step size at a step.
+    #[must_use]
+    pub fn rate(&self, step: usize) -> f64 {
+        let phase = step as f64 / self.adam_steps.max(1) as f64 * std::f64::consts::PI;
+        let fraction =
+            self.final_fraction + (1.0 - self.final_fraction) * 0.5 * (1.0 + phase.cos());
+        self.rate * fraction
+    }
+
+    #[cfg(feature = "neural")]
+    pub(super) fn check(&self) -> Result<(), LearnError> {
+        if self.widths.is_empty() || self.widths.contains(&0) {
+            return Err(LearnError::InvalidOption {
+                option: "widths",
+                value: format!("{:?}", self.widths),
+                requirement: "give at least one hidden layer of at least one neuron".into(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The fingerprint of a task: the options and the data given.
+    #[cfg(feature = "neural")]
+    pub(super) fn task(&self, kind: &str, data: &[&[f64]]) -> u64 {
+        let words = serde_json::to_string(self).unwrap_or_default();
+        let start = super::checkpoint::Fingerprint::new(&format!("{kind} {words}"));
+        data.iter().fold(start, |hash, part| hash.numbers(part)).value()
+    }
+}
+
+/// Where training stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Evaluations made.
+    pub step: usize,
+    /// Evaluations allowed.
+    pub total: usize,
+    /// The loss, in normalised units: 1 is the variance of the data.
+    pub loss: f64,
+    /// The same on validation data, where there are any; looked at every tenth step of Adam.
+    pub validation: Option<f64>,
+}
