@@ -1,0 +1,198 @@
+//! What `coadjoint learn` does: read, reduce, choose, fit, evaluate.
+
+mod choose;
+mod momenta;
+mod neural;
+
+use std::path::PathBuf;
+
+use coadjoint::{Chart, Phase};
+use serde::{Deserialize, Serialize};
+
+pub use neural::{NetworkSettings, remove_checkpoints};
+
+use crate::catalogue::{Visitor, visit};
+use crate::data::{
+    MomentumPairs, PairRows, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce,
+};
+use crate::error::{BadRow, LearnError};
+use crate::evaluate::{Drifts, Figures, drifts, evaluate};
+use crate::function::{Generating, vector};
+use crate::group::DataGroup;
+use crate::save::{ModelFile, TrainingRecord};
+
+/// The kind of model asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// Whichever cross-validates best.
+    #[default]
+    Auto,
+    /// A polynomial, of the degree given or the one that cross-validates best.
+    Polynomial,
+    /// A Gaussian process.
+    GaussianProcess,
+    /// A network (feature `neural`).
+    Network,
+    /// A quadratic polynomial and a network (feature `neural`).
+    Hybrid,
+}
+
+/// What to learn from what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Training data.
+    pub data: PathBuf,
+    /// Test data.
+    pub test: Option<PathBuf>,
+    /// The group's name.
+    pub group: String,
+    /// The chart's name.
+    pub chart: String,
+    /// Δt.
+    pub step: f64,
+    /// The kind of model.
+    pub kind: Kind,
+    /// The degree of a polynomial; `None` to choose.
+    pub degree: Option<usize>,
+    /// The ridge of a polynomial of given degree.
+    pub ridge: f64,
+    /// Refine by the distance on the group (polynomials only).
+    pub group_loss: bool,
+    /// Limits on attitudes and momenta.
+    pub tolerances: Tolerances,
+    /// What to do with bad rows.
+    pub policy: RowPolicy,
+    /// Leave attitudes aside and learn the Poisson map of momenta.
+    pub momenta_only: bool,
+    /// The momentum drifts are measured from; `None`: the first sample.
+    pub start: Option<Vec<f64>>,
+    /// The seed of folds and weights.
+    pub seed: u64,
+    /// The networks, where one is trained.
+    pub network: NetworkSettings,
+    /// Steps over which drifts are measured.
+    pub drift_steps: usize,
+}
+
+/// What came out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// The kind of model.
+    pub model: String,
+    /// What was chosen, and why.
+    pub choice: String,
+    /// Errors on the training data.
+    pub train: Figures,
+    /// Errors on the test data.
+    pub test: Option<Figures>,
+    /// Drifts along a trajectory; absent where a step could not be made.
+    pub drifts: Option<Drifts>,
+    /// Rows left out of the training data, with the reason.
+    pub dropped: Vec<(usize, String)>,
+}
+
+/// Learns, and says how well it went. `progress` is told (step, of, loss) by iterative fits.
+///
+/// # Errors
+/// [`LearnError`] naming what is wrong with the data or the request.
+pub fn learn(
+    request: &Request,
+    progress: &mut dyn FnMut(usize, usize, f64),
+) -> Result<(ModelFile, Summary), LearnError> {
+    if !(request.step.is_finite() && request.step != 0.0) {
+        return Err(LearnError::InvalidOption {
+            option: "dt",
+            value: request.step.to_string(),
+            requirement: "give the time between the two states of a pair".into(),
+        });
+    }
+    visit(&request.group, &request.chart, Learner { request, progress })?
+}
+
+/// Learns the Poisson map nearest to pairs of momenta made by any method; `request.data` and
+/// `request.test` are not read.
+///
+/// # Errors
+/// [`LearnError`] naming what is wrong with the pairs or the request.
+pub fn learn_momenta(
+    request: &Request,
+    pairs: &MomentumPairs,
+) -> Result<(ModelFile, Summary), LearnError> {
+    struct Given<'a>(&'a Request, &'a MomentumPairs);
+    impl Visitor for Given<'_> {
+        type Output = Result<(ModelFile, Summary), LearnError>;
+
+        fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
+            momenta::learn::<G, C>(self.0, &group, self.1, None)
+        }
+    }
+    visit(&request.group, &request.chart, Given(request, pairs))?
+}
+
+struct Learner<'a> {
+    request: &'a Request,
+    progress: &'a mut dyn FnMut(usize, usize, f64),
+}
+
+impl Visitor for Learner<'_> {
+    type Output = Result<(ModelFile, Summary), LearnError>;
+
+    fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
+        let Self { request, progress } = self;
+        let read = |path: &PathBuf| {
+            let (dim, size) = (group.dim(), group.matrix_size());
+            Recording::from_columns(&read_columns(path, dim, size)?, dim, size)
+        };
+        let recording = read(&request.data)?;
+        let test = request.test.as_ref().map(read).transpose()?;
+        if let Some(start) = &request.start
+            && start.len() != group.dim()
+        {
+            let (expected, found) = (group.dim(), start.len());
+            let what = "the start".into();
+            return Err(LearnError::Shape { what, expected, found });
+        }
+        if request.momenta_only || recording.attitudes.is_none() {
+            return momenta::learn::<G, C>(
+                request,
+                &group,
+                &recording.momenta,
+                test.as_ref().map(|t| &t.momenta),
+            );
+        }
+        let pairs = |recording: &Recording| -> Result<(PairRows<G>, Reduction), LearnError> {
+            let rows = recording.phase_pairs(&group, request.tolerances.attitude)?;
+            let reduction = reduce::<G, C>(&group, &rows, request.tolerances, request.policy)?;
+            // Errors are measured on the rows that were used.
+            let used = rows.pairs.into_iter().filter(|(r, _)| reduction.rows.contains(r));
+            Ok((PairRows { pairs: used.collect(), bad: Vec::new() }, reduction))
+        };
+        let (rows, reduction) = pairs(&recording)?;
+        let test = test.as_ref().map(pairs).transpose()?;
+        let data = &reduction.data;
+        let (model, record) = choose::fit::<G, C>(request, &group, data, progress)?;
+        let map = Generating::<G, C, _>::new(group.clone(), &model);
+        let train = evaluate(&map, &group, &rows, data);
+        let test = test.map(|(rows, reduction)| evaluate(&map, &group, &rows, &reduction.data));
+        let start = match &request.start {
+            Some(mu) => Some(Phase::new(group.identity(), vector::<G>(mu))),
+            None => rows.pairs.first().map(|(_, pair)| pair.before.clone()),
+        };
+        let summary = Summary {
+            model: model.name().into(),
+            choice: record.choice.clone(),
+            train: train.clone(),
+            test,
+            drifts: start.and_then(|s| drifts(&map, &group, &s, request.drift_steps, None).ok()),
+            dropped: named(&reduction.dropped),
+        };
+        let training = TrainingRecord { train: Some(train), ..record };
+        let (name, chart) = (&request.group, &request.chart);
+        let file = ModelFile::new(name, chart, request.step, true, model, training);
+        Ok((file, summary))
+    }
+}
+
+fn named(rows: &[BadRow]) -> Vec<(usize, String)> {
+    rows.iter().map(|bad| (bad.row, bad.problem.to_string())).collect()
+}

@@ -1,0 +1,113 @@
+//! Networks within a session, where the build has them.
+
+use std::path::{Path, PathBuf};
+
+use super::{Kind, Request};
+use crate::data::ReducedData;
+use crate::error::LearnError;
+use crate::model::Model;
+
+/// The network to train, and where its training keeps its state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetworkSettings {
+    /// Widths of the hidden layers.
+    pub widths: Vec<usize>,
+    /// Evaluations of the loss: the first third by Adam, the others by L-BFGS.
+    pub evaluations: usize,
+    /// Checkpoints are written to files whose names begin with this; training goes on from them.
+    pub checkpoint: Option<PathBuf>,
+}
+
+impl Default for NetworkSettings {
+    /// The paper's net and budget, without checkpoints.
+    fn default() -> Self {
+        Self { widths: vec![500, 500], evaluations: 1000, checkpoint: None }
+    }
+}
+
+/// What a session may append to the name of a checkpoint.
+const ENDINGS: [&str; 4] = [".network", ".hybrid", ".network.held-out", ".hybrid.held-out"];
+
+fn ending(base: &Path, ending: &str) -> PathBuf {
+    let mut name = base.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+/// Removes the checkpoints of a session that has ended, and whose model is safe.
+///
+/// # Errors
+/// [`LearnError::File`] when one is there and cannot be removed.
+pub fn remove_checkpoints(base: &Path) -> Result<(), LearnError> {
+    for path in ENDINGS.map(|name| ending(base, name)) {
+        match std::fs::remove_file(&path) {
+            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                return Err(LearnError::File { path, source });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// A trained model.
+pub(super) struct Trained {
+    pub(super) model: Model,
+    pub(super) name: String,
+    pub(super) history: Vec<f64>,
+}
+
+/// Whether this build trains networks.
+pub(super) const AVAILABLE: bool = cfg!(feature = "neural");
+
+#[cfg(not(feature = "neural"))]
+pub(super) fn train(
+    _request: &Request,
+    kind: Kind,
+    _data: &ReducedData,
+    _purpose: &str,
+    _progress: &mut dyn FnMut(usize, usize, f64),
+) -> Result<Trained, LearnError> {
+    Err(LearnError::InvalidOption {
+        option: "model",
+        value: format!("{kind:?}").to_lowercase(),
+        requirement: "this build has no networks; build with --features neural".into(),
+    })
+}
+
+/// Trains a network or a hybrid; `purpose` tells checkpoints apart.
+#[cfg(feature = "neural")]
+pub(super) fn train(
+    request: &Request,
+    kind: Kind,
+    data: &ReducedData,
+    purpose: &str,
+    progress: &mut dyn FnMut(usize, usize, f64),
+) -> Result<Trained, LearnError> {
+    use crate::network::{Progress, TrainingOptions, fit_network};
+    let settings = &request.network;
+    let name = if kind == Kind::Network { "network" } else { "hybrid" };
+    let adam_steps = settings.evaluations / 3;
+    let options = TrainingOptions {
+        widths: settings.widths.clone(),
+        adam_steps,
+        lbfgs_steps: settings.evaluations - adam_steps,
+        seed: request.seed,
+        checkpoint: settings
+            .checkpoint
+            .as_ref()
+            .map(|base| ending(base, &format!(".{name}{purpose}"))),
+        ..TrainingOptions::default()
+    };
+    let mut tell = |p: Progress| progress(p.step, p.total, p.loss);
+    let widths = &settings.widths;
+    if kind == Kind::Network {
+        let (network, history) = fit_network(data, &options, &mut tell)?;
+        Ok(Trained { model: Model::Network(network), name: format!("network {widths:?}"), history })
+    } else {
+        let degree = request.degree.unwrap_or(2);
+        let (model, history) = crate::hybrid::fit_hybrid(data, degree, &options, &mut tell)?;
+        let name = format!("hybrid of degree {degree} and network {widths:?}");
+        Ok(Trained { model, name, history })
+    }
+}
