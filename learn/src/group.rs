@@ -31,7 +31,9 @@ pub trait DataGroup: LieGroup<Scalar = f64> {
 
 /// The fold of rotations. Cayley: along a fixed axis p = μ cos²(θ/2), which grows with the angle
 /// θ = t|Ω| only up to θ tan(θ/2) = 1 (θ ≈ 1.3065 rad); beyond it two increments share one p.
-/// Exponential: along an axis p = μ, so the limit is the half turn, where the coordinate jumps.
+/// Exponential: along an axis p = μ, so the limit is the half turn, where the coordinate jumps. These
+/// are limits of a single increment; what the flow folds earlier is found from all samples
+/// (`data::fold`).
 fn rotation_fold(chart: &str, norm: f64) -> Option<f64> {
     match chart {
         "cayley" => Some(2.0 * (0.5 * norm).atan() * 0.5 * norm),

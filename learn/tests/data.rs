@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use coadjoint::{Cayley, Exponential, SO3};
 use coadjoint_learn::data::{
-    PhasePair, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce, write_csv,
+    PhasePair, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce, write_pairs,
 };
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 use coadjoint_learn::{LearnError, RowProblem};
@@ -36,10 +36,19 @@ fn csv(name: &str, text: &str) -> PathBuf {
 }
 
 #[test]
-fn csv_reads_back_what_was_written() {
-    let path = path("pairs.csv");
+fn files_read_back_what_was_written() {
+    reads_back("pairs.csv");
+    reads_back("written.npz");
+    #[cfg(feature = "parquet")]
+    reads_back("pairs.parquet");
+    let error = write_pairs(&path("pairs.xlsx"), &SO3::new(), &pairs(0.1, 2)).unwrap_err();
+    assert!(matches!(error, LearnError::UnknownFormat { .. }), "{error}");
+}
+
+fn reads_back(name: &str) {
+    let path = path(name);
     let pairs = pairs(0.1, 20);
-    write_csv(&path, &SO3::new(), &pairs).unwrap();
+    write_pairs(&path, &SO3::new(), &pairs).unwrap();
     let found = load(&path).unwrap().data;
     let direct = reduce::<SO3, Exponential>(
         &SO3::new(),
@@ -49,6 +58,13 @@ fn csv_reads_back_what_was_written() {
     );
     let direct = direct.unwrap().data;
     assert_eq!(found.momenta, direct.momenta);
+    // The same names, the same bits, in every format.
+    let columns = read_columns(&path, 3, 3).unwrap();
+    let mut names = columns.names().to_vec();
+    names.sort();
+    let mut expected: Vec<String> = HEADER_OF_MATRICES.split(',').map(Into::into).collect();
+    expected.sort();
+    assert_eq!(names, expected);
     // Attitudes pass through matrices.
     assert!((found.x - direct.x).amax() < 1e-14);
     assert!((found.p - direct.p).amax() < 1e-13);
@@ -59,7 +75,7 @@ fn both_formulas_for_the_canonical_momentum_agree() {
     use coadjoint::Chart;
     let data = load(&{
         let path = path("formulas.csv");
-        write_csv(&path, &SO3::new(), &pairs(0.1, 20)).unwrap();
+        write_pairs(&path, &SO3::new(), &pairs(0.1, 20)).unwrap();
         path
     });
     let data = data.unwrap().data;
@@ -114,6 +130,10 @@ fn npz_and_npy_hold_the_same_data() {
     assert_eq!(a.data.len(), 5);
     assert_eq!(a.data.momenta.before[(1, 2)], pairs[2].before.momentum.y);
 }
+
+const HEADER_OF_MATRICES: &str = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,\
+    g_11,g_12,g_13,g_21,g_22,g_23,g_31,g_32,g_33,g_next_11,g_next_12,g_next_13,\
+    g_next_21,g_next_22,g_next_23,g_next_31,g_next_32,g_next_33";
 
 const HEADER: &str = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,q_w,q_x,q_y,q_z,q_next_w,\
                       q_next_x,q_next_y,q_next_z\n";
@@ -179,4 +199,13 @@ fn data_beyond_the_cayley_fold_are_named_and_the_exponential_chart_suggested() {
     }
     reduce::<SO3, Exponential>(&SO3::new(), &pairs, Tolerances::default(), RowPolicy::Refuse)
         .unwrap();
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn damaged_parquet_is_refused() {
+    let path = path("rubbish.parquet");
+    std::fs::write(&path, b"PAR1 not really").unwrap();
+    let message = read_columns(&path, 3, 3).unwrap_err().to_string();
+    assert!(message.contains("is not a readable Parquet file"), "{message}");
 }

@@ -32,6 +32,12 @@ impl Columns {
         &self.names
     }
 
+    /// The columns, in the order of the names.
+    #[must_use]
+    pub fn values(&self) -> &[Vec<f64>] {
+        &self.values
+    }
+
     /// The number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

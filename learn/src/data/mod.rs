@@ -2,6 +2,7 @@
 
 mod columns;
 mod csv;
+mod fold;
 mod npy;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -16,4 +17,4 @@ pub use recording::{Attitudes, Recording};
 pub use reduce::{
     MomentumPairs, PairRows, PhasePair, ReducedData, Reduction, RowPolicy, Tolerances, reduce,
 };
-pub use write::write_csv;
+pub use write::{write_columns, write_pairs};

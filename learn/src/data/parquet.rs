@@ -2,10 +2,16 @@
 
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
+use ::parquet::basic::{Repetition, Type as PhysicalType};
+use ::parquet::data_type::DoubleType;
 use ::parquet::errors::ParquetError;
+use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::record::Field;
+use ::parquet::schema::types::Type;
 
 use super::columns::Columns;
 use crate::error::LearnError;
@@ -38,4 +44,36 @@ pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
         }
     }
     Columns::new(columns)
+}
+
+/// Writes the columns as required 64-bit floats, in one row group.
+pub(super) fn write(path: &Path, columns: &Columns) -> Result<(), LearnError> {
+    let file =
+        File::create(path).map_err(|source| LearnError::File { path: path.into(), source })?;
+    let write = || -> Result<(), ParquetError> {
+        let fields = columns.names().iter().map(|name| {
+            Type::primitive_type_builder(name, PhysicalType::DOUBLE)
+                .with_repetition(Repetition::REQUIRED)
+                .build()
+                .map(Arc::new)
+        });
+        let fields: Vec<_> = fields.collect::<Result<_, _>>()?;
+        let schema = Type::group_type_builder("pairs").with_fields(fields).build()?;
+        let properties = Arc::new(WriterProperties::builder().build());
+        let mut writer = SerializedFileWriter::new(file, Arc::new(schema), properties)?;
+        let mut group = writer.next_row_group()?;
+        for column in columns.values() {
+            if let Some(mut out) = group.next_column()? {
+                out.typed::<DoubleType>().write_batch(column, None, None)?;
+                out.close()?;
+            }
+        }
+        group.close()?;
+        writer.close().map(|_| ())
+    };
+    write().map_err(|error| LearnError::Format {
+        path: path.into(),
+        format: "Parquet",
+        reason: error.to_string(),
+    })
 }

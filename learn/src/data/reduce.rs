@@ -3,6 +3,7 @@
 use coadjoint::{Chart, Coordinates, LieGroup, Phase};
 use nalgebra::DMatrix;
 
+use super::fold;
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::function::{entries, vector};
 use crate::group::DataGroup;
@@ -190,6 +191,20 @@ where
             Err(problem) => bad.push(BadRow { row: *row, problem }),
         }
     }
+    let dim = group.dim();
+    let [x, p, before, after] =
+        columns.map(|column| DMatrix::from_vec(dim, column.len() / dim, column));
+    let mut data = ReducedData { x, p, momenta: MomentumPairs { before, after } };
+    let folded = fold::beyond::<G, C>(group, &data);
+    if !folded.is_empty() {
+        for &(i, determinant) in &folded {
+            bad.push(BadRow { row: rows[i], problem: RowProblem::Folded { determinant } });
+        }
+        let kept: Vec<usize> =
+            (0..rows.len()).filter(|i| folded.iter().all(|(f, _)| f != i)).collect();
+        data = data.select(&kept);
+        rows = kept.into_iter().map(|i| rows[i]).collect();
+    }
     bad.sort_by_key(|b| b.row);
     if !bad.is_empty() && policy == RowPolicy::Refuse {
         return Err(LearnError::BadRows(BadRows { rows: bad, total, chart: C::NAME }));
@@ -197,10 +212,6 @@ where
     if rows.is_empty() {
         return Err(LearnError::NoSamples);
     }
-    let dim = group.dim();
-    let [x, p, before, after] =
-        columns.map(|column| DMatrix::from_vec(dim, column.len() / dim, column));
-    let data = ReducedData { x, p, momenta: MomentumPairs { before, after } };
     Ok(Reduction { data, rows, dropped: bad })
 }
 

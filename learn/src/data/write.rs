@@ -1,7 +1,10 @@
-//! Writing pairs of phase points as CSV, in the columns the reader looks for.
+//! Writing pairs of phase points, in the columns the reader looks for.
 
 use std::path::Path;
 
+use npyz::WriterBuilder;
+
+use super::columns::Columns;
 use super::npy::{matrix, numbered};
 use super::reduce::PhasePair;
 use crate::error::LearnError;
@@ -9,26 +12,22 @@ use crate::function::entries;
 use crate::group::matrix_of;
 use coadjoint::LieGroup;
 
-/// Writes pairs as CSV: `mu_…`, `mu_next_…`, `g_…`, `g_next_…`, in the shortest decimal form that
-/// reads back to the same number.
+/// Writes pairs as columns `mu_…`, `mu_next_…`, `g_…`, `g_next_…`, in the format of the ending:
+/// `.csv`, `.npz`, or `.parquet` (feature `parquet`). The numbers read back are the same.
 ///
 /// # Errors
-/// [`LearnError::File`] or [`LearnError::Format`] when the file cannot be written.
-pub fn write_csv<G: LieGroup<Scalar = f64>>(
+/// [`LearnError::UnknownFormat`] for another ending, [`LearnError::File`] or
+/// [`LearnError::Format`] when the file cannot be written.
+pub fn write_pairs<G: LieGroup<Scalar = f64>>(
     path: &Path,
     group: &G,
     pairs: &[PhasePair<G>],
 ) -> Result<(), LearnError> {
-    let format = |e: ::csv::Error| LearnError::Format {
-        path: path.into(),
-        format: "CSV",
-        reason: e.to_string(),
-    };
     let (dim, size) = (group.dim(), group.matrix_size());
-    let mut writer = ::csv::Writer::from_path(path).map_err(format)?;
-    let header =
-        [numbered("mu", dim), numbered("mu_next", dim), matrix("g", size), matrix("g_next", size)];
-    writer.write_record(header.concat()).map_err(format)?;
+    let names =
+        [numbered("mu", dim), numbered("mu_next", dim), matrix("g", size), matrix("g_next", size)]
+            .concat();
+    let mut values = vec![Vec::with_capacity(pairs.len()); names.len()];
     for pair in pairs {
         let mut row = entries(&pair.before.momentum);
         row.extend(entries(&pair.after.momentum));
@@ -36,7 +35,58 @@ pub fn write_csv<G: LieGroup<Scalar = f64>>(
             let g = matrix_of(group, &phase.group_element);
             row.extend(g.transpose().iter());
         }
-        writer.write_record(row.iter().map(f64::to_string)).map_err(format)?;
+        values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+    write_columns(path, &Columns::new(names.into_iter().zip(values))?)
+}
+
+/// Writes named columns, in the format of the ending, as [`write_pairs`].
+///
+/// # Errors
+/// As [`write_pairs`].
+pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
+    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("csv") => write_csv(path, columns),
+        Some("npz") => write_npz(path, columns).map_err(|source| match source.kind() {
+            std::io::ErrorKind::InvalidData => LearnError::Format {
+                path: path.into(),
+                format: "NumPy",
+                reason: source.to_string(),
+            },
+            _ => LearnError::File { path: path.into(), source },
+        }),
+        #[cfg(feature = "parquet")]
+        Some("parquet") => super::parquet::write(path, columns),
+        _ => Err(LearnError::UnknownFormat { path: path.into() }),
+    }
+}
+
+/// In the shortest decimal form that reads back to the same number.
+fn write_csv(path: &Path, columns: &Columns) -> Result<(), LearnError> {
+    let format = |e: ::csv::Error| LearnError::Format {
+        path: path.into(),
+        format: "CSV",
+        reason: e.to_string(),
+    };
+    let mut writer = ::csv::Writer::from_path(path).map_err(format)?;
+    writer.write_record(columns.names()).map_err(format)?;
+    for row in 0..columns.rows() {
+        let cells = columns.values().iter().map(|column| column[row].to_string());
+        writer.write_record(cells).map_err(format)?;
     }
     writer.flush().map_err(|source| LearnError::File { path: path.into(), source })
+}
+
+/// An array of shape (N,) per column.
+fn write_npz(path: &Path, columns: &Columns) -> std::io::Result<()> {
+    let mut archive = npyz::npz::NpzWriter::create(path)?;
+    let rows = [columns.rows() as u64];
+    for (name, column) in columns.names().iter().zip(columns.values()) {
+        let array = archive.array(name, Default::default())?;
+        let mut writer = array.default_dtype().shape(&rows).begin_nd()?;
+        writer.extend(column.iter().copied())?;
+        writer.finish()?;
+    }
+    Ok(())
 }
