@@ -106,3 +106,45 @@ fn unknown_names_are_refused_with_the_list() {
     assert!(matches!(error, LearnError::InvalidOption { .. }));
     assert!(error.to_string().contains("table-1"), "{error}");
 }
+
+/// An interrupted experiment keeps the tables it has made: with one of them on disk, only the
+/// others are made, and the end is that of an uninterrupted run. `all` then reads it back.
+#[test]
+fn an_interrupted_run_goes_on_where_it_stopped() {
+    let out = std::env::temp_dir().join(format!("coadjoint-interrupted-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&out);
+    std::fs::create_dir_all(&out).unwrap();
+    let options = RunOptions { quick: true, seed: 5, out: Some(out.clone()) };
+    let mut lines = Vec::new();
+    let whole = run("table-2", &options, &mut |line| lines.push(line.to_owned())).unwrap();
+    assert!(lines.iter().any(|line| line.contains("dt = 1")), "{lines:?}");
+    assert!(!out.join("table-2.part").exists());
+
+    // What a run killed after its table has left.
+    let mut part = whole[0].clone();
+    part.notes.clear();
+    std::fs::write(out.join("table-2.part"), serde_json::to_string(&part).unwrap()).unwrap();
+    std::fs::remove_file(out.join("table-2.json")).unwrap();
+    lines.clear();
+    let again = run("table-2", &options, &mut |line| lines.push(line.to_owned())).unwrap();
+    assert_eq!(lines, ["table-2 …"]);
+    assert_eq!(again[0], whole[0]);
+    assert!(!out.join("table-2.part").exists() && out.join("table-2.json").exists());
+    // A part of another seed is not ours.
+    std::fs::write(out.join("table-2.part"), serde_json::to_string(&part).unwrap()).unwrap();
+    let other = RunOptions { seed: 6, ..options.clone() };
+    assert_ne!(run("table-2", &other, &mut |_| {}).unwrap()[0].tables, whole[0].tables);
+
+    // `all` takes what is done and stops at what cannot be: here a damaged file is made anew.
+    std::fs::write(out.join("reduction-error.json"), "{").unwrap();
+    let report = run("reduction-error", &options, &mut |_| {}).unwrap();
+    for name in coadjoint_learn::experiment::NAMES {
+        let done = Report { name: name.into(), ..report[0].clone() };
+        std::fs::write(out.join(format!("{name}.json")), serde_json::to_string(&done).unwrap())
+            .unwrap();
+    }
+    lines.clear();
+    let all = run("all", &options, &mut |line| lines.push(line.to_owned())).unwrap();
+    assert_eq!(all.len(), coadjoint_learn::experiment::NAMES.len());
+    assert!(lines.iter().all(|line| line.ends_with("done already")), "{lines:?}");
+}

@@ -1,8 +1,11 @@
 //! The experiments of the paper by name, seeded: figures beside the paper's, curves as CSV.
 
+mod baseline;
 mod geometrize;
 mod hamilton_jacobi;
 mod hamiltonian;
+mod harder;
+mod networks;
 mod noise;
 mod reduction_error;
 mod report;
@@ -11,6 +14,7 @@ mod runge_kutta;
 mod simulation;
 mod table_one;
 mod table_two;
+mod task;
 
 pub use report::{Cell, Curve, Report, Table};
 pub use run::{NAMES, RunOptions, run};

@@ -4,7 +4,7 @@ use coadjoint::{Exponential, SO3};
 
 use super::report::{Curve, Report, Table};
 use super::run::RunOptions;
-use super::table_one::row;
+use super::task::row;
 use crate::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use crate::error::LearnError;
 use crate::evaluate::evaluate;
@@ -54,7 +54,7 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         let mut enter = |name: &str, function: &dyn MomentumFunction| {
             let map = Generating::<SO3, Exponential, _>::new(group, function);
             let figures = evaluate(&map, &group, &test, &test_data);
-            table.push(row(name.into(), &figures, None));
+            table.push(row(name, &figures, None));
         };
         enter("x = 0", &Zero { dim: 3 });
         enter("S = dt H", &Scaled { factor: step, function: &body });

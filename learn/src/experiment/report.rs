@@ -145,14 +145,27 @@ impl Report {
             }
             std::fs::write(&path, text).map_err(|e| fail(&path, e))?;
         }
-        let path = folder.join(format!("{}.json", self.name));
-        let text = serde_json::to_string_pretty(self).map_err(|e| fail(&path, e.into()))?;
-        std::fs::write(&path, text + "\n").map_err(|e| fail(&path, e))
+        self.save(&folder.join(format!("{}.json", self.name)))
     }
 
-    /// Reads `NAME.json` back; `None` if there is none that fits.
-    pub(super) fn read(folder: &Path, name: &str, options: &super::RunOptions) -> Option<Self> {
-        let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).ok()?;
+    /// Writes the tables and notes as JSON.
+    pub(super) fn save(&self, path: &Path) -> Result<(), LearnError> {
+        let fail = |source| LearnError::File { path: path.into(), source };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(fail)?;
+        }
+        let text = serde_json::to_string_pretty(self).map_err(|e| fail(e.into()))?;
+        std::fs::write(path, text + "\n").map_err(fail)
+    }
+
+    /// Whether it holds the table of this title.
+    pub(super) fn has(&self, title: &str) -> bool {
+        self.tables.iter().any(|table| table.title == title)
+    }
+
+    /// Reads a report back; `None` if there is none that fits.
+    pub(super) fn read(path: &Path, name: &str, options: &super::RunOptions) -> Option<Self> {
+        let text = std::fs::read_to_string(path).ok()?;
         let report: Self = serde_json::from_str(&text).ok()?;
         let same = report.name == name && report.quick == options.quick;
         (same && report.seed == options.seed).then_some(report)

@@ -1,16 +1,16 @@
 //! Running experiments by name.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::report::Report;
 use super::{
-    geometrize, hamilton_jacobi, hamiltonian, noise, reduction_error, simulation, table_one,
-    table_two,
+    geometrize, hamilton_jacobi, hamiltonian, harder, noise, reduction_error, simulation,
+    table_one, table_two,
 };
 use crate::error::LearnError;
 
 /// The experiments, in the order `all` runs them.
-pub const NAMES: [&str; 8] = [
+pub const NAMES: [&str; 9] = [
     "simulation",
     "table-2",
     "hamiltonian",
@@ -19,6 +19,7 @@ pub const NAMES: [&str; 8] = [
     "reduction-error",
     "noise",
     "table-1",
+    "harder-truths",
 ];
 
 /// How to run an experiment.
@@ -32,8 +33,9 @@ pub struct RunOptions {
     pub out: Option<PathBuf>,
 }
 
-/// Runs the experiment `name`, or `all` in turn. With a folder to write to, `all` skips what is
-/// already there, so that an interrupted run goes on where it stopped.
+/// Runs the experiment `name`, or `all` in turn. With a folder to write to, an interrupted run goes
+/// on where it stopped: `all` skips experiments that are done, tables that are done are kept, and
+/// networks go on from their last checkpoint.
 ///
 /// `say` is told what is being done, a line at a time.
 ///
@@ -58,11 +60,10 @@ pub fn run(
     let resume = name == "all";
     let mut reports = Vec::new();
     for name in names {
-        let done = options
-            .out
-            .as_ref()
-            .filter(|_| resume)
-            .and_then(|folder| Report::read(folder, name, options));
+        let done =
+            options.out.as_ref().filter(|_| resume).and_then(|folder| {
+                Report::read(&folder.join(format!("{name}.json")), name, options)
+            });
         if let Some(report) = done {
             say(&format!("{name}: done already"));
             reports.push(report);
@@ -72,6 +73,7 @@ pub fn run(
         let report = match name {
             "simulation" => simulation::run(options)?,
             "table-1" => table_one::run(options, say)?,
+            "harder-truths" => harder::run(options, say)?,
             "noise" => noise::run(options, say)?,
             "table-2" => table_two::run(options, say)?,
             "hamiltonian" => hamiltonian::run(options)?,
@@ -81,23 +83,65 @@ pub fn run(
         };
         if let Some(folder) = &options.out {
             report.write(folder)?;
+            clear(folder, name)?;
         }
         reports.push(report);
     }
     Ok(reports)
 }
 
+/// The ending of the tables of an unfinished experiment.
+const PART: &str = ".part";
+/// The ending of the state of an unfinished training.
+const CHECKPOINT: &str = ".checkpoint";
+
+/// Removes what an experiment left for its own use.
+fn clear(folder: &Path, name: &str) -> Result<(), LearnError> {
+    let fail = |source| LearnError::File { path: folder.into(), source };
+    for entry in std::fs::read_dir(folder).map_err(fail)? {
+        let path = entry.map_err(fail)?.path();
+        let file = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+        let rest = file.strip_prefix(name).filter(|rest| rest.starts_with('.'));
+        if rest.is_some_and(|rest| rest.ends_with(CHECKPOINT) || rest == PART) {
+            std::fs::remove_file(&path).map_err(fail)?;
+        }
+    }
+    Ok(())
+}
+
 impl RunOptions {
-    /// A report to fill in.
+    /// A report to fill in, with the tables an interrupted run has left.
     pub(super) fn report(&self, name: &str) -> Report {
-        Report {
+        let part = self
+            .out
+            .as_ref()
+            .and_then(|folder| Report::read(&folder.join(format!("{name}{PART}")), name, self));
+        part.unwrap_or_else(|| Report {
             name: name.into(),
             quick: self.quick,
             seed: self.seed,
             tables: Vec::new(),
             notes: Vec::new(),
             curves: Vec::new(),
+        })
+    }
+
+    /// Keeps the tables so far, in case the run is interrupted.
+    pub(super) fn keep(&self, report: &Report) -> Result<(), LearnError> {
+        match &self.out {
+            Some(folder) => report.save(&folder.join(format!("{}{PART}", report.name))),
+            None => Ok(()),
         }
+    }
+
+    /// Where the training called `label`, which begins with the experiment's name, keeps its
+    /// state.
+    #[cfg(feature = "neural")]
+    pub(super) fn checkpoint(&self, label: &str) -> Option<PathBuf> {
+        let folder = self.out.as_ref()?;
+        // Where the folder cannot be made, writing the checkpoint says so.
+        let _ = std::fs::create_dir_all(folder);
+        Some(folder.join(format!("{label}{CHECKPOINT}")))
     }
 
     /// A seed of its own for every use.

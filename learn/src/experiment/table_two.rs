@@ -38,6 +38,11 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     let body = Quadratic::paper();
     let cells = options.pick(&CELLS[..], &CELLS[5..]);
     for (number, &(step, samples, paper, paper_largest)) in cells.iter().enumerate() {
+        let title =
+            format!("dt = {step}, {samples} samples, momenta in [-1, 1]^3, 100 test points");
+        if report.has(&title) {
+            continue;
+        }
         say(&format!("table-2: dt = {step}, {samples} samples"));
         let seed = |k: u64| options.seed(10 * number as u64 + k);
         let flow = |count, seed| {
@@ -46,10 +51,8 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
             })
         };
         let (train, test) = (flow(samples, seed(1)), flow(100, seed(2)));
-        let mut table = Table::new(
-            format!("dt = {step}, {samples} samples, momenta in [-1, 1]^3, 100 test points"),
-            &["model", "mse momentum", "max momentum", "unsolved"],
-        );
+        let columns = ["model", "mse momentum", "max momentum", "unsolved"];
+        let mut table = Table::new(title, &columns);
         table.push(vec!["paper".into(), paper.into(), paper_largest.into(), "-".into()]);
         table.push(row("identity, mu'' = mu'".into(), Zero { dim: 3 }, &test));
         table.push(row("S = dt H".into(), Scaled { factor: step, function: &body }, &test));
@@ -60,6 +63,7 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         }
         networks(options, &train, &test, seed(3), say, &mut table)?;
         report.tables.push(table);
+        options.keep(&report)?;
     }
     report.notes.push(
         "the paper does not state its box; ours is [-1, 1]^3. p eliminated: a polynomial S, p solved \

@@ -141,3 +141,98 @@ impl MomentumFunction for Relativistic {
         hessian[0] -= self.ripple * p[0].sin();
     }
 }
+
+/// H = ½ Σ wᵢ μᵢ² + a exp(−½ Σ sᵢ (μᵢ − cᵢ)²): a body with a bump off its axes, far from any
+/// polynomial and no function of a simpler Hamiltonian.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bump {
+    /// w.
+    pub weights: Vec<f64>,
+    /// a.
+    pub height: f64,
+    /// s, of the same length.
+    pub sharpness: Vec<f64>,
+    /// c, of the same length.
+    pub centre: Vec<f64>,
+}
+
+impl Bump {
+    /// sᵢ (μᵢ − cᵢ).
+    fn pull(&self, p: &[f64], i: usize) -> f64 {
+        self.sharpness[i] * (p[i] - self.centre[i])
+    }
+
+    /// The second term.
+    fn bell(&self, p: &[f64]) -> f64 {
+        let square: f64 = (0..p.len()).map(|i| self.pull(p, i) * (p[i] - self.centre[i])).sum();
+        self.height * (-0.5 * square).exp()
+    }
+}
+
+impl MomentumFunction for Bump {
+    fn dim(&self) -> usize {
+        self.weights.len()
+    }
+
+    fn value(&self, p: &[f64]) -> f64 {
+        0.5 * p.iter().zip(&self.weights).map(|(v, w)| w * v * v).sum::<f64>() + self.bell(p)
+    }
+
+    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
+        let bell = self.bell(p);
+        for (i, entry) in gradient.iter_mut().enumerate() {
+            *entry = self.weights[i] * p[i] - self.pull(p, i) * bell;
+        }
+    }
+
+    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
+        self.gradient(p, gradient);
+        let (bell, dim) = (self.bell(p), self.dim());
+        for i in 0..dim {
+            for j in 0..dim {
+                let diagonal =
+                    if i == j { self.weights[i] - self.sharpness[i] * bell } else { 0.0 };
+                hessian[i * dim + j] = diagonal + self.pull(p, i) * self.pull(p, j) * bell;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let weights = vec![1.0 / 1.5, 0.5, 0.4];
+        let functions: [&dyn MomentumFunction; 4] = [
+            &Quadratic { weights: weights.clone(), linear: vec![0.1, 0.0, -0.3] },
+            &Quartic { weights: weights.clone(), quartic: vec![0.3, 0.1, 0.2] },
+            &Relativistic { weights: weights.clone(), ripple: 0.3 },
+            &Bump {
+                weights,
+                height: 1.5,
+                sharpness: vec![1.2, 0.7, 0.9],
+                centre: vec![0.5, -0.3, 0.8],
+            },
+        ];
+        let p = [0.4, -0.9, 1.1];
+        for function in functions {
+            let (mut gradient, mut hessian) = ([0.0; 3], [0.0; 9]);
+            function.gradient_and_hessian(&p, &mut gradient, &mut hessian);
+            for j in 0..3 {
+                let (mut up, mut down) = (p, p);
+                up[j] += 1e-5;
+                down[j] -= 1e-5;
+                let (mut above, mut below) = ([0.0; 3], [0.0; 3]);
+                function.gradient(&up, &mut above);
+                function.gradient(&down, &mut below);
+                let slope = (function.value(&up) - function.value(&down)) / 2e-5;
+                assert!((slope - gradient[j]).abs() < 1e-9);
+                for i in 0..3 {
+                    assert!(((above[i] - below[i]) / 2e-5 - hessian[i * 3 + j]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+}

@@ -2,8 +2,10 @@
 
 mod flow;
 mod hamiltonian;
+mod one_step;
 mod sample;
 
 pub use flow::{exact_flow, exact_momentum_flow};
-pub use hamiltonian::{Quadratic, Quartic, Relativistic};
+pub use hamiltonian::{Bump, Quadratic, Quartic, Relativistic};
+pub use one_step::OneStep;
 pub use sample::{MomentumBox, add_noise, momentum_pairs, phase_pairs};
