@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
 
-use crate::learn::{GeometrizeOptions, LearnOptions};
+use crate::geometrize::GeometrizeOptions;
+use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
 
 /// Momentum-preserving integrators from a Hamiltonian.
@@ -35,7 +36,7 @@ pub enum Verb {
     Casimirs(CasimirOptions),
     /// Learn the map behind pairs of states
     Learn(LearnOptions),
-    /// Find the Poisson map nearest to pairs of momenta made by any method
+    /// Find the Poisson map nearest to a method that is none, or to pairs of momenta made by one
     Geometrize(GeometrizeOptions),
     /// Run the experiments of the paper and print its figures beside ours
     Reproduce(ReproduceOptions),

@@ -1,10 +1,12 @@
-//! `coadjoint learn` and `coadjoint geometrize`: fit a map to pairs of states.
+//! `coadjoint learn`: fit a map to pairs of states.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use coadjoint_learn::data::{RowPolicy, Tolerances};
-use coadjoint_learn::{Errors, Figures, Kind, Request, Summary, learn};
+use coadjoint_learn::{
+    Errors, Figures, Kind, ModelFile, NetworkSettings, Request, Summary, learn, remove_checkpoints,
+};
 
 use crate::arguments::{ChartName, Format};
 use crate::error::CliError;
@@ -20,7 +22,7 @@ pub enum ModelName {
     Polynomial,
     /// A Gaussian process.
     Gp,
-    /// A network of widths 500, 500.
+    /// A network.
     Network,
     /// A quadratic polynomial and a network.
     Hybrid,
@@ -39,22 +41,12 @@ pub enum Loss {
 /// What `learn` and `geometrize` share.
 #[derive(Args, Debug)]
 pub struct Fit {
-    /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
-    /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
-    #[arg(value_name = "DATA")]
-    data: PathBuf,
-    /// The group, by its name in the catalogue
-    #[arg(long, default_value = "SO3")]
-    group: String,
     /// The chart
     #[arg(long, value_enum, default_value = "exp")]
     chart: ChartName,
     /// The time between the two states of a pair
     #[arg(long, value_name = "dt", allow_negative_numbers = true)]
     dt: f64,
-    /// Pairs to test the model on
-    #[arg(long, value_name = "DATA")]
-    test: Option<PathBuf>,
     /// The total degree of a polynomial; chosen by cross-validation if not given
     #[arg(long, value_name = "d")]
     degree: Option<usize>,
@@ -81,8 +73,18 @@ pub struct Fit {
 /// Options of `learn`.
 #[derive(Args, Debug)]
 pub struct LearnOptions {
+    /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
+    /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
+    #[arg(value_name = "DATA")]
+    data: PathBuf,
     #[command(flatten)]
     fit: Fit,
+    /// Pairs to test the model on
+    #[arg(long, value_name = "DATA")]
+    test: Option<PathBuf>,
+    /// The group, by its name in the catalogue
+    #[arg(long, default_value = "SO3")]
+    group: String,
     /// The kind of model
     #[arg(long, value_enum, default_value_t)]
     model: ModelName,
@@ -92,28 +94,28 @@ pub struct LearnOptions {
     /// What is minimised
     #[arg(long, value_enum, default_value_t)]
     loss: Loss,
+    /// Widths of the hidden layers of a network
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [500, 500])]
+    widths: Vec<usize>,
+    /// Evaluations of the loss of a network
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    evaluations: usize,
     /// How far attitudes may be off the group and momenta off conservation; `inf` for noisy data
     #[arg(long, default_value_t = 1e-6)]
     tolerance: f64,
 }
 
-/// Options of `geometrize`.
-#[derive(Args, Debug)]
-pub struct GeometrizeOptions {
-    #[command(flatten)]
-    fit: Fit,
-}
-
 impl Fit {
-    fn request(&self) -> Request {
+    /// What is asked for, of data in a file.
+    pub fn request(&self, data: PathBuf, group: String) -> Request {
         let chart = match self.chart {
             ChartName::Exp => "exp",
             ChartName::Cayley => "cayley",
         };
         Request {
-            data: self.data.clone(),
-            test: self.test.clone(),
-            group: self.group.clone(),
+            data,
+            test: None,
+            group,
             chart: chart.into(),
             step: self.dt,
             kind: Kind::Auto,
@@ -125,8 +127,35 @@ impl Fit {
             momenta_only: false,
             start: self.start.clone(),
             seed: self.seed,
+            network: NetworkSettings::default(),
             drift_steps: self.steps,
         }
+    }
+
+    /// Δt.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// The seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Writes the model and prints the figures.
+    pub fn finish(&self, file: &ModelFile, summary: &Summary) -> Result<(), CliError> {
+        if let Some(path) = &self.out {
+            file.save(path)?;
+        }
+        match self.format {
+            Format::Json => {
+                let text = serde_json::to_string_pretty(summary)
+                    .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
+                println!("{text}");
+            }
+            Format::Text => print(summary),
+        }
+        Ok(())
     }
 }
 
@@ -140,42 +169,35 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         ModelName::Hybrid => Kind::Hybrid,
     };
     let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
+    // Beside the model, so that a command given again goes on where it was killed.
+    let checkpoint = options.fit.out.as_ref().map(|out| {
+        let mut name = out.as_os_str().to_owned();
+        name.push(".checkpoint");
+        PathBuf::from(name)
+    });
+    let network = NetworkSettings {
+        widths: options.widths.clone(),
+        evaluations: options.evaluations,
+        checkpoint: checkpoint.clone(),
+    };
     let request = Request {
         kind,
+        test: options.test.clone(),
         ridge: options.ridge,
         group_loss: options.loss == Loss::Group,
         tolerances,
-        ..options.fit.request()
+        network,
+        ..options.fit.request(options.data.clone(), options.group.clone())
     };
-    finish(&options.fit, &request)
-}
-
-/// Finds the Poisson map nearest to pairs of momenta, of any method.
-pub fn geometrize(options: &GeometrizeOptions) -> Result<(), CliError> {
-    let request = Request { kind: Kind::Polynomial, momenta_only: true, ..options.fit.request() };
-    finish(&options.fit, &request)
-}
-
-fn finish(fit: &Fit, request: &Request) -> Result<(), CliError> {
     let bar = progress::bar(1, "learning");
-    let (file, summary) = learn(request, &mut |step, total, loss| {
+    let (file, summary) = learn(&request, &mut |step, total, loss| {
         bar.set_length(total as u64);
         bar.set_position(step as u64);
         bar.set_message(format!("loss {loss:.2e}"));
     })?;
     bar.finish_and_clear();
-    if let Some(path) = &fit.out {
-        file.save(path)?;
-    }
-    match fit.format {
-        Format::Json => {
-            let text = serde_json::to_string_pretty(&summary)
-                .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
-            println!("{text}");
-        }
-        Format::Text => print(&summary),
-    }
-    Ok(())
+    options.fit.finish(&file, &summary)?;
+    checkpoint.map_or(Ok(()), |base| Ok(remove_checkpoints(&base)?))
 }
 
 fn print(summary: &Summary) {

@@ -11,6 +11,7 @@ mod derive;
 mod emit;
 mod engine;
 mod error;
+mod geometrize;
 mod learn;
 mod load;
 mod model;
@@ -32,7 +33,7 @@ fn main() -> ExitCode {
         Verb::Check(options) => check::run(&options),
         Verb::Casimirs(options) => casimirs::run(&options),
         Verb::Learn(options) => learn::run(&options),
-        Verb::Geometrize(options) => learn::geometrize(&options),
+        Verb::Geometrize(options) => geometrize::run(&options),
         Verb::Reproduce(options) => reproduce::run(&options),
     };
     match outcome {

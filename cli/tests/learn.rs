@@ -3,7 +3,7 @@
 
 use assert_cmd::Command;
 use coadjoint::SO3;
-use coadjoint_learn::data::write_csv;
+use coadjoint_learn::data::write_pairs;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 
 fn coadjoint() -> Command {
@@ -20,8 +20,8 @@ fn learn_simulate_and_emit() {
         let wide = MomentumBox { low: -2.0, high: 2.0 };
         phase_pairs(&group, &Quadratic::paper(), 0.1, wide, count, seed)
     };
-    write_csv(&at("train.csv"), &group, &pairs(60, 1)).unwrap();
-    write_csv(&at("test.csv"), &group, &pairs(20, 2)).unwrap();
+    write_pairs(&at("train.csv"), &group, &pairs(60, 1)).unwrap();
+    write_pairs(&at("test.csv"), &group, &pairs(20, 2)).unwrap();
     let output = coadjoint()
         .args(["learn"])
         .arg(at("train.csv"))
@@ -84,4 +84,31 @@ fn reproduce_prints_tables_and_writes_curves() {
     let reports: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
     assert_eq!(reports[0]["name"], "reduction-error");
     assert!(folder.path().join("reduction-error.csv").exists());
+}
+
+/// Forward Euler on a system file, geometrized: the Casimir stays, and the model says it is one of
+/// momenta.
+#[test]
+fn geometrize_a_method_on_a_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("model.json");
+    let system = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/rigid_body.toml");
+    let run = coadjoint()
+        .args(["geometrize", "--system", system, "--map", "euler", "--samples", "200"])
+        .args(["--dt", "0.1", "--degree", "4", "--start", "2,0.5,1", "--format", "json", "--out"])
+        .arg(&out)
+        .assert()
+        .success();
+    let summary: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12, "{summary}");
+    // Euler's map is not Poisson: what is left is its own defect.
+    let left = summary["train"]["mse"]["momentum"].as_f64().unwrap();
+    assert!((1e-8..1e-2).contains(&left), "{summary}");
+    let model = coadjoint_learn::ModelFile::load(&out).unwrap();
+    assert!(!model.attitude && model.group == "SO3");
+    coadjoint().args(["geometrize", "--dt", "0.1"]).assert().code(2);
+    coadjoint()
+        .args(["geometrize", "--system", system, "--dt", "0.1", "--within", "3,1"])
+        .assert()
+        .code(2);
 }

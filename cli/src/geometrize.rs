@@ -1,0 +1,137 @@
+//! `coadjoint geometrize`: the Poisson map nearest to a method that is none.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use coadjoint::Chart;
+use coadjoint_codegen::lie::catalogue;
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::system::{Options, Parameters};
+use coadjoint_learn::catalogue::{Visitor, visit};
+use coadjoint_learn::data::MomentumPairs;
+use coadjoint_learn::truth::{MomentumBox, OneStep, momentum_pairs};
+use coadjoint_learn::{DataGroup, Kind, Request, learn, learn_momenta};
+
+use crate::error::CliError;
+use crate::learn::Fit;
+use crate::load;
+
+/// Methods that keep no geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum MapName {
+    /// Forward Euler.
+    #[default]
+    Euler,
+    /// Heun's method, of order 2.
+    Heun,
+    /// The classical Runge–Kutta method of order 4.
+    Rk4,
+}
+
+/// Options of `geometrize`.
+#[derive(Args, Debug)]
+pub struct GeometrizeOptions {
+    /// Pairs of momenta: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …
+    #[arg(value_name = "DATA", required_unless_present = "system")]
+    data: Option<PathBuf>,
+    #[command(flatten)]
+    fit: Fit,
+    /// Make the pairs by a method on this system, instead of reading them
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["data", "test", "group"])]
+    system: Option<PathBuf>,
+    /// The method
+    #[arg(long, value_enum, default_value_t, requires = "system")]
+    map: MapName,
+    /// How many pairs to make
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "system")]
+    samples: usize,
+    /// The interval momenta are drawn from
+    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(num_args = 1..=2, default_values_t = [-2.5, 2.5], requires = "system")]
+    within: Vec<f64>,
+    /// Pairs to test the map on
+    #[arg(long, value_name = "DATA")]
+    test: Option<PathBuf>,
+    /// The group of the data, by its name in the catalogue
+    #[arg(long, default_value = "SO3")]
+    group: String,
+}
+
+/// Finds the Poisson map.
+pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
+    let (data, group) = (options.data.clone().unwrap_or_default(), options.group.clone());
+    let request = Request {
+        kind: Kind::Polynomial,
+        momenta_only: true,
+        test: options.test.clone(),
+        ..options.fit.request(data, group)
+    };
+    let (file, summary) = match &options.system {
+        None => learn(&request, &mut |_, _, _| {})?,
+        Some(path) => {
+            let problem = problem(path)?;
+            let group = problem.algebra.name().to_owned();
+            let chart = request.chart.clone();
+            let request = Request { group: group.clone(), ..request };
+            let pairs = visit(&group, &chart, Pairs { options, problem: &problem })??;
+            learn_momenta(&request, &pairs)?
+        }
+    };
+    options.fit.finish(&file, &summary)
+}
+
+/// The system, with the values of its parameters put in.
+fn problem(path: &Path) -> Result<Problem, CliError> {
+    let options = Options { parameters: Parameters::Substituted, truncation: None, chart: None };
+    let problem = load::file(path, options)?.problem;
+    let name = problem.algebra.name();
+    if catalogue::lookup(name).ok().as_ref() != Some(&problem.algebra) {
+        return Err(CliError::Option(format!(
+            "{}: learned maps are saved by the name of their group, and {name} is not in the \
+             catalogue; make the pairs yourself and give a group of the catalogue",
+            path.display()
+        )));
+    }
+    Ok(problem)
+}
+
+struct Pairs<'a> {
+    options: &'a GeometrizeOptions,
+    problem: &'a Problem,
+}
+
+impl Visitor for Pairs<'_> {
+    type Output = Result<MomentumPairs, CliError>;
+
+    fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
+        let Self { options, problem } = self;
+        let &[low, high] = options.within.as_slice() else {
+            let what = "--within takes two numbers, as in --within -2.5,2.5";
+            return Err(CliError::Option(what.to_owned()));
+        };
+        if !(low.is_finite() && high.is_finite() && low < high) {
+            return Err(CliError::Option(format!("--within {low},{high} is no interval")));
+        }
+        if options.samples == 0 {
+            return Err(CliError::Option("--samples must be at least 1".to_owned()));
+        }
+        let method = match options.map {
+            MapName::Euler => OneStep::Euler,
+            MapName::Heun => OneStep::Heun,
+            MapName::Rk4 => OneStep::Rk4,
+        };
+        let dim = group.dim();
+        let slopes: Vec<Polynomial> = (0..dim).map(|i| problem.hamiltonian.derivative(i)).collect();
+        let symbols: Vec<f64> =
+            problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+        let gradient = |mu: &[f64], out: &mut [f64]| {
+            let point: Vec<f64> = mu.iter().chain(&symbols).copied().collect();
+            out.iter_mut().zip(&slopes).for_each(|(o, slope)| *o = slope.evaluate(&point));
+        };
+        let (step, seed) = (options.fit.dt(), options.fit.seed());
+        Ok(momentum_pairs(&group, MomentumBox { low, high }, options.samples, seed, |mu| {
+            method.advance(&group, gradient, mu, step)
+        }))
+    }
+}
