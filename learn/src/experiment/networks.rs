@@ -19,7 +19,7 @@ pub(super) struct Training<'a> {
 #[cfg(not(feature = "neural"))]
 impl Training<'_> {
     /// Says that there are none.
-    #[allow(clippy::unnecessary_wraps)]
+    #[allow(clippy::unnecessary_wraps, clippy::extra_unused_type_parameters)]
     pub(super) fn symmetric<G: DataGroup, C: Chart<G>>(
         &self,
         _task: &Task<'_, G>,

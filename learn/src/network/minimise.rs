@@ -13,6 +13,9 @@ const SAVE: usize = 50;
 /// interrupted run ends with the bits of an uninterrupted one.
 const ROUND: usize = 250;
 
+/// A loss on data that are watched, not fitted.
+pub(super) type Watch<'a> = dyn FnMut(&[f64]) -> Result<f64, LearnError> + 'a;
+
 /// Lowers the loss from `start`; returns the unknowns and the loss of every evaluation. `task` is
 /// the fingerprint of everything the outcome depends on; `watch` is the loss on other data.
 pub(super) fn minimise(
@@ -20,7 +23,7 @@ pub(super) fn minimise(
     task: u64,
     options: &TrainingOptions,
     evaluate: &mut Evaluate<'_>,
-    watch: Option<&mut dyn FnMut(&[f64]) -> Result<f64, LearnError>>,
+    watch: Option<&mut Watch<'_>>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Vec<f64>, Vec<f64>), LearnError> {
     let mut watch = watch;

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::architecture::Architecture;
 use super::dense::DenseNetwork;
-use super::minimise::minimise;
+use super::minimise::{Watch, minimise};
 use super::objective::{Layout, Unknowns, device, matrix};
 use super::options::{Progress, TrainingOptions};
 use crate::data::ReducedData;
@@ -85,7 +85,7 @@ pub fn fit_network_to_gradients(
     let mut watch = held_out
         .as_ref()
         .map(|data| |flat: &[f64]| layout.value(flat, &|unknowns| miss(unknowns, data)));
-    let watch = watch.as_mut().map(|w| w as &mut dyn FnMut(&[f64]) -> Result<f64, LearnError>);
+    let watch = watch.as_mut().map(|w| w as &mut Watch<'_>);
     let task = options.task("gradients", &[points.as_slice(), gradients.as_slice()]);
     let (flat, history) = minimise(start, task, options, &mut evaluate, watch, progress)?;
     let (hidden, output) = architecture.layers(&flat);
