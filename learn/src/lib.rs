@@ -20,7 +20,6 @@ mod gaussian_process;
 mod group;
 mod hamilton_jacobi;
 mod hamiltonian;
-#[cfg(feature = "neural")]
 mod hybrid;
 mod least_squares;
 mod model;
@@ -44,7 +43,6 @@ pub use gaussian_process::{
 pub use group::{DataGroup, matrix_of};
 pub use hamilton_jacobi::{CollocationOptions, TimeDependent, solve_hamilton_jacobi};
 pub use hamiltonian::fit_hamiltonian;
-#[cfg(feature = "neural")]
 pub use hybrid::{fit_hybrid, fit_hybrid_to_gradients};
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;

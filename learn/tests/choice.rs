@@ -55,11 +55,7 @@ fn auto_names_every_kind_it_compared() {
         assert!(summary.choice.contains(kind), "{}", summary.choice);
     }
     let networks = ["network [24, 24]", "hybrid of degree 2"];
-    if cfg!(feature = "neural") {
-        assert!(networks.iter().all(|kind| summary.choice.contains(kind)), "{}", summary.choice);
-    } else {
-        assert!(summary.choice.contains("this build has none"), "{}", summary.choice);
-    }
+    assert!(networks.iter().all(|kind| summary.choice.contains(kind)), "{}", summary.choice);
     // What is first in the sentence is what was fitted.
     let first = match summary.model.as_str() {
         "gp" => "Gaussian process",
@@ -82,7 +78,6 @@ fn a_polynomial_wins_on_the_free_body() {
 }
 
 /// A checkpoint left by another task is refused, not trained over; the right one is gone on from.
-#[cfg(feature = "neural")]
 #[test]
 fn checkpoints_of_a_session_belong_to_it() {
     let base: PathBuf = std::env::temp_dir().join(format!("coadjoint-base-{}", std::process::id()));
@@ -100,15 +95,4 @@ fn checkpoints_of_a_session_belong_to_it() {
     remove_checkpoints(&base).unwrap();
     learn(&other, &mut |_, _, _| {}).unwrap();
     remove_checkpoints(&base).unwrap();
-}
-
-/// Without the feature networks are refused with the reason.
-#[cfg(not(feature = "neural"))]
-#[test]
-fn networks_need_the_feature() {
-    let request = Request { kind: Kind::Network, ..request("network", &bump(), 40) };
-    let error = learn(&request, &mut |_, _, _| {}).unwrap_err();
-    assert!(matches!(error, LearnError::InvalidOption { .. }));
-    assert!(error.to_string().contains("--features neural"), "{error}");
-    remove_checkpoints(&PathBuf::from("nothing-here")).unwrap();
 }

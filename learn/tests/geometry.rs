@@ -117,10 +117,6 @@ fn fitted<G: DataGroup, C: Chart<G>>(group: &G, truth: &impl MomentumFunction) {
     trained_networks::<G, C>(group, &train);
 }
 
-#[cfg(not(feature = "neural"))]
-fn trained_networks<G: DataGroup, C: Chart<G>>(_group: &G, _train: &ReducedData) {}
-
-#[cfg(feature = "neural")]
 fn trained_networks<G: DataGroup, C: Chart<G>>(group: &G, train: &ReducedData) {
     use coadjoint_learn::network::{TrainingOptions, fit_network};
     let options = TrainingOptions {

@@ -9,6 +9,8 @@ use crate::data::PairRows;
 use crate::error::LearnError;
 use crate::evaluate::evaluate_with;
 use crate::function::MomentumFunction;
+use crate::hybrid::fit_hybrid_to_gradients;
+use crate::network::fit_network_to_gradients;
 use crate::polynomial::fit_gradients;
 use crate::type_two::{TypeTwo, type_two_data};
 
@@ -30,20 +32,12 @@ pub(super) fn rows(
         });
         table.push(row(format!("type II, not symmetric: {name}"), &figures, paper));
     };
-    #[cfg(feature = "neural")]
-    {
-        use crate::hybrid::fit_hybrid_to_gradients;
-        use crate::network::fit_network_to_gradients;
-        let options = training.options("baseline");
-        let (network, _) =
-            fit_network_to_gradients(&points, &gradients, None, &options, &mut |_| {})?;
-        enter("network", &network, Some(paper));
-        let options = training.options("baseline-hybrid");
-        let (hybrid, _) = fit_hybrid_to_gradients(&points, &gradients, 2, &options, &mut |_| {})?;
-        enter("hybrid", &hybrid, None);
-    }
-    #[cfg(not(feature = "neural"))]
-    let _ = (training, paper);
+    let options = training.options("baseline");
+    let (network, _) = fit_network_to_gradients(&points, &gradients, None, &options, &mut |_| {})?;
+    enter("network", &network, Some(paper));
+    let options = training.options("baseline-hybrid");
+    let (hybrid, _) = fit_hybrid_to_gradients(&points, &gradients, 2, &options, &mut |_| {})?;
+    enter("hybrid", &hybrid, None);
     for degree in [2, 4, 6] {
         // Six coordinates: degree 6 has 923 coefficients.
         if let Ok(model) = fit_gradients(&points, &gradients, degree, 0.0) {

@@ -1,12 +1,14 @@
-//! The networks of the tables, where the build has them.
+//! The networks of the tables.
 
 use coadjoint::Chart;
 
 use super::report::Table;
 use super::run::RunOptions;
-use super::task::Task;
+use super::task::{Task, row};
 use crate::error::LearnError;
 use crate::group::DataGroup;
+use crate::hybrid::fit_hybrid;
+use crate::network::{TrainingOptions, fit_network};
 
 /// A table's networks: the seed, and the name its checkpoints begin with.
 #[derive(Clone, Debug)]
@@ -16,32 +18,12 @@ pub(super) struct Training<'a> {
     pub(super) label: String,
 }
 
-#[cfg(not(feature = "neural"))]
-impl Training<'_> {
-    /// Says that there are none.
-    #[allow(clippy::unnecessary_wraps, clippy::extra_unused_type_parameters)]
-    pub(super) fn symmetric<G: DataGroup, C: Chart<G>>(
-        &self,
-        _task: &Task<'_, G>,
-        _paper: Option<f64>,
-        _say: &mut dyn FnMut(&str),
-        table: &mut Table,
-    ) -> Result<(), LearnError> {
-        let text = format!("{}: networks left out: built without the feature neural", self.label);
-        table.push(vec![text.into()]);
-        let _ = (self.options, self.seed);
-        Ok(())
-    }
-}
-
-#[cfg(feature = "neural")]
 impl Training<'_> {
     /// The paper's net and budget; small ones in the short version.
-    pub(super) fn options(&self, name: &str) -> crate::network::TrainingOptions {
+    pub(super) fn options(&self, name: &str) -> TrainingOptions {
         let checkpoint = self.options.checkpoint(&format!("{}.{name}", self.label));
-        let full =
-            crate::network::TrainingOptions { seed: self.seed, checkpoint, ..Default::default() };
-        let quick = crate::network::TrainingOptions {
+        let full = TrainingOptions { seed: self.seed, checkpoint, ..Default::default() };
+        let quick = TrainingOptions {
             widths: vec![64, 64],
             adam_steps: 100,
             lbfgs_steps: 300,
@@ -58,22 +40,18 @@ impl Training<'_> {
         say: &mut dyn FnMut(&str),
         table: &mut Table,
     ) -> Result<(), LearnError> {
-        use super::task::row;
         let from = std::time::Instant::now();
-        let (network, _) =
-            crate::network::fit_network(&task.train, &self.options("network"), &mut |_| {})?;
+        let (network, _) = fit_network(&task.train, &self.options("network"), &mut |_| {})?;
         timed("network", from, say);
         table.push(row("network, symmetric", &task.figures::<C>(&network), paper));
         let from = std::time::Instant::now();
-        let (hybrid, _) =
-            crate::hybrid::fit_hybrid(&task.train, 2, &self.options("hybrid"), &mut |_| {})?;
+        let (hybrid, _) = fit_hybrid(&task.train, 2, &self.options("hybrid"), &mut |_| {})?;
         timed("hybrid", from, say);
         table.push(row("hybrid, symmetric", &task.figures::<C>(&hybrid), None));
         Ok(())
     }
 }
 
-#[cfg(feature = "neural")]
 fn timed(name: &str, from: std::time::Instant, say: &mut dyn FnMut(&str)) {
     say(&format!("  {name}: {:.0} s", from.elapsed().as_secs_f64()));
 }

@@ -85,19 +85,7 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     Ok(report)
 }
 
-#[cfg(not(feature = "neural"))]
-#[allow(clippy::unnecessary_wraps)]
-fn networks(
-    _options: &RunOptions,
-    _data: &ReducedData,
-    _test: &ReducedData,
-    _label: &str,
-) -> Result<Vec<(String, Model, Curve)>, LearnError> {
-    Ok(Vec::new())
-}
-
 /// The network as in the paper, 250 steps of Adam, with its test error while it trains.
-#[cfg(feature = "neural")]
 fn networks(
     options: &RunOptions,
     data: &ReducedData,

@@ -136,7 +136,6 @@ impl RunOptions {
 
     /// Where the training called `label`, which begins with the experiment's name, keeps its
     /// state.
-    #[cfg(feature = "neural")]
     pub(super) fn checkpoint(&self, label: &str) -> Option<PathBuf> {
         let folder = self.out.as_ref()?;
         // Where the folder cannot be made, writing the checkpoint says so.

@@ -89,7 +89,7 @@ fn networks(
     _say: &mut dyn FnMut(&str),
     table: &mut Table,
 ) -> Result<(), LearnError> {
-    table.push(vec!["networks: built without the feature neural".into()]);
+    table.push(vec!["latent momenta: built without the feature neural".into()]);
     Ok(())
 }
 

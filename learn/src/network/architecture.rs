@@ -1,18 +1,15 @@
-//! A dense network over tensors: its first weights, its value and its slope.
+//! The shape of a dense network in training: its first weights, and where they stand.
 
-use burn::tensor::Tensor;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::activation::Activation;
 use super::dense::Layer;
-use super::objective::Unknowns;
 
-/// Where the weights of a network stand among the unknowns: two matrices per hidden layer (W as
-/// inputs×outputs, b), then the last layer (width×outputs).
+/// A network's unknowns are two matrices per hidden layer (W as inputs×outputs, b), then the last
+/// layer (width×outputs).
 #[derive(Clone, Debug)]
 pub(super) struct Architecture {
-    pub(super) first: usize,
     pub(super) inputs: usize,
     pub(super) widths: Vec<usize>,
     pub(super) outputs: usize,
@@ -39,53 +36,9 @@ impl Architecture {
     }
 
     /// The number of matrices.
+    #[cfg(feature = "neural")]
     pub(super) fn len(&self) -> usize {
         2 * self.widths.len() + 1
-    }
-
-    fn activate(&self, z: Tensor<2>) -> (Tensor<2>, Tensor<2>) {
-        match self.activation {
-            Activation::Tanh => {
-                let a = z.tanh();
-                let slope = a.clone().mul(a.clone()).neg().add_scalar(1.0);
-                (a, slope)
-            }
-            Activation::Logistic => {
-                let a = burn::tensor::activation::sigmoid(z);
-                let slope = a.clone().mul(a.clone().neg().add_scalar(1.0));
-                (a, slope)
-            }
-        }
-    }
-
-    /// N(u), a row per sample.
-    pub(super) fn value(&self, unknowns: &Unknowns, u: Tensor<2>) -> Tensor<2> {
-        let mut a = u;
-        for k in 0..self.widths.len() {
-            let at = self.first + 2 * k;
-            a = self.activate(a.matmul(unknowns.at(at)).add(unknowns.at(at + 1))).0;
-        }
-        a.matmul(unknowns.at(self.first + self.len() - 1))
-    }
-
-    /// ∂N/∂u of a network with one output, a row per sample: written as forward operations,
-    /// because the framework does not differentiate twice.
-    pub(super) fn slope(&self, unknowns: &Unknowns, u: Tensor<2>) -> Tensor<2> {
-        let samples = u.dims()[0];
-        let mut a = u;
-        let mut slopes = Vec::with_capacity(self.widths.len());
-        for k in 0..self.widths.len() {
-            let at = self.first + 2 * k;
-            let (next, slope) = self.activate(a.matmul(unknowns.at(at)).add(unknowns.at(at + 1)));
-            a = next;
-            slopes.push(slope);
-        }
-        let last = unknowns.at(self.first + self.len() - 1).transpose();
-        let mut back = last.repeat_dim(0, samples);
-        for (k, slope) in slopes.into_iter().enumerate().rev() {
-            back = back.mul(slope).matmul(unknowns.at(self.first + 2 * k).transpose());
-        }
-        back
     }
 
     /// The layers and last weights (of one output) of a network that stands first in a row of

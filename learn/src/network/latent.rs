@@ -135,7 +135,6 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
 
     let device = device();
     let generating = Architecture {
-        first: 0,
         inputs: dim,
         widths: options.training.widths.clone(),
         outputs: 1,
@@ -149,7 +148,6 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
         }
         MomentumModel::Network(widths) => {
             let network = Architecture {
-                first: generating.len(),
                 inputs: 2 * dim,
                 widths: widths.clone(),
                 outputs: dim,
@@ -178,11 +176,11 @@ pub fn fit_latent<G: LieGroup<Scalar = f64>>(
     let loss = |unknowns: &Unknowns| -> Tensor<1> {
         let offset = match &momenta {
             None => unknowns.at(latent),
-            Some(network) => network.value(unknowns, both.clone()),
+            Some(network) => network.value(unknowns, latent, both.clone()),
         };
         let u = middle.clone().add(offset);
         let p = u.clone().mul(width.clone()).add(centre.clone());
-        let x = generating.slope(unknowns, u).div(width.clone()).mul_scalar(scale);
+        let x = generating.slope(unknowns, 0, u).div(width.clone()).mul_scalar(scale);
         let odd = bracket.apply(&x, p.clone());
         let mut power = bracket.apply(&x, odd.clone());
         let mut even = p.add(power.clone().mul_scalar(BERNOULLI[2]));

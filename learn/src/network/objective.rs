@@ -48,23 +48,14 @@ impl Layout {
         (Self { shapes, device: device.clone() }, flat)
     }
 
-    fn cut(&self, flat: &[f64], gradient: bool) -> Unknowns {
+    fn cut(&self, flat: &[f64]) -> Unknowns {
         let mut from = 0;
         let mut next = |&(rows, columns): &(usize, usize)| {
             let tensor = matrix(&flat[from..from + rows * columns], rows, columns, &self.device);
             from += rows * columns;
-            if gradient { tensor.require_grad() } else { tensor }
+            tensor.require_grad()
         };
         Unknowns { matrices: self.shapes.iter().map(&mut next).collect() }
-    }
-
-    /// The loss at the entries given.
-    pub(super) fn value(
-        &self,
-        flat: &[f64],
-        loss: &impl Fn(&Unknowns) -> Tensor<1>,
-    ) -> Result<f64, LearnError> {
-        Ok(loss(&self.cut(flat, false)).into_scalar())
     }
 
     /// The loss and its gradient.
@@ -73,7 +64,7 @@ impl Layout {
         flat: &[f64],
         loss: &impl Fn(&Unknowns) -> Tensor<1>,
     ) -> Result<(f64, Vec<f64>), LearnError> {
-        let unknowns = self.cut(flat, true);
+        let unknowns = self.cut(flat);
         let now = loss(&unknowns);
         let gradients = now.backward();
         let mut flat = Vec::with_capacity(flat.len());

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::activation::Activation;
-#[cfg(feature = "neural")]
 use crate::error::LearnError;
 
 /// How a network is trained.
@@ -58,7 +57,6 @@ impl TrainingOptions {
         self.rate * fraction
     }
 
-    #[cfg(feature = "neural")]
     pub(super) fn check(&self) -> Result<(), LearnError> {
         if self.widths.is_empty() || self.widths.contains(&0) {
             return Err(LearnError::InvalidOption {
@@ -71,7 +69,6 @@ impl TrainingOptions {
     }
 
     /// The fingerprint of a task: the options and the data given.
-    #[cfg(feature = "neural")]
     pub(super) fn task(&self, kind: &str, data: &[&[f64]]) -> u64 {
         let words = serde_json::to_string(self).unwrap_or_default();
         let start = super::checkpoint::Fingerprint::new(&format!("{kind} {words}"));

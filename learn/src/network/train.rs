@@ -1,12 +1,11 @@
 //! Training S on reduced data.
 
-use burn::tensor::Tensor;
 use nalgebra::DMatrix;
 
 use super::architecture::Architecture;
 use super::dense::DenseNetwork;
+use super::gradient::SlopeFit;
 use super::minimise::{Watch, minimise};
-use super::objective::{Layout, Unknowns, device, matrix};
 use super::options::{Progress, TrainingOptions};
 use crate::data::ReducedData;
 use crate::error::LearnError;
@@ -54,41 +53,26 @@ pub fn fit_network_to_gradients(
     let targets = weighted(gradients);
     let spread = (targets.norm_squared() / targets.len() as f64).sqrt();
     let scale = if spread > 0.0 { spread } else { 1.0 };
-    // The column-major entries of a dim×samples matrix are the row-major ones of its transpose.
-    let normalised = |points: &DMatrix<f64>| {
-        DMatrix::from_fn(dim, points.ncols(), |j, i| scaling.normalise(j, points[(j, i)]))
+    let fit = |points: &DMatrix<f64>, gradients: &DMatrix<f64>| {
+        let u = DMatrix::from_fn(dim, points.ncols(), |j, i| scaling.normalise(j, points[(j, i)]));
+        let architecture = Architecture {
+            inputs: dim,
+            widths: options.widths.clone(),
+            outputs: 1,
+            activation: options.activation,
+        };
+        SlopeFit::new(architecture, &u, &(weighted(gradients) / scale))
     };
-
-    let device = device();
-    let architecture = Architecture {
-        first: 0,
-        inputs: dim,
-        widths: options.widths.clone(),
-        outputs: 1,
-        activation: options.activation,
-    };
-    let (layout, start) = Layout::of(architecture.draw(options.seed), &device);
-    let tensors = |points: &DMatrix<f64>, gradients: &DMatrix<f64>| {
-        let targets = weighted(gradients) / scale;
-        let rows = points.ncols();
-        let u = matrix(normalised(points).as_slice(), rows, dim, &device);
-        (u, matrix(targets.as_slice(), rows, dim, &device))
-    };
-    let miss = |unknowns: &Unknowns, (u, y): &(Tensor<2>, Tensor<2>)| -> Tensor<1> {
-        let miss = architecture.slope(unknowns, u.clone()).sub(y.clone());
-        miss.clone().mul(miss).mean()
-    };
-    let train = tensors(points, gradients);
-    let held_out = validation.map(|(points, gradients)| tensors(points, gradients));
-    let mut evaluate =
-        |flat: &[f64]| layout.value_and_gradient(flat, &|unknowns| miss(unknowns, &train));
-    let mut watch = held_out
-        .as_ref()
-        .map(|data| |flat: &[f64]| layout.value(flat, &|unknowns| miss(unknowns, data)));
+    let train = fit(points, gradients);
+    let held_out = validation.map(|(points, gradients)| fit(points, gradients));
+    let start =
+        train.architecture().draw(options.seed).into_iter().flat_map(|part| part.0).collect();
+    let mut evaluate = |flat: &[f64]| Ok(train.value_and_gradient(flat));
+    let mut watch = held_out.as_ref().map(|data| |flat: &[f64]| Ok(data.value(flat)));
     let watch = watch.as_mut().map(|w| w as &mut Watch<'_>);
     let task = options.task("gradients", &[points.as_slice(), gradients.as_slice()]);
     let (flat, history) = minimise(start, task, options, &mut evaluate, watch, progress)?;
-    let (hidden, output) = architecture.layers(&flat);
+    let (hidden, output) = train.architecture().layers(&flat);
     let network = DenseNetwork::new(options.activation, scaling, mean, scale, hidden, output)
         .map_err(|reason| LearnError::NotConverged { reason })?;
     Ok((network, history))

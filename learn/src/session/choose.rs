@@ -78,7 +78,7 @@ fn process_options() -> GaussianProcessOptions {
     GaussianProcessOptions { largest: 300, ..GaussianProcessOptions::default() }
 }
 
-/// The best of every kind this build can fit: polynomials by cross-validation over five folds; the
+/// The best of every kind: polynomials by cross-validation over five folds; the
 /// best of them, a Gaussian process and networks, which cost more, on the first of the folds.
 fn automatic(
     request: &Request,
@@ -104,9 +104,7 @@ fn automatic(
     let square = x.norm_squared() / x.len().max(1) as f64;
     let least = rivals.iter().map(|r| r.2).fold(f64::INFINITY, f64::min);
     let mut remark = "";
-    if !neural::AVAILABLE {
-        remark = "; networks not tried: this build has none";
-    } else if least <= BEYOND_NETWORKS * square {
+    if least <= BEYOND_NETWORKS * square {
         remark = "; networks not tried: they come nowhere near";
     } else {
         for kind in [Kind::Network, Kind::Hybrid] {

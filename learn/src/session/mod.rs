@@ -31,9 +31,9 @@ pub enum Kind {
     Polynomial,
     /// A Gaussian process.
     GaussianProcess,
-    /// A network (feature `neural`).
+    /// A network.
     Network,
-    /// A quadratic polynomial and a network (feature `neural`).
+    /// A quadratic polynomial and a network.
     Hybrid,
 }
 

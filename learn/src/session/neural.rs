@@ -1,11 +1,13 @@
-//! Networks within a session, where the build has them.
+//! Networks within a session.
 
 use std::path::{Path, PathBuf};
 
 use super::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
+use crate::hybrid::fit_hybrid;
 use crate::model::Model;
+use crate::network::{Progress, TrainingOptions, fit_network};
 
 /// The network to train, and where its training keeps its state.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,26 +59,7 @@ pub(super) struct Trained {
     pub(super) history: Vec<f64>,
 }
 
-/// Whether this build trains networks.
-pub(super) const AVAILABLE: bool = cfg!(feature = "neural");
-
-#[cfg(not(feature = "neural"))]
-pub(super) fn train(
-    _request: &Request,
-    kind: Kind,
-    _data: &ReducedData,
-    _purpose: &str,
-    _progress: &mut dyn FnMut(usize, usize, f64),
-) -> Result<Trained, LearnError> {
-    Err(LearnError::InvalidOption {
-        option: "model",
-        value: format!("{kind:?}").to_lowercase(),
-        requirement: "this build has no networks; build with --features neural".into(),
-    })
-}
-
 /// Trains a network or a hybrid; `purpose` tells checkpoints apart.
-#[cfg(feature = "neural")]
 pub(super) fn train(
     request: &Request,
     kind: Kind,
@@ -84,7 +67,6 @@ pub(super) fn train(
     purpose: &str,
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<Trained, LearnError> {
-    use crate::network::{Progress, TrainingOptions, fit_network};
     let settings = &request.network;
     let name = if kind == Kind::Network { "network" } else { "hybrid" };
     let adam_steps = settings.evaluations / 3;
@@ -106,7 +88,7 @@ pub(super) fn train(
         Ok(Trained { model: Model::Network(network), name: format!("network {widths:?}"), history })
     } else {
         let degree = request.degree.unwrap_or(2);
-        let (model, history) = crate::hybrid::fit_hybrid(data, degree, &options, &mut tell)?;
+        let (model, history) = fit_hybrid(data, degree, &options, &mut tell)?;
         let name = format!("hybrid of degree {degree} and network {widths:?}");
         Ok(Trained { model, name, history })
     }

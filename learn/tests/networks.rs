@@ -1,16 +1,11 @@
-//! Networks trained with burn (feature `neural`): small ones, for the suite.
-#![cfg(feature = "neural")]
+//! Training networks: small ones, for the suite.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Cayley, Exponential, SO3};
+use coadjoint::{Cayley, SO3};
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
-use coadjoint_learn::network::{
-    Activation, LatentOptions, MomentumModel, TrainingOptions, fit_latent, fit_network,
-};
-use coadjoint_learn::truth::{
-    MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs, phase_pairs,
-};
-use coadjoint_learn::{Generating, evaluate, evaluate_momenta, fit_hybrid};
+use coadjoint_learn::network::{Activation, TrainingOptions, fit_network};
+use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+use coadjoint_learn::{Generating, evaluate, fit_hybrid};
 
 fn sample(count: usize, seed: u64) -> (PairRows<SO3>, ReducedData) {
     let group = SO3::new();
@@ -56,8 +51,13 @@ fn the_same_seed_gives_the_same_bits() {
 }
 
 /// Latent momenta and a network for them learn a Poisson map; the trivial answer is μ″ = μ′.
+#[cfg(feature = "neural")]
 #[test]
 fn latent_momenta_and_a_network_for_them_learn_a_poisson_map() {
+    use coadjoint::Exponential;
+    use coadjoint_learn::evaluate_momenta;
+    use coadjoint_learn::network::{LatentOptions, MomentumModel, fit_latent};
+    use coadjoint_learn::truth::{exact_momentum_flow, momentum_pairs};
     let group = SO3::new();
     let flow = |seed, count| {
         momentum_pairs(&group, MomentumBox::UNIT, count, seed, |mu| {
