@@ -17,18 +17,19 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     let mut report = options.report("harder-truths");
     let (group, body) = (SO3::new(), vec![1.0 / 1.5, 0.5, 0.4]);
     let quartic = Quartic { weights: body.clone(), quartic: vec![0.3, 0.1, 0.2] };
-    learn(options, &group, &quartic, "quartic H on so(3)*", 40, say, &mut report)?;
+    learn(options, &group, &quartic, ("quartic H on so(3)*", 0.1, 40), say, &mut report)?;
     let root = Relativistic { weights: body.clone(), ripple: 0.3 };
-    learn(options, &group, &root, "square-root H on so(3)*", 50, say, &mut report)?;
+    learn(options, &group, &root, ("square-root H on so(3)*", 0.1, 50), say, &mut report)?;
     let bump = Bump {
         weights: body,
         height: 1.5,
         sharpness: vec![1.2, 0.7, 0.9],
         centre: vec![0.5, -0.3, 0.8],
     };
-    learn(options, &group, &bump, "Gaussian bump H on so(3)*", 70, say, &mut report)?;
+    learn(options, &group, &bump, ("Gaussian bump H on so(3)*", 0.1, 70), say, &mut report)?;
+    learn(options, &group, &bump, ("Gaussian bump H on so(3)*", 0.4, 80), say, &mut report)?;
     let top = Quadratic::heavy_top([1.0, 1.2, 0.8], [0.1, 0.0, 0.4]);
-    learn(options, &SE3::new(), &top, "heavy top on se(3)*", 60, say, &mut report)?;
+    learn(options, &SE3::new(), &top, ("heavy top on se(3)*", 0.1, 60), say, &mut report)?;
     report.notes.push(
         "quartic: H = (1/2) sum w mu^2 + (1/4) sum v mu^4; square root: H = sqrt(1 + sum w mu^2) + \
          0.3 sin mu_1; bump: H = (1/2) sum w mu^2 + 1.5 exp(-(1/2) sum s (mu - c)^2); w = (1/1.5, \
@@ -36,9 +37,9 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
             .into(),
     );
     report.notes.push(
-        "for the square root S = dt H is nearly the answer: its angular velocity is bounded and \
-         almost all of H is a function of one quadratic, so S_3 is small; that row is knowledge of \
-         the truth, not learning"
+        "S = dt H is knowledge of the truth, not learning; it errs by O(dt^3). At dt = 0.1 no fit \
+         to samples comes near it for the square root, whose angular velocity is bounded, nor for \
+         the bump; at dt = 0.4 the comparison says something"
             .into(),
     );
     Ok(report)
@@ -48,8 +49,7 @@ fn learn<G, H>(
     options: &RunOptions,
     group: &G,
     truth: &H,
-    name: &str,
-    first_seed: u64,
+    (name, step, first_seed): (&str, f64, u64),
     say: &mut dyn FnMut(&str),
     report: &mut Report,
 ) -> Result<(), LearnError>
@@ -57,7 +57,7 @@ where
     G: DataGroup,
     H: MomentumFunction,
 {
-    let (step, count) = (0.1, options.pick(500, 150));
+    let count = options.pick(500, 150);
     let title = format!("{name}, dt = {step}, {count} samples, momenta in [-2, 2]^n, exponential");
     if report.has(&title) {
         return Ok(());
