@@ -72,8 +72,8 @@ fn ready_integrators_reach_the_references() -> Result<(), StepError> {
             7e-7,
         ),
         (error("three-wave", 200, |h| ThreeWaveInteraction::new(h, [2.5, 0.5, 1.5]))?, 5e-5),
-        (error("toda-lattice", 200, TodaLattice::new)?, 1e-9),
-        (error("zeitlin-5", 200, ZeitlinVorticity5::new)?, 1e-4),
+        (error("toda-lattice", 200, TodaLattice::new)?, 2e-11),
+        (error("zeitlin-5", 200, ZeitlinVorticity5::new)?, 4e-7),
         (error("heisenberg-spin-ring", 200, |h| HeisenbergSpinRing::new(h, 1.0, 0.3, 0.5))?, 3e-5),
     ];
     for (error, bound) in found {
