@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
 
+use crate::ensemble::Shard;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
@@ -30,6 +31,8 @@ pub enum Verb {
     Emit(EmitOptions),
     /// Run the system and report how well momentum, Casimirs and energy are kept
     Simulate(SimulateOptions),
+    /// Advance many states at once, from a file to a file
+    Ensemble(EnsembleOptions),
     /// Try the laws of the method on this system, at random points
     Check(CheckOptions),
     /// Find the polynomial Casimirs of the system's algebra
@@ -186,6 +189,43 @@ pub struct SimulateOptions {
     /// The relative and absolute tolerance of the method beside it
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
     pub compare_tolerance: f64,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Options of `ensemble`.
+#[derive(Args, Debug)]
+pub struct EnsembleOptions {
+    /// The system.
+    #[command(flatten)]
+    pub source: Source,
+    /// The states at the start, .csv, .npy or .parquet: columns mu_1 … mu_n, and if you like the
+    /// attitude, g_11 … g_dd or q_w, q_x, q_y, q_z
+    #[arg(long, value_name = "FILE")]
+    pub initial: PathBuf,
+    /// Write the states at the end, in the same columns, as .csv, .npy or .parquet. A row that
+    /// fails is NaN there and listed in FILE.rejected.csv
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// The step size h
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// The duration T
+    #[arg(long, value_name = "T")]
+    pub time: Option<f64>,
+    /// Only share i of n of the rows, i from 1 to n: for job arrays
+    #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]
+    pub shard: Shard,
+    /// How many threads; all processors if not given. The result is the same
+    #[arg(long, value_name = "n")]
+    pub threads: Option<usize>,
+    /// Begin anew, whatever an earlier run that was stopped has written
+    #[arg(long)]
+    pub restart: bool,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,

@@ -10,6 +10,7 @@ mod check;
 mod derive;
 mod emit;
 mod engine;
+mod ensemble;
 mod error;
 mod geometrize;
 mod learn;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         Verb::Derive(options) => derive::run(&options),
         Verb::Emit(options) => emit::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
+        Verb::Ensemble(options) => ensemble::run(&options),
         Verb::Check(options) => check::run(&options),
         Verb::Casimirs(options) => casimirs::run(&options),
         Verb::Learn(options) => learn::run(&options),

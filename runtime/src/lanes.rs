@@ -17,8 +17,8 @@ use crate::so3_matrix::SO3Matrix;
 use crate::su2::SU2;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
-/// A group over `f64` that exists over lanes too.
-pub trait LaneGroup: LieGroup<Scalar = f64> {
+/// A group that exists over lanes and is known to the compiler: nothing but its type is needed.
+pub trait FixedLaneGroup: LieGroup<Scalar = f64> {
     /// The same group over lanes.
     type Over<L: Scalar + SimdValue<Element = f64>>: LieGroup<Scalar = L> + FixedDimension + Default;
 
@@ -39,6 +39,63 @@ pub trait LaneGroup: LieGroup<Scalar = f64> {
     ) -> Phase<Self>;
 }
 
+/// A group over `f64` that exists over lanes too: those known to the compiler, and those known at
+/// run time.
+pub trait LaneGroup: LieGroup<Scalar = f64> {
+    /// The same group over lanes.
+    type Over<L: Scalar + SimdValue<Element = f64>>: LieGroup<Scalar = L>;
+
+    /// This group over lanes.
+    fn over<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L>;
+
+    /// A phase point with `phase` in every lane.
+    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>>;
+
+    /// Puts `phase` into lane `lane`.
+    fn insert<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &mut Phase<Self::Over<L>>,
+        lane: usize,
+        phase: &Phase<Self>,
+    );
+
+    /// Takes out lane `lane`.
+    fn extract<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &Phase<Self::Over<L>>,
+        lane: usize,
+    ) -> Phase<Self>;
+}
+
+impl<G: FixedLaneGroup> LaneGroup for G {
+    type Over<L: Scalar + SimdValue<Element = f64>> = <G as FixedLaneGroup>::Over<L>;
+
+    #[inline(always)]
+    fn over<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L> {
+        Default::default()
+    }
+
+    #[inline(always)]
+    fn splat<L: Scalar + SimdValue<Element = f64>>(phase: &Phase<Self>) -> Phase<Self::Over<L>> {
+        <G as FixedLaneGroup>::splat::<L>(phase)
+    }
+
+    #[inline(always)]
+    fn insert<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &mut Phase<Self::Over<L>>,
+        lane: usize,
+        phase: &Phase<Self>,
+    ) {
+        <G as FixedLaneGroup>::insert::<L>(lanes, lane, phase);
+    }
+
+    #[inline(always)]
+    fn extract<L: Scalar + SimdValue<Element = f64>>(
+        lanes: &Phase<Self::Over<L>>,
+        lane: usize,
+    ) -> Phase<Self> {
+        <G as FixedLaneGroup>::extract::<L>(lanes, lane)
+    }
+}
+
 /// An integrator over `f64` that can be had over lanes: what the attribute generates.
 ///
 /// A lane computes the same bits as the scalar integrator.
@@ -52,10 +109,10 @@ pub trait Lanes: GeneratingFunction<Group: LaneGroup> {
     fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L>;
 }
 
-/// [`LaneGroup`] for groups whose elements and vectors are nalgebra types over the scalar.
+/// [`FixedLaneGroup`] for groups whose elements and vectors are nalgebra types over the scalar.
 macro_rules! lane_group {
     ($(($($generics:tt)*) $group:ty => $lane:ident: $over:ty;)*) => {$(
-        impl<$($generics)*> LaneGroup for $group {
+        impl<$($generics)*> FixedLaneGroup for $group {
             type Over<$lane: Scalar + SimdValue<Element = f64>> = $over;
 
             #[inline(always)]
@@ -131,9 +188,9 @@ fn put_copy<G, const COPIES: usize, const N: usize>(
     phase.group_element[copy] = part.group_element;
 }
 
-impl<G, const COPIES: usize, const N: usize> LaneGroup for Power<G, COPIES, N>
+impl<G, const COPIES: usize, const N: usize> FixedLaneGroup for Power<G, COPIES, N>
 where
-    G: LaneGroup + FixedDimension + Default,
+    G: FixedLaneGroup + FixedDimension + Default,
 {
     type Over<L: Scalar + SimdValue<Element = f64>> = Power<G::Over<L>, COPIES, N>;
 
@@ -209,10 +266,10 @@ where
     Phase { group_element: (left.group_element, right.group_element), momentum }
 }
 
-impl<A, B, const N: usize> LaneGroup for Product<A, B, N>
+impl<A, B, const N: usize> FixedLaneGroup for Product<A, B, N>
 where
-    A: LaneGroup + FixedDimension + Default,
-    B: LaneGroup + FixedDimension + Default,
+    A: FixedLaneGroup + FixedDimension + Default,
+    B: FixedLaneGroup + FixedDimension + Default,
 {
     type Over<L: Scalar + SimdValue<Element = f64>> = Product<A::Over<L>, B::Over<L>, N>;
 

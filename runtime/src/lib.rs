@@ -187,7 +187,7 @@ pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 pub use group::{CayleyGroup, FixedDimension, LieGroup};
 pub use heisenberg::Heisenberg;
 pub use kicked::Kicked;
-pub use lanes::{F64x4, F64x8, LaneGroup, Lanes};
+pub use lanes::{F64x4, F64x8, FixedLaneGroup, LaneGroup, Lanes};
 pub use monitor::{Drift, Monitor};
 pub use phase::Phase;
 #[cfg(feature = "alloc")]
@@ -210,4 +210,6 @@ pub use table::{
     StaticTables, StructureConstant, TableGroup, Tables,
 };
 #[cfg(feature = "alloc")]
-pub use table::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};
+pub use table::{
+    CayleyMatrixGroup, DynamicLaneTables, DynamicTables, MatrixGroup, TableError, Terms,
+};

@@ -1,28 +1,42 @@
 //! A generating function run by the interpreter.
 
-use std::cell::RefCell;
 use std::marker::PhantomData;
 
-use coadjoint::{Chart, GeneratingFunction, StepError};
-use coadjoint_codegen::graph::Program;
+use coadjoint::{
+    Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Scalar, ScalarOf, StepError,
+    VectorOf,
+};
+use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::Integrator;
-use nalgebra::{DMatrix, DVector};
 
-use super::Group;
-
-/// The truncated series of an integrator for one step size, on a run-time group.
-#[derive(Debug)]
-pub struct Interpreter<'a, G, C> {
-    integrator: &'a Integrator,
-    group: G,
-    /// The folded coefficients C_m(h).
-    slots: Vec<f64>,
-    /// Reused between evaluations.
-    scratch: RefCell<Vec<f64>>,
-    chart: PhantomData<C>,
+/// What a program computed.
+struct Outputs<'s, T> {
+    nodes: &'s [T],
+    ids: &'s [Id],
 }
 
-impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
+impl<T: Copy> Outputs<'_, T> {
+    #[inline(always)]
+    fn get(&self, i: usize) -> T {
+        self.nodes[self.ids[i].index()]
+    }
+}
+
+/// The truncated series of an integrator for one step size, on any group with its algebra.
+#[derive(Clone, Debug)]
+pub struct Interpreter<'a, G, C> {
+    pub(super) integrator: &'a Integrator,
+    pub(super) group: G,
+    /// The folded coefficients C_m(h).
+    pub(super) slots: Vec<f64>,
+    /// The bound on what the Newton program leaves out of the Hessian, by degree.
+    pub(super) defect: Vec<f64>,
+    /// Whether H_red is of degree two or less.
+    pub(super) quadratic: bool,
+    pub(super) chart: PhantomData<C>,
+}
+
+impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
         if step == 0.0 || !step.is_finite() {
@@ -32,18 +46,58 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
         let symbols: Vec<f64> =
             integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
         let slots = integrator.coefficients.fold(step, &symbols);
-        let scratch = RefCell::new(Vec::new());
-        Ok(Self { integrator, group, slots, scratch, chart: PhantomData })
+        let mut defect = vec![0.0; integrator.defect_len()];
+        for term in &integrator.defect {
+            defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
+        }
+        let quadratic = integrator.is_quadratic();
+        Ok(Self { integrator, group, slots, defect, quadratic, chart: PhantomData })
     }
 
-    fn run(&self, program: &Program, p: &DVector<f64>, outputs: usize) -> Vec<f64> {
-        let mut result = vec![0.0; outputs];
-        program.run(p.as_slice(), &self.slots, &mut self.scratch.borrow_mut(), &mut result);
-        result
+    /// Evaluates a program and hands its outputs to `read`.
+    #[inline(always)]
+    fn run<R>(
+        &self,
+        program: &Program,
+        p: &G::Vector,
+        read: impl FnOnce(Outputs<'_, G::Scalar>) -> R,
+    ) -> R {
+        let mut scratch = Vec::new();
+        program.evaluate(|i| p[i], |i| G::Scalar::of(self.slots[i]), &mut scratch);
+        read(Outputs { nodes: &scratch, ids: program.outputs() })
+    }
+
+    fn scalar(&self, program: &Program, p: &G::Vector) -> G::Scalar {
+        self.run(program, p, |output| output.get(0))
+    }
+
+    #[inline(always)]
+    fn vector(&self, program: &Program, p: &G::Vector) -> G::Vector {
+        self.run(program, p, |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
+    }
+
+    #[inline(always)]
+    fn gradient_and_matrix(
+        &self,
+        program: &Program,
+        p: &G::Vector,
+    ) -> (G::Vector, <G::Vector as Coordinates<G::Scalar>>::Matrix) {
+        let n = p.dim();
+        self.run(program, p, |output| {
+            let mut matrix = G::Vector::zero_matrix(n);
+            // The upper triangle, row by row.
+            let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+            for (number, (i, j)) in places.enumerate() {
+                let value = output.get(n + number);
+                matrix[(i, j)] = value;
+                matrix[(j, i)] = value;
+            }
+            (G::Vector::from_entries(n, |i| output.get(i)), matrix)
+        })
     }
 }
 
-impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
     type Group = G;
     type Chart = C;
 
@@ -51,29 +105,40 @@ impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
         &self.group
     }
 
-    fn value(&self, p: &DVector<f64>) -> f64 {
-        self.run(&self.integrator.value, p, 1)[0]
+    fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        self.scalar(&self.integrator.value, p)
     }
 
-    fn gradient(&self, p: &DVector<f64>) -> DVector<f64> {
-        DVector::from_vec(self.run(&self.integrator.gradient, p, p.len()))
+    fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        self.vector(&self.integrator.gradient, p)
     }
 
-    fn gradient_and_hessian(&self, p: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
-        let n = p.len();
-        let values = self.run(&self.integrator.hessian, p, n + n * (n + 1) / 2);
-        let (gradient, triangle) = values.split_at(n);
-        let mut hessian = DMatrix::zeros(n, n);
-        // The upper triangle, row by row.
-        let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-        for ((i, j), &value) in places.zip(triangle) {
-            hessian[(i, j)] = value;
-            hessian[(j, i)] = value;
+    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        self.gradient_and_matrix(&self.integrator.hessian, p)
+    }
+
+    #[inline(always)]
+    fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
+        self.vector(&self.integrator.predictor, mu)
+    }
+
+    #[inline(always)]
+    fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        self.gradient_and_matrix(self.integrator.newton_program(), p)
+    }
+
+    #[inline(always)]
+    fn bend(&self, x: ScalarOf<Self>) -> ScalarOf<Self> {
+        // As generated code has it: a quarter of |x|² is ample for quadratic Hamiltonians.
+        if self.quadratic { x * x * Scalar::of(0.25) } else { Scalar::of(1.0) }
+    }
+
+    #[inline(always)]
+    fn hessian_defect(&self, size: ScalarOf<Self>) -> ScalarOf<Self> {
+        let mut sum = ScalarOf::<Self>::of(0.0);
+        for &coefficient in self.defect.iter().rev() {
+            sum = sum.times_plus(size, Scalar::of(coefficient));
         }
-        (DVector::from_column_slice(gradient), hessian)
-    }
-
-    fn predict(&self, mu: &DVector<f64>) -> DVector<f64> {
-        DVector::from_vec(self.run(&self.integrator.predictor, mu, mu.len()))
+        sum
     }
 }

@@ -3,6 +3,7 @@
 mod group;
 mod interpreter;
 mod kick;
+mod lanes;
 mod polynomial;
 
 pub use group::matrix_group;

@@ -17,6 +17,7 @@ use crate::engine::{Energy, Forces, matrix_group};
 use crate::error::CliError;
 use crate::{load, model};
 use setup::Setup;
+pub use setup::schedule;
 use task::Task;
 
 /// Follows a learned map, which has its own step.

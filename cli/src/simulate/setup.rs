@@ -1,6 +1,6 @@
 //! Where a run starts, how far it goes, and in which steps.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::system::Run;
 use nalgebra::DVector;
@@ -11,6 +11,34 @@ use crate::error::CliError;
 
 /// The most steps of a run: beyond, the time is surely a slip.
 const MOST_STEPS: f64 = 1e12;
+
+/// The step size h and how many steps reach the time T: of the options, else of the file.
+pub fn schedule(
+    file: &Path,
+    step: Option<f64>,
+    time: Option<f64>,
+    run: &Run,
+) -> Result<(f64, u64), CliError> {
+    let missing =
+        |key, example, option| CliError::Missing { file: file.into(), key, example, option };
+    let step = step.or(run.step);
+    let step = step.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
+    let time = time.or(run.time);
+    let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
+    let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
+    if step == 0.0 || !step.is_finite() {
+        return refuse("--step must be finite and other than zero; try --step 0.1");
+    }
+    if time <= 0.0 || !time.is_finite() {
+        return refuse("--time must be finite and positive; try --time 100");
+    }
+    // Rounding of T/h must not add a step.
+    let steps = (time / step.abs() * (1.0 - 1e-12)).ceil().max(1.0);
+    if steps > MOST_STEPS {
+        return refuse("more than 1e12 steps; take a larger --step or a smaller --time");
+    }
+    Ok((step, steps as u64))
+}
 
 /// The settings of a run, from the file and the options that replace them.
 #[derive(Clone, Debug)]
@@ -37,20 +65,11 @@ impl Setup {
             example,
             option,
         };
-        let step = options.step.or(run.step);
-        let step = step.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
-        let time = options.time.or(run.time);
-        let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
+        let (step, steps) = schedule(&file, options.step, options.time, run)?;
         let momentum = run.momentum.clone().ok_or_else(|| {
             missing("[initial] momentum", "momentum = [2.0, 0.5, 1.0]", "another file")
         })?;
         let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
-        if step == 0.0 || !step.is_finite() {
-            return refuse("--step must be finite and other than zero; try --step 0.1");
-        }
-        if time <= 0.0 || !time.is_finite() {
-            return refuse("--time must be finite and positive; try --time 100");
-        }
         let every = options.every.or(run.every).unwrap_or(1);
         if every == 0 {
             return refuse("--every counts steps from 1; try --every 1");
@@ -58,15 +77,10 @@ impl Setup {
         if momentum.len() != dim {
             return refuse("the momentum does not fit the group");
         }
-        // Rounding of T/h must not add a step.
-        let steps = (time / step.abs() * (1.0 - 1e-12)).ceil().max(1.0);
-        if steps > MOST_STEPS {
-            return refuse("more than 1e12 steps; take a larger --step or a smaller --time");
-        }
         Ok(Self {
             file,
             step,
-            steps: steps as u64,
+            steps,
             every: every as u64,
             momentum: DVector::from_vec(momentum),
             group_element: run.group_element.clone(),

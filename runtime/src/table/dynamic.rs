@@ -449,6 +449,13 @@ fn check_structure(dim: usize, structure: &[StructureConstant]) -> Result<(), Ta
     Ok(())
 }
 
+impl<const CAYLEY: bool> DynamicTables<CAYLEY> {
+    /// The terms of Casimir number `index`; none for an index out of range.
+    pub(super) fn casimir_terms(&self, index: usize) -> &[(f64, Vec<(usize, u32)>)] {
+        self.casimirs.get(index).map(Vec::as_slice).unwrap_or_default()
+    }
+}
+
 impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     type Scalar = f64;
     type Vector = DVector<f64>;
@@ -495,8 +502,10 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     }
 
     fn casimir(&self, index: usize, mu: &DVector<f64>) -> f64 {
-        let terms = self.casimirs.get(index).map(Vec::as_slice).unwrap_or_default();
-        terms.iter().map(|(c, factors)| monomial::<f64, _>(*c, factors, mu)).sum()
+        self.casimir_terms(index)
+            .iter()
+            .map(|(c, factors)| monomial::<f64, _>(*c, factors, mu))
+            .sum()
     }
 }
 

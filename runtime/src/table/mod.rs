@@ -7,6 +7,8 @@ mod cayley;
 mod dynamic;
 mod fixed;
 mod group;
+#[cfg(feature = "alloc")]
+mod lanes;
 mod linear;
 mod logarithm;
 mod membership;
@@ -17,3 +19,5 @@ pub use cayley::CayleyTables;
 pub use dynamic::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};
 pub use fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup, StaticTables};
 pub use group::TableGroup;
+#[cfg(feature = "alloc")]
+pub use lanes::DynamicLaneTables;

@@ -1,0 +1,118 @@
+//! CSV with a header of column names.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use ::csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
+
+use super::{Input, damaged, unread};
+use crate::ensemble::layout::{Layout, Shape};
+use crate::ensemble::rows::Rows;
+use crate::error::CliError;
+
+/// A CSV file; blanks around cells and lines that begin with # are passed over.
+pub struct CsvInput {
+    path: PathBuf,
+    reader: Reader<BufReader<File>>,
+    layout: Layout,
+    /// The cell of each column.
+    places: Vec<usize>,
+    /// Cells of a whole row.
+    cells: usize,
+    total: u64,
+    /// The number of the next row, from 0.
+    next: u64,
+    record: ByteRecord,
+}
+
+impl CsvInput {
+    /// Reads the header and counts the rows.
+    pub fn open(path: &Path, shape: Shape) -> Result<Self, CliError> {
+        let mut reader = reader(path)?;
+        let header = reader.headers().map_err(|error| damaged(path, error))?;
+        let header: Vec<String> = header.iter().map(Into::into).collect();
+        let (layout, places) = Layout::find(shape, &header)?;
+        let mut record = ByteRecord::new();
+        let mut total = 0;
+        let mut counter = self::reader(path)?;
+        while counter.read_byte_record(&mut record).map_err(|error| damaged(path, error))? {
+            total += 1;
+        }
+        let cells = header.len();
+        Ok(Self { path: path.into(), reader, layout, places, cells, total, next: 0, record })
+    }
+
+    /// Adds the numbers of the record at hand, or says which cell is none.
+    fn numbers(&self, values: &mut Vec<f64>) -> Result<(), String> {
+        if self.record.len() != self.cells {
+            return Err(format!("{} cells instead of {}", self.record.len(), self.cells));
+        }
+        for (&place, column) in self.places.iter().zip(0..) {
+            let cell = self.record.get(place).unwrap_or_default();
+            let number = std::str::from_utf8(cell).ok().and_then(|text| text.parse().ok());
+            values.push(number.ok_or_else(|| {
+                let name = self.layout.names().swap_remove(column);
+                format!("{name}: {:?} is no number", String::from_utf8_lossy(cell))
+            })?);
+        }
+        Ok(())
+    }
+}
+
+fn reader(path: &Path) -> Result<Reader<BufReader<File>>, CliError> {
+    let file = File::open(path).map_err(unread(path))?;
+    // Flexible: a row with too few or too many cells is a bad row, not the end.
+    let mut builder = ReaderBuilder::new();
+    let builder = builder.trim(Trim::All).comment(Some(b'#')).flexible(true);
+    Ok(builder.from_reader(BufReader::with_capacity(1 << 18, file)))
+}
+
+impl Input for CsvInput {
+    fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    fn total(&self) -> u64 {
+        self.total
+    }
+
+    fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), CliError> {
+        if let Some(byte) = position {
+            let mut at = Position::new();
+            at.set_byte(byte);
+            self.reader.seek(at).map_err(|error| damaged(&self.path, error))?;
+            self.next = row;
+        }
+        while self.next < row {
+            self.reader
+                .read_byte_record(&mut self.record)
+                .map_err(|error| damaged(&self.path, error))?;
+            self.next += 1;
+        }
+        Ok(())
+    }
+
+    fn position(&self) -> u64 {
+        self.reader.position().byte()
+    }
+
+    fn read(&mut self, count: usize, rows: &mut Rows) -> Result<(), CliError> {
+        for _ in 0..count {
+            let more = self
+                .reader
+                .read_byte_record(&mut self.record)
+                .map_err(|error| damaged(&self.path, error))?;
+            if !more {
+                return Err(damaged(&self.path, "it has become shorter while it was read"));
+            }
+            self.next += 1;
+            let length = rows.values.len();
+            if let Err(reason) = self.numbers(&mut rows.values) {
+                rows.values.truncate(length);
+                rows.reject(self.next, self.layout.width(), reason);
+            }
+        }
+        Ok(())
+    }
+}

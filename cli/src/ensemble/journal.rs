@@ -1,0 +1,133 @@
+//! How far a run has come: what a restart needs.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::engine::Drift;
+use super::output::{beside, rename, unwritten};
+use crate::error::CliError;
+
+/// What the run is, in words; a restart must agree in every one.
+pub type Identity = BTreeMap<String, String>;
+
+/// The state of a run. Everything it counts is on the disk before it is.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Journal {
+    /// What the run is.
+    pub identity: Identity,
+    /// Rows written.
+    pub rows: u64,
+    /// Bytes of the output so far.
+    pub output: u64,
+    /// Bytes of the list of rejected rows so far.
+    pub rejected_bytes: u64,
+    /// Rejected rows so far.
+    pub rejected: u64,
+    /// Where the next row begins in the input.
+    pub position: u64,
+    /// The largest drift of J_L so far, as bits.
+    pub spatial_momentum: u64,
+    /// The largest drift of Casimirs so far, as bits.
+    pub casimirs: u64,
+    /// Whether all is written and only names are to be changed.
+    pub complete: bool,
+}
+
+impl Journal {
+    /// The journal at `path`; `None` where there is none.
+    pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
+        match fs::read_to_string(path) {
+            Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| {
+                CliError::Option(format!(
+                    "{} is no journal of this version ({error}); begin anew with --restart",
+                    path.display()
+                ))
+            }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(source) => Err(CliError::Read { path: path.into(), source }),
+        }
+    }
+
+    /// Writes it: the old journal or the new one, never a piece.
+    pub fn write(&self, path: &Path) -> Result<(), CliError> {
+        let next = beside(path, ".next");
+        let text = serde_json::to_string(self).map_err(|error| unwritten(path, &error))?;
+        let write = || -> std::io::Result<()> {
+            let mut file = File::create(&next)?;
+            file.write_all(text.as_bytes())?;
+            file.sync_data()
+        };
+        write().map_err(|error| unwritten(&next, &error))?;
+        rename(&next, path)
+    }
+
+    /// Refuses to go on with a run that is another.
+    pub fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
+        for key in self.identity.keys().chain(identity.keys()) {
+            let [was, is] = [&self.identity, identity].map(|i| i.get(key));
+            if was != is {
+                let said =
+                    |value: Option<&String>| value.map_or("nothing", String::as_str).to_owned();
+                return Err(CliError::Option(format!(
+                    "{} is of a run with another {key}: {} then, {} now; go on as then, or begin \
+                     anew with --restart",
+                    path.display(),
+                    said(was),
+                    said(is)
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The largest drifts so far.
+    pub fn drift(&self) -> Drift {
+        Drift {
+            spatial_momentum: f64::from_bits(self.spatial_momentum),
+            casimirs: f64::from_bits(self.casimirs),
+        }
+    }
+
+    /// Takes note of drifts.
+    pub fn raise(&mut self, drift: Drift) {
+        let drift = self.drift().max(drift);
+        self.spatial_momentum = drift.spatial_momentum.to_bits();
+        self.casimirs = drift.casimirs.to_bits();
+    }
+}
+
+/// Bytes read in one piece to recognise a file.
+const PIECE: u64 = 1 << 20;
+/// Pieces looked at.
+const PIECES: u64 = 64;
+
+/// The length of a file and a hash (FNV-1a, 64 bits) of it: of all of it up to 64 MiB, beyond of 64
+/// pieces of 1 MiB from beginning to end.
+pub fn fingerprint(path: &Path) -> Result<String, CliError> {
+    let hash = || -> std::io::Result<String> {
+        let mut file = File::open(path)?;
+        let length = file.metadata()?.len();
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut piece = Vec::new();
+        for number in 0..length.div_ceil(PIECE).min(PIECES) {
+            // Whole files piece by piece; large ones at even distances, the last piece last.
+            let start = if length <= PIECE * PIECES {
+                number * PIECE
+            } else {
+                (length - PIECE) / (PIECES - 1) * number
+            };
+            file.seek(SeekFrom::Start(start))?;
+            piece.clear();
+            Read::by_ref(&mut file).take(PIECE).read_to_end(&mut piece)?;
+            for &byte in &piece {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            }
+        }
+        Ok(format!("{length} bytes, {hash:016x}"))
+    };
+    hash().map_err(|source| CliError::Read { path: path.into(), source })
+}

@@ -1,0 +1,84 @@
+//! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
+//! states.
+
+mod engine;
+mod input;
+mod journal;
+mod layout;
+mod output;
+#[cfg(feature = "parquet")]
+mod parquet_file;
+mod report;
+mod rows;
+mod run;
+mod shard;
+
+pub use shard::Shard;
+
+use std::path::Path;
+
+use coadjoint_codegen::system::{Parameters, System};
+
+use crate::arguments::EnsembleOptions;
+use crate::error::CliError;
+use crate::{load, simulate};
+use journal::{Identity, fingerprint};
+use run::Job;
+
+/// Reads, advances and writes.
+pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
+    let path = &options.source.file;
+    let System { problem, run } =
+        load::source(&options.source, options.truncation, Parameters::Substituted)?;
+    let (step, steps) = simulate::schedule(path, options.step, options.time, &run)?;
+    if same_file(&options.initial, &options.out) {
+        return Err(CliError::Option("--out must be another file than --initial".into()));
+    }
+    // Refused before the derivation, which may take long.
+    output::Form::of(&options.out)?;
+    let integrator = load::integrator(path, problem)?;
+    let engine = engine::engine(path, &integrator, step)?;
+    let input = input::open(&options.initial, engine.shape())?;
+    let range = options.shard.rows(input.total());
+    let problem = &integrator.problem;
+    let identity: Identity = [
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("system file", fingerprint(path)?),
+        ("initial file", fingerprint(&options.initial)?),
+        ("truncation", problem.truncation.to_string()),
+        ("chart", problem.chart.to_string()),
+        ("step", step.to_string()),
+        ("number of steps", steps.to_string()),
+        ("shard", options.shard.to_string()),
+    ]
+    .map(|(key, value)| (key.to_owned(), value))
+    .into();
+    let job = Job {
+        engine: engine.as_ref(),
+        input,
+        out: options.out.clone(),
+        range,
+        steps,
+        identity,
+        restart: options.restart,
+    };
+    if let Some(threads) = options.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|error| CliError::Option(format!("--threads {threads}: {error}")))?;
+    }
+    let outcome = run::run(job)?;
+    let text =
+        report::report(&outcome, &integrator, step, steps, engine.casimirs(), options.format);
+    print!("{text}");
+    Ok(())
+}
+
+/// Whether two names mean one file.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}

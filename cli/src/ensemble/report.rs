@@ -1,0 +1,73 @@
+//! What an ensemble did, for people and for programs.
+
+use std::fmt::Write;
+
+use coadjoint_codegen::integrator::Integrator;
+use serde_json::json;
+
+use super::run::Outcome;
+use crate::arguments::Format;
+
+/// The text to print.
+pub fn report(
+    outcome: &Outcome,
+    integrator: &Integrator,
+    step: f64,
+    steps: u64,
+    casimirs: usize,
+    format: Format,
+) -> String {
+    let truncation = integrator.problem.truncation;
+    let chart = integrator.problem.chart;
+    let drift = outcome.drift;
+    if format == Format::Json {
+        let first = outcome.first.iter();
+        let first: Vec<_> =
+            first.map(|r| json!({ "row": r.row, "step": r.step, "reason": r.reason })).collect();
+        let value = json!({
+            "trajectories": outcome.trajectories,
+            "resumed_at": outcome.resumed,
+            "failed": outcome.failed,
+            "first_failed": first,
+            "rejected": outcome.list,
+            "truncation": truncation,
+            "chart": chart.to_string(),
+            "step": step,
+            "steps": steps,
+            "drift": {
+                "spatial_momentum": drift.spatial_momentum,
+                "casimirs": drift.casimirs,
+            },
+            "seconds": outcome.seconds,
+        });
+        return format!("{value:#}\n");
+    }
+    let mut out = String::new();
+    // Writing into a string cannot fail.
+    let _ = writeln!(
+        out,
+        "K = {truncation}, {chart}: {} trajectories of {steps} steps of {step}",
+        outcome.trajectories
+    );
+    if outcome.resumed > 0 {
+        let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
+    }
+    let _ = writeln!(out, "  failed           {:>10}", outcome.failed);
+    for rejected in &outcome.first {
+        let _ = match rejected.step {
+            0 => writeln!(out, "    row {}: {}", rejected.row, rejected.reason),
+            step => writeln!(out, "    row {}, step {step}: {}", rejected.row, rejected.reason),
+        };
+    }
+    if let Some(list) = &outcome.list {
+        let _ = writeln!(out, "    all of them are in {}", list.display());
+    }
+    let _ = writeln!(out, "  largest relative drift");
+    let _ = writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum);
+    let _ = match casimirs {
+        0 => writeln!(out, "    Casimirs         none known"),
+        count => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
+    };
+    let _ = writeln!(out, "  {:.1} s", outcome.seconds);
+    out
+}

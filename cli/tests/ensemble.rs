@@ -1,0 +1,342 @@
+//! `ensemble`: the end states of `simulate`, whatever the threads, shards, formats and accidents.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+use support::{json, root, run};
+use tempfile::TempDir;
+
+const BODY: &str = "examples/rigid_body.toml";
+
+/// Momenta of one file: no two rows alike.
+fn momenta(rows: usize) -> String {
+    let mut text = "mu_1,mu_2,mu_3\n".to_owned();
+    for row in 0..rows {
+        let x = row as f64 / rows as f64;
+        text += &format!("{},{},{}\n", 2.0 - x, 0.5 + 0.3 * x * x, 1.0 + x);
+    }
+    text
+}
+
+fn at(directory: &TempDir, name: &str) -> String {
+    directory.path().join(name).to_str().unwrap().to_owned()
+}
+
+fn written(directory: &TempDir, name: &str, text: &str) -> String {
+    let path = at(directory, name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// Runs an ensemble of the rigid body.
+fn ensemble(initial: &str, out: &str, more: &[&str]) -> Value {
+    let mut arguments = vec!["ensemble", BODY, "--initial", initial, "--out", out];
+    arguments.extend(["--format", "json"]);
+    arguments.extend(more);
+    json(&arguments)
+}
+
+fn bytes(path: &str) -> Vec<u8> {
+    std::fs::read(path).unwrap()
+}
+
+/// The names of a directory that tell of an unfinished run.
+fn left_over(directory: &TempDir) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(directory.path()).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let of_a_run = |path: &PathBuf| {
+        let name = path.to_string_lossy().into_owned();
+        name.contains(".partial") || name.contains(".journal")
+    };
+    paths.filter(of_a_run).collect()
+}
+
+/// A row with an attitude ends where `simulate` ends, to the rounding in which its group of tables
+/// differs from the closed forms.
+#[test]
+fn a_row_ends_where_simulate_ends() {
+    let directory = TempDir::new().unwrap();
+    let names = "mu_1,mu_2,mu_3,g_11,g_12,g_13,g_21,g_22,g_23,g_31,g_32,g_33";
+    let row = "2.0,0.5,1.0,1,0,0,0,1,0,0,0,1";
+    let initial = written(&directory, "in.csv", &format!("{names}\n{row}\n"));
+    let out = at(&directory, "out.csv");
+    let summary = ensemble(&initial, &out, &[]);
+    assert_eq!(summary["trajectories"], 1);
+    assert_eq!(summary["steps"], 1000);
+    assert!(summary["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-12);
+    assert!(summary["drift"]["casimirs"].as_f64().unwrap() < 1e-12);
+    let end = String::from_utf8(bytes(&out)).unwrap();
+    let (header, end) = end.split_once('\n').unwrap();
+    assert_eq!(header, names);
+    let end: Vec<f64> = end.trim().split(',').map(|cell| cell.parse().unwrap()).collect();
+    let single = json(&["simulate", BODY, "--format", "json"]);
+    let mut expected = support::numbers(&single["momentum"]);
+    for row in single["group_element"].as_array().unwrap() {
+        expected.extend(support::numbers(row));
+    }
+    for (a, b) in end.iter().zip(&expected) {
+        assert!((a - b).abs() < 1e-11, "{end:?}\n{expected:?}");
+    }
+}
+
+/// SE(3) in closed form, SO(4) and a power of SO(3) by tables, and the Cayley chart: every engine
+/// gives what `simulate` gives.
+#[test]
+fn every_kind_of_group_and_chart_runs() {
+    let directory = TempDir::new().unwrap();
+    for (file, chart) in [
+        ("examples/heavy_top.toml", "exp"),
+        ("examples/heavy_top.toml", "cayley"),
+        ("examples/manakov_so4.toml", "exp"),
+        ("examples/manakov_so4.toml", "cayley"),
+        ("examples/rigid_body.toml", "cayley"),
+        ("examples/heisenberg_spin_ring.toml", "exp"),
+        ("examples/so21_by_brackets.toml", "exp"),
+    ] {
+        let text = std::fs::read_to_string(root().join(file)).unwrap();
+        let line = text.lines().find(|line| line.starts_with("momentum")).unwrap();
+        let list = line.split(['[', ']']).nth(1).unwrap();
+        let cells: Vec<&str> = list.split(',').map(str::trim).collect();
+        let names: Vec<String> = (1..=cells.len()).map(|i| format!("mu_{i}")).collect();
+        let csv = format!("{}\n{}\n", names.join(","), cells.join(","));
+        let initial = written(&directory, "in.csv", &csv);
+        let out = at(&directory, "out.csv");
+        let common = ["--chart", chart, "--truncation", "3", "--time", "0.5", "--step", "0.05"];
+        let mut arguments = vec!["ensemble", file, "--initial", &initial, "--out", &out];
+        arguments.extend(common);
+        let (code, _, error) = run(&arguments);
+        assert_eq!(code, 0, "{file}: {error}");
+        let end = String::from_utf8(bytes(&out)).unwrap();
+        let end: Vec<f64> =
+            end.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+        let mut arguments = vec!["simulate", file, "--format", "json"];
+        arguments.extend(common);
+        let expected = support::numbers(&json(&arguments)["momentum"]);
+        assert_eq!(end.len(), expected.len());
+        let size = expected.iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+        for (a, b) in end.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-12 * size, "{file}, {chart}: {end:?}, {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn one_thread_and_two_write_the_same_bytes() {
+    let directory = TempDir::new().unwrap();
+    let initial = written(&directory, "in.csv", &momenta(2500));
+    for ending in ["csv", "npy"] {
+        let [one, two] = ["one", "two"].map(|name| at(&directory, &format!("{name}.{ending}")));
+        ensemble(&initial, &one, &["--time", "1", "--threads", "1"]);
+        ensemble(&initial, &two, &["--time", "1", "--threads", "2"]);
+        assert!(bytes(&one) == bytes(&two), "{ending}");
+    }
+    assert_eq!(left_over(&directory), Vec::<PathBuf>::new());
+}
+
+/// Shares of unequal length, and more shares than rows.
+#[test]
+fn shards_together_are_the_whole() {
+    let directory = TempDir::new().unwrap();
+    for (rows, shards) in [(1003, 4), (2, 3)] {
+        let initial = written(&directory, "in.csv", &momenta(rows));
+        let whole = at(&directory, "whole.csv");
+        ensemble(&initial, &whole, &["--time", "1"]);
+        let mut joined = b"mu_1,mu_2,mu_3\n".to_vec();
+        for shard in 1..=shards {
+            let out = at(&directory, "shard.csv");
+            ensemble(&initial, &out, &["--time", "1", "--shard", &format!("{shard}/{shards}")]);
+            let part = bytes(&out);
+            let body = part.strip_prefix(b"mu_1,mu_2,mu_3\n").unwrap();
+            joined.extend(body);
+        }
+        assert!(joined == bytes(&whole), "{rows} rows, {shards} shards");
+    }
+}
+
+/// What is written in one format and read again is the same ensemble.
+#[test]
+fn formats_agree() {
+    let directory = TempDir::new().unwrap();
+    let mut endings = vec!["csv", "npy"];
+    if cfg!(feature = "parquet") {
+        endings.push("parquet");
+    }
+    let first = written(&directory, "in.csv", &momenta(2100));
+    let reference = at(&directory, "reference.csv");
+    ensemble(&first, &reference, &["--time", "0.3", "--step", "0.3"]);
+    let end = at(&directory, "end.csv");
+    ensemble(&reference, &end, &["--time", "0.3", "--step", "0.3"]);
+    for ending in endings {
+        let middle = at(&directory, &format!("middle.{ending}"));
+        ensemble(&first, &middle, &["--time", "0.3", "--step", "0.3"]);
+        let out = at(&directory, &format!("from_{ending}.csv"));
+        ensemble(&middle, &out, &["--time", "0.3", "--step", "0.3"]);
+        assert!(bytes(&out) == bytes(&end), "{ending}");
+        // A share begins in the middle of the file.
+        let share = at(&directory, "share.csv");
+        ensemble(&middle, &share, &["--time", "0.3", "--step", "0.3", "--shard", "2/3"]);
+        let [all, share] = [&end, &share].map(|p| String::from_utf8(bytes(p)).unwrap());
+        let all: Vec<&str> = all.lines().collect();
+        assert_eq!(share.lines().skip(1).collect::<Vec<_>>(), all[701..1401], "{ending}");
+    }
+}
+
+fn start(initial: &str, out: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_coadjoint"))
+        .current_dir(root())
+        .args(["ensemble", BODY, "--initial", initial, "--out", out, "--time", "30"])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// Killed as soon as something is noted, several times over, then left alone: the file is the one
+/// an undisturbed run writes, and the last run began in the middle.
+#[test]
+fn a_killed_run_ends_with_the_same_bytes() {
+    let directory = TempDir::new().unwrap();
+    let initial = written(&directory, "in.csv", &(momenta(30_000) + "bad,1,2\n"));
+    for name in ["out.csv", "out.npy"] {
+        let out = at(&directory, name);
+        let journal = at(&directory, &format!("{name}.journal"));
+        let mut noted = 0;
+        for _ in 0..2 {
+            let mut child = start(&initial, &out);
+            let before = noted;
+            while noted <= before && child.try_wait().unwrap().is_none() {
+                std::thread::sleep(Duration::from_millis(10));
+                noted = rows_noted(Path::new(&journal)).unwrap_or(noted);
+            }
+            child.kill().unwrap();
+            child.wait().unwrap();
+        }
+        let resumed = ensemble(&initial, &out, &["--time", "30"]);
+        assert_eq!(resumed["failed"], 1);
+        let straight = at(&directory, &format!("straight_{name}"));
+        let undisturbed = ensemble(&initial, &straight, &["--time", "30"]);
+        assert!(bytes(&out) == bytes(&straight));
+        let lists = [&out, &straight].map(|p| bytes(&format!("{p}.rejected.csv")));
+        assert!(lists[0] == lists[1]);
+        // A machine fast enough to end before the first note has nothing to resume.
+        assert_eq!(resumed["resumed_at"].as_u64().unwrap() > 0, noted > 0);
+        assert_eq!(resumed["drift"], undisturbed["drift"]);
+    }
+    assert_eq!(left_over(&directory), Vec::<PathBuf>::new());
+}
+
+fn rows_noted(journal: &Path) -> Option<u64> {
+    let text = std::fs::read_to_string(journal).ok()?;
+    serde_json::from_str::<Value>(&text).ok()?["rows"].as_u64()
+}
+
+/// A run that was stopped does not go on with other options or another input.
+#[test]
+fn a_changed_run_is_refused_until_told_to_begin_anew() {
+    let directory = TempDir::new().unwrap();
+    let initial = written(&directory, "in.csv", &momenta(30_000));
+    let out = at(&directory, "out.csv");
+    let mut child = start(&initial, &out);
+    let journal = at(&directory, "out.csv.journal");
+    while rows_noted(Path::new(&journal)).is_none() {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it noted anything");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let again = |more: &[&str]| {
+        let mut arguments = vec!["ensemble", BODY, "--initial", &initial, "--out", &out];
+        arguments.extend(more);
+        run(&arguments)
+    };
+    let (code, _, error) = again(&["--time", "30", "--step", "0.2"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("number of steps: 300 then, 150 now"), "{error}");
+    std::fs::write(&initial, momenta(100)).unwrap();
+    let (code, _, error) = again(&["--time", "30"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("another initial file"), "{error}");
+    let (code, _, error) = again(&["--time", "30", "--restart"]);
+    assert_eq!(code, 0, "{error}");
+    assert_eq!(String::from_utf8(bytes(&out)).unwrap().lines().count(), 101);
+}
+
+#[test]
+fn bad_rows_are_told_and_do_not_stop_the_rest() {
+    let directory = TempDir::new().unwrap();
+    let rows = [
+        "2,0.5,1,1,0,0,0",
+        "2,inf,1,1,0,0,0",
+        "2,0.5,1,1,1,0,0",
+        "2,0.5,1,1,0,0",
+        "2,0.5,one,1,0,0,0",
+        "200,50,100,1,0,0,0",
+        "2,0.5,1,1,0,0,0",
+    ];
+    let text = format!("mu_1,mu_2,mu_3,q_w,q_x,q_y,q_z\n{}\n", rows.join("\n"));
+    let initial = written(&directory, "in.csv", &text);
+    let out = at(&directory, "out.csv");
+    let summary = ensemble(&initial, &out, &[]);
+    assert_eq!(summary["trajectories"], 7);
+    assert_eq!(summary["failed"], 5);
+    let end = String::from_utf8(bytes(&out)).unwrap();
+    let end: Vec<&str> = end.lines().skip(1).collect();
+    assert_eq!(end.len(), 7);
+    assert_eq!(end[0], end[6]);
+    assert!(!end[0].contains("NaN"));
+    for row in &end[1..6] {
+        assert_eq!(*row, "NaN,NaN,NaN,NaN,NaN,NaN,NaN");
+    }
+    let list = String::from_utf8(bytes(&format!("{out}.rejected.csv"))).unwrap();
+    let list: Vec<&str> = list.lines().collect();
+    assert_eq!(list[0], "row,step,reason");
+    assert_eq!(list[1], "2,0,\"mu_2 is inf\"");
+    assert!(list[2].starts_with("3,0,\"the attitude is off the group by 4.1e-1"), "{list:?}");
+    assert_eq!(list[3], "4,0,\"6 cells instead of 7\"");
+    assert_eq!(list[4], "5,0,\"mu_3: 'one' is no number\"");
+    assert!(list[5].starts_with("6,1,\""), "{list:?}");
+    // Without bad rows the list of an earlier run goes away.
+    written(&directory, "in.csv", &momenta(3));
+    ensemble(&initial, &out, &[]);
+    assert!(!Path::new(&format!("{out}.rejected.csv")).exists());
+}
+
+#[test]
+fn mistakes_are_told_before_anything_runs() {
+    let directory = TempDir::new().unwrap();
+    let good = written(&directory, "good.csv", &momenta(3));
+    let out = at(&directory, "out.csv");
+    let missing = written(&directory, "missing.csv", "mu_1,mu_2\n1,2\n");
+    let quaternions =
+        written(&directory, "q.csv", "mu_1,mu_2,mu_3,mu_4,mu_5,mu_6,q_w\n1,2,3,4,5,6,1\n");
+    let npy = at(&directory, "good.npy");
+    ensemble(&good, &npy, &["--time", "0.1"]);
+    let mut cut = bytes(&npy);
+    cut.truncate(cut.len() - 8);
+    let short = at(&directory, "short.npy");
+    std::fs::write(&short, cut).unwrap();
+    let top = "examples/heavy_top.toml";
+    for (file, initial, out, more, expected) in [
+        (BODY, &missing, &out, [].as_slice(), "column mu_3 is missing"),
+        (top, &quaternions, &out, &[], "no quaternions"),
+        (top, &npy, &out, &[], "the array has 3 columns; this system needs 6 or 22"),
+        (BODY, &short, &out, &[], "ends before its 3 rows do"),
+        (BODY, &good, &out, &["--shard", "3/2"], "counted from 1"),
+        (BODY, &good, &out, &["--shard", "0/2"], "counted from 1"),
+        (BODY, &good, &out, &["--shard", "half"], "write i/n"),
+        (BODY, &good, &good, &[], "--out must be another file"),
+        (BODY, &good, &at(&directory, "out.txt"), &[], "must end in .csv or .npy"),
+        (BODY, &good, &out, &["--step", "0"], "other than zero"),
+    ] {
+        let mut arguments = vec!["ensemble", file, "--initial", initial, "--out", out];
+        arguments.extend(more);
+        let (code, _, error) = run(&arguments);
+        assert_eq!(code, 2, "{error}");
+        assert!(error.contains(expected), "{error}");
+    }
+    assert_eq!(left_over(&directory), Vec::<PathBuf>::new());
+}
