@@ -189,41 +189,42 @@ fn formats_agree() {
 fn start(initial: &str, out: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_coadjoint"))
         .current_dir(root())
-        .args(["ensemble", BODY, "--initial", initial, "--out", out, "--time", "30"])
+        .args(["ensemble", BODY, "--initial", initial, "--out", out])
         .stdout(Stdio::null())
         .spawn()
         .unwrap()
 }
 
-/// Killed as soon as something is noted, several times over, then left alone: the file is the one
-/// an undisturbed run writes, and the last run began in the middle.
+/// Waits until the run has noted something, and kills it.
+fn kill_in_the_middle(mut child: Child, journal: &str) {
+    while rows_noted(Path::new(journal)).is_none() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+/// Killed as soon as something is noted and started again: the files are those of an undisturbed
+/// run, and the second run began in the middle.
 #[test]
 fn a_killed_run_ends_with_the_same_bytes() {
     let directory = TempDir::new().unwrap();
-    let initial = written(&directory, "in.csv", &(momenta(30_000) + "bad,1,2\n"));
+    let initial = written(&directory, "in.csv", &(momenta(6000) + "bad,1,2\n"));
     for name in ["out.csv", "out.npy"] {
         let out = at(&directory, name);
         let journal = at(&directory, &format!("{name}.journal"));
-        let mut noted = 0;
-        for _ in 0..2 {
-            let mut child = start(&initial, &out);
-            let before = noted;
-            while noted <= before && child.try_wait().unwrap().is_none() {
-                std::thread::sleep(Duration::from_millis(10));
-                noted = rows_noted(Path::new(&journal)).unwrap_or(noted);
-            }
-            child.kill().unwrap();
-            child.wait().unwrap();
-        }
-        let resumed = ensemble(&initial, &out, &["--time", "30"]);
+        kill_in_the_middle(start(&initial, &out), &journal);
+        // A machine so fast that the run ended before it was killed has nothing to resume.
+        let stopped = Path::new(&journal).exists();
+        let resumed = ensemble(&initial, &out, &[]);
+        assert_eq!(resumed["resumed_at"].as_u64().unwrap() > 0, stopped);
         assert_eq!(resumed["failed"], 1);
         let straight = at(&directory, &format!("straight_{name}"));
-        let undisturbed = ensemble(&initial, &straight, &["--time", "30"]);
+        let undisturbed = ensemble(&initial, &straight, &[]);
+        assert_eq!(undisturbed["resumed_at"], 0);
         assert!(bytes(&out) == bytes(&straight));
         let lists = [&out, &straight].map(|p| bytes(&format!("{p}.rejected.csv")));
         assert!(lists[0] == lists[1]);
-        // A machine fast enough to end before the first note has nothing to resume.
-        assert_eq!(resumed["resumed_at"].as_u64().unwrap() > 0, noted > 0);
         assert_eq!(resumed["drift"], undisturbed["drift"]);
     }
     assert_eq!(left_over(&directory), Vec::<PathBuf>::new());
@@ -238,29 +239,24 @@ fn rows_noted(journal: &Path) -> Option<u64> {
 #[test]
 fn a_changed_run_is_refused_until_told_to_begin_anew() {
     let directory = TempDir::new().unwrap();
-    let initial = written(&directory, "in.csv", &momenta(30_000));
+    let initial = written(&directory, "in.csv", &momenta(6000));
     let out = at(&directory, "out.csv");
-    let mut child = start(&initial, &out);
     let journal = at(&directory, "out.csv.journal");
-    while rows_noted(Path::new(&journal)).is_none() {
-        assert!(child.try_wait().unwrap().is_none(), "ended before it noted anything");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill_in_the_middle(start(&initial, &out), &journal);
+    assert!(Path::new(&journal).exists(), "ended before it was killed");
     let again = |more: &[&str]| {
         let mut arguments = vec!["ensemble", BODY, "--initial", &initial, "--out", &out];
         arguments.extend(more);
         run(&arguments)
     };
-    let (code, _, error) = again(&["--time", "30", "--step", "0.2"]);
+    let (code, _, error) = again(&["--step", "0.2"]);
     assert_eq!(code, 2);
-    assert!(error.contains("number of steps: 300 then, 150 now"), "{error}");
+    assert!(error.contains("number of steps: 1000 then, 500 now"), "{error}");
     std::fs::write(&initial, momenta(100)).unwrap();
-    let (code, _, error) = again(&["--time", "30"]);
+    let (code, _, error) = again(&[]);
     assert_eq!(code, 2);
     assert!(error.contains("another initial file"), "{error}");
-    let (code, _, error) = again(&["--time", "30", "--restart"]);
+    let (code, _, error) = again(&["--restart"]);
     assert_eq!(code, 0, "{error}");
     assert_eq!(String::from_utf8(bytes(&out)).unwrap().lines().count(), 101);
 }

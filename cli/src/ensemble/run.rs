@@ -15,7 +15,7 @@ use crate::error::CliError;
 use crate::progress;
 
 /// What is on the disk is noted this often.
-const NOTED: Duration = Duration::from_millis(500);
+const NOTED: Duration = Duration::from_millis(200);
 
 /// Rejected rows that are told at the end; all are in the list.
 const TOLD: usize = 5;
@@ -123,7 +123,7 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
 /// Rows taken at a time: enough for all threads, little enough to be noted often.
 fn piece(width: usize, steps: u64) -> u64 {
     let memory = (8 << 20) / (width as u64 * 8);
-    (50_000_000 / steps.max(1)).min(memory).clamp(1024, 65_536)
+    (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
 }
 
 /// Advances the rows that are left. What is done is the same whatever the size of the pieces.
