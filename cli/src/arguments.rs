@@ -155,6 +155,20 @@ pub enum Rival {
     Rk45,
 }
 
+/// A step size, or what it is picked by.
+#[derive(Args, Clone, Debug)]
+pub struct Accuracy {
+    /// The step size h
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// Pick the step, and the truncation if none is given, for this error at the end of the run
+    #[arg(long, value_name = "error", conflicts_with = "step")]
+    pub tolerance: Option<f64>,
+    /// The norm of momentum up to which the tolerance is to hold; along the run if not given
+    #[arg(long, value_name = "radius")]
+    pub region: Option<f64>,
+}
+
 /// Options of `simulate`.
 #[derive(Args, Debug)]
 pub struct SimulateOptions {
@@ -164,9 +178,9 @@ pub struct SimulateOptions {
     /// Keep S₁ … S_K, K odd; several, such as 3,5,7, are run one after the other
     #[arg(long, value_name = "K", value_delimiter = ',')]
     pub truncation: Vec<usize>,
-    /// The step size h
-    #[arg(long, value_name = "h", allow_negative_numbers = true, conflicts_with = "model")]
-    pub step: Option<f64>,
+    /// The step, or the tolerance.
+    #[command(flatten)]
+    pub accuracy: Accuracy,
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
@@ -211,9 +225,9 @@ pub struct EnsembleOptions {
     /// Keep S₁ … S_K, K odd; instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
-    /// The step size h
-    #[arg(long, value_name = "h", allow_negative_numbers = true)]
-    pub step: Option<f64>,
+    /// The step, or the tolerance.
+    #[command(flatten)]
+    pub accuracy: Accuracy,
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use coadjoint::{ElementError, StepError, TableError};
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
+use coadjoint_codegen::tolerance::ToleranceError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -41,6 +42,14 @@ pub enum CliError {
         file: PathBuf,
         /// Why.
         source: DeriveError,
+    },
+    /// No truncation and step can be picked.
+    #[error("{}: {source}", .file.display())]
+    Tolerance {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: ToleranceError,
     },
     /// The data defines no group.
     #[error("{}: {source}", .file.display())]
@@ -94,6 +103,7 @@ impl CliError {
             | Self::Missing { .. }
             | Self::Read { .. }
             | Self::Derive { .. }
+            | Self::Tolerance { .. }
             | Self::Group { .. }
             | Self::Element { .. } => 2,
             Self::Learn(error) => {

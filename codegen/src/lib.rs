@@ -15,6 +15,7 @@ pub mod potential;
 pub mod problem;
 #[cfg(feature = "system")]
 pub mod system;
+pub mod tolerance;
 
 #[cfg(feature = "system")]
 mod build_script;

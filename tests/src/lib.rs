@@ -31,3 +31,8 @@ pub fn from_function(arguments: &str, function: &str) -> syn::Result<Integrator>
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;
+
+/// The snippets of `docs/ensembles.md`, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/ensembles.md")]
+pub struct Ensembles;

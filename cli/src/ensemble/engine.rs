@@ -68,10 +68,10 @@ pub fn engine<'a>(
         ("SE3", lie::Chart::Exponential) => on::<_, Exponential>(integrator, SE3::new(), step),
         ("SE3", lie::Chart::Cayley) => on::<_, Cayley>(integrator, SE3::new(), step),
         (_, lie::Chart::Exponential) => {
-            on::<_, Exponential>(integrator, matrix_group(path, algebra)?, step)
+            on::<_, Exponential>(integrator, matrix_group(path, algebra, None)?, step)
         }
         (_, lie::Chart::Cayley) => {
-            let group = matrix_group(path, algebra)?.into_cayley().map_err(group_error)?;
+            let group = matrix_group(path, algebra, None)?.into_cayley().map_err(group_error)?;
             on::<_, Cayley>(integrator, group, step)
         }
     }

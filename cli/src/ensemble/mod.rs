@@ -28,9 +28,18 @@ use run::Job;
 /// Reads, advances and writes.
 pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let System { problem, run } =
-        load::source(&options.source, options.truncation, Parameters::Substituted)?;
-    let (step, steps) = simulate::schedule(path, options.step, options.time, &run)?;
+    let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
+    let accuracy = &options.accuracy;
+    load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
+    let System { problem, potential, run } = system;
+    if potential.is_some() {
+        return Err(CliError::Option(
+            "ensembles of systems with a potential do not run on the command line: emit the step, \
+             and see `Kicked`"
+                .into(),
+        ));
+    }
+    let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     if same_file(&options.initial, &options.out) {
         return Err(CliError::Option("--out must be another file than --initial".into()));
     }

@@ -25,6 +25,10 @@ fn learned(path: &std::path::Path, options: &SimulateOptions) -> Result<(), CliE
     let missing = |option: &str| {
         CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
     };
+    if options.accuracy.step.is_some() || options.accuracy.tolerance.is_some() {
+        let what = "a learned model has a step of its own: leave out --step and --tolerance";
+        return Err(CliError::Option(what.to_owned()));
+    }
     if options.start.is_empty() {
         return Err(missing("start"));
     }
@@ -51,7 +55,11 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
     };
     let mut runs = Vec::new();
-    for System { problem, potential, run } in systems {
+    for mut system in systems {
+        let truncation = system.problem.truncation;
+        let fixed = (!options.truncation.is_empty()).then_some(truncation);
+        load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
+        let System { problem, potential, run } = system;
         let setup = Setup::new(options, &run, problem.algebra.dim())?;
         let kept = potential.as_ref().map(|(potential, _)| potential);
         let group = matrix_group(path, &problem.algebra, kept)?;

@@ -65,7 +65,7 @@ impl Setup {
             example,
             option,
         };
-        let (step, steps) = schedule(&file, options.step, options.time, run)?;
+        let (step, steps) = schedule(&file, options.accuracy.step, options.time, run)?;
         let momentum = run.momentum.clone().ok_or_else(|| {
             missing("[initial] momentum", "momentum = [2.0, 0.5, 1.0]", "another file")
         })?;

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::terms::BaseTerm;
-use crate::hamilton_jacobi::{DeriveError, TermLimit, predictor};
+use super::coefficients::Coefficients;
+use super::terms::{BaseTerm, collect};
+use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, TermLimit, predictor};
 use crate::poly::Polynomial;
 use crate::problem::Problem;
 
@@ -57,9 +58,7 @@ impl Plan {
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
         let truncation = problem.truncation;
         let n = problem.algebra.dim();
-        // Chart, Jacobian 1 − D·Hess S, elimination; and the wait for one result before the next
-        // can begin, in which about 300 independent operations would fit (measured on SO(3)).
-        let overhead = 300 + 2 * n.pow(3) + 2 * n.pow(3) / 3 + 10 * n * n;
+        let overhead = overhead(n);
         let hessians: Vec<(usize, usize)> = (1..=truncation)
             .step_by(2)
             .map(|k| (k, overhead + gradient_operations(terms) + hessian_operations(terms, k)))
@@ -96,6 +95,34 @@ impl Plan {
         Ok(best
             .map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
     }
+}
+
+impl Plan {
+    /// About the operations of a step of the series S₁ … S_K, K the problem's truncation, with the
+    /// cheapest plan.
+    ///
+    /// # Errors
+    /// As [`Plan::choose`].
+    pub fn operations(
+        problem: &Problem,
+        series: &GeneratingSeries,
+        limit: TermLimit,
+    ) -> Result<usize, DeriveError> {
+        let n = problem.algebra.dim();
+        let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
+        let terms = collect(&mut Coefficients::default(), n, orders);
+        let (plan, predictor) = Self::choose(problem, &terms, limit)?;
+        let newton = overhead(n)
+            + gradient_operations(&terms)
+            + hessian_operations(&terms, plan.hessian_truncation);
+        Ok(predictor_operations(&predictor, n) + plan.newton_steps(problem.truncation) * newton)
+    }
+}
+
+/// Chart, Jacobian 1 − D·Hess S, elimination; and the wait for one result before the next can
+/// begin, in which about 300 independent operations would fit (measured on SO(3)).
+fn overhead(n: usize) -> usize {
+    300 + 2 * n.pow(3) + 2 * n.pow(3) / 3 + 10 * n * n
 }
 
 /// About two operations for each monomial of each component.

@@ -19,6 +19,10 @@
 //! time = 100.0
 //! ```
 //!
+//! Instead of `step`, `tolerance = 1e-9` asks for an error at the end of the run; `truncation` is
+//! then picked too unless it is given. `region = 2.5` (a norm of the momentum, or [low, high] for each
+//! coordinate) says where it is to hold; without it, along the run from the initial state.
+//!
 //! Numbers are read from their decimals, so `0.1` is exactly 1/10. Instead of `group`, an
 //! `[algebra]` table gives a `basis` of matrices, or `generators` and `brackets`.
 //!
@@ -31,6 +35,7 @@ mod potential;
 mod run;
 mod splitting;
 mod table;
+mod tolerance;
 
 use toml::de::DeTable;
 
@@ -127,7 +132,10 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         None => truncation,
     };
     let chart = options.chart.map_or(chart, |chart| (chart, Span::Whole));
-    let run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
+    let mut run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
+    if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
+        run.truncation = truncation;
+    }
     let potential = potential::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
     let splitting = splitting::read(&root, integrator.as_ref(), &mut diagnostics);
     let draft = Draft {
@@ -192,7 +200,8 @@ fn integrator_table(
     options: Options,
     diagnostics: &mut Diagnostics,
 ) -> (Option<usize>, (Chart, Span)) {
-    table.check_keys(&["truncation", "chart", "step", "splitting"], diagnostics);
+    let known = ["truncation", "chart", "step", "tolerance", "region", "splitting"];
+    table.check_keys(&known, diagnostics);
     let mut truncation = Some(DEFAULT_TRUNCATION);
     if table.has("truncation") && options.truncation.is_none() {
         truncation = table

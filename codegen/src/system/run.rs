@@ -1,8 +1,9 @@
-//! The run a system file describes: `[initial]`, `[run]` and the step.
+//! The run a system file describes: `[initial]`, `[run]` and the step or the tolerance.
 
 use super::table::{Table, exact, matrix, nearest_float, span};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::LieAlgebra;
+use crate::tolerance::Region;
 
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
 const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
@@ -12,6 +13,12 @@ const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
 pub struct Run {
     /// The step size h, finite and not zero.
     pub step: Option<f64>,
+    /// The error asked for at the end, instead of a step size.
+    pub tolerance: Option<f64>,
+    /// Where the momentum stays, for `tolerance`.
+    pub region: Option<Region>,
+    /// The truncation, if the file gives one.
+    pub truncation: Option<usize>,
     /// The duration T, finite and positive.
     pub time: Option<f64>,
     /// Every n-th step is recorded, n ≥ 1.
@@ -38,6 +45,9 @@ pub(super) fn read(
             refuse(place, "the step must be finite and other than zero", "step = 0.1", diagnostics);
         }
         run.step = Some(step);
+    }
+    if let Some(table) = integrator {
+        super::tolerance::read(table, &mut run, diagnostics);
     }
     if let Some(table) = root.table("run", diagnostics) {
         table.check_keys(&["time", "every"], diagnostics);
@@ -98,7 +108,7 @@ fn initial(
     }
 }
 
-fn refuse(place: Span, what: &str, example: &str, diagnostics: &mut Diagnostics) {
+pub(super) fn refuse(place: Span, what: &str, example: &str, diagnostics: &mut Diagnostics) {
     let help = Some(format!("write for example {example}"));
     diagnostics.report(place, Mistake::Other(what.to_owned(), help));
 }

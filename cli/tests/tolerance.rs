@@ -1,0 +1,106 @@
+//! `--tolerance`: the error at the end of a run is below what was asked for, and not far below.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use serde_json::Value;
+use support::{file, json, numbers, run};
+
+/// The estimate is made for the worst moment of the run and used up to a half; at a given moment the
+/// error may happen to be smaller.
+const FACTOR: f64 = 1000.0;
+
+/// The momentum relative to its largest coordinate and the group element after it.
+fn end(run: &Value) -> Vec<f64> {
+    let mut end = numbers(&run["momentum"]);
+    let size = end.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    end.iter_mut().for_each(|x| *x /= size);
+    for row in run["group_element"].as_array().unwrap() {
+        end.extend(numbers(row));
+    }
+    end
+}
+
+fn error(a: &Value, b: &Value) -> f64 {
+    end(a).iter().zip(end(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn meets(system: &str, time: &str) {
+    let simulate = |tolerance: &str| {
+        json(&["simulate", system, "--time", time, "--tolerance", tolerance, "--format", "json"])
+    };
+    let fine = simulate("1e-13");
+    for tolerance in ["1e-6", "1e-8", "1e-10"] {
+        let error = error(&simulate(tolerance), &fine);
+        let tolerance: f64 = tolerance.parse().unwrap();
+        assert!(error <= tolerance, "{system}: {error:e} for {tolerance:e}");
+        assert!(error >= tolerance / FACTOR, "{system}: {error:e} for {tolerance:e}");
+    }
+}
+
+#[test]
+fn the_free_body_a() {
+    meets("examples/rigid_body.toml", "40");
+}
+
+/// Near the separatrix, where neighbours part fastest.
+#[test]
+fn the_free_body_b() {
+    let directory = tempfile::TempDir::new().unwrap();
+    let text = std::fs::read_to_string(support::root().join("examples/rigid_body.toml")).unwrap();
+    let text = text.replace("[2.0, 0.5, 1.0]", "[1.2, 2.5, 0.6]");
+    meets(&file(&directory, &text), "40");
+}
+
+#[test]
+fn the_gyrostat() {
+    meets("examples/gyrostat.toml", "10");
+}
+
+#[test]
+fn the_heavy_top() {
+    meets("examples/heavy_top.toml", "5");
+}
+
+#[test]
+fn the_kirchhoff_body() {
+    meets("examples/kirchhoff_body.toml", "5");
+}
+
+#[test]
+fn the_spin_ring() {
+    meets("examples/heisenberg_spin_ring.toml", "5");
+}
+
+/// What was picked is said, also from the file; a region larger than the run asks for more.
+#[test]
+fn the_choice_is_told() {
+    let told = |arguments: &[&str]| {
+        let (code, _, error) = run(arguments);
+        assert_eq!(code, 0, "{error}");
+        let step = error.split("h = ").nth(1).unwrap().split(' ').next().unwrap();
+        (error.clone(), step.parse::<f64>().unwrap())
+    };
+    let body = "examples/rigid_body.toml";
+    let (text, run_step) = told(&["simulate", body, "--tolerance", "1e-9", "--truncation", "7"]);
+    assert!(text.starts_with("tolerance 1e-9: K = 7, h = 0."), "{text}");
+    assert!(text.contains("along the run, |μ| ≤ 2.29"), "{text}");
+    let (text, region_step) =
+        told(&["simulate", body, "--tolerance", "1e-9", "--truncation", "7", "--region", "4"]);
+    assert!(text.contains("over |μ| ≤ 4"), "{text}");
+    assert!(region_step < run_step);
+
+    let directory = tempfile::TempDir::new().unwrap();
+    let text = std::fs::read_to_string(support::root().join(body)).unwrap();
+    let system = text.replace("step = 0.1", "tolerance = 1e-9\nregion = 4");
+    let (_, step) = told(&["simulate", &file(&directory, &system)]);
+    assert_eq!(step, region_step);
+    let both = text.replace("step = 0.1", "step = 0.1\ntolerance = 1e-9");
+    let (code, _, error) = run(&["simulate", &file(&directory, &both)]);
+    assert_eq!(code, 2);
+    assert!(error.contains("keep one of `tolerance` and `step`"), "{error}");
+    let small = text.replace("step = 0.1", "tolerance = 1e-20");
+    let (code, _, error) = run(&["simulate", &file(&directory, &small)]);
+    assert_eq!(code, 2);
+    assert!(error.contains("between 1e-14 and 1e-1"), "{error}");
+}

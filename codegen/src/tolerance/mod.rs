@@ -1,0 +1,323 @@
+//! From a tolerance to a truncation and a step size.
+//!
+//! The error of the method of truncation K is, to leading order, what the missing terms S_{K+2},
+//! S_{K+4}, … of the exact series do. They are derived, so their size is known exactly where
+//! momenta stay, and with the state at the start known also how it accumulates. [`choose`] takes
+//! the K and h that need fewest operations per unit time.
+
+mod along;
+mod field;
+mod region;
+
+use std::fmt;
+
+use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
+use crate::integrator::Plan;
+use crate::problem::Problem;
+use along::{Along, Flow, rate};
+use field::{Brackets, Gradient};
+
+pub use region::Region;
+
+/// Truncations tried.
+const TRUNCATIONS: std::ops::RangeInclusive<usize> = 3..=17;
+/// The share of the tolerance that the estimate may use up.
+const SAFETY: f64 = 0.5;
+/// The most that S_{j+2} h² may be of S_j: beyond, the series converges too slowly to go by.
+const RATIO: f64 = 0.4;
+/// The most that the group may turn in one step, in radians; the exponential's canonical momentum
+/// folds at about 2.
+const TURN: f64 = 1.5;
+
+/// What is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// The error at the end of a run: of the momentum relative to its largest coordinate, of the
+    /// group element in coordinates of the algebra (radians for rotations).
+    pub tolerance: f64,
+    /// The duration of the run.
+    pub duration: f64,
+    /// The momentum at the start.
+    pub start: Option<Vec<f64>>,
+    /// Where the momentum stays; without it, where the run from `start` comes.
+    pub region: Option<Region>,
+    /// Only this truncation.
+    pub truncation: Option<usize>,
+}
+
+/// What was picked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The tolerance asked for.
+    pub tolerance: f64,
+    /// K.
+    pub truncation: usize,
+    /// h; it divides the duration.
+    pub step: f64,
+    /// h^{K+1} max |∂S_{K+2}|: the error the first missing term makes per unit time.
+    pub next_term: f64,
+    /// The error expected at the end, of all missing terms.
+    pub error: f64,
+    /// Where the maximum is taken.
+    pub region: Region,
+    /// Whether the maximum is taken along one run, which stays in the region.
+    pub along_run: bool,
+    /// Operations per unit time, by which this was the least.
+    pub operations: f64,
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let run = if self.along_run { "along the run, " } else { "over " };
+        write!(
+            f,
+            "tolerance {:e}: K = {}, h = {} (next term {:.1e} per unit time {run}{}; {:.1e} at the \
+             end)",
+            self.tolerance, self.truncation, self.step, self.next_term, self.region, self.error
+        )
+    }
+}
+
+/// Why nothing could be picked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ToleranceError {
+    /// A tolerance that rounding alone exceeds, or that is none.
+    #[error("the tolerance {0:e} must lie between 1e-14 and 1e-1; write for example 1e-9")]
+    Tolerance(f64),
+    /// A duration that is none.
+    #[error("the duration {0} must be finite and positive")]
+    Duration(f64),
+    /// The region is empty or not bounded.
+    #[error("the region must be a positive radius, or bounds [low, high] with low ≤ high")]
+    Region,
+    /// Bounds for another number of coordinates.
+    #[error(
+        "the region has {found} bounds, the momentum {dim} coordinates; give one [low, high] for each, or a radius"
+    )]
+    Bounds {
+        /// Bounds given.
+        found: usize,
+        /// The dimension.
+        dim: usize,
+    },
+    /// Neither a start nor a region.
+    #[error(
+        "a tolerance needs the momentum at the start, or a region: write for example region = 2.5"
+    )]
+    Nowhere,
+    /// The momentum at the start does not fit.
+    #[error("the momentum at the start must be {dim} finite numbers")]
+    Start {
+        /// The dimension.
+        dim: usize,
+    },
+    /// A parameter without a value.
+    #[error("a tolerance needs the value of every parameter, and the coefficient {0} has none")]
+    Symbol(String),
+    /// The series cannot be derived.
+    #[error(transparent)]
+    Derive(#[from] DeriveError),
+    /// Even the smallest truncation is too large.
+    #[error(
+        "S_{order} is too large to derive, so nothing is known of the error of any truncation: give truncation and step instead"
+    )]
+    TooLarge {
+        /// The order.
+        order: usize,
+    },
+}
+
+/// Picks K and h.
+///
+/// Symbols of the problem must not need parameters (a system file's are substituted).
+///
+/// # Errors
+/// [`ToleranceError`] for a target that makes no sense, or where not even S₅ can be derived.
+pub fn choose(
+    problem: &Problem,
+    target: &Target,
+    limit: TermLimit,
+) -> Result<Choice, ToleranceError> {
+    let dim = problem.algebra.dim();
+    check(target, dim)?;
+    let mut symbols = Vec::new();
+    for symbol in &problem.symbols {
+        let value = symbol.expr.evaluate(&[]);
+        if !value.is_finite() {
+            return Err(ToleranceError::Symbol(symbol.text.clone()));
+        }
+        symbols.push(value);
+    }
+    let series = derive(problem, target.truncation, limit)?;
+    // Odd orders only: the others vanish.
+    let orders: Vec<usize> = (1..=series.truncation()).step_by(2).collect();
+    let terms: Vec<Gradient> =
+        orders.iter().map(|&j| Gradient::new(series.order(j), dim, &symbols)).collect();
+    let brackets = Brackets::new(&problem.algebra);
+    let energy = Gradient::new(&problem.hamiltonian, dim, &symbols);
+    let flow = Flow { brackets: &brackets, energy: &energy, terms: &terms };
+    let sizes = Sizes::of(&flow, dim, target);
+    let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
+    let last = target.truncation.unwrap_or(*TRUNCATIONS.end()).min(series.truncation() - 2);
+    let mut best: Option<Choice> = None;
+    for truncation in (first..=last).step_by(2) {
+        let step = sizes.step(&orders, truncation, target);
+        let candidate = Problem { truncation, ..problem.clone() };
+        let operations = Plan::operations(&candidate, &series, limit)? as f64 / step;
+        if best.as_ref().is_none_or(|best| operations < best.operations) {
+            let place = truncation.div_ceil(2);
+            best = Some(Choice {
+                tolerance: target.tolerance,
+                truncation,
+                step,
+                next_term: sizes.rates[place] * step.powi(truncation as i32 + 1),
+                error: sizes.error(&orders, truncation, step),
+                region: sizes.region.clone(),
+                along_run: target.region.is_none(),
+                operations,
+            });
+        }
+    }
+    best.ok_or(ToleranceError::TooLarge { order: first + 2 })
+}
+
+fn check(target: &Target, dim: usize) -> Result<(), ToleranceError> {
+    if !(1e-14..=1e-1).contains(&target.tolerance) {
+        return Err(ToleranceError::Tolerance(target.tolerance));
+    }
+    if target.duration <= 0.0 || !target.duration.is_finite() {
+        return Err(ToleranceError::Duration(target.duration));
+    }
+    match &target.start {
+        Some(start) if start.len() != dim || start.iter().any(|x| !x.is_finite()) => {
+            return Err(ToleranceError::Start { dim });
+        }
+        None if target.region.is_none() => return Err(ToleranceError::Nowhere),
+        _ => {}
+    }
+    target.region.as_ref().map_or(Ok(()), |region| region.check(dim))
+}
+
+/// S₁, S₃, … as far as they are affordable, at least as far as the smallest truncation needs.
+fn derive(
+    problem: &Problem,
+    only: Option<usize>,
+    limit: TermLimit,
+) -> Result<GeneratingSeries, ToleranceError> {
+    let smallest = only.unwrap_or(*TRUNCATIONS.start()) + 2;
+    let mut highest = only.unwrap_or(*TRUNCATIONS.end()) + 2;
+    loop {
+        let derived = hamilton_jacobi::derive(
+            &problem.algebra,
+            problem.chart,
+            &problem.hamiltonian,
+            highest,
+            limit,
+        );
+        highest = match derived {
+            Ok(series) => return Ok(series),
+            Err(DeriveError::TooLarge { order, .. } | DeriveError::TooMuchWork { order, .. })
+                if order > smallest =>
+            {
+                // The odd order before the one that was too much.
+                (order - 2) | 1
+            }
+            Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) => {
+                return Err(ToleranceError::TooLarge { order: smallest });
+            }
+            Err(error) => return Err(error.into()),
+        };
+    }
+}
+
+/// How large the terms are, and what they do.
+struct Sizes {
+    /// max |∂S_j| over the region, for each odd j.
+    rates: Vec<f64>,
+    /// The error that S_j, left out, makes by the end for h = 1.
+    errors: Vec<f64>,
+    region: Region,
+    /// The largest angular velocity.
+    turning: f64,
+    /// The largest ratio of neighbouring terms, for h = 1.
+    ratio: f64,
+}
+
+impl Sizes {
+    fn of(flow: &Flow<'_>, dim: usize, target: &Target) -> Self {
+        let along = target.start.as_ref().map(|start| flow.follow(start, target.duration));
+        let (rates, errors, region, turning) = match (&target.region, along) {
+            (None, Some(Along { rates, errors, radius, turning })) => {
+                (rates, errors, Region::Ball(radius), turning)
+            }
+            (region, along) => {
+                // `check` has seen to it that there is a region where there is no run.
+                let region = region.clone().unwrap_or(Region::Ball(1.0));
+                let count = flow.terms.len();
+                let mut found = region.largest(dim, count + 1, |mu| {
+                    let terms = flow.terms.iter().map(|term| rate(flow.brackets, &term.at(mu), mu));
+                    let turning = flow.brackets.turning_rate(&flow.energy.at(mu));
+                    terms.chain([turning]).collect()
+                });
+                let turning = found.pop().unwrap_or(0.0);
+                let errors = found
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &most)| match &along {
+                        // As on the run, scaled up to the largest in the region.
+                        Some(run) if run.rates[i] > 0.0 => {
+                            run.errors[i] * f64::max(most / run.rates[i], 1.0)
+                        }
+                        // In proportion to time, as on regular orbits.
+                        _ => most * target.duration,
+                    })
+                    .collect();
+                (found, errors, region, turning)
+            }
+        };
+        // The first ratios say little of those that follow.
+        let ratios = rates.windows(2).skip(1).filter(|w| w[0] > 0.0).map(|w| w[1] / w[0]);
+        let ratio = ratios.fold(0.0, f64::max);
+        Self { rates, errors, region, turning, ratio }
+    }
+
+    /// The error at the end for truncation K and step h: of every term known beyond K, and of the
+    /// rest as a geometric series.
+    fn error(&self, orders: &[usize], truncation: usize, step: f64) -> f64 {
+        let missing = orders.iter().zip(&self.errors).filter(|(j, _)| **j > truncation);
+        let mut last = 0.0;
+        let mut sum = 0.0;
+        for (&order, error) in missing {
+            last = error * step.powi(order as i32 - 1);
+            sum += last;
+        }
+        let ratio = self.ratio * step * step;
+        sum + last * ratio / (1.0 - ratio).max(0.1)
+    }
+
+    /// The largest step that meets the target, so that the duration is a whole number of steps.
+    fn step(&self, orders: &[usize], truncation: usize, target: &Target) -> f64 {
+        let mut most = target.duration;
+        if self.ratio > 0.0 {
+            most = most.min((RATIO / self.ratio).sqrt());
+        }
+        if self.turning > 0.0 {
+            most = most.min(TURN / self.turning);
+        }
+        let goal = SAFETY * target.tolerance;
+        let (mut low, mut high) = (0.0, most);
+        if self.error(orders, truncation, most) > goal {
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if self.error(orders, truncation, middle) > goal {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
+            }
+            most = low;
+        }
+        target.duration / (target.duration / most).ceil()
+    }
+}
