@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use coadjoint::nalgebra::SimdValue;
-use coadjoint::{Cayley, CayleyMatrixGroup, Exponential, LaneGroup, Lanes, SE3, SO3, Scalar};
+use coadjoint::{Cayley, CayleyMatrixGroup, Exponential, LaneGroup, Lanes, Scalar};
 
 use super::Interpreter;
 
@@ -29,7 +29,5 @@ macro_rules! lanes {
 
 lanes! {
     (G: LaneGroup) G, Exponential;
-    () SO3<f64>, Cayley;
-    () SE3<f64>, Cayley;
     () CayleyMatrixGroup, Cayley;
 }
