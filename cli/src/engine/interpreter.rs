@@ -50,7 +50,7 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
         }
-        let quadratic = integrator.is_quadratic();
+        let quadratic = integrator.problem.is_quadratic();
         Ok(Self { integrator, group, slots, defect, quadratic, chart: PhantomData })
     }
 
