@@ -1,4 +1,5 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
+#![allow(clippy::unwrap_used)]
 
 mod support;
 

@@ -10,6 +10,10 @@ use crate::engine::{Energy, Forces, Group, Interpreter};
 use crate::error::CliError;
 use crate::progress;
 
+/// A step at a time, told to the recorder.
+type Step<'s, G> =
+    dyn FnMut(f64, &mut Phase<G>, &mut Recorder<'_, G>) -> Result<(), StepError> + 's;
+
 /// What is run.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
@@ -49,11 +53,7 @@ impl<'a> Task<'a> {
     }
 
     /// Makes the steps.
-    fn march<G: Group>(
-        &self,
-        group: &G,
-        step: &mut dyn FnMut(f64, &mut Phase<G>, &mut Recorder<'_, G>) -> Result<(), StepError>,
-    ) -> Result<Trajectory, CliError> {
+    fn march<G: Group>(&self, group: &G, step: &mut Step<'_, G>) -> Result<Trajectory, CliError> {
         let setup = self.setup;
         let mut phase = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
         let problem = &self.integrator.problem;
