@@ -5,6 +5,7 @@ use core::ops::{Index, IndexMut};
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::block_elimination;
 use crate::scalar::Scalar;
 
 /// Coordinates of an element of 𝔤 (in its basis) or of 𝔤\* (in the dual basis).
@@ -48,6 +49,18 @@ pub trait Coordinates<T: Scalar>:
         result
     }
 
+    /// 1 − a·b.
+    #[inline(always)]
+    fn one_minus_product(dim: usize, a: &Self::Matrix, b: &Self::Matrix) -> Self::Matrix {
+        Self::matrix_from_entries(dim, |i, j| {
+            let mut sum = a[(i, 0)] * b[(0, j)];
+            for k in 1..dim {
+                sum = a[(i, k)].times_plus(b[(k, j)], sum);
+            }
+            if i == j { T::of(1.0) - sum } else { -sum }
+        })
+    }
+
     /// The product of a matrix with this vector.
     #[inline(always)]
     fn left_multiply(&self, matrix: &Self::Matrix) -> Self {
@@ -81,12 +94,30 @@ pub trait Coordinates<T: Scalar>:
         largest
     }
 
-    /// Solves `matrix · y = right` for `y`.
+    /// The factors of `matrix` for [`Coordinates::solve`]: elimination by blocks of three.
     ///
-    /// Elimination without pivoting (SIMD lanes cannot swap rows one by one): meant for matrices
-    /// near the identity, as the solver's are. A singular matrix gives non-finite entries, which
-    /// the caller must look for.
-    fn solve(matrix: Self::Matrix, right: Self) -> Self;
+    /// Blocks are not pivoted (SIMD lanes cannot swap rows one by one): meant for matrices near the
+    /// identity, as the solver's are. A singular matrix gives non-finite entries, which the caller
+    /// must look for.
+    #[inline(always)]
+    fn factor(dim: usize, mut matrix: Self::Matrix) -> Factors<Self::Matrix, T> {
+        let last = block_elimination::factor(dim, &mut matrix);
+        Factors { matrix, last }
+    }
+
+    /// Solves `matrix · y = right` for `y`, given the factors of `matrix`.
+    #[inline(always)]
+    fn solve(factors: &Factors<Self::Matrix, T>, mut right: Self) -> Self {
+        block_elimination::solve(right.dim(), &factors.matrix, factors.last, &mut right);
+        right
+    }
+}
+
+/// A matrix made ready for solving, by [`Coordinates::factor`].
+#[derive(Clone, Debug)]
+pub struct Factors<M, T> {
+    matrix: M,
+    last: T,
 }
 
 impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {
@@ -106,11 +137,6 @@ impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {
     fn dim(&self) -> usize {
         N
     }
-
-    #[inline(always)]
-    fn solve(matrix: Self::Matrix, right: Self) -> Self {
-        if N == 3 { solve_by_cofactors(&matrix, &right) } else { eliminate(N, matrix, right) }
-    }
 }
 
 #[cfg(feature = "alloc")]
@@ -128,47 +154,4 @@ impl<T: Scalar> Coordinates<T> for nalgebra::DVector<T> {
     fn dim(&self) -> usize {
         self.len()
     }
-
-    fn solve(matrix: Self::Matrix, right: Self) -> Self {
-        eliminate(right.len(), matrix, right)
-    }
-}
-
-/// Cramer's rule for three unknowns: shorter dependency chains than elimination.
-#[inline(always)]
-fn solve_by_cofactors<T: Scalar, V: Coordinates<T>>(a: &V::Matrix, b: &V) -> V {
-    let cross = |r: usize, s: usize| {
-        let minor = |i: usize, j: usize| a[(r, i)] * a[(s, j)] - a[(r, j)] * a[(s, i)];
-        [minor(1, 2), minor(2, 0), minor(0, 1)]
-    };
-    let (c0, c1, c2) = (cross(1, 2), cross(2, 0), cross(0, 1));
-    let determinant = a[(0, 0)] * c0[0] + a[(0, 1)] * c0[1] + a[(0, 2)] * c0[2];
-    let inverse = T::of(1.0) / determinant;
-    V::from_entries(3, |i| (c0[i] * b[0] + c1[i] * b[1] + c2[i] * b[2]) * inverse)
-}
-
-/// Gaussian elimination in place, no pivoting.
-#[inline(always)]
-fn eliminate<T: Scalar, V: Coordinates<T>>(n: usize, mut a: V::Matrix, mut b: V) -> V {
-    for k in 0..n {
-        let inverse = T::of(1.0) / a[(k, k)];
-        for i in k + 1..n {
-            let factor = a[(i, k)] * inverse;
-            for j in k + 1..n {
-                let product = factor * a[(k, j)];
-                a[(i, j)] -= product;
-            }
-            let product = factor * b[k];
-            b[i] -= product;
-        }
-        a[(k, k)] = inverse;
-    }
-    for k in (0..n).rev() {
-        let mut sum = b[k];
-        for j in k + 1..n {
-            sum -= a[(k, j)] * b[j];
-        }
-        b[k] = sum * a[(k, k)];
-    }
-    b
 }

@@ -52,6 +52,7 @@ extern crate alloc;
 #[cfg(feature = "systems")]
 extern crate self as coadjoint;
 
+mod block_elimination;
 mod catalogue;
 mod chart;
 mod compensated;
@@ -180,7 +181,7 @@ pub use catalogue::{
 };
 pub use chart::{Cayley, Chart, Exponential};
 pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
-pub use coordinates::Coordinates;
+pub use coordinates::{Coordinates, Factors};
 pub use element_error::ElementError;
 pub use error::StepError;
 pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};

@@ -10,7 +10,13 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::scalar::Scalar;
 
+/// Steps with the same factors, before the Hessian is taken anew.
+const CHORDS: u32 = 4;
+
 /// [`solve`](super::solve) by [`Solver::Newton`].
+///
+/// The first step takes a Hessian; the next ones are chord steps, which keep its factors and need
+/// only the gradient. Near the solution a chord step gains as many digits as the step before it.
 #[inline(always)]
 pub fn newton<S: GeneratingFunction + ?Sized>(
     generating: &S,
@@ -34,41 +40,49 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
     let mut remaining = one;
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
-        iterations += 1;
-        let (x, hessian) = generating.newton_model(&p);
-        let (pulled, derivative) = chart.pull_back_with_derivative(group, &x, mu);
+        let (mut x, hessian) = generating.newton_model(&p);
+        let (mut pulled, derivative) = chart.pull_back_with_derivative(group, &x, mu);
         // F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
-        let jacobian = VectorOf::<S>::matrix_from_entries(dim, |i, j| {
-            let mut sum = derivative[(i, 0)] * hessian[(0, j)];
-            for k in 1..dim {
-                sum = derivative[(i, k)].times_plus(hessian[(k, j)], sum);
-            }
-            if i == j { one - sum } else { -sum }
-        });
-        let residual = VectorOf::<S>::from_entries(dim, |i| p[i] - pulled[i]);
-        let correction = VectorOf::<S>::solve(jacobian, residual);
-        let shift = correction.left_multiply(&hessian);
-        let next = VectorOf::<S>::from_entries(dim, |i| p[i] - correction[i]);
-        // x moves linearly with p; what that leaves out is of the order of what Newton leaves.
-        let moved = VectorOf::<S>::from_entries(dim, |i| x[i] - shift[i]);
+        let jacobian = VectorOf::<S>::one_minus_product(dim, &derivative, &hessian);
+        let factors = VectorOf::<S>::factor(dim, jacobian);
+        // How far the model of this Newton step is off, where p and x move by the steps below.
+        let mut stretched = ScalarOf::<S>::of(0.0);
+        let mut bent = ScalarOf::<S>::of(0.0);
+        for chord in 0..CHORDS {
+            iterations += 1;
+            let residual = VectorOf::<S>::from_entries(dim, |i| p[i] - pulled[i]);
+            let correction = VectorOf::<S>::solve(&factors, residual);
+            let shift = correction.left_multiply(&hessian);
+            let next = VectorOf::<S>::from_entries(dim, |i| p[i] - correction[i]);
+            // x moves linearly with p; what that leaves out is of the order of what Newton leaves.
+            let moved = VectorOf::<S>::from_entries(dim, |i| x[i] - shift[i]);
 
-        let relative = correction.largest_entry() * inverse_scale;
-        let stretch = shift.largest_entry();
-        // Newton leaves ½F″(δp, δp): about |μ| |δx|²/6 from the chart, ½|D| |S‴ δp δp| from S with
-        // |D| ≈ |μ|/2, and, where the Hessian is not the whole one, D·(Hess S − H)·δp.
-        let bend = generating.bend(x.largest_entry());
-        let left = stretch * (half * stretch + bend * relative) + half_defect * relative;
-        let was_open = remaining.simd_gt(tolerance);
-        solved = (
-            VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),
-            VectorOf::<S>::from_entries(dim, |i| moved[i].select(was_open, solved.1[i])),
-        );
-        remaining = left.select(was_open, remaining);
-        if remaining.simd_le(tolerance).all() {
-            let (p, x) = solved;
-            return Ok(Solution { p, x, iterations, residual: remaining });
+            let relative = correction.largest_entry() * inverse_scale;
+            let stretch = shift.largest_entry();
+            let bend = generating.bend(x.largest_entry()) * relative;
+            // A step leaves F″(step before + ½ this step, this step): about |μ| |δx|²/3 from the
+            // chart, |D| |S‴ δp δp| from S with |D| ≈ |μ|/2, and, where the Hessian is not the
+            // whole one, D·(Hess S − H)·δp.
+            let curved = stretched + half * stretch + bent + bend;
+            let left = stretch * curved + half_defect * relative;
+            let was_open = remaining.simd_gt(tolerance);
+            solved = (
+                VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),
+                VectorOf::<S>::from_entries(dim, |i| moved[i].select(was_open, solved.1[i])),
+            );
+            remaining = left.select(was_open, remaining);
+            if remaining.simd_le(tolerance).all() {
+                let (p, x) = solved;
+                return Ok(Solution { p, x, iterations, residual: remaining });
+            }
+            p = next;
+            if chord + 1 < CHORDS {
+                stretched += stretch;
+                bent += bend + bend;
+                x = generating.gradient(&p);
+                pulled = chart.pull_back(group, &x, mu);
+            }
         }
-        p = next;
     }
     Err(failure(Solver::Newton, mu, iterations, remaining))
 }
