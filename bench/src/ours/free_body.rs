@@ -2,8 +2,9 @@
 
 use coadjoint::{Phase, SO3, lie_poisson};
 
+use super::Ours;
 use crate::{
-    method::{Method, RunError, Setting, step_sweep},
+    method::{Method, RunError, Setting},
     problem::{FreeBody, Problem, System},
     state::{Rotation, State},
 };
@@ -44,65 +45,39 @@ macro_rules! truncated {
 }
 
 truncated!(seven, 7);
+truncated!(nine, 9);
 truncated!(eleven, 11);
 truncated!(thirteen, 13);
+truncated!(fifteen, 15);
+truncated!(seventeen, 17);
 
-type Run = fn(&FreeBody, [f64; 3], f64, f64) -> Result<State, RunError>;
+type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64) -> Result<State, RunError>;
 
-/// Our step for the free body.
-pub struct RigidBody {
-    name: String,
-    truncation: u32,
-    run: Run,
-}
-
-impl RigidBody {
-    fn new(truncation: u32, run: Run) -> Self {
-        Self { name: format!("coadjoint, K = {truncation}"), truncation, run }
+impl super::Run for FreeBodyRun {
+    fn applies(&self, system: &System) -> bool {
+        matches!(system, System::FreeBody(_))
     }
 
-    /// Every truncation.
-    #[must_use]
-    pub fn all() -> Vec<Self> {
-        vec![Self::new(7, seven::run), Self::new(11, eleven::run), Self::new(13, thirteen::run)]
-    }
-}
-
-impl Method for RigidBody {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn family(&self) -> &str {
-        "coadjoint"
-    }
-
-    fn order(&self) -> Option<u32> {
-        Some(self.truncation + 1)
-    }
-
-    fn applies(&self, problem: &Problem) -> bool {
-        matches!(problem.system, System::FreeBody(_))
-    }
-
-    fn settings(&self, problem: &Problem) -> Vec<Setting> {
-        step_sweep(problem)
-    }
-
-    fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: self.name.clone(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
         let System::FreeBody(body) = &problem.system else {
-            return Err(RunError::NotApplicable {
-                method: self.name.clone(),
-                problem: problem.name.to_owned(),
-            });
+            return None;
         };
-        (self.run)(body, problem.initial.momentum, problem.end, step)
+        Some(self(body, problem.initial.momentum, problem.end, step))
     }
+}
+
+/// Every truncation.
+#[must_use]
+pub fn all() -> Vec<Box<dyn Method>> {
+    let rows: [(u32, FreeBodyRun); 6] = [
+        (7, seven::run),
+        (9, nine::run),
+        (11, eleven::run),
+        (13, thirteen::run),
+        (15, fifteen::run),
+        (17, seventeen::run),
+    ];
+    rows.into_iter()
+        .map(|(truncation, run)| Box::new(Ours::new(truncation, "SO(3)", run)) as Box<dyn Method>)
+        .collect()
 }

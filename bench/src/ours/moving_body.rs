@@ -1,0 +1,166 @@
+//! Tops and bodies in a fluid by the attribute, as a user writes them, at several truncations.
+
+use coadjoint::{Phase, SE3, lie_poisson};
+use nalgebra::Vector6;
+
+use super::Ours;
+use crate::{
+    method::{Method, RunError, Setting},
+    problem::{Gravity, Mass, MovingBody, Problem, System},
+    state::{Rotation, State},
+};
+
+/// Runs a generated integrator from the problem's initial state to its end.
+macro_rules! run {
+    ($integrator:expr, $problem:expr, $count:expr) => {{
+        let failed = |_| RunError::NotConverged;
+        let integrator = $integrator.map_err(failed)?;
+        let (m, f) = ($problem.initial.momentum, $problem.initial.force);
+        let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
+        let mut phase = Phase::<SE3>::at_identity(momentum);
+        for _ in 0..$count {
+            integrator.advance(&mut phase).map_err(failed)?;
+        }
+        Ok(state(&phase))
+    }};
+}
+
+/// Writes a top with its centre of mass on one principal axis, at one truncation.
+macro_rules! top {
+    ($module:ident, $truncation:literal, $axis:literal) => {
+        mod $module {
+            use super::*;
+
+            /// Heavy top: inverse moments of inertia in 1/(kg m²), weight times lever arm in J.
+            #[lie_poisson(group = SE3, truncation = $truncation)]
+            pub fn heavy_top(mu: [f64; 6], inverse: [f64; 3], weight: f64) -> f64 {
+                0.5 * (inverse[0] * mu[0] * mu[0]
+                    + inverse[1] * mu[1] * mu[1]
+                    + inverse[2] * mu[2] * mu[2])
+                    + weight * mu[3 + $axis]
+            }
+
+            pub fn run(
+                body: &MovingBody<Gravity<$axis>>,
+                problem: &Problem,
+                step: f64,
+            ) -> Result<State, RunError> {
+                let (count, h) = Setting::steps(step, problem.end);
+                let weight = body.translation.weight;
+                run!(HeavyTop::new(h, body.inverse_inertia, weight), problem, count)
+            }
+        }
+    };
+}
+
+/// Writes Kirchhoff's body at one truncation.
+macro_rules! kirchhoff {
+    ($module:ident, $truncation:literal) => {
+        mod $module {
+            use super::*;
+
+            /// Body in a fluid: inverse moments of inertia and masses, added ones included.
+            #[lie_poisson(group = SE3, truncation = $truncation)]
+            pub fn kirchhoff(mu: [f64; 6], inertia: [f64; 3], mass: [f64; 3]) -> f64 {
+                0.5 * (inertia[0] * mu[0] * mu[0]
+                    + inertia[1] * mu[1] * mu[1]
+                    + inertia[2] * mu[2] * mu[2]
+                    + mass[0] * mu[3] * mu[3]
+                    + mass[1] * mu[4] * mu[4]
+                    + mass[2] * mu[5] * mu[5])
+            }
+
+            pub fn run(
+                body: &MovingBody<Mass>,
+                problem: &Problem,
+                step: f64,
+            ) -> Result<State, RunError> {
+                let (count, h) = Setting::steps(step, problem.end);
+                let inverse = body.translation.inverse;
+                run!(Kirchhoff::new(h, body.inverse_inertia, inverse), problem, count)
+            }
+        }
+    };
+}
+
+top!(first_axis_five, 5, 0);
+top!(first_axis_seven, 7, 0);
+top!(first_axis_nine, 9, 0);
+top!(second_axis_five, 5, 1);
+top!(second_axis_seven, 7, 1);
+top!(second_axis_nine, 9, 1);
+kirchhoff!(kirchhoff_five, 5);
+kirchhoff!(kirchhoff_seven, 7);
+
+/// One truncation over the three kinds of systems on se(3)\*.
+#[derive(Clone, Copy)]
+struct Runs {
+    first_axis: fn(&MovingBody<Gravity<0>>, &Problem, f64) -> Result<State, RunError>,
+    second_axis: fn(&MovingBody<Gravity<1>>, &Problem, f64) -> Result<State, RunError>,
+    /// Left out where its code would take minutes to compile.
+    kirchhoff: Option<fn(&MovingBody<Mass>, &Problem, f64) -> Result<State, RunError>>,
+}
+
+impl super::Run for Runs {
+    fn applies(&self, system: &System) -> bool {
+        match system {
+            System::FreeBody(_) => false,
+            System::Kirchhoff(_) => self.kirchhoff.is_some(),
+            System::HeavyTop(_) | System::Kovalevskaya(_) => true,
+        }
+    }
+
+    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
+        match &problem.system {
+            System::FreeBody(_) => None,
+            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step)),
+            System::Kovalevskaya(body) => Some((self.first_axis)(body, problem, step)),
+            System::Kirchhoff(body) => self.kirchhoff.map(|run| run(body, problem, step)),
+        }
+    }
+}
+
+/// Every truncation.
+#[must_use]
+pub fn all() -> Vec<Box<dyn Method>> {
+    let rows = [
+        (
+            5,
+            Runs {
+                first_axis: first_axis_five::run,
+                second_axis: second_axis_five::run,
+                kirchhoff: Some(kirchhoff_five::run),
+            },
+        ),
+        (
+            7,
+            Runs {
+                first_axis: first_axis_seven::run,
+                second_axis: second_axis_seven::run,
+                kirchhoff: Some(kirchhoff_seven::run),
+            },
+        ),
+        (
+            9,
+            Runs {
+                first_axis: first_axis_nine::run,
+                second_axis: second_axis_nine::run,
+                kirchhoff: None,
+            },
+        ),
+    ];
+    rows.into_iter()
+        .map(|(truncation, runs)| Box::new(Ours::new(truncation, "SE(3)", runs)) as Box<dyn Method>)
+        .collect()
+}
+
+fn state(phase: &Phase<SE3>) -> State {
+    let (m, q) = (&phase.momentum, &phase.group_element.rotation);
+    let x = &phase.group_element.translation;
+    State {
+        momentum: [m[0], m[1], m[2]],
+        force: [m[3], m[4], m[5]],
+        rotation: Rotation::Quaternion([q.w, q.i, q.j, q.k]),
+        position: [x.x, x.y, x.z],
+    }
+}
