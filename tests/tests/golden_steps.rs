@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{GeneratingFunction, StepError};
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint::{Chart, GeneratingFunction, StepError};
+use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_tests::{from_function, golden};
 
 mod rigid_body {
@@ -52,7 +52,12 @@ fn against_interpreter<const N: usize, S>(
         };
         close(compiled.value(&p), run(&integrator.value, &p)[0]);
         close(energy(&p), run(&integrator.energy, &p)[0]);
-        let predicted = run(&integrator.predictor, &p);
+        let mut predicted = run(&integrator.predictor, &p);
+        if let Predictor::Flow(_) = integrator.plan.predictor {
+            let x = SVector::from_column_slice(&predicted);
+            let pulled = compiled.chart().pull_back(compiled.group(), &x, &p);
+            predicted = pulled.as_slice().to_vec();
+        }
         let hessian = run(&integrator.hessian, &p);
         let newton = run(integrator.newton_program(), &p);
         let gradient = compiled.gradient(&p);

@@ -7,7 +7,7 @@ use coadjoint::{
     VectorOf,
 };
 use coadjoint_codegen::graph::{Id, Number, Program};
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{Integrator, Predictor};
 
 /// What a program computed.
 struct Outputs<'s, T> {
@@ -119,7 +119,11 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interprete
 
     #[inline(always)]
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
-        self.vector(&self.integrator.predictor, mu)
+        let guess = self.vector(&self.integrator.predictor, mu);
+        match self.integrator.plan.predictor {
+            Predictor::Explicit(_) => guess,
+            Predictor::Flow(_) => self.chart().pull_back(&self.group, &guess, mu),
+        }
     }
 
     #[inline(always)]

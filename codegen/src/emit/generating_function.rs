@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::body::{Body, body};
 use super::item::Parts;
 use crate::graph::Program;
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Predictor};
 
 /// `impl GeneratingFunction for name`.
 #[must_use]
@@ -21,6 +21,13 @@ pub fn generating_function(
     let gradient = vector_function(&integrator.gradient, vector);
     let hessian = hessian_function(&integrator.hessian, *dim, vector, matrix);
     let predictor = vector_function(&integrator.predictor, vector);
+    let predictor = match integrator.plan.predictor {
+        Predictor::Explicit(_) => predictor,
+        Predictor::Flow(_) => quote! {
+            let x = { #predictor };
+            #krate::Chart::pull_back(<#chart as ::core::default::Default>::default(), self.group(), &x, input)
+        },
+    };
     let newton = integrator.newton.as_ref().map(|program| {
         let function = hessian_function(program, *dim, vector, matrix);
         quote! {

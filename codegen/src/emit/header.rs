@@ -1,6 +1,6 @@
 //! What a generated integrator says about itself.
 
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Predictor};
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations.
 #[must_use]
@@ -25,10 +25,14 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
         format!(" Terms: {}.", terms.join(", ")),
         format!(
             " Operations: gradient and Hessian {} multiplications and {} additions; predictor of \
-             degree {} {} and {}.",
+             degree {}{} {} and {}.",
             newton.multiplications,
             newton.additions,
-            integrator.plan.predictor_degree,
+            integrator.plan.predictor.degree(),
+            match integrator.plan.predictor {
+                Predictor::Explicit(_) => "",
+                Predictor::Flow(_) => " along the flow",
+            },
             predictor.multiplications,
             predictor.additions
         ),

@@ -73,6 +73,10 @@ impl Graph {
         id
     }
 
+    fn is_zero(&self, id: Id) -> bool {
+        self.nodes[id.index()] == Node::Zero
+    }
+
     /// The number 0.
     pub fn zero(&mut self) -> Id {
         self.intern(Node::Zero)
@@ -88,8 +92,11 @@ impl Graph {
         self.intern(Node::Slot(index as u32))
     }
 
-    /// a · b, in canonical operand order.
+    /// a · b, in canonical operand order; the number 0 absorbs.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
+        if self.is_zero(a) || self.is_zero(b) {
+            return self.zero();
+        }
         self.intern(Node::Mul(a.min(b), a.max(b)))
     }
 
@@ -104,7 +111,10 @@ impl Graph {
 
     /// a · b + c.
     pub fn times_plus(&mut self, a: Id, b: Id, c: Id) -> Id {
-        if self.nodes[c.index()] == Node::Zero {
+        if self.is_zero(a) || self.is_zero(b) {
+            return c;
+        }
+        if self.is_zero(c) {
             return self.mul(a, b);
         }
         self.intern(Node::TimesPlus(a.min(b), a.max(b), c))

@@ -1,6 +1,7 @@
 //! One builder for every front end: a problem becomes an integrator, ready for any back end.
 
 mod coefficients;
+mod flow;
 mod kick;
 mod lower;
 mod plan;
@@ -9,7 +10,7 @@ mod terms;
 pub use coefficients::{Coefficients, Contribution};
 pub use kick::Kick;
 pub use lower::DefectTerm;
-pub use plan::Plan;
+pub use plan::{Plan, Predictor};
 
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
@@ -40,7 +41,7 @@ pub struct Integrator {
     pub newton: Option<Program>,
     /// Bounds what `newton` leaves out of the Hessian.
     pub defect: Vec<DefectTerm>,
-    /// μ′ ↦ a first guess of p.
+    /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
     /// μ ↦ H_red(μ).
     pub energy: Program,
@@ -82,24 +83,34 @@ impl Integrator {
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
         let hessian = lower::hessian_program(table, dim, &s, truncation);
-        let (plan, predictor) = match plan {
+        let (plan, polynomials) = match plan {
             Some(plan) => {
                 let Problem { algebra, chart, hamiltonian, .. } = &problem;
-                let degree = plan.predictor_degree;
-                (plan, hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?)
+                let polynomials = match plan.predictor {
+                    Predictor::Explicit(degree) => {
+                        hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?
+                    }
+                    Predictor::Flow(_) => Vec::new(),
+                };
+                (plan, polynomials)
             }
             None => Plan::choose(&problem, &s, limit)?,
         };
         let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
-        let components: Vec<_> = (0..dim)
-            .map(|i| {
-                let orders = predictor.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
-                terms::collect(table, dim, orders)
-            })
-            .collect();
         let newton = (newton != hessian).then_some(newton);
         let defect = lower::defect(table, &s, plan.hessian_truncation as u32);
-        let predictor = lower::vector_program(table, dim, &components);
+        let predictor = match plan.predictor {
+            Predictor::Flow(degree) => flow::increment_program(table, &problem, degree),
+            Predictor::Explicit(_) => {
+                let components: Vec<_> = (0..dim)
+                    .map(|i| {
+                        let orders = polynomials.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
+                        terms::collect(table, dim, orders)
+                    })
+                    .collect();
+                lower::vector_program(table, dim, &components)
+            }
+        };
         let gradient = lower::gradient_program(table, dim, &s);
         let value = lower::value_program(table, dim, &s);
         let energy = lower::value_program(table, dim, &h);

@@ -1,19 +1,41 @@
-//! Choosing the predictor's degree and the Hessian's truncation.
+//! Choosing the predictor and the Hessian's truncation.
 
 use std::collections::BTreeSet;
 
 use super::coefficients::Coefficients;
+use super::flow;
 use super::terms::{BaseTerm, collect};
 use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, TermLimit, predictor};
+use crate::lie::Chart;
 use crate::poly::Polynomial;
 use crate::problem::Problem;
+
+/// How a step finds its first guess of p.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Predictor {
+    /// Polynomials of μ′ for the coordinates of p, up to this degree in h.
+    Explicit(usize),
+    /// x along the exact flow up to this degree in h, four or six, and p = (d^R τ_x)ᵀ μ′; for the
+    /// exponential chart.
+    Flow(usize),
+}
+
+impl Predictor {
+    /// The degree in h up to which the guess is exact.
+    #[must_use]
+    pub fn degree(self) -> usize {
+        match self {
+            Self::Explicit(degree) | Self::Flow(degree) => degree,
+        }
+    }
+}
 
 /// What surrounds the exact gradient in a step. None of it changes the map, only its cost: the
 /// solve goes on until rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// The degree in h of the predictor.
-    pub predictor_degree: usize,
+    /// The first guess.
+    pub predictor: Predictor,
     /// The Hessian is taken of S₁ … S_k for k up to this.
     pub hessian_truncation: usize,
 }
@@ -26,28 +48,20 @@ impl Plan {
         even.min(truncation + 1)
     }
 
-    /// Newton steps until the error is of the order in h that one step from the ideal predictor
-    /// reaches. A step takes an error of order e to 2e + 1, or to e + k + 2 if the Hessian leaves
-    /// out S_{k+2} and higher.
-    fn newton_steps(self, truncation: usize) -> usize {
+    /// Chord steps after the first, Newton's, until the error is of the order in h that one step
+    /// from the ideal predictor reaches. With the predictor's error of order e, every step gains
+    /// e + 1 orders, or k + 2 if the Hessian leaves out S_{k+2} and higher and that is less.
+    fn chord_steps(self, truncation: usize) -> usize {
         let goal = 2 * Self::single_step_degree(truncation) + 2;
-        let linear = self.hessian_truncation + 2;
-        let mut order = self.predictor_degree + 1;
-        let mut steps = 0;
-        while steps == 0 || order < goal {
-            let quadratic = 2 * order + 1;
-            order = if self.hessian_truncation < truncation {
-                quadratic.min(order + linear)
-            } else {
-                quadratic
-            };
-            steps += 1;
-        }
-        steps
+        let start = self.predictor.degree() + 1;
+        let complete = self.hessian_truncation >= truncation;
+        let gain = if complete { start + 1 } else { (start + 1).min(self.hessian_truncation + 2) };
+        goal.saturating_sub(start).div_ceil(gain).saturating_sub(1)
     }
 
-    /// The plan whose predictor and Newton steps together take fewest operations, by the number
-    /// of monomials, with its predictor: `[order in h][component]`. `terms` are those of S.
+    /// The plan whose predictor, Newton step and chord steps take fewest operations, by the number
+    /// of monomials; and the polynomials of an explicit predictor, `[order in h][component]`.
+    /// `terms` are those of S.
     ///
     /// # Errors
     /// [`DeriveError`] if not even the constant predictor can be derived.
@@ -56,48 +70,10 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let truncation = problem.truncation;
-        let n = problem.algebra.dim();
-        let overhead = overhead(n);
-        let hessians: Vec<(usize, usize)> = (1..=truncation)
-            .step_by(2)
-            .map(|k| (k, overhead + gradient_operations(terms) + hessian_operations(terms, k)))
-            .collect();
-        let cheapest = |predictor_degree, own: usize| {
-            let plans = hessians.iter().map(|&(hessian_truncation, newton)| {
-                let plan = Self { predictor_degree, hessian_truncation };
-                (own + plan.newton_steps(truncation) * newton, plan)
-            });
-            // Of equal costs the better Hessian, which comes last.
-            plans.reduce(|best, next| if next.0 <= best.0 { next } else { best })
-        };
-        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
-        for degree in (0..=Self::single_step_degree(truncation)).step_by(2) {
-            let Problem { algebra, chart, hamiltonian, .. } = problem;
-            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
-                Ok(polynomials) => polynomials,
-                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
-                    if best.is_some() =>
-                {
-                    break;
-                }
-                Err(error) => return Err(error),
-            };
-            let own = predictor_operations(&polynomials, n);
-            let Some((cost, plan)) = cheapest(degree, own) else { break };
-            match &best {
-                Some((least, ..)) if own > *least => break,
-                Some((least, ..)) if cost >= *least => {}
-                _ => best = Some((cost, plan, polynomials)),
-            }
-        }
-        let constant = Self { predictor_degree: 0, hessian_truncation: truncation };
-        Ok(best
-            .map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
+        let (_, plan, polynomials) = Self::cheapest(problem, terms, limit)?;
+        Ok((plan, polynomials))
     }
-}
 
-impl Plan {
     /// About the operations of a step of the series S₁ … S_K, K the problem's truncation, with the
     /// cheapest plan.
     ///
@@ -108,21 +84,96 @@ impl Plan {
         series: &GeneratingSeries,
         limit: TermLimit,
     ) -> Result<usize, DeriveError> {
-        let n = problem.algebra.dim();
+        let dim = problem.algebra.dim();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
-        let terms = collect(&mut Coefficients::default(), n, orders);
-        let (plan, predictor) = Self::choose(problem, &terms, limit)?;
-        let newton = overhead(n)
-            + gradient_operations(&terms)
-            + hessian_operations(&terms, plan.hessian_truncation);
-        Ok(predictor_operations(&predictor, n) + plan.newton_steps(problem.truncation) * newton)
+        let terms = collect(&mut Coefficients::default(), dim, orders);
+        Ok(Self::cheapest(problem, &terms, limit)?.0)
+    }
+
+    /// The operations of a step, the plan, and the polynomials of an explicit predictor.
+    fn cheapest(
+        problem: &Problem,
+        terms: &[BaseTerm],
+        limit: TermLimit,
+    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
+        let costs = Costs::new(problem, terms);
+        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
+        for degree in (0..=Self::single_step_degree(problem.truncation)).step_by(2) {
+            let Problem { algebra, chart, hamiltonian, .. } = problem;
+            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
+                Ok(polynomials) => polynomials,
+                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
+                    if best.is_some() =>
+                {
+                    break;
+                }
+                Err(error) => return Err(error),
+            };
+            let own = predictor_operations(&polynomials, algebra.dim());
+            let Some((cost, plan)) = costs.cheapest(Predictor::Explicit(degree), own) else {
+                break;
+            };
+            match &best {
+                Some((least, ..)) if own > *least => break,
+                Some((least, ..)) if cost >= *least => {}
+                _ => best = Some((cost, plan, polynomials)),
+            }
+        }
+        if problem.chart == Chart::Exponential {
+            for degree in flow::DEGREES {
+                let program =
+                    flow::increment_program(&mut Coefficients::default(), problem, degree);
+                // From x to p the chart is evaluated once more.
+                let own = program.cost().total() + WAIT;
+                let plan = costs.cheapest(Predictor::Flow(degree), own);
+                if let Some((cost, plan)) = plan
+                    && best.as_ref().is_none_or(|(least, ..)| cost < *least)
+                {
+                    best = Some((cost, plan, Vec::new()));
+                }
+            }
+        }
+        let constant =
+            Self { predictor: Predictor::Explicit(0), hessian_truncation: problem.truncation };
+        Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
     }
 }
 
-/// Chart, Jacobian 1 − D·Hess S, elimination; and the wait for one result before the next can
-/// begin, in which about 300 independent operations would fit (measured on SO(3)).
-fn overhead(n: usize) -> usize {
-    300 + 2 * n.pow(3) + 2 * n.pow(3) / 3 + 10 * n * n
+/// How many independent operations would fit into the time in which a chart or a small linear system
+/// waits for its own results (measured on SO(3)).
+const WAIT: usize = 300;
+
+/// What steps cost, in operations.
+struct Costs {
+    truncation: usize,
+    /// A chord step: gradient, chart, substitution.
+    chord: usize,
+    /// The first step, for each truncation of the Hessian: also its entries, the Jacobian
+    /// 1 − D·Hess S, and elimination.
+    newton: Vec<(usize, usize)>,
+}
+
+impl Costs {
+    fn new(problem: &Problem, terms: &[BaseTerm]) -> Self {
+        let n = problem.algebra.dim();
+        let chord = WAIT + 10 * n * n + gradient_operations(terms);
+        let matrices = 2 * n.pow(3) + 2 * n.pow(3) / 3;
+        let newton = (1..=problem.truncation)
+            .step_by(2)
+            .map(|k| (k, matrices + chord + hessian_operations(terms, k)))
+            .collect();
+        Self { truncation: problem.truncation, chord, newton }
+    }
+
+    /// The cheapest plan with a given predictor, which takes `own` operations.
+    fn cheapest(&self, predictor: Predictor, own: usize) -> Option<(usize, Plan)> {
+        let plans = self.newton.iter().map(|&(hessian_truncation, newton)| {
+            let plan = Plan { predictor, hessian_truncation };
+            (own + newton + plan.chord_steps(self.truncation) * self.chord, plan)
+        });
+        // Of equal costs the better Hessian, which comes last.
+        plans.reduce(|best, next| if next.0 <= best.0 { next } else { best })
+    }
 }
 
 /// About two operations for each monomial of each component.

@@ -1,0 +1,252 @@
+//! A first guess of x along the exact flow, by numbers instead of formulas.
+//!
+//! Written out as polynomials of μ′, the predictor grows fast with the dimension. Here the momentum's
+//! Taylor coefficients along μ̇ = ad*_ω μ, ω = ∂H/∂μ, come from one another by their recurrence, as in
+//! a Taylor integrator, and x = log of the increment from the moments of ω about the middle of the
+//! step, by Magnus' series of order four or six (Blanes, Casas and Ros, BIT 40, 2000, 434). The work
+//! grows with the square of the degree and with the number of terms of H.
+
+use std::collections::HashMap;
+
+use num_traits::One;
+
+use super::coefficients::{Coefficients, Contribution};
+use super::terms::{self, BaseTerm};
+use crate::graph::{Graph, Id, Program};
+use crate::number::{Rational, ratio};
+use crate::poly::Polynomial;
+use crate::problem::Problem;
+
+/// The degrees in h to which x can be had.
+pub const DEGREES: [usize; 2] = [4, 6];
+
+/// μ′ ↦ x up to h^degree, degree four or six.
+pub fn increment_program(
+    coefficients: &mut Coefficients,
+    problem: &Problem,
+    degree: usize,
+) -> Program {
+    let dim = problem.algebra.dim();
+    let mut flow = Flow::new(coefficients, problem);
+    let field = vector_field(problem);
+    let omega = problem.hamiltonian.gradient(dim);
+    let omega: Vec<Vec<BaseTerm>> = omega.iter().map(|w| flow.collect(1, w)).collect();
+    let mut jets: Vec<Vec<Id>> = vec![Vec::new(); dim];
+    for order in 0..degree {
+        if order > 0 {
+            let share = ratio(1, order as i64);
+            let rates: Vec<Id> = field
+                .iter()
+                .map(|rate| {
+                    let terms = flow.collect(1, &rate.scale(&share));
+                    flow.evaluate(&terms, order - 1)
+                })
+                .collect();
+            flow.momenta.push(rates);
+        }
+        for (jet, terms) in jets.iter_mut().zip(&omega) {
+            jet.push(flow.evaluate(terms, order));
+        }
+    }
+    let outputs = if degree < 6 { flow.fourth_order(&jets) } else { flow.sixth_order(&jets) };
+    flow.graph.finish(dim, &outputs)
+}
+
+/// ad*_{∂H/∂μ} μ, component by component.
+fn vector_field(problem: &Problem) -> Vec<Polynomial> {
+    let dim = problem.algebra.dim();
+    let variables = problem.hamiltonian.variables();
+    let omega = problem.hamiltonian.gradient(dim);
+    let mut field = vec![Polynomial::zero(variables); dim];
+    for constant in problem.algebra.structure() {
+        let momentum = Polynomial::variable(variables, constant.k);
+        let product = (&omega[constant.i] * &momentum).scale(&constant.value);
+        field[constant.j] = &field[constant.j] + &product;
+    }
+    field
+}
+
+/// Power series in the time over the step, s from 0 to 1, as nodes of a graph.
+struct Flow<'a> {
+    coefficients: &'a mut Coefficients,
+    problem: &'a Problem,
+    graph: Graph,
+    /// The coefficients of sᵏ in each coordinate of μ: `[order][coordinate]`.
+    momenta: Vec<Vec<Id>>,
+    /// Those of the monomials met so far.
+    products: HashMap<(Vec<u32>, usize), Id>,
+    /// Slots of plain numbers.
+    numbers: HashMap<Rational, usize>,
+}
+
+impl<'a> Flow<'a> {
+    fn new(coefficients: &'a mut Coefficients, problem: &'a Problem) -> Self {
+        let mut graph = Graph::new();
+        let inputs = (0..problem.algebra.dim()).map(|i| graph.input(i)).collect();
+        let (products, numbers) = (HashMap::new(), HashMap::new());
+        Self { coefficients, problem, graph, momenta: vec![inputs], products, numbers }
+    }
+
+    /// The terms of h^power · polynomial.
+    fn collect(&mut self, power: u32, polynomial: &Polynomial) -> Vec<BaseTerm> {
+        terms::collect(self.coefficients, self.problem.algebra.dim(), [(power, polynomial)])
+    }
+
+    /// The coefficient of sᵏ in a polynomial of the momenta.
+    fn evaluate(&mut self, terms: &[BaseTerm], order: usize) -> Id {
+        let mut sum = self.graph.zero();
+        for term in terms {
+            let slot = self.coefficients.slot(term.base, 1);
+            let slot = self.graph.slot(slot);
+            let variables: Vec<u32> =
+                term.factors.iter().flat_map(|&(v, e)| (0..e).map(move |_| v)).collect();
+            if variables.is_empty() {
+                if order == 0 {
+                    sum = self.graph.add(sum, slot);
+                }
+                continue;
+            }
+            let product = self.product(&variables, order);
+            sum = self.graph.times_plus(slot, product, sum);
+        }
+        sum
+    }
+
+    /// The coefficient of sᵏ in the product of the given momenta, which are ascending.
+    fn product(&mut self, variables: &[u32], order: usize) -> Id {
+        let Some((&last, rest)) = variables.split_last() else { return self.graph.zero() };
+        if rest.is_empty() {
+            return self.momenta[order][last as usize];
+        }
+        let key = (variables.to_vec(), order);
+        if let Some(&known) = self.products.get(&key) {
+            return known;
+        }
+        // In a square every product occurs twice but the one in the middle.
+        let square = rest == [last];
+        let pairs = if square { order.div_ceil(2) } else { order + 1 };
+        let mut sum = self.graph.zero();
+        for i in 0..pairs {
+            let left = self.product(rest, i);
+            let right = self.momenta[order - i][last as usize];
+            sum = self.graph.times_plus(left, right, sum);
+        }
+        if square {
+            sum = self.graph.add(sum, sum);
+            if order.is_multiple_of(2) {
+                let middle = self.momenta[order / 2][last as usize];
+                sum = self.graph.times_plus(middle, middle, sum);
+            }
+        }
+        self.products.insert(key, sum);
+        sum
+    }
+
+    /// A plain number as a node.
+    fn number(&mut self, value: Rational) -> Id {
+        let slot = match self.numbers.get(&value) {
+            Some(&slot) => slot,
+            None => {
+                let symbol_powers = vec![0; self.problem.symbols.len()];
+                let factor = value.clone();
+                let number = Contribution { factor, step_power: 0, symbol_powers };
+                let base = self.coefficients.add_base(vec![number]);
+                let slot = self.coefficients.slot(base, 1);
+                self.numbers.insert(value, slot);
+                slot
+            }
+        };
+        self.graph.slot(slot)
+    }
+
+    /// Σₖ weight(k) · jetₖ, one for each coordinate.
+    fn combine(&mut self, jets: &[Vec<Id>], weight: impl Fn(i64) -> Rational) -> Vec<Id> {
+        let zero = self.graph.zero();
+        jets.iter()
+            .map(|jet| {
+                let mut sum = zero;
+                for (k, &coefficient) in jet.iter().enumerate() {
+                    let weight = weight(k as i64);
+                    if coefficient == zero || weight == ratio(0, 1) {
+                        continue;
+                    }
+                    let weight = self.number(weight);
+                    sum = self.graph.times_plus(weight, coefficient, sum);
+                }
+                sum
+            })
+            .collect()
+    }
+
+    /// a + Σ factorᵢ bᵢ
+    fn add(&mut self, a: &[Id], others: &[(Rational, &[Id])]) -> Vec<Id> {
+        let mut sum = a.to_vec();
+        for (factor, b) in others {
+            let one = factor.is_one();
+            for (sum, &b) in sum.iter_mut().zip(*b) {
+                *sum = if one {
+                    self.graph.add(*sum, b)
+                } else {
+                    let factor = self.number(factor.clone());
+                    self.graph.times_plus(factor, b, *sum)
+                };
+            }
+        }
+        sum
+    }
+
+    /// factor · \[a, b\]
+    fn bracket(&mut self, factor: &Rational, a: &[Id], b: &[Id]) -> Vec<Id> {
+        let mut result = vec![self.graph.zero(); a.len()];
+        let problem = self.problem;
+        for constant in problem.algebra.structure() {
+            let value = factor * &constant.value;
+            let left = if value.is_one() {
+                a[constant.i]
+            } else {
+                let value = self.number(value);
+                self.graph.mul(value, a[constant.i])
+            };
+            let sum = result[constant.k];
+            result[constant.k] = self.graph.times_plus(left, b[constant.j], sum);
+        }
+        result
+    }
+
+    /// x = B₀ + \[B₀, B₁\], Bᵢ = ∫ (s − ½)ⁱ ω ds. For ġ = gω brackets of an even number of factors
+    /// change sign against the formulas for ẏ = ωy.
+    fn fourth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
+        let b0 = self.combine(jets, |k| moment(0, k));
+        let b1 = self.combine(jets, |k| moment(1, k));
+        let turn = self.bracket(&ratio(1, 1), &b0, &b1);
+        self.add(&b0, &[(ratio(1, 1), &turn)])
+    }
+
+    /// x = a₁ + a₃/12 + \[20a₁ + a₃ + c, a₂ + \[a₁, 2a₃ − c\]/60\]/240, c = \[a₁, a₂\], with
+    /// a₁ = 9/4 B₀ − 15 B₂, a₂ = 12 B₁, a₃ = 180 B₂ − 15 B₀.
+    fn sixth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
+        let a1 = |k| ratio(9, 4) * moment(0, k) - ratio(15, 1) * moment(2, k);
+        let a3 = |k| ratio(180, 1) * moment(2, k) - ratio(15, 1) * moment(0, k);
+        let straight = self.combine(jets, |k| moment(0, k));
+        let outer = self.combine(jets, |k| ratio(20, 1) * a1(k) + a3(k));
+        let a1 = self.combine(jets, a1);
+        let a2 = self.combine(jets, |k| ratio(12, 1) * moment(1, k));
+        let twice_a3 = self.combine(jets, |k| ratio(2, 1) * a3(k));
+        let c = self.bracket(&ratio(1, 1), &a1, &a2);
+        let inner = self.add(&twice_a3, &[(ratio(-1, 1), &c)]);
+        let inner = self.bracket(&ratio(1, 60), &a1, &inner);
+        let inner = self.add(&a2, &[(ratio(1, 1), &inner)]);
+        let outer = self.add(&outer, &[(ratio(1, 1), &c)]);
+        let turn = self.bracket(&ratio(1, 240), &outer, &inner);
+        self.add(&straight, &[(ratio(1, 1), &turn)])
+    }
+}
+
+/// ∫₀¹ (s − ½)ⁱ sᵏ ds for i = 0, 1, 2.
+fn moment(i: u32, k: i64) -> Rational {
+    match i {
+        0 => ratio(1, k + 1),
+        1 => ratio(1, k + 2) - ratio(1, 2 * (k + 1)),
+        _ => ratio(1, k + 3) - ratio(1, k + 2) + ratio(1, 4 * (k + 1)),
+    }
+}
