@@ -92,13 +92,15 @@ top!(second_axis_nine, 9, 1);
 kirchhoff!(kirchhoff_five, 5);
 kirchhoff!(kirchhoff_seven, 7);
 
+type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64) -> Result<State, RunError>;
+
 /// One truncation over the three kinds of systems on se(3)\*.
 #[derive(Clone, Copy)]
 struct Runs {
-    first_axis: fn(&MovingBody<Gravity<0>>, &Problem, f64) -> Result<State, RunError>,
-    second_axis: fn(&MovingBody<Gravity<1>>, &Problem, f64) -> Result<State, RunError>,
+    first_axis: BodyRun<Gravity<0>>,
+    second_axis: BodyRun<Gravity<1>>,
     /// Left out where its code would take minutes to compile.
-    kirchhoff: Option<fn(&MovingBody<Mass>, &Problem, f64) -> Result<State, RunError>>,
+    kirchhoff: Option<BodyRun<Mass>>,
 }
 
 impl super::Run for Runs {
