@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use coadjoint::{ElementError, StepError, TableError};
+use coadjoint_codegen::emit::TooManyTerms;
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
 
 /// Why a command failed.
@@ -41,6 +42,14 @@ pub enum CliError {
         file: PathBuf,
         /// Why.
         source: DeriveError,
+    },
+    /// The series is too large to write as Rust.
+    #[error("{}: {source}", .file.display())]
+    Size {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TooManyTerms,
     },
     /// The data defines no group.
     #[error("{}: {source}", .file.display())]
@@ -94,6 +103,7 @@ impl CliError {
             | Self::Missing { .. }
             | Self::Read { .. }
             | Self::Derive { .. }
+            | Self::Size { .. }
             | Self::Group { .. }
             | Self::Element { .. } => 2,
             Self::Learn(error) => {

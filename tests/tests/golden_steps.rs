@@ -53,8 +53,8 @@ fn against_interpreter<const N: usize, S>(
         close(compiled.value(&p), run(&integrator.value, &p)[0]);
         close(energy(&p), run(&integrator.energy, &p)[0]);
         let predicted = run(&integrator.predictor, &p);
-        let hessian = run(&integrator.hessian, &p);
-        let newton = run(integrator.newton_program(), &p);
+        let hessian = run(integrator.hessian.as_ref().unwrap(), &p);
+        let newton = run(integrator.iteration(), &p);
         let gradient = compiled.gradient(&p);
         let (by_hessian, full) = compiled.gradient_and_hessian(&p);
         let (by_newton, truncated) = compiled.newton_model(&p);

@@ -3,16 +3,17 @@
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
-use coadjoint::{Chart, GeneratingFunction, StepError};
+use coadjoint::{Chart, GeneratingFunction, Solver, StepError, hessian_by_differences};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::Integrator;
 use nalgebra::{DMatrix, DVector};
 
 use super::Group;
 
-/// The truncated series of an integrator for one step size, on a run-time group.
+/// The truncated series of an integrator for one step size, on a run-time group; solved by the
+/// fixed point or by Newton's method.
 #[derive(Debug)]
-pub struct Interpreter<'a, G, C> {
+pub struct Interpreter<'a, G, C, const FIXED_POINT: bool> {
     integrator: &'a Integrator,
     group: G,
     /// The folded coefficients C_m(h).
@@ -22,7 +23,7 @@ pub struct Interpreter<'a, G, C> {
     chart: PhantomData<C>,
 }
 
-impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
+impl<'a, G: Group, C: Chart<G>, const FIXED_POINT: bool> Interpreter<'a, G, C, FIXED_POINT> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
         if step == 0.0 || !step.is_finite() {
@@ -43,9 +44,12 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
     }
 }
 
-impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
+impl<G: Group, C: Chart<G>, const FIXED_POINT: bool> GeneratingFunction
+    for Interpreter<'_, G, C, FIXED_POINT>
+{
     type Group = G;
     type Chart = C;
+    const SOLVER: Solver = if FIXED_POINT { Solver::FixedPoint } else { Solver::Newton };
 
     fn group(&self) -> &G {
         &self.group
@@ -61,7 +65,10 @@ impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
 
     fn gradient_and_hessian(&self, p: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
         let n = p.len();
-        let values = self.run(&self.integrator.hessian, p, n + n * (n + 1) / 2);
+        let Some(program) = &self.integrator.hessian else {
+            return (self.gradient(p), hessian_by_differences(self, p));
+        };
+        let values = self.run(program, p, n + n * (n + 1) / 2);
         let (gradient, triangle) = values.split_at(n);
         let mut hessian = DMatrix::zeros(n, n);
         // The upper triangle, row by row.

@@ -5,15 +5,17 @@ use std::collections::BTreeSet;
 use super::terms::BaseTerm;
 use crate::hamilton_jacobi::{DeriveError, TermLimit, predictor};
 use crate::poly::Polynomial;
-use crate::problem::Problem;
+use crate::problem::{Problem, Solver};
 
 /// What surrounds the exact gradient in a step. None of it changes the map, only its cost: the
 /// solve goes on until rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
+    /// How a step solves for p.
+    pub solver: Solver,
     /// The degree in h of the predictor.
     pub predictor_degree: usize,
-    /// The Hessian is taken of S₁ … S_k for k up to this.
+    /// The Hessian is taken of S₁ … S_k for k up to this; of no meaning for the fixed point.
     pub hessian_truncation: usize,
 }
 
@@ -55,6 +57,10 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
+        let solver = problem.solver();
+        if solver == Solver::FixedPoint {
+            return Self::matrix_free(problem, terms, limit);
+        }
         let truncation = problem.truncation;
         let n = problem.algebra.dim();
         // Chart, Jacobian 1 − D·Hess S, elimination; and the wait for one result before the next
@@ -66,7 +72,7 @@ impl Plan {
             .collect();
         let cheapest = |predictor_degree, own: usize| {
             let plans = hessians.iter().map(|&(hessian_truncation, newton)| {
-                let plan = Self { predictor_degree, hessian_truncation };
+                let plan = Self { solver, predictor_degree, hessian_truncation };
                 (own + plan.newton_steps(truncation) * newton, plan)
             });
             // Of equal costs the better Hessian, which comes last.
@@ -92,11 +98,60 @@ impl Plan {
                 _ => best = Some((cost, plan, polynomials)),
             }
         }
-        let constant = Self { predictor_degree: 0, hessian_truncation: truncation };
+        let constant = Self { solver, predictor_degree: 0, hessian_truncation: truncation };
+        Ok(best
+            .map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
+    }
+
+    /// The plan for the fixed point. Each evaluation gains about an order in h, and so does each
+    /// degree of the predictor, whose terms multiply with every degree: on a spin chain degree 2
+    /// has as many as the gradient of S₁ + S₃, degree 4 has sixty times more.
+    fn matrix_free(
+        problem: &Problem,
+        terms: &[BaseTerm],
+        limit: TermLimit,
+    ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
+        let Problem { algebra, chart, hamiltonian, truncation, .. } = problem;
+        let n = algebra.dim();
+        let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
+        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
+        for degree in 0..=HIGHEST_CHEAP_DEGREE {
+            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
+                Ok(polynomials) => polynomials,
+                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
+                    if best.is_some() =>
+                {
+                    break;
+                }
+                Err(error) => return Err(error),
+            };
+            let plan = Self {
+                solver: Solver::FixedPoint,
+                predictor_degree: degree,
+                hessian_truncation: *truncation,
+            };
+            let evaluations = EVALUATIONS - degree;
+            let cost = predictor_operations(&polynomials, n) + evaluations * evaluation;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, plan, polynomials));
+            }
+        }
+        let constant = Self {
+            solver: Solver::FixedPoint,
+            predictor_degree: 0,
+            hessian_truncation: *truncation,
+        };
         Ok(best
             .map_or_else(|| (constant, Vec::new()), |(_, plan, polynomials)| (plan, polynomials)))
     }
 }
+
+/// Operations of a chart for each coordinate: exp and its derivative on SO(3), by measurement.
+const CHART_OPERATIONS: usize = 30;
+/// The degree up to which predictors of large systems are tried.
+const HIGHEST_CHEAP_DEGREE: usize = 2;
+/// Evaluations of the fixed point from the constant predictor to rounding, at h|Ω| of about 0.1.
+const EVALUATIONS: usize = 10;
 
 /// About two operations for each monomial of each component.
 fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {
