@@ -9,6 +9,7 @@
 
 pub mod arithmetic;
 pub mod ensemble;
+pub mod growth;
 pub mod measure;
 pub mod method;
 pub mod number;

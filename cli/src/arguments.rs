@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::problem::Solver;
 
 use crate::ensemble::Shard;
 use crate::geometrize::GeometrizeOptions;
@@ -63,6 +64,25 @@ impl From<ChartName> for Chart {
     }
 }
 
+/// A solver by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SolverName {
+    /// Newton's method, with the Hessian.
+    Newton,
+    /// The accelerated fixed point, with the gradient alone.
+    #[value(name = "fixed_point", alias = "fixed-point")]
+    FixedPoint,
+}
+
+impl From<SolverName> for Solver {
+    fn from(name: SolverName) -> Self {
+        match name {
+            SolverName::Newton => Self::Newton,
+            SolverName::FixedPoint => Self::FixedPoint,
+        }
+    }
+}
+
 /// For people or for programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -94,6 +114,9 @@ pub struct Source {
     /// Use this chart instead of the file's
     #[arg(long)]
     pub chart: Option<ChartName>,
+    /// Solve each step this way instead of the file's
+    #[arg(long)]
+    pub solver: Option<SolverName>,
 }
 
 /// A system file, or a learned model.
@@ -105,15 +128,22 @@ pub struct Input {
     /// Use this chart instead of the file's
     #[arg(long)]
     pub chart: Option<ChartName>,
+    /// Solve each step this way instead of the file's
+    #[arg(long)]
+    pub solver: Option<SolverName>,
     /// A model learned by `coadjoint learn`, instead of a system file
-    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "truncation"])]
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "truncation"])]
     pub model: Option<PathBuf>,
 }
 
 impl Input {
     /// The system file; clap has seen to it that there is one without a model.
     pub fn source(&self) -> Source {
-        Source { file: self.file.clone().unwrap_or_default(), chart: self.chart }
+        Source {
+            file: self.file.clone().unwrap_or_default(),
+            chart: self.chart,
+            solver: self.solver,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! `coadjoint emit`: the integrator as a Rust module.
 
-use coadjoint_codegen::emit::{Options, file, potential_items};
+use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
 use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::system::Parameters;
 
@@ -19,6 +19,8 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
     let system = load::source(&source, options.truncation, parameters)?;
     let style = Options::for_problem(&system.problem.name);
     let integrator = load::integrator(&source.file, system.problem)?;
+    check_size(&integrator)
+        .map_err(|error| CliError::Size { file: source.file.clone(), source: error })?;
     let mut module = file(&integrator, &style);
     if let Some((potential, _)) = system.potential {
         module.push_str(&potential_items(&Kick::build(potential), &style));

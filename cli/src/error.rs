@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use coadjoint::{ElementError, StepError, TableError};
+use coadjoint_codegen::emit::TooManyTerms;
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
 use coadjoint_codegen::tolerance::ToleranceError;
 
@@ -50,6 +51,14 @@ pub enum CliError {
         file: PathBuf,
         /// Why.
         source: ToleranceError,
+    },
+    /// The series is too large to write as Rust.
+    #[error("{}: {source}", .file.display())]
+    Size {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TooManyTerms,
     },
     /// The data defines no group.
     #[error("{}: {source}", .file.display())]
@@ -104,6 +113,7 @@ impl CliError {
             | Self::Read { .. }
             | Self::Derive { .. }
             | Self::Tolerance { .. }
+            | Self::Size { .. }
             | Self::Group { .. }
             | Self::Element { .. } => 2,
             Self::Learn(error) => {

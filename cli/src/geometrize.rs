@@ -83,7 +83,7 @@ pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
 
 /// The system, with the values of its parameters put in.
 fn problem(path: &Path) -> Result<Problem, CliError> {
-    let options = Options { parameters: Parameters::Substituted, truncation: None, chart: None };
+    let options = Options { parameters: Parameters::Substituted, ..Options::default() };
     let problem = load::file(path, options)?.problem;
     let name = problem.algebra.name();
     if catalogue::lookup(name).ok().as_ref() != Some(&problem.algebra) {

@@ -25,8 +25,8 @@ pub fn source(
     truncation: Option<usize>,
     parameters: Parameters,
 ) -> Result<System, CliError> {
-    let chart = source.chart.map(Into::into);
-    file(&source.file, Options { parameters, truncation, chart })
+    let (chart, solver) = (source.chart.map(Into::into), source.solver.map(Into::into));
+    file(&source.file, Options { parameters, truncation, chart, solver })
 }
 
 /// Derives and lowers a problem.

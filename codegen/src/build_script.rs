@@ -63,6 +63,14 @@ pub enum BuildError {
         /// Why.
         source: DeriveError,
     },
+    /// The series is too large to compile.
+    #[error("{}: {source}", .path.display())]
+    Size {
+        /// The system file.
+        path: PathBuf,
+        /// Why.
+        source: emit::TooManyTerms,
+    },
 }
 
 /// `main` shows errors by `Debug`; what a user wants to read there is the message.
@@ -130,6 +138,8 @@ impl Build {
         let options = emit::Options::for_problem(&system.problem.name);
         let integrator = Integrator::build(system.problem, self.limit)
             .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
+        emit::check_size(&integrator)
+            .map_err(|source| BuildError::Size { path: self.input.clone(), source })?;
         let mut module = emit::file(&integrator, &options);
         if let Some((potential, _)) = system.potential {
             module.push_str(&emit::potential_items(&Kick::build(potential), &options));

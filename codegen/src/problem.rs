@@ -76,6 +76,35 @@ impl Parameter {
     }
 }
 
+/// How a step solves for p.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// Newton's method with the Hessian of S: for few dimensions.
+    Newton,
+    /// The accelerated fixed point with the gradient of S alone: for many.
+    FixedPoint,
+}
+
+impl Solver {
+    /// Newton's method is the default up to this dimension: beyond, the dense Hessian and the
+    /// linear system cost more than the fixed point's further gradients, and code for them grows
+    /// with the square of the dimension.
+    pub const NEWTON_DIMENSIONS: usize = 24;
+
+    /// The names users write, `newton` and `fixed_point`.
+    pub const NAMES: [&str; 2] = ["newton", "fixed_point"];
+
+    /// The solver of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "newton" => Some(Self::Newton),
+            "fixed_point" => Some(Self::FixedPoint),
+            _ => None,
+        }
+    }
+}
+
 /// A Hamiltonian H_red on the dual of a Lie algebra, a chart and a truncation.
 ///
 /// H_red is a polynomial over ℚ in the coordinates of the momentum (the first `algebra.dim()`
@@ -100,6 +129,20 @@ pub struct Problem {
     pub chart: Chart,
     /// K: S₁ … S_K are kept.
     pub truncation: usize,
+    /// The solver asked for; `None` leaves it to the dimension.
+    pub solver: Option<Solver>,
+}
+
+impl Problem {
+    /// The solver asked for, or the one for this dimension.
+    #[must_use]
+    pub fn solver(&self) -> Solver {
+        let by_dimension = match self.algebra.dim() {
+            n if n <= Solver::NEWTON_DIMENSIONS => Solver::Newton,
+            _ => Solver::FixedPoint,
+        };
+        self.solver.unwrap_or(by_dimension)
+    }
 }
 
 impl Problem {

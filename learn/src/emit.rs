@@ -79,6 +79,7 @@ pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
     let polynomial = exact_polynomial(model)?;
     let hamiltonian = polynomial.scale(&(Rational::one() / step));
     Ok(Problem {
+        solver: None,
         name: name.into(),
         coordinates: (1..=algebra.dim()).map(|i| format!("mu_{i}")).collect(),
         algebra,

@@ -20,5 +20,7 @@ fn integrator(arguments: TokenStream, function: &ItemFn) -> syn::Result<TokenStr
     let problem = rust::lie_poisson(arguments, function)?;
     let integrator = Integrator::build(problem, TermLimit::default())
         .map_err(|error| syn::Error::new(function.sig.ident.span(), error))?;
+    emit::check_size(&integrator)
+        .map_err(|error| syn::Error::new(function.sig.ident.span(), error))?;
     Ok(emit::tokens(&integrator, &options(function)))
 }

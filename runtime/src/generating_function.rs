@@ -87,8 +87,8 @@ pub trait GeneratingFunction {
     }
 }
 
-/// The Hessian by central differences of the gradient.
-fn hessian_by_differences<S: GeneratingFunction + ?Sized>(
+/// ∂²S/∂p² at p by central differences of the gradient.
+pub fn hessian_by_differences<S: GeneratingFunction + ?Sized>(
     generating: &S,
     p: &VectorOf<S>,
 ) -> MatrixOf<S> {

@@ -184,7 +184,9 @@ pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
 pub use coordinates::{Coordinates, Factors};
 pub use element_error::ElementError;
 pub use error::StepError;
-pub use generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
+pub use generating_function::{
+    GeneratingFunction, MatrixOf, ScalarOf, VectorOf, hessian_by_differences,
+};
 pub use group::{CayleyGroup, FixedDimension, LieGroup};
 pub use heisenberg::Heisenberg;
 pub use kicked::Kicked;

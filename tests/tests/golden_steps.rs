@@ -58,8 +58,8 @@ fn against_interpreter<const N: usize, S>(
             let pulled = compiled.chart().pull_back(compiled.group(), &x, &p);
             predicted = pulled.as_slice().to_vec();
         }
-        let hessian = run(&integrator.hessian, &p);
-        let newton = run(integrator.newton_program(), &p);
+        let hessian = run(integrator.hessian.as_ref().unwrap(), &p);
+        let newton = run(integrator.iteration(), &p);
         let gradient = compiled.gradient(&p);
         let (by_hessian, full) = compiled.gradient_and_hessian(&p);
         let (by_newton, truncated) = compiled.newton_model(&p);

@@ -3,18 +3,17 @@
 mod order;
 mod report;
 
-use std::path::Path;
-
 use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::arguments::CheckOptions;
-use crate::engine::{Forces, Group, Interpreter, matrix_group};
+use crate::engine::{Forces, Group, Interpreter, cayley_group, product_group};
 use crate::error::CliError;
 use crate::load;
 
@@ -50,7 +49,7 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
         return Err(CliError::Option("--points counts from 1; try --points 3".to_owned()));
     }
     let size = run.momentum.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
-    let group = matrix_group(path, &problem.algebra, None)?;
+    let group = product_group(path, &problem.algebra)?;
     let integrator = load::integrator(path, problem)?;
     let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
     let trial = Trial {
@@ -63,7 +62,7 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
     };
     let laws = match integrator.problem.chart {
         lie::Chart::Exponential => trial.laws::<_, Exponential>(group)?,
-        lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley(path, group)?)?,
+        lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?)?,
     };
     print!("{}", report::report(&trial, &laws, options.format));
     let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
@@ -71,13 +70,6 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
         return Ok(());
     }
     Err(CliError::Laws(format!("these laws do not hold: {}", failed.join(", "))))
-}
-
-fn cayley(
-    path: &Path,
-    group: coadjoint::MatrixGroup,
-) -> Result<coadjoint::CayleyMatrixGroup, CliError> {
-    group.into_cayley().map_err(|source| CliError::Group { file: path.into(), source })
 }
 
 /// What is tried: a system, a step size, and points of a size.
@@ -103,11 +95,23 @@ const LAWS: [(&str, &str, &str); 6] = [
 
 impl Trial<'_> {
     fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<Vec<Law>, CliError> {
+        match self.integrator.plan.solver {
+            Solver::Newton => self.solved::<G, C, false>(group),
+            Solver::FixedPoint => self.solved::<G, C, true>(group),
+        }
+    }
+
+    fn solved<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
+        &self,
+        group: G,
+    ) -> Result<Vec<Law>, CliError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let points: Vec<_> =
             (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();
         let at = |source| CliError::Step { time: 0.0, source };
-        let map = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h).map_err(at);
+        let map = |h| {
+            Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h).map_err(at)
+        };
         let tried = laws::check(&map(self.step)?, Some(&map(-self.step)?), &points).map_err(at)?;
         let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
             let law = tried.iter().find(|law| law.name == known)?;
@@ -118,7 +122,7 @@ impl Trial<'_> {
         let start = random_phase(&group, self.size, &mut random);
         let expected = self.integrator.order() as f64;
         laws.push(order::measure(self.step, expected, &group, &start, |h, steps, state| {
-            let map = Interpreter::<G, C>::new(self.integrator, group.clone(), h)?;
+            let map = Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h)?;
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         }));
         if let Some(forces) = self.forces {

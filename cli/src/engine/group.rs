@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use coadjoint::{MatrixGroup, Terms};
+use coadjoint::{CayleyMatrixGroup, DirectProduct, MatrixGroup, TableError, Terms};
 use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
@@ -14,6 +14,35 @@ use crate::error::CliError;
 
 /// The degree up to which Casimirs are looked for to watch their drift.
 const CASIMIR_DEGREE: u32 = 3;
+
+/// The group whose Lie algebra this is, factor by factor for a direct product.
+pub fn product_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+) -> Result<DirectProduct<MatrixGroup>, CliError> {
+    let mut known: Vec<(LieAlgebra, MatrixGroup)> = Vec::new();
+    let group = |factor: LieAlgebra| {
+        if let Some((_, group)) = known.iter().find(|(other, _)| *other == factor) {
+            return Ok(group.clone());
+        }
+        let group = matrix_group(path, &factor, None)?;
+        known.push((factor, group.clone()));
+        Ok(group)
+    };
+    let groups: Result<Vec<_>, CliError> = algebra.factors().into_iter().map(group).collect();
+    Ok(DirectProduct::new(groups?))
+}
+
+/// The same group with the Cayley map.
+pub fn cayley_group(
+    path: &Path,
+    group: &DirectProduct<MatrixGroup>,
+) -> Result<DirectProduct<CayleyMatrixGroup>, CliError> {
+    let factors: Result<Vec<_>, TableError> =
+        group.factors().map(|factor| factor.clone().into_cayley()).collect();
+    let failed = |source| CliError::Group { file: path.into(), source };
+    Ok(DirectProduct::new(factors.map_err(failed)?))
+}
 
 /// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
 /// size, or adjoint matrices where only brackets are known. With a potential, only the Casimirs

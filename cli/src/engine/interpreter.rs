@@ -3,8 +3,8 @@
 use std::marker::PhantomData;
 
 use coadjoint::{
-    Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Scalar, ScalarOf, StepError,
-    VectorOf,
+    Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Scalar, ScalarOf, Solver,
+    StepError, VectorOf, hessian_by_differences,
 };
 use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
@@ -22,9 +22,10 @@ impl<T: Copy> Outputs<'_, T> {
     }
 }
 
-/// The truncated series of an integrator for one step size, on any group with its algebra.
+/// The truncated series of an integrator for one step size, on any group with its algebra; solved by
+/// the fixed point or by Newton's method.
 #[derive(Clone, Debug)]
-pub struct Interpreter<'a, G, C> {
+pub struct Interpreter<'a, G, C, const FIXED_POINT: bool = false> {
     pub(super) integrator: &'a Integrator,
     pub(super) group: G,
     /// The folded coefficients C_m(h).
@@ -36,7 +37,9 @@ pub struct Interpreter<'a, G, C> {
     pub(super) chart: PhantomData<C>,
 }
 
-impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
+impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
+    Interpreter<'a, G, C, FIXED_POINT>
+{
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
         if step == 0.0 || !step.is_finite() {
@@ -97,9 +100,12 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> GeneratingFunction
+    for Interpreter<'_, G, C, FIXED_POINT>
+{
     type Group = G;
     type Chart = C;
+    const SOLVER: Solver = if FIXED_POINT { Solver::FixedPoint } else { Solver::Newton };
 
     fn group(&self) -> &G {
         &self.group
@@ -114,7 +120,10 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interprete
     }
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
-        self.gradient_and_matrix(&self.integrator.hessian, p)
+        match &self.integrator.hessian {
+            Some(program) => self.gradient_and_matrix(program, p),
+            None => (self.gradient(p), hessian_by_differences(self, p)),
+        }
     }
 
     #[inline(always)]
@@ -128,7 +137,10 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interprete
 
     #[inline(always)]
     fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
-        self.gradient_and_matrix(self.integrator.newton_program(), p)
+        match &self.integrator.hessian {
+            Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),
+            None => self.gradient_and_hessian(p),
+        }
     }
 
     #[inline(always)]

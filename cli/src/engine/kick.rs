@@ -72,7 +72,7 @@ impl Forces {
     ) -> Result<Step<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone());
         let torque = move |_: f64, g: &G::Element| torque.torque(g);
-        let flow = |part: f64| Interpreter::<G, C>::new(integrator, group.clone(), part);
+        let flow = |part: f64| Interpreter::<G, C, false>::new(integrator, group.clone(), part);
         let kicked = Kicked::<M, _, _>::new(step, torque, flow)?;
         Ok(Box::new(move |phase, time| kicked.advance(phase, time)))
     }

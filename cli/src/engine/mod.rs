@@ -6,15 +6,41 @@ mod kick;
 mod lanes;
 mod polynomial;
 
-pub use group::matrix_group;
+pub use group::{cayley_group, matrix_group, product_group};
 pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};
 pub use polynomial::{Energy, FloatPolynomial};
 
-use coadjoint::LieGroup;
+use std::ops::Range;
+
+use coadjoint::{CayleyMatrixGroup, DirectProduct, LieGroup, MatrixGroup};
 use nalgebra::DVector;
 
 /// Groups known at run time.
-pub trait Group: LieGroup<Scalar = f64, Vector = DVector<f64>> {}
+pub trait Group: LieGroup<Scalar = f64, Vector = DVector<f64>> {
+    /// The rows of each diagonal block of its matrices; all other entries are 0.
+    fn blocks(&self) -> Vec<Range<usize>>;
+}
 
-impl<G: LieGroup<Scalar = f64, Vector = DVector<f64>>> Group for G {}
+impl Group for MatrixGroup {
+    fn blocks(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..self.matrix_size()).collect()
+    }
+}
+
+impl Group for CayleyMatrixGroup {
+    fn blocks(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..self.matrix_size()).collect()
+    }
+}
+
+impl<G: LieGroup<Scalar = f64>> Group for DirectProduct<G> {
+    fn blocks(&self) -> Vec<Range<usize>> {
+        let mut end = 0;
+        let block = |factor: &G| {
+            end += factor.matrix_size();
+            end - factor.matrix_size()..end
+        };
+        self.factors().map(block).collect()
+    }
+}

@@ -92,7 +92,7 @@ fn text(run: &Trajectory) -> String {
     if let Some(solver) = run.solver {
         let _ = writeln!(
             out,
-            "  solver: {:.2} Newton iterations a step, largest residual {:.1e}",
+            "  solver: {:.2} iterations a step, largest residual {:.1e}",
             solver.mean_iterations, solver.max_residual
         );
     }

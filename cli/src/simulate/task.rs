@@ -1,7 +1,8 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use coadjoint::{Chart, GeneratingFunction, Phase, StepError, advance, solve};
+use coadjoint::{Chart, GeneratingFunction, Phase, Solution, StepError, reconstruct, solve};
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::problem::Solver;
 use nalgebra::DVector;
 
 use super::setup::Setup;
@@ -42,12 +43,24 @@ impl<'a> Task<'a> {
                 forces.step::<G, C>(self.integrator, &group, setup.step).map_err(at_start)?;
             return self.march(&group, &mut |time, phase, _| step(phase, time));
         }
-        let step = Interpreter::<G, C>::new(self.integrator, group.clone(), setup.step)
-            .map_err(at_start)?;
+        match self.integrator.plan.solver {
+            Solver::Newton => self.flow::<G, C, false>(group),
+            Solver::FixedPoint => self.flow::<G, C, true>(group),
+        }
+    }
+
+    /// The flow alone, by one of the solvers.
+    fn flow<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
+        &self,
+        group: G,
+    ) -> Result<Trajectory, CliError> {
+        let step =
+            Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), self.setup.step)
+                .map_err(at_start)?;
         self.march(&group, &mut |_, phase, recorder| {
-            let residual = residual(&step, &phase.momentum)?;
-            let report = advance(&step, phase)?;
-            recorder.solved(report.iterations, residual);
+            let solution = solve(&step, &phase.momentum)?;
+            recorder.solved(solution.iterations, residual(&step, &phase.momentum, &solution));
+            reconstruct(&step, phase, &solution.x);
             Ok(())
         })
     }
@@ -84,12 +97,12 @@ fn at_start(source: StepError) -> CliError {
 
 /// What the solve leaves of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
 /// the step itself reports an estimate.
-fn residual<G: Group, C: Chart<G>>(
-    step: &Interpreter<'_, G, C>,
+fn residual<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
+    step: &Interpreter<'_, G, C, FIXED_POINT>,
     mu: &DVector<f64>,
-) -> Result<f64, StepError> {
-    let solution = solve(step, mu)?;
+    solution: &Solution<DVector<f64>, f64>,
+) -> f64 {
     let reached = C::default().left_momentum(step.group(), &solution.x, &solution.p);
     let size = mu.amax();
-    Ok(if size > 0.0 { (reached - mu).amax() / size } else { 0.0 })
+    if size > 0.0 { (reached - mu).amax() / size } else { 0.0 }
 }

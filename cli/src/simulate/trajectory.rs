@@ -1,5 +1,7 @@
 //! What is kept of a run: records, and the largest drift of every invariant.
 
+use std::ops::Range;
+
 use coadjoint::Phase;
 use coadjoint_codegen::integrator::Integrator;
 use nalgebra::DVector;
@@ -33,7 +35,7 @@ pub struct Record {
     pub time: f64,
     /// μ.
     pub momentum: Vec<f64>,
-    /// g, row by row.
+    /// g, the diagonal blocks row by row.
     pub element: Vec<f64>,
     /// H_red(μ), plus V(g) where there is a potential.
     pub energy: f64,
@@ -44,7 +46,7 @@ pub struct Record {
 /// The solves of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Solver {
-    /// Newton iterations per step.
+    /// Newton iterations, or evaluations of the fixed point, per step.
     pub mean_iterations: f64,
     /// The largest residual left, relative to the momentum.
     pub max_residual: f64,
@@ -67,6 +69,8 @@ pub struct Trajectory {
     pub momentum: Vec<f64>,
     /// Row by row.
     pub group_element: Vec<Vec<f64>>,
+    /// The rows of each diagonal block of the group's matrices; all other entries are 0.
+    pub blocks: Vec<Range<usize>>,
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
     /// How many Casimirs were watched.
@@ -134,6 +138,7 @@ impl<'a, G: Group> Recorder<'a, G> {
             steps: 0,
             momentum: Vec::new(),
             group_element: Vec::new(),
+            blocks: group.blocks(),
             drift: Drift::default(),
             casimirs: group.casimir_count(),
             potential: watched.symmetries.is_some(),
@@ -176,10 +181,19 @@ impl<'a, G: Group> Recorder<'a, G> {
         self.trajectory.drift.raise(drift);
         if record {
             let momentum = phase.momentum.iter().copied().collect();
-            let element = self.matrix(phase).concat();
+            let element = self.element(phase);
             let energy = now.energy;
             self.trajectory.records.push(Record { time, momentum, element, energy, drift });
         }
+    }
+
+    /// The entries of the diagonal blocks.
+    fn element(&self, phase: &Phase<G>) -> Vec<f64> {
+        let entry = |i, j| self.group.matrix_entry(&phase.group_element, i, j);
+        let blocks = self.trajectory.blocks.iter();
+        let row = |block: &Range<usize>, i| block.clone().map(move |j| (i, j)).collect::<Vec<_>>();
+        let places = blocks.flat_map(|block| block.clone().flat_map(|i| row(block, i)));
+        places.map(|(i, j)| entry(i, j)).collect()
     }
 
     fn matrix(&self, phase: &Phase<G>) -> Vec<Vec<f64>> {

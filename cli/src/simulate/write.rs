@@ -18,7 +18,7 @@ pub fn numbered(out: &Path, trajectory: &Trajectory, several: bool) -> PathBuf {
 }
 
 /// Writes a table with one row per record: time, mu_1 …, g_11 …, energy, and the three drifts.
-/// `.csv` has a line of names above; `.npy` is the bare matrix.
+/// Of g the diagonal blocks; the other entries of a product are 0. `.csv` has a line of names above; `.npy` is the bare matrix.
 pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<(), CliError> {
     let failed = |message: String| CliError::Write { path: path.to_owned(), message };
     match path.extension().and_then(|ending| ending.to_str()) {
@@ -37,7 +37,11 @@ fn names(trajectory: &Trajectory) -> Vec<String> {
     let size = trajectory.group_element.len();
     // g_1_12 rather than g_112 where one digit is not enough.
     let separator = if size > 9 { "_" } else { "" };
-    names.extend((1..=size).flat_map(|i| (1..=size).map(move |j| format!("g_{i}{separator}{j}"))));
+    for block in &trajectory.blocks {
+        let indices = block.start + 1..=block.end;
+        let name = |i, j| format!("g_{i}{separator}{j}");
+        names.extend(indices.clone().flat_map(|i| indices.clone().map(move |j| name(i, j))));
+    }
     names.extend(
         ["energy", "spatial_momentum_drift", "casimir_drift", "energy_drift"].map(Into::into),
     );

@@ -44,6 +44,10 @@ pub enum Mistake {
     #[error("`{0}` takes one argument, not {1}")]
     ArgumentCount(String, usize),
 
+    /// A sum over an index that cannot be read: the reason.
+    #[error("this sum cannot be read: {0}")]
+    Sum(String),
+
     // --- polynomials
     /// A function, other than a polynomial, of the momentum.
     #[error("`{0}` of the momentum is not a polynomial: the Hamiltonian must be one")]
@@ -106,6 +110,9 @@ pub enum Mistake {
     /// A chart nobody knows: name, nearest.
     #[error("unknown chart `{0}`{did}", did = did_you_mean(.1))]
     UnknownChart(String, Option<String>),
+    /// A solver nobody knows: name, nearest.
+    #[error("unknown solver `{0}`{did}", did = did_you_mean(.1))]
+    UnknownSolver(String, Option<String>),
     /// A chart the group does not have.
     #[error(transparent)]
     Chart(#[from] ChartError),
@@ -212,6 +219,7 @@ impl Mistake {
             Self::FunctionWithoutArgument(name) => {
                 return Some(format!("write `{name}(…)` with parentheses"));
             }
+            Self::Sum(_) => "write for example sum(i, 0..64, x[i]*x[(i + 1) % 64])",
             Self::NotPolynomial(_) => {
                 "functions may be applied to parameters only; expand the Hamiltonian in powers of \
                  the momentum first"
@@ -241,6 +249,7 @@ impl Mistake {
             }
             Self::TruncationNumber => "write for example truncation = 7",
             Self::UnknownChart(..) => "charts: exp (the default) and cayley",
+            Self::UnknownSolver(..) => "solvers: newton and fixed_point",
             Self::Dimension(_, group, expected) => {
                 return Some(format!("give {expected} coordinates for {group}"));
             }

@@ -7,6 +7,7 @@ use super::body::{Body, body};
 use super::item::Parts;
 use crate::graph::Program;
 use crate::integrator::{Integrator, Predictor};
+use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`.
 #[must_use]
@@ -19,7 +20,18 @@ pub fn generating_function(
     let Parts { dim, group, chart, vector, matrix, .. } = parts;
     let value = scalar_function(&integrator.value);
     let gradient = vector_function(&integrator.gradient, vector);
-    let hessian = hessian_function(&integrator.hessian, *dim, vector, matrix);
+    let hessian = integrator.hessian.as_ref().map(|program| {
+        let function = hessian_function(program, *dim, vector, matrix);
+        quote! {
+            #[inline(always)]
+            fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
+                let c = &self.coefficients;
+                #function
+            }
+        }
+    });
+    let solver = (integrator.plan.solver == Solver::FixedPoint)
+        .then(|| quote!(const SOLVER: #krate::Solver = #krate::Solver::FixedPoint;));
     let predictor = vector_function(&integrator.predictor, vector);
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => predictor,
@@ -58,6 +70,7 @@ pub fn generating_function(
         impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
             type Group = #group;
             type Chart = #chart;
+            #solver
 
             #[inline(always)]
             fn group(&self) -> &#group {
@@ -76,11 +89,7 @@ pub fn generating_function(
                 #gradient
             }
 
-            #[inline(always)]
-            fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
-                let c = &self.coefficients;
-                #hessian
-            }
+            #hessian
 
             #[inline(always)]
             fn predict(&self, input: &#vector) -> #vector {

@@ -10,7 +10,8 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
         .step_by(2)
         .map(|k| format!("S{k}: {}", integrator.series.order(k).len()))
         .collect();
-    let newton = integrator.newton_program().cost();
+    let iteration = integrator.iteration().cost();
+    let what = if integrator.hessian.is_some() { "gradient and Hessian" } else { "gradient" };
     let predictor = integrator.predictor.cost();
     vec![
         format!(" Hamiltonian: `{}`", one_line(&problem.source)),
@@ -24,10 +25,10 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
         ),
         format!(" Terms: {}.", terms.join(", ")),
         format!(
-            " Operations: gradient and Hessian {} multiplications and {} additions; predictor of \
-             degree {}{} {} and {}.",
-            newton.multiplications,
-            newton.additions,
+            " Operations: {what} {} multiplications and {} additions; predictor of degree {}{} {} \
+             and {}.",
+            iteration.multiplications,
+            iteration.additions,
             integrator.plan.predictor.degree(),
             match integrator.plan.predictor {
                 Predictor::Explicit(_) => "",

@@ -14,7 +14,7 @@ pub use plan::{Plan, Predictor};
 
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
-use crate::problem::Problem;
+use crate::problem::{Problem, Solver};
 
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
 /// programs over them.
@@ -34,8 +34,9 @@ pub struct Integrator {
     pub value: Program,
     /// p ↦ ∂S/∂p.
     pub gradient: Program,
-    /// p ↦ ∂S/∂p, then the upper triangle of the Hessian row by row.
-    pub hessian: Program,
+    /// p ↦ ∂S/∂p, then the upper triangle of the Hessian row by row; `None` for the fixed point,
+    /// which needs none.
+    pub hessian: Option<Program>,
     /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
     /// nothing.
     pub newton: Option<Program>,
@@ -82,7 +83,9 @@ impl Integrator {
 
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
-        let hessian = lower::hessian_program(table, dim, &s, truncation);
+        let solver = plan.map_or_else(|| problem.solver(), |plan| plan.solver);
+        let hessian =
+            (solver == Solver::Newton).then(|| lower::hessian_program(table, dim, &s, truncation));
         let (plan, polynomials) = match plan {
             Some(plan) => {
                 let Problem { algebra, chart, hamiltonian, .. } = &problem;
@@ -96,9 +99,12 @@ impl Integrator {
             }
             None => Plan::choose(&problem, &s, limit)?,
         };
-        let newton = lower::hessian_program(table, dim, &s, plan.hessian_truncation as u32);
-        let newton = (newton != hessian).then_some(newton);
-        let defect = lower::defect(table, &s, plan.hessian_truncation as u32);
+        let kept = plan.hessian_truncation as u32;
+        let newton = hessian
+            .as_ref()
+            .map(|whole| (lower::hessian_program(table, dim, &s, kept), whole))
+            .and_then(|(program, whole)| (program != *whole).then_some(program));
+        let defect = lower::defect(table, &s, kept);
         let predictor = match plan.predictor {
             Predictor::Flow(degree) => flow::increment_program(table, &problem, degree),
             Predictor::Explicit(_) => {
@@ -129,10 +135,16 @@ impl Integrator {
         })
     }
 
-    /// The program Newton's method runs.
+    /// How many terms S₁ + … + S_K has.
     #[must_use]
-    pub fn newton_program(&self) -> &Program {
-        self.newton.as_ref().unwrap_or(&self.hessian)
+    pub fn terms(&self) -> usize {
+        (1..=self.problem.truncation).map(|k| self.series.order(k).len()).sum()
+    }
+
+    /// The program an iteration of the solver runs: gradient and Hessian, or the gradient alone.
+    #[must_use]
+    pub fn iteration(&self) -> &Program {
+        self.newton.as_ref().or(self.hessian.as_ref()).unwrap_or(&self.gradient)
     }
 
     /// How many coefficients the bound of [`Integrator::defect`] has: its degree plus one.

@@ -8,7 +8,7 @@ use super::terms::{BaseTerm, collect};
 use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, TermLimit, predictor};
 use crate::lie::Chart;
 use crate::poly::Polynomial;
-use crate::problem::Problem;
+use crate::problem::{Problem, Solver};
 
 /// How a step finds its first guess of p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,9 +34,11 @@ impl Predictor {
 /// solve goes on until rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
+    /// How a step solves for p.
+    pub solver: Solver,
     /// The first guess.
     pub predictor: Predictor,
-    /// The Hessian is taken of S₁ … S_k for k up to this.
+    /// The Hessian is taken of S₁ … S_k for k up to this; of no meaning for the fixed point.
     pub hessian_truncation: usize,
 }
 
@@ -96,6 +98,9 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
+        if problem.solver() == Solver::FixedPoint {
+            return Self::matrix_free(problem, terms, limit);
+        }
         let costs = Costs::new(problem, terms);
         let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
         for degree in (0..=Self::single_step_degree(problem.truncation)).step_by(2) {
@@ -133,8 +138,52 @@ impl Plan {
                 }
             }
         }
-        let constant =
-            Self { predictor: Predictor::Explicit(0), hessian_truncation: problem.truncation };
+        let constant = Self {
+            solver: Solver::Newton,
+            predictor: Predictor::Explicit(0),
+            hessian_truncation: problem.truncation,
+        };
+        Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
+    }
+
+    /// The plan for the fixed point. Each evaluation gains about an order in h, and so does each
+    /// degree of the predictor, whose terms multiply with every degree: on a spin chain degree 2
+    /// has as many as the gradient of S₁ + S₃, degree 4 has sixty times more.
+    fn matrix_free(
+        problem: &Problem,
+        terms: &[BaseTerm],
+        limit: TermLimit,
+    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
+        let Problem { algebra, chart, hamiltonian, truncation, .. } = problem;
+        let n = algebra.dim();
+        let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
+        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
+        for degree in 0..=HIGHEST_CHEAP_DEGREE {
+            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
+                Ok(polynomials) => polynomials,
+                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
+                    if best.is_some() =>
+                {
+                    break;
+                }
+                Err(error) => return Err(error),
+            };
+            let plan = Self {
+                solver: Solver::FixedPoint,
+                predictor: Predictor::Explicit(degree),
+                hessian_truncation: *truncation,
+            };
+            let evaluations = EVALUATIONS - degree;
+            let cost = predictor_operations(&polynomials, n) + evaluations * evaluation;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, plan, polynomials));
+            }
+        }
+        let constant = Self {
+            solver: Solver::FixedPoint,
+            predictor: Predictor::Explicit(0),
+            hessian_truncation: *truncation,
+        };
         Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
     }
 }
@@ -168,13 +217,20 @@ impl Costs {
     /// The cheapest plan with a given predictor, which takes `own` operations.
     fn cheapest(&self, predictor: Predictor, own: usize) -> Option<(usize, Plan)> {
         let plans = self.newton.iter().map(|&(hessian_truncation, newton)| {
-            let plan = Plan { predictor, hessian_truncation };
+            let plan = Plan { solver: Solver::Newton, predictor, hessian_truncation };
             (own + newton + plan.chord_steps(self.truncation) * self.chord, plan)
         });
         // Of equal costs the better Hessian, which comes last.
         plans.reduce(|best, next| if next.0 <= best.0 { next } else { best })
     }
 }
+
+/// Operations of a chart for each coordinate: exp and its derivative on SO(3), by measurement.
+const CHART_OPERATIONS: usize = 30;
+/// The degree up to which predictors of large systems are tried.
+const HIGHEST_CHEAP_DEGREE: usize = 2;
+/// Evaluations of the fixed point from the constant predictor to rounding, at h|Ω| of about 0.1.
+const EVALUATIONS: usize = 10;
 
 /// About two operations for each monomial of each component.
 fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {

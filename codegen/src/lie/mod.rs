@@ -5,6 +5,7 @@ mod casimir;
 pub mod catalogue;
 mod chart;
 mod error;
+mod factors;
 mod matrix;
 mod product;
 mod span;

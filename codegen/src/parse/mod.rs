@@ -4,6 +4,7 @@ mod brackets;
 mod decimal;
 mod names;
 pub mod rust;
+mod sum;
 pub mod text;
 mod token;
 

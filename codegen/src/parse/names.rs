@@ -39,7 +39,7 @@ impl Names {
     pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &mut Diagnostics) {
         if !is_name(name) {
             diagnostics.report(span, Mistake::BadName(name.to_owned()));
-        } else if Function::lookup(name).is_some() {
+        } else if Function::lookup(name).is_some() || name == "sum" {
             let taken = Mistake::NameTaken(name.to_owned(), "a function".to_owned());
             diagnostics.report(span, taken);
         } else if let Some(before) = self.known.get(name) {
@@ -76,13 +76,17 @@ pub(super) fn continues_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '\''
 }
 
+/// Whether the text is a name without indices.
+pub(super) fn is_word(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(begins_name) && letters.all(continues_name)
+}
+
 fn is_name(text: &str) -> bool {
     let (head, indices) = text.split_at(text.find('[').unwrap_or(text.len()));
-    let mut letters = head.chars();
-    let word = letters.next().is_some_and(begins_name) && letters.all(continues_name);
     let digits = |i: &str| {
         let i = i.strip_suffix(']').unwrap_or("");
         !i.is_empty() && i.bytes().all(|b| b.is_ascii_digit())
     };
-    word && indices.split('[').skip(1).all(digits)
+    is_word(head) && indices.split('[').skip(1).all(digits)
 }

@@ -2,15 +2,20 @@
 //!
 //! Precedence as in mathematics: `^` (or `**`) binds tightest and to the right, then the sign,
 //! then `*` and `/`, then `+` and `-`; so `-x^2` is −(x²) and `x^-2^2` is x^(−(2²)). Two explicit
-//! stacks instead of recursion, so that nesting is limited by memory only.
+//! stacks instead of recursion, so that nesting is limited by memory only; but sums over sites,
+//! `sum(i, 0..64, x[i]*x[(i + 1) % 64])`, nest by recursion.
 
 use std::ops::Range;
 
-use super::names::{Name, Names};
+use super::names::{Name, Names, is_word};
+use super::sum::{self, Scope};
 use super::token::{Token, Tokens};
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Function, Node};
+use crate::number::integer;
 
+/// The most operations an expression with sums may have.
+const MOST_OPERATIONS: usize = 1_000_000;
 /// After this many mistakes in one expression the rest is not read.
 const MOST_MISTAKES: usize = 20;
 
@@ -23,9 +28,32 @@ pub fn parse(
     arena: &mut Arena,
     diagnostics: &mut Diagnostics,
 ) -> ExprId {
+    parse_with(text, offset, &[], names, arena, diagnostics)
+}
+
+/// As [`parse`], with names that stand for integers.
+pub fn parse_with(
+    text: &str,
+    offset: usize,
+    indices: &[(&str, i64)],
+    names: &Names,
+    arena: &mut Arena,
+    diagnostics: &mut Diagnostics,
+) -> ExprId {
+    let indices = indices.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
+    parse_in(text, offset, &Scope { names, indices }, arena, diagnostics)
+}
+
+fn parse_in(
+    text: &str,
+    offset: usize,
+    scope: &Scope<'_>,
+    arena: &mut Arena,
+    diagnostics: &mut Diagnostics,
+) -> ExprId {
     let before = diagnostics.len();
     let mut parser =
-        Parser { names, arena, diagnostics, offset, operands: Vec::new(), operators: Vec::new() };
+        Parser { scope, arena, diagnostics, offset, operands: Vec::new(), operators: Vec::new() };
     let mut expects_operand = true;
     let mut tokens = Tokens::new(text).peekable();
     while let Some((token, range)) = tokens.next() {
@@ -33,7 +61,19 @@ pub fn parse(
             let end = parser.span(text.len()..text.len());
             return parser.arena.push(Node::Wrong, end);
         }
-        let call = matches!(tokens.peek(), Some((Token::Open, _)));
+        let call = match tokens.peek() {
+            Some((Token::Open, open)) => Some(open.start),
+            _ => None,
+        };
+        if let (Some(open), true, true) =
+            (call, expects_operand, token == Token::Name("sum".into()))
+        {
+            let end = parser.sum(text, range.start, open);
+            while tokens.next_if(|(_, range)| range.start < end).is_some() {}
+            expects_operand = false;
+            continue;
+        }
+        let call = call.is_some();
         expects_operand = parser.token(token, range, text, expects_operand, call);
     }
     parser.finish(text.len(), expects_operand)
@@ -74,7 +114,7 @@ impl Operator {
 }
 
 struct Parser<'a> {
-    names: &'a Names,
+    scope: &'a Scope<'a>,
     arena: &'a mut Arena,
     diagnostics: &'a mut Diagnostics,
     offset: usize,
@@ -184,14 +224,14 @@ impl Parser<'_> {
     }
 
     fn name(&mut self, name: &str, span: Span) {
-        let node = match self.names.get(name) {
-            Some(Name::Coordinate(i)) => Node::Coordinate(*i),
-            Some(Name::Parameter(i)) => Node::Parameter(*i),
-            Some(Name::Number(value)) => Node::Number(value.clone()),
-            None if Function::lookup(name).is_some() => {
+        let node = match self.scope.get(name) {
+            Ok(Name::Coordinate(i)) => Node::Coordinate(i),
+            Ok(Name::Parameter(i)) => Node::Parameter(i),
+            Ok(Name::Number(value)) => Node::Number(value),
+            Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
-            None => return self.wrong(span, self.names.unknown(name)),
+            Err(full) => return self.wrong(span, self.scope.names.unknown(&full)),
         };
         self.operand(node, span);
     }
@@ -199,7 +239,7 @@ impl Parser<'_> {
     fn callee(&mut self, name: String, span: Span) {
         let function = Function::lookup(&name);
         if function.is_none() {
-            if self.names.get(&name).is_some() {
+            if self.scope.get(&name).is_ok() {
                 // `x (y + 1)`: a product without its operator.
                 self.name(&name, span);
                 self.diagnostics.report(span, Mistake::MissingOperator("(".to_owned()));
@@ -213,6 +253,63 @@ impl Parser<'_> {
         let call = Some(Callee { name, function });
         // The parenthesis itself follows and completes this entry.
         self.operators.push((Operator::Open { call, arguments: 0 }, span));
+    }
+
+    /// Reads a sum that begins at `start`, its parenthesis at `open`; returns where it ends.
+    fn sum(&mut self, text: &str, start: usize, open: usize) -> usize {
+        let form = match sum::form(text, open) {
+            Ok(form) => form,
+            Err(end) => {
+                self.wrong(self.span(start..end), Mistake::Sum("it needs three arguments".into()));
+                return end;
+            }
+        };
+        let whole = self.span(start..form.end);
+        let bounds = text[form.values.clone()].split_once("..").and_then(|(first, last)| {
+            Some((self.scope.integer(first)?, self.scope.integer(last)?))
+        });
+        let taken = self.scope.get(&form.index).is_ok() || Function::lookup(&form.index).is_some();
+        let reason = match bounds {
+            _ if !is_word(&form.index) => "its index is no name",
+            _ if taken => "the name of its index is already in use",
+            None => "its range is none of integers",
+            Some((first, last)) if last.saturating_sub(first) > sum::MOST_TERMS => {
+                "it has more than 10000 terms"
+            }
+            _ => "",
+        };
+        let Some((first, last)) = bounds.filter(|_| reason.is_empty()) else {
+            self.wrong(whole, Mistake::Sum(reason.to_owned()));
+            return form.end;
+        };
+        let (body, offset) = (&text[form.body.clone()], self.offset + form.body.start);
+        let before = self.diagnostics.len();
+        let mut scope = self.scope.clone();
+        scope.indices.push((form.index, first));
+        let mut total = None;
+        for value in first..last {
+            if let Some(index) = scope.indices.last_mut() {
+                index.1 = value;
+            }
+            let term = parse_in(body, offset, &scope, self.arena, self.diagnostics);
+            total = Some(match total {
+                Some(sum) => self.arena.push(Node::Add(sum, term), whole),
+                None => term,
+            });
+            // A mistake in one term is a mistake in all.
+            if self.diagnostics.len() > before {
+                break;
+            }
+            if self.arena.len() > MOST_OPERATIONS {
+                let reason = "it grows beyond a million operations".to_owned();
+                self.wrong(whole, Mistake::Sum(reason));
+                return form.end;
+            }
+        }
+        // Over nothing it is 0: inner ranges may depend on outer indices.
+        let total = total.unwrap_or_else(|| self.arena.push(Node::Number(integer(0)), whole));
+        self.operands.push((total, whole));
+        form.end
     }
 
     fn open(&mut self, span: Span) {

@@ -65,11 +65,13 @@ impl<'a> Tokens<'a> {
         let mut length = self.run(0, continues_name);
         let bytes = self.rest().as_bytes();
         while bytes.get(length) == Some(&b'[') {
-            let digits = self.run(length + 1, |c| c.is_ascii_digit());
-            if digits == 0 || bytes.get(length + 1 + digits) != Some(&b']') {
+            // A number, or an expression in the indices of sums around.
+            let index = |c: char| c.is_alphanumeric() || "_+-*%() ".contains(c);
+            let inside = self.run(length + 1, index);
+            if inside == 0 || bytes.get(length + 1 + inside) != Some(&b']') {
                 break;
             }
-            length += digits + 2;
+            length += inside + 2;
         }
         length
     }

@@ -10,7 +10,7 @@ use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
-use crate::problem::{Parameter, Problem, Symbol};
+use crate::problem::{Parameter, Problem, Solver, Symbol};
 
 /// The truncation where none is given: order of accuracy 8.
 pub const DEFAULT_TRUNCATION: usize = 7;
@@ -41,6 +41,8 @@ pub struct Draft {
     pub chart: (Chart, Span),
     /// K.
     pub truncation: Option<usize>,
+    /// The solver, if one is asked for.
+    pub solver: Option<Solver>,
 }
 
 /// Checks what was read and turns it into a problem.
@@ -85,6 +87,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         source: draft.source,
         chart: draft.chart.0,
         truncation,
+        solver: draft.solver,
     })
 }
 
@@ -232,6 +235,17 @@ pub fn chart(name: &str) -> Result<Chart, Mistake> {
             Err(Mistake::UnknownChart(name.to_owned(), suggestion.map(str::to_owned)))
         }
     }
+}
+
+/// The solver of this name: `newton` or `fixed_point`.
+///
+/// # Errors
+/// [`Mistake::UnknownSolver`].
+pub fn solver(name: &str) -> Result<Solver, Mistake> {
+    Solver::named(name).ok_or_else(|| {
+        let suggestion = crate::diagnostic::nearest(name, Solver::NAMES);
+        Mistake::UnknownSolver(name.to_owned(), suggestion.map(str::to_owned))
+    })
 }
 
 /// The components of an expression that must be Σ number · coordinate; reports it if it is not.

@@ -67,6 +67,7 @@ pub(super) fn read(
 }
 
 /// The names of the coordinates; those of the generators, or mu[0], mu[1], … where none are given.
+/// For a power the names of one copy are enough: x, y, z are then x[0], y[0], z[0], x[1], ….
 fn coordinates(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
@@ -91,7 +92,18 @@ fn coordinates(
             _ => wrong_kind("coordinates", "a list of names", value, COORDINATES, diagnostics),
         }
     }
+    if let Some(copies) = algebra.and_then(|algebra| copies(algebra, names.len())) {
+        let copy = |i| names.iter().map(move |(name, place)| (format!("{name}[{i}]"), *place));
+        names = (0..copies).flat_map(copy).collect();
+    }
     (names, whole)
+}
+
+/// How many copies a power of a group has, if `each` coordinates are those of one copy.
+pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
+    let (_, copies) = algebra.name().rsplit_once('^')?;
+    let copies = copies.parse().ok()?;
+    (copies > 1 && each * copies == algebra.dim()).then_some(copies)
 }
 
 /// Reads `[parameters]` and adds their names to `names`.

@@ -42,10 +42,10 @@ use toml::de::DeTable;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::pass::{
-    DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
+    self, DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
 };
 use crate::potential::Potential;
-use crate::problem::Problem;
+use crate::problem::{Problem, Solver};
 use table::Table;
 
 pub use run::Run;
@@ -73,6 +73,8 @@ pub struct Options {
     pub truncation: Option<usize>,
     /// Replaces the chart of the file.
     pub chart: Option<Chart>,
+    /// Replaces the solver of the file.
+    pub solver: Option<Solver>,
 }
 
 /// A system file.
@@ -123,9 +125,9 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let algebra = group(&root, &name, &mut diagnostics);
     let written = hamiltonian::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
     let integrator = root.table("integrator", &mut diagnostics);
-    let (truncation, chart) = match &integrator {
+    let (truncation, chart, solver) = match &integrator {
         Some(table) => integrator_table(table, options, &mut diagnostics),
-        None => (Some(DEFAULT_TRUNCATION), (Chart::default(), Span::Whole)),
+        None => (Some(DEFAULT_TRUNCATION), (Chart::default(), Span::Whole), None),
     };
     let truncation = match options.truncation {
         Some(k) => check_truncation(k, Span::Whole, &mut diagnostics),
@@ -149,6 +151,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         source: written.source,
         chart,
         truncation,
+        solver: options.solver.or(solver),
     };
     // Mistakes of both energies at once.
     let potential = potential.and_then(|draft| {
@@ -199,8 +202,8 @@ fn integrator_table(
     table: &Table<'_>,
     options: Options,
     diagnostics: &mut Diagnostics,
-) -> (Option<usize>, (Chart, Span)) {
-    let known = ["truncation", "chart", "step", "tolerance", "region", "splitting"];
+) -> (Option<usize>, (Chart, Span), Option<Solver>) {
+    let known = ["truncation", "chart", "solver", "step", "tolerance", "region", "splitting"];
     table.check_keys(&known, diagnostics);
     let mut truncation = Some(DEFAULT_TRUNCATION);
     if table.has("truncation") && options.truncation.is_none() {
@@ -217,5 +220,12 @@ fn integrator_table(
             Err(mistake) => diagnostics.report(span, mistake),
         }
     }
-    (truncation, found)
+    let mut solver = None;
+    if let Some((name, span)) = table.string("solver", "solver = \"fixed_point\"", diagnostics) {
+        match pass::solver(name) {
+            Ok(named) => solver = Some(named),
+            Err(mistake) => diagnostics.report(span, mistake),
+        }
+    }
+    (truncation, found, solver)
 }

@@ -5,9 +5,10 @@ use quote::ToTokens;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::{DEFAULT_TRUNCATION, check_truncation};
+use crate::pass::{DEFAULT_TRUNCATION, check_truncation, solver};
+use crate::problem::Solver;
 
-const KEYS: [&str; 3] = ["group", "truncation", "chart"];
+const KEYS: [&str; 4] = ["group", "truncation", "chart", "solver"];
 const OWNER: &str = "#[lie_poisson(…)]";
 
 /// What the arguments say; `None` where it was missing or wrong, which is reported.
@@ -15,12 +16,17 @@ pub(super) struct Arguments {
     pub algebra: Option<LieAlgebra>,
     pub truncation: Option<usize>,
     pub chart: (Chart, Span),
+    pub solver: Option<Solver>,
 }
 
 /// Reads `group = SO3, truncation = 7, chart = exp`.
 pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Arguments {
-    let mut arguments =
-        Arguments { algebra: None, truncation: None, chart: (Chart::default(), Span::Whole) };
+    let mut arguments = Arguments {
+        algebra: None,
+        truncation: None,
+        chart: (Chart::default(), Span::Whole),
+        solver: None,
+    };
     let mut seen: Vec<String> = Vec::new();
     for (key, span, value) in entries(tokens, diagnostics) {
         if seen.contains(&key) {
@@ -32,6 +38,10 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
             "group" => arguments.algebra = group(&value, place, diagnostics),
             "truncation" => arguments.truncation = truncation(&value, place, diagnostics),
             "chart" => arguments.chart = (chart(&value, place, diagnostics), place),
+            "solver" => match solver(&text(&value)) {
+                Ok(solver) => arguments.solver = Some(solver),
+                Err(mistake) => diagnostics.report(place, mistake),
+            },
             _ => {
                 let suggestion = nearest(&key, KEYS).map(str::to_owned);
                 let known = KEYS.map(str::to_owned).to_vec();

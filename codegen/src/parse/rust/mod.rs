@@ -62,6 +62,7 @@ pub fn read(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagno
         source: function.source,
         chart: arguments.chart,
         truncation: arguments.truncation,
+        solver: arguments.solver,
     };
     assemble(draft, diagnostics)
 }

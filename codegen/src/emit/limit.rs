@@ -1,0 +1,30 @@
+//! What is too large for the compiler.
+
+use crate::integrator::Integrator;
+
+/// The most terms of S that are emitted as Rust: about 280 spins of a Heisenberg ring at K = 3, whose
+/// module has some 14 MB.
+pub const MOST_TERMS: usize = 20_000;
+
+/// A generating function with too many terms to emit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "too large to emit: S has {terms} terms, more than the limit of {limit}; run it in the \
+     interpreter with `coadjoint simulate`, or lower the truncation"
+)]
+pub struct TooManyTerms {
+    /// The terms of S₁ + … + S_K.
+    pub terms: usize,
+    /// [`MOST_TERMS`].
+    pub limit: usize,
+}
+
+/// Whether an integrator is small enough for [`file`](super::file) and [`tokens`](super::tokens):
+/// larger ones are written all the same, but take the compiler very long.
+///
+/// # Errors
+/// [`TooManyTerms`].
+pub fn check_size(integrator: &Integrator) -> Result<(), TooManyTerms> {
+    let terms = integrator.terms();
+    if terms > MOST_TERMS { Err(TooManyTerms { terms, limit: MOST_TERMS }) } else { Ok(()) }
+}

@@ -1,0 +1,96 @@
+//! Large systems: work and code grow in proportion to the number of sites.
+#![cfg(feature = "system")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint_codegen::emit;
+use coadjoint_codegen::graph::Program;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::system::{Options, read};
+
+/// A Heisenberg ring with anisotropy and field, couplings to the next neighbours only.
+fn ring(sites: usize) -> Integrator {
+    let text = format!(
+        r#"
+group = "SO3^{sites}"
+coordinates = ["x", "y", "z"]
+hamiltonian = """
+sum(i, 0..{sites}, 0.3*z[i]^2 - 0.5*z[i]
+  - (x[i]*x[(i + 1) % {sites}] + y[i]*y[(i + 1) % {sites}] + z[i]*z[(i + 1) % {sites}]))
+"""
+[integrator]
+truncation = 3
+"#
+    );
+    let system = read(&text, Options::default()).unwrap_or_else(|mistakes| {
+        panic!("{}", mistakes.render("ring", &text));
+    });
+    Integrator::build(system.problem, TermLimit::default()).unwrap()
+}
+
+#[test]
+fn terms_and_operations_of_a_ring_are_linear_in_its_length() {
+    // S₃ couples spins at most three sites apart, so that beyond seven every site costs the same.
+    let rings = [16, 24, 32].map(ring);
+    let linear = |what: &str, count: fn(&Integrator) -> usize| {
+        let [a, b, c] = [&rings[0], &rings[1], &rings[2]].map(count);
+        assert!(b > a, "{what}");
+        assert_eq!(b - a, c - b, "{what}: {a}, {b}, {c}");
+    };
+    fn operations(program: &Program) -> usize {
+        program.cost().total()
+    }
+    linear("terms", Integrator::terms);
+    linear("gradient", |ring| operations(&ring.gradient));
+    linear("predictor", |ring| operations(&ring.predictor));
+    linear("energy", |ring| operations(&ring.energy));
+    linear("S", |ring| operations(&ring.value));
+    linear("coefficients", |ring| ring.coefficients.slots().len());
+}
+
+#[test]
+fn large_systems_are_emitted_without_a_hessian_and_in_proportion() {
+    let length = |sites| {
+        let ring = ring(sites);
+        assert_eq!(ring.plan.solver, Solver::FixedPoint);
+        assert!(ring.hessian.is_none());
+        let code = emit::file(&ring, &emit::Options::for_problem("ring"));
+        assert!(code.contains(&format!("Power<::coadjoint::SO3<T>, {sites}, {}>", 3 * sites)));
+        assert!(code.contains("Solver::FixedPoint") && !code.contains("gradient_and_hessian"));
+        code.len() as f64
+    };
+    let (short, long) = (length(16), length(32));
+    // Numbers of coordinates and coefficients get longer, which is all.
+    assert!(long / short > 1.8 && long / short < 2.15, "{short} {long}");
+}
+
+#[test]
+fn small_systems_use_newtons_method_unless_told_otherwise() {
+    let text = |solver: &str| {
+        format!(
+            "group = \"SO3^2\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+             hamiltonian = \"x[0]*x[1] + y[0]^2/2 + z[1]^2/2\"\n[integrator]\n{solver}"
+        )
+    };
+    let solver = |line: &str, options| read(&text(line), options).unwrap().problem.solver();
+    let plain = Options::default();
+    assert_eq!(solver("", plain), Solver::Newton);
+    assert_eq!(solver("solver = \"fixed_point\"", plain), Solver::FixedPoint);
+    let option = Options { solver: Some(Solver::Newton), ..plain };
+    assert_eq!(solver("solver = \"fixed_point\"", option), Solver::Newton);
+    let mistakes = read(&text("solver = \"fixedpoint\""), plain).unwrap_err();
+    let shown = mistakes.render("file", &text("solver = \"fixedpoint\""));
+    assert!(shown.contains("did you mean `fixed_point`"), "{shown}");
+}
+
+#[test]
+fn too_many_terms_are_refused_by_their_number() {
+    let ring = ring(24);
+    assert!(emit::check_size(&ring).is_ok());
+    let each = ring.terms() / 24;
+    let large = self::ring(emit::MOST_TERMS / each + 8);
+    let refused = emit::check_size(&large).unwrap_err();
+    assert_eq!(refused.terms, large.terms());
+    assert!(refused.to_string().contains(&format!("{} terms", large.terms())));
+}
