@@ -117,6 +117,8 @@ mod table;
 ///   coordinates are dual to its basis.
 /// - `truncation = K`, odd, 7 by default: S₁ … S_K are kept. The order of accuracy is K + 1.
 /// - `chart = exp` (default) or `chart = cayley`.
+/// - `solver = newton` (default up to 24 dimensions) or `solver = fixed_point` (default beyond): see
+///   [`Solver`].
 ///
 /// # The function
 ///

@@ -23,6 +23,10 @@
 //! then picked too unless it is given. `region = 2.5` (a norm of the momentum, or [low, high] for each
 //! coordinate) says where it is to hold; without it, along the run from the initial state.
 //!
+//! In `[integrator]`, `solver` is `newton` or `fixed_point`. For a power such as SO3^64, coordinates and
+//! momentum may be given for one copy: `x` then stands for `x[0]`, `x[1]`, …, the momentum may be
+//! expressions in the copy's number `i`, and `sum(i, 0..64, x[i]*x[(i + 1) % 64])` is a sum over copies.
+//!
 //! Numbers are read from their decimals, so `0.1` is exactly 1/10. Instead of `group`, an
 //! `[algebra]` table gives a `basis` of matrices, or `generators` and `brackets`.
 //!
