@@ -7,6 +7,7 @@ use coadjoint::{FixedDimension, LieGroup, SE3, SO3, SU3};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Plan, Predictor};
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Options, read};
 
 /// |x_guess − x| at a step, x solving p = (d^R exp_x)ᵀ μ with x = ∂S/∂p(p) by plain iteration.
@@ -41,7 +42,11 @@ where
     let limit = TermLimit::default();
     let series = Integrator::build(problem.clone(), limit).unwrap().series;
     for degree in [4, 6] {
-        let plan = Plan { predictor: Predictor::Flow(degree), hessian_truncation: 7 };
+        let plan = Plan {
+            solver: Solver::Newton,
+            predictor: Predictor::Flow(degree),
+            hessian_truncation: 7,
+        };
         let integrator =
             Integrator::with_plan(problem.clone(), series.clone(), Some(plan), limit).unwrap();
         let (coarse, fine) =
