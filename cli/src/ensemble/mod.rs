@@ -17,6 +17,7 @@ pub use shard::Shard;
 
 use std::path::Path;
 
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
 
 use crate::arguments::EnsembleOptions;
@@ -31,7 +32,9 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
-    let System { problem, potential, run } = system;
+    let System { mut problem, potential, run } = system;
+    // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
+    problem.solver = Some(Solver::Newton);
     if potential.is_some() {
         return Err(CliError::Option(
             "ensembles of systems with a potential do not run on the command line: emit the step, \
