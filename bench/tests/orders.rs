@@ -66,8 +66,10 @@ fn every_method_with_a_step_has_its_order() {
             }
             let measured = slope(method.as_ref(), &problem, order);
             println!("{name}: {}: {measured:.2}", method.name());
+            // At high orders only long steps err above rounding, and there the next term shows.
+            let band = (0.04 * f64::from(order)).max(0.3);
             assert!(
-                (measured - f64::from(order)).abs() < 0.3,
+                (measured - f64::from(order)).abs() < band,
                 "{name}: {}: {measured:.2}",
                 method.name()
             );
