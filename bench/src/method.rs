@@ -18,6 +18,19 @@ impl Setting {
         let count = (end / step).round().max(1.0) as usize;
         (count, end / count as f64)
     }
+
+    /// The step, for a method that takes no tolerance.
+    ///
+    /// # Errors
+    /// [`RunError::Setting`] in the name of `method` for a tolerance.
+    pub fn fixed_step(self, method: &str) -> Result<f64, RunError> {
+        match self {
+            Self::Step(step) => Ok(step),
+            given @ Self::Tolerance(_) => {
+                Err(RunError::Setting { method: method.to_owned(), wanted: "a step", given })
+            }
+        }
+    }
 }
 
 impl std::fmt::Display for Setting {

@@ -61,13 +61,7 @@ impl<R: Run> Method for Ours<R> {
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: self.name.clone(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+        let step = setting.fixed_step(&self.name)?;
         self.runs.run(problem, step).unwrap_or_else(|| {
             Err(RunError::NotApplicable {
                 method: self.name.clone(),

@@ -221,13 +221,7 @@ impl Method for MuntheKaas {
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: NAME.to_owned(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+        let step = setting.fixed_step(NAME)?;
         let (initial, end) = (&problem.initial, problem.end);
         Ok(match &problem.system {
             System::FreeBody(body) => {

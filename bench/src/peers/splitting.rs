@@ -191,13 +191,7 @@ impl Method for Splitting {
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: self.name.clone(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+        let step = setting.fixed_step(&self.name)?;
         Ok(match &problem.system {
             System::FreeBody(body) => FreeBody::unpack(&self.solve(
                 body,

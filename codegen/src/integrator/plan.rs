@@ -104,17 +104,10 @@ impl Plan {
         let costs = Costs::new(problem, terms);
         let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
         for degree in (0..=Self::single_step_degree(problem.truncation)).step_by(2) {
-            let Problem { algebra, chart, hamiltonian, .. } = problem;
-            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
-                Ok(polynomials) => polynomials,
-                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
-                    if best.is_some() =>
-                {
-                    break;
-                }
-                Err(error) => return Err(error),
+            let Some(polynomials) = affordable(problem, degree, limit, best.is_some())? else {
+                break;
             };
-            let own = predictor_operations(&polynomials, algebra.dim());
+            let own = predictor_operations(&polynomials, problem.algebra.dim());
             let Some((cost, plan)) = costs.cheapest(Predictor::Explicit(degree), own) else {
                 break;
             };
@@ -154,24 +147,17 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let Problem { algebra, chart, hamiltonian, truncation, .. } = problem;
-        let n = algebra.dim();
+        let n = problem.algebra.dim();
         let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
         let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
         for degree in 0..=HIGHEST_CHEAP_DEGREE {
-            let polynomials = match predictor(algebra, *chart, hamiltonian, degree, limit) {
-                Ok(polynomials) => polynomials,
-                Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
-                    if best.is_some() =>
-                {
-                    break;
-                }
-                Err(error) => return Err(error),
+            let Some(polynomials) = affordable(problem, degree, limit, best.is_some())? else {
+                break;
             };
             let plan = Self {
                 solver: Solver::FixedPoint,
                 predictor: Predictor::Explicit(degree),
-                hessian_truncation: *truncation,
+                hessian_truncation: problem.truncation,
             };
             let evaluations = EVALUATIONS - degree;
             let cost = predictor_operations(&polynomials, n) + evaluations * evaluation;
@@ -182,7 +168,7 @@ impl Plan {
         let constant = Self {
             solver: Solver::FixedPoint,
             predictor: Predictor::Explicit(0),
-            hessian_truncation: *truncation,
+            hessian_truncation: problem.truncation,
         };
         Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
     }
@@ -231,6 +217,20 @@ const CHART_OPERATIONS: usize = 30;
 const HIGHEST_CHEAP_DEGREE: usize = 2;
 /// Evaluations of the fixed point from the constant predictor to rounding, at h|Ω| of about 0.1.
 const EVALUATIONS: usize = 10;
+
+/// The explicit predictor of a degree; `None` where it is too large and a lower one will do.
+fn affordable(
+    problem: &Problem,
+    degree: usize,
+    limit: TermLimit,
+    lower: bool,
+) -> Result<Option<Vec<Vec<Polynomial>>>, DeriveError> {
+    match predictor(&problem.algebra, problem.chart, &problem.hamiltonian, degree, limit) {
+        Ok(polynomials) => Ok(Some(polynomials)),
+        Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) if lower => Ok(None),
+        Err(error) => Err(error),
+    }
+}
 
 /// About two operations for each monomial of each component.
 fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {

@@ -4,7 +4,7 @@ use coadjoint::{Exponential, SO3};
 
 use super::report::{Curve, Report, Table};
 use super::run::RunOptions;
-use super::task::row;
+use super::task::{COLUMNS, row};
 use crate::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use crate::error::LearnError;
 use crate::evaluate::evaluate;
@@ -30,17 +30,6 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         reduce::<SO3, Exponential>(&group, pairs, Tolerances::unlimited(), RowPolicy::Drop)
     };
     let test_data = reduced(&test)?.data;
-    let columns = [
-        "model",
-        "mse x",
-        "mse momentum",
-        "mse group",
-        "max x",
-        "max momentum",
-        "max group",
-        "unsolved",
-        "paper's mse",
-    ];
     for (label, pairs) in [("without noise", &clean), ("with noise", &noisy)] {
         say(&format!("noise: {label}"));
         let reduction = reduced(pairs)?;
@@ -49,7 +38,7 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
             reduction.data.len(),
             reduction.dropped.len()
         );
-        let mut table = Table::new(title, &columns);
+        let mut table = Table::new(title, &COLUMNS);
         let data = &reduction.data;
         let mut enter = |name: &str, function: &dyn MomentumFunction| {
             let map = Generating::<SO3, Exponential, _>::new(group, function);

@@ -197,13 +197,7 @@ impl Method for Exact {
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: NAME.to_owned(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+        let step = setting.fixed_step(NAME)?;
         let System::FreeBody(body) = &problem.system else {
             return Err(RunError::NotApplicable {
                 method: NAME.to_owned(),

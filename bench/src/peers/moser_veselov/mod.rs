@@ -238,13 +238,7 @@ impl Method for MoserVeselov {
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
-        let Setting::Step(step) = setting else {
-            return Err(RunError::Setting {
-                method: self.name.clone(),
-                wanted: "a step",
-                given: setting,
-            });
-        };
+        let step = setting.fixed_step(&self.name)?;
         let System::FreeBody(body) = &problem.system else {
             return Err(RunError::NotApplicable {
                 method: self.name.clone(),
