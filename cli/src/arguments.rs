@@ -218,6 +218,9 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "mu", value_delimiter = ',', allow_negative_numbers = true)]
     #[arg(requires = "model")]
     pub start: Vec<f64>,
+    /// Sum the tail of the series for this motion: as fast, and more accurate from K = 5 on
+    #[arg(long, conflicts_with = "model")]
+    pub tuned: bool,
     /// Record every n-th step
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,

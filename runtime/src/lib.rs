@@ -88,6 +88,7 @@ mod su2;
 #[cfg(feature = "systems")]
 pub mod systems;
 mod table;
+mod tail;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
 ///
@@ -131,7 +132,7 @@ mod table;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `advance`, `poisson_map`, `energy`, `step`, and the implementations of
+/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `poisson_map`, `energy`, `step`, and the implementations of
 /// [`GeneratingFunction`] and [`Lanes`]. Every mistake in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
 
@@ -218,3 +219,4 @@ pub use table::{
 pub use table::{
     CayleyMatrixGroup, DynamicLaneTables, DynamicTables, MatrixGroup, TableError, Terms,
 };
+pub use tail::Tail;

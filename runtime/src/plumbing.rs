@@ -12,9 +12,12 @@ pub struct Table<const SYMBOLS: usize> {
     pub ends: &'static [u32],
     /// Slots: a base and the integer that multiplies it.
     pub slots: &'static [(u32, u32)],
+    /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
+    pub series: usize,
 }
 
-/// Folds `table` for one step size and parameter set: `BASES` sums, then `SLOTS` multiples.
+/// Folds `table` for one step size and parameter set: `BASES` sums, then `SLOTS` multiples. S_k is
+/// multiplied by `factor(k)`.
 ///
 /// # Errors
 /// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].
@@ -23,6 +26,7 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
     names: &[&'static str; SYMBOLS],
     step: T,
     symbols: &[T; SYMBOLS],
+    factor: &dyn Fn(usize) -> T,
 ) -> Result<[T; SLOTS], StepError> {
     use nalgebra::SimdBool;
 
@@ -36,9 +40,10 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
     }
     let mut bases = [T::of(0.0); BASES];
     let mut start = 0;
-    for (base, &end) in bases.iter_mut().zip(table.ends) {
-        for (factor, power, powers) in table.terms.get(start..end as usize).unwrap_or(&[]) {
-            let mut product = T::of(*factor);
+    for (number, (base, &end)) in bases.iter_mut().zip(table.ends).enumerate() {
+        for (number_in_front, power, powers) in table.terms.get(start..end as usize).unwrap_or(&[])
+        {
+            let mut product = T::of(*number_in_front);
             for _ in 0..*power {
                 product *= step;
             }
@@ -46,6 +51,9 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
                 for _ in 0..power {
                     product *= symbol;
                 }
+            }
+            if number < table.series {
+                product *= factor(usize::from(*power));
             }
             *base += product;
         }

@@ -2,7 +2,7 @@
 
 use coadjoint::{Phase, SO3, lie_poisson};
 
-use super::Ours;
+use super::rows;
 use crate::{
     method::{Method, RunError, Setting},
     problem::{FreeBody, Problem, System},
@@ -28,10 +28,16 @@ macro_rules! truncated {
                 momentum: [f64; 3],
                 end: f64,
                 step: f64,
+                tuned: bool,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, end);
                 let failed = |_| RunError::NotConverged;
-                let step = RigidBody::new(h, body.inertia).map_err(failed)?;
+                let step = if tuned {
+                    RigidBody::tuned(h, body.inertia, [momentum])
+                } else {
+                    RigidBody::new(h, body.inertia)
+                };
+                let step = step.map_err(failed)?;
                 let mut phase = Phase::<SO3>::at_identity(momentum);
                 for _ in 0..count {
                     step.advance(&mut phase).map_err(failed)?;
@@ -51,25 +57,25 @@ truncated!(thirteen, 13);
 truncated!(fifteen, 15);
 truncated!(seventeen, 17);
 
-type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64) -> Result<State, RunError>;
+type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, bool) -> Result<State, RunError>;
 
 impl super::Run for FreeBodyRun {
     fn applies(&self, system: &System) -> bool {
         matches!(system, System::FreeBody(_))
     }
 
-    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
+    fn run(&self, problem: &Problem, step: f64, tuned: bool) -> Option<Result<State, RunError>> {
         let System::FreeBody(body) = &problem.system else {
             return None;
         };
-        Some(self(body, problem.initial.momentum, problem.end, step))
+        Some(self(body, problem.initial.momentum, problem.end, step, tuned))
     }
 }
 
 /// Every truncation.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Method>> {
-    let rows: [(u32, FreeBodyRun); 6] = [
+    let runs: [(u32, FreeBodyRun); 6] = [
         (7, seven::run),
         (9, nine::run),
         (11, eleven::run),
@@ -77,7 +83,5 @@ pub fn all() -> Vec<Box<dyn Method>> {
         (15, fifteen::run),
         (17, seventeen::run),
     ];
-    rows.into_iter()
-        .map(|(truncation, run)| Box::new(Ours::new(truncation, "SO(3)", run)) as Box<dyn Method>)
-        .collect()
+    runs.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3)", run)).collect()
 }

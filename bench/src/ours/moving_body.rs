@@ -3,7 +3,7 @@
 use coadjoint::{Phase, SE3, lie_poisson};
 use nalgebra::Vector6;
 
-use super::Ours;
+use super::rows;
 use crate::{
     method::{Method, RunError, Setting},
     problem::{Gravity, Mass, MovingBody, Problem, System},
@@ -12,11 +12,16 @@ use crate::{
 
 /// Runs a generated integrator from the problem's initial state to its end.
 macro_rules! run {
-    ($integrator:expr, $problem:expr, $count:expr) => {{
+    ($body:ident($($argument:expr),*), $tuned:expr, $problem:expr, $count:expr) => {{
         let failed = |_| RunError::NotConverged;
-        let integrator = $integrator.map_err(failed)?;
         let (m, f) = ($problem.initial.momentum, $problem.initial.force);
         let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
+        let integrator = if $tuned {
+            $body::tuned($($argument,)* [momentum])
+        } else {
+            $body::new($($argument),*)
+        };
+        let integrator = integrator.map_err(failed)?;
         let mut phase = Phase::<SE3>::at_identity(momentum);
         for _ in 0..$count {
             integrator.advance(&mut phase).map_err(failed)?;
@@ -44,10 +49,11 @@ macro_rules! top {
                 body: &MovingBody<Gravity<$axis>>,
                 problem: &Problem,
                 step: f64,
+                tuned: bool,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let weight = body.translation.weight;
-                run!(HeavyTop::new(h, body.inverse_inertia, weight), problem, count)
+                run!(HeavyTop(h, body.inverse_inertia, weight), tuned, problem, count)
             }
         }
     };
@@ -74,10 +80,11 @@ macro_rules! kirchhoff {
                 body: &MovingBody<Mass>,
                 problem: &Problem,
                 step: f64,
+                tuned: bool,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let inverse = body.translation.inverse;
-                run!(Kirchhoff::new(h, body.inverse_inertia, inverse), problem, count)
+                run!(Kirchhoff(h, body.inverse_inertia, inverse), tuned, problem, count)
             }
         }
     };
@@ -92,7 +99,7 @@ top!(second_axis_nine, 9, 1);
 kirchhoff!(kirchhoff_five, 5);
 kirchhoff!(kirchhoff_seven, 7);
 
-type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64) -> Result<State, RunError>;
+type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, bool) -> Result<State, RunError>;
 
 /// One truncation over the three kinds of systems on se(3)\*.
 #[derive(Clone, Copy)]
@@ -112,12 +119,12 @@ impl super::Run for Runs {
         }
     }
 
-    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
+    fn run(&self, problem: &Problem, step: f64, tuned: bool) -> Option<Result<State, RunError>> {
         match &problem.system {
             System::FreeBody(_) => None,
-            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step)),
-            System::Kovalevskaya(body) => Some((self.first_axis)(body, problem, step)),
-            System::Kirchhoff(body) => self.kirchhoff.map(|run| run(body, problem, step)),
+            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step, tuned)),
+            System::Kovalevskaya(body) => Some((self.first_axis)(body, problem, step, tuned)),
+            System::Kirchhoff(body) => self.kirchhoff.map(|run| run(body, problem, step, tuned)),
         }
     }
 }
@@ -125,7 +132,7 @@ impl super::Run for Runs {
 /// Every truncation.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Method>> {
-    let rows = [
+    let runs = [
         (
             5,
             Runs {
@@ -151,9 +158,7 @@ pub fn all() -> Vec<Box<dyn Method>> {
             },
         ),
     ];
-    rows.into_iter()
-        .map(|(truncation, runs)| Box::new(Ours::new(truncation, "SE(3)", runs)) as Box<dyn Method>)
-        .collect()
+    runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs)).collect()
 }
 
 fn state(phase: &Phase<SE3>) -> State {

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use coadjoint::{
     Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Scalar, ScalarOf, Solver,
-    StepError, VectorOf, hessian_by_differences,
+    StepError, Tail, VectorOf, hessian_by_differences,
 };
 use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
@@ -42,13 +42,41 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
 {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
+        Self::fold(integrator, group, step, &|_| 1.0)
+    }
+
+    /// Folds the coefficients for the step size, with the tail of the series summed for motions
+    /// that start with this momentum.
+    pub fn tuned(
+        integrator: &'a Integrator,
+        group: G,
+        step: f64,
+        momentum: &G::Vector,
+    ) -> Result<Self, StepError>
+    where
+        G: LieGroup<Scalar = f64> + Clone,
+    {
+        let series =
+            |factor: &dyn Fn(usize) -> f64| Self::fold(integrator, group.clone(), step, factor);
+        let truncation = integrator.problem.truncation;
+        let tail = Tail::along(truncation, [momentum.clone()], series)?;
+        series(&|k| tail.factor(k))
+    }
+
+    /// The coefficients of Σ factor(k) S_k.
+    fn fold(
+        integrator: &'a Integrator,
+        group: G,
+        step: f64,
+        factor: &dyn Fn(usize) -> f64,
+    ) -> Result<Self, StepError> {
         if step == 0.0 || !step.is_finite() {
             return Err(StepError::InvalidStep { step });
         }
         // Parameters are substituted; what symbols are left (sqrt(2)) need none.
         let symbols: Vec<f64> =
             integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
-        let slots = integrator.coefficients.fold(step, &symbols);
+        let slots = integrator.coefficients.fold_with(step, &symbols, factor);
         let mut defect = vec![0.0; integrator.defect_len()];
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;

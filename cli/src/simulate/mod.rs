@@ -60,6 +60,10 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         let System { problem, potential, run } = system;
+        if options.tuned && potential.is_some() {
+            let what = "--tuned follows the flow, which kicks of a potential leave: leave it out";
+            return Err(CliError::Option(what.to_owned()));
+        }
         let setup = Setup::new(options, &run, problem.algebra.dim())?;
         let kept = potential.as_ref().map(|(potential, _)| potential);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.

@@ -50,6 +50,8 @@ pub struct Setup {
     pub steps: u64,
     /// Every n-th step is recorded.
     pub every: u64,
+    /// Whether the tail of the series is summed for the motion from the initial momentum.
+    pub tuned: bool,
     /// μ at the start.
     pub momentum: DVector<f64>,
     group_element: Option<Vec<Vec<f64>>>,
@@ -82,6 +84,7 @@ impl Setup {
             step,
             steps,
             every: every as u64,
+            tuned: options.tuned,
             momentum: DVector::from_vec(momentum),
             group_element: run.group_element.clone(),
         })

@@ -54,9 +54,14 @@ impl<'a> Task<'a> {
         &self,
         group: G,
     ) -> Result<Trajectory, CliError> {
-        let step =
-            Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), self.setup.step)
-                .map_err(at_start)?;
+        let Setup { step: h, tuned, momentum, .. } = self.setup;
+        let (integrator, own) = (self.integrator, group.clone());
+        let step = if *tuned {
+            Interpreter::<G, C, FIXED_POINT>::tuned(integrator, own, *h, momentum)
+        } else {
+            Interpreter::<G, C, FIXED_POINT>::new(integrator, own, *h)
+        };
+        let step = step.map_err(at_start)?;
         self.march(&group, &mut |_, phase, recorder| {
             let solution = solve(&step, &phase.momentum)?;
             recorder.solved(solution.iterations, residual(&step, &phase.momentum, &solution));
@@ -71,6 +76,9 @@ impl<'a> Task<'a> {
         let mut phase = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
         let problem = &self.integrator.problem;
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
+        if setup.tuned {
+            label.push_str(", tuned");
+        }
         if let Some(forces) = self.forces {
             label = format!("{label}, {}", forces.splitting.name());
         }

@@ -61,7 +61,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let summary = header::lines(integrator);
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
-    let constructor = constructor(integrator, krate);
+    let constructor = constructor(integrator, krate, &parts.vector);
     let generating = generating_function(integrator, krate, name, &parts);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy);

@@ -79,6 +79,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                         &[#(#texts),*],
                         T::of(1.0),
                         &symbols,
+                        &|_| T::of(1.0),
                     )?;
                     ::core::result::Result::Ok(Self { coefficients })
                 }

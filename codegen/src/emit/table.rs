@@ -25,11 +25,13 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
         let scale = Literal::u32_unsuffixed(scale);
         quote!((#base, #scale))
     });
+    let series = Literal::usize_unsuffixed(coefficients.series());
     quote! {
         #krate::plumbing::Table {
             terms: &[#(#terms),*],
             ends: &[#(#ends),*],
             slots: &[#(#slots),*],
+            series: #series,
         }
     }
 }

@@ -26,6 +26,8 @@ pub struct Coefficients {
     bases: Vec<Vec<Contribution>>,
     slots: Vec<(usize, u32)>,
     known: HashMap<(usize, u32), usize>,
+    /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
+    series: usize,
 }
 
 impl Coefficients {
@@ -33,6 +35,17 @@ impl Coefficients {
     pub fn add_base(&mut self, contributions: Vec<Contribution>) -> usize {
         self.bases.push(contributions);
         self.bases.len() - 1
+    }
+
+    /// Declares the bases added so far to be those of the series.
+    pub fn end_series(&mut self) {
+        self.series = self.bases.len();
+    }
+
+    /// How many bases belong to the series S₁ + … + S_K; they are the first.
+    #[must_use]
+    pub fn series(&self) -> usize {
+        self.series
     }
 
     /// The slot that holds `scale` times base number `base`.
@@ -61,11 +74,19 @@ impl Coefficients {
     /// operations as emitted code.
     #[must_use]
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
-        let bases: Vec<f64> = self
-            .bases
-            .iter()
-            .map(|base| base.iter().fold(0.0, |sum, c| sum + c.evaluate(step, symbols)))
-            .collect();
+        self.fold_with(step, symbols, &|_| 1.0)
+    }
+
+    /// As [`Coefficients::fold`], S_k multiplied by `factor(k)`.
+    #[must_use]
+    pub fn fold_with(&self, step: f64, symbols: &[f64], factor: &dyn Fn(usize) -> f64) -> Vec<f64> {
+        let base = |(number, base): (usize, &Vec<Contribution>)| {
+            base.iter().fold(0.0, |sum, c| {
+                let factor = if number < self.series { factor(c.step_power as usize) } else { 1.0 };
+                sum + c.evaluate(step, symbols) * factor
+            })
+        };
+        let bases: Vec<f64> = self.bases.iter().enumerate().map(base).collect();
         self.slots.iter().map(|&(base, scale)| bases[base] * f64::from(scale)).collect()
     }
 }

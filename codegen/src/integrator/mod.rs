@@ -79,6 +79,7 @@ impl Integrator {
         let mut coefficients = Coefficients::default();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let s = terms::collect(&mut coefficients, dim, orders);
+        coefficients.end_series();
         let h = terms::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
 
         let table = &mut coefficients;
