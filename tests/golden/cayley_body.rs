@@ -40,6 +40,33 @@ const _: () = {
         /// `StepError::InvalidStep` for a step that is zero or not finite,
         /// `StepError::InvalidParameter` where a parameter expression is not finite.
         pub fn new(step: T) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            Self::fold(step, &[], &|_| T::of(1.0))
+        }
+        /// As `new`, with the tail of the series summed for motions that start with `momenta`
+        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        ///
+        /// # Errors
+        /// As `new`, and where a step from one of the momenta fails.
+        pub fn tuned(
+            step: T,
+            momenta: impl ::core::iter::IntoIterator<
+                Item = impl ::core::convert::Into<::coadjoint::nalgebra::SVector<T, 3>>,
+            >,
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            let symbols = [];
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, factor)
+            };
+            let momenta = momenta.into_iter().map(::core::convert::Into::into);
+            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            series(&|k| tail.factor(k))
+        }
+        /// The coefficients of Σ factor(k) S_k.
+        fn fold(
+            step: T,
+            symbols: &[T; 0],
+            factor: &dyn ::core::ops::Fn(usize) -> T,
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             static TABLE: ::coadjoint::plumbing::Table<0> = ::coadjoint::plumbing::Table {
                 terms: &[
                     (0.2, 1, []),
@@ -373,14 +400,14 @@ const _: () = {
                     (20, 1),
                     (21, 1),
                 ],
+                series: 18,
             };
-            let symbols: [T; 0] = [];
             let coefficients = ::coadjoint::plumbing::fold::<
                 T,
                 0,
                 139,
                 175,
-            >(&TABLE, &[], step, &symbols)?;
+            >(&TABLE, &[], step, symbols, factor)?;
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
             ::core::result::Result::Ok(Self { step, coefficients, defect })
         }

@@ -46,6 +46,51 @@ const _: () = {
             g: T,
             l: T,
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            Self::fold(
+                step,
+                &[
+                    (T::of(1.0) / inertia[0]),
+                    (T::of(1.0) / inertia[1]),
+                    (T::of(1.0) / inertia[2]),
+                    ((m * g) * l),
+                ],
+                &|_| T::of(1.0),
+            )
+        }
+        /// As `new`, with the tail of the series summed for motions that start with `momenta`
+        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        ///
+        /// # Errors
+        /// As `new`, and where a step from one of the momenta fails.
+        pub fn tuned(
+            step: T,
+            inertia: [T; 3],
+            m: T,
+            g: T,
+            l: T,
+            momenta: impl ::core::iter::IntoIterator<
+                Item = impl ::core::convert::Into<::coadjoint::nalgebra::SVector<T, 6>>,
+            >,
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            let symbols = [
+                (T::of(1.0) / inertia[0]),
+                (T::of(1.0) / inertia[1]),
+                (T::of(1.0) / inertia[2]),
+                ((m * g) * l),
+            ];
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, factor)
+            };
+            let momenta = momenta.into_iter().map(::core::convert::Into::into);
+            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            series(&|k| tail.factor(k))
+        }
+        /// The coefficients of Σ factor(k) S_k.
+        fn fold(
+            step: T,
+            symbols: &[T; 4],
+            factor: &dyn ::core::ops::Fn(usize) -> T,
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             static TABLE: ::coadjoint::plumbing::Table<4> = ::coadjoint::plumbing::Table {
                 terms: &[
                     (1.0, 1, [0, 0, 0, 1]),
@@ -1288,13 +1333,8 @@ const _: () = {
                     (13, 1),
                     (14, 1),
                 ],
+                series: 11,
             };
-            let symbols: [T; 4] = [
-                (T::of(1.0) / inertia[0]),
-                (T::of(1.0) / inertia[1]),
-                (T::of(1.0) / inertia[2]),
-                ((m * g) * l),
-            ];
             let coefficients = ::coadjoint::plumbing::fold::<
                 T,
                 4,
@@ -1304,7 +1344,8 @@ const _: () = {
                 &TABLE,
                 &["1/inertia[0]", "1/inertia[1]", "1/inertia[2]", "m*g*l"],
                 step,
-                &symbols,
+                symbols,
+                factor,
             )?;
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
             ::core::result::Result::Ok(Self { step, coefficients, defect })
