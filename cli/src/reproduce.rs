@@ -12,7 +12,7 @@ use crate::error::CliError;
 #[derive(Args, Debug)]
 pub struct ReproduceOptions {
     /// The experiment: simulation, table-1, noise, table-2, hamiltonian, geometrize,
-    /// hamilton-jacobi, reduction-error, or all
+    /// hamilton-jacobi, reduction-error, harder-truths, or all
     #[arg(value_name = "NAME")]
     name: String,
     /// Fewer samples and steps, smaller networks: seconds in place of minutes

@@ -29,16 +29,17 @@ pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Outp
     let unknown = |reason: String| LearnError::UnknownGroup { name: group.into(), reason };
     let no_chart =
         |reason: String| LearnError::NoChart { group: group.into(), chart: chart.into(), reason };
-    match (group, chart) {
-        (_, name) if name != "exp" && name != "cayley" => {
-            Err(no_chart("charts are exp and cayley".into()))
-        }
+    if chart != "exp" && chart != "cayley" {
+        return Err(no_chart("charts are exp and cayley".into()));
+    }
+    // By the name it has in the catalogue: `SO(3)` is SO3.
+    let algebra = catalogue::lookup(group).map_err(|e| unknown(e.to_string()))?;
+    match (algebra.name(), chart) {
         ("SO3", "exp") => Ok(visitor.visit::<SO3, Exponential>(SO3::new())),
         ("SO3", _) => Ok(visitor.visit::<SO3, Cayley>(SO3::new())),
         ("SE3", "exp") => Ok(visitor.visit::<SE3, Exponential>(SE3::new())),
         ("SE3", _) => Ok(visitor.visit::<SE3, Cayley>(SE3::new())),
         _ => {
-            let algebra = catalogue::lookup(group).map_err(|e| unknown(e.to_string()))?;
             let made = run_time_group(&algebra).map_err(|e| unknown(e.to_string()))?;
             if chart == "exp" {
                 return Ok(visitor.visit::<_, Exponential>(made));

@@ -27,7 +27,7 @@ pub enum LearnError {
     },
     /// The ending of a file name names no format this build reads.
     #[error(
-        "{}: the ending must be .csv, .npy, .npz, or .parquet (the last with the feature parquet)",
+        "{}: the ending must be .csv, .npy, .npz or .parquet",
         path.display()
     )]
     UnknownFormat {
@@ -70,7 +70,7 @@ pub enum LearnError {
         found: usize,
     },
     /// There is not a single usable sample.
-    #[error("the data hold no usable sample")]
+    #[error("the data hold no usable sample: give at least one row")]
     NoSamples,
     /// Attitudes are needed, and the data are momenta only.
     #[error(
@@ -274,10 +274,10 @@ impl fmt::Display for BadRows {
         if has(|p| matches!(p, RowProblem::OffGroup { .. } | RowProblem::MomentumMismatch { .. })) {
             write!(
                 f,
-                "\nnoisy data can be used by raising the tolerances; they are then projected onto \
-                 the group, and p is taken from the momentum after the step"
+                "\nnoisy data can be used by raising the tolerances (--tolerance inf); they are then \
+                 projected onto the group, and p is taken from the momentum after the step"
             )?;
         }
-        write!(f, "\nor drop these rows and go on")
+        write!(f, "\nor drop these rows and go on (--drop-bad-rows)")
     }
 }

@@ -167,11 +167,22 @@ fn missing_columns_words_and_unknown_endings_are_named() {
     let text = format!("{HEADER}1,2,x,1,2,3,1,0,0,0,1,0,0,0\n");
     let message = load(&csv("word.csv", &text)).unwrap_err().to_string();
     assert_eq!(message, "row 1, column mu_3: `x` is not a number");
+    let message = load(&csv("bare.csv", "1,2,3,1,2,3\n")).unwrap_err().to_string();
+    assert!(message.contains("must name the columns"), "{message}");
     let message = load(&csv("data.xlsx", "")).unwrap_err().to_string();
     assert!(message.contains("the ending must be .csv"), "{message}");
     let message = load(&csv("fake.npz", "not a zip")).unwrap_err().to_string();
     assert!(message.contains("is not a readable NumPy file"), "{message}");
     assert!(matches!(load(&csv("empty.csv", HEADER)), Err(LearnError::NoSamples)));
+}
+
+/// Columns that are not ours may hold anything.
+#[test]
+fn other_columns_are_left_alone() {
+    let header = "when,mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,q_w,q_x,q_y,q_z,q_next_w,\
+                  q_next_x,q_next_y,q_next_z,note";
+    let text = format!("{header}\n2026-01-01T00:00Z,1,2,3,1,2,3,1,0,0,0,1,0,0,0,ok\n");
+    assert_eq!(load(&csv("more.csv", &text)).unwrap().data.len(), 1);
 }
 
 #[test]

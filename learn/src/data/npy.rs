@@ -74,10 +74,7 @@ fn format(path: &Path, error: &std::io::Error) -> LearnError {
 fn read_array<R: Read>(path: &Path, file: NpyFile<R>) -> Result<Array, LearnError> {
     let shape: Vec<usize> =
         file.shape().iter().map(|&s| usize::try_from(s).unwrap_or(usize::MAX)).collect();
-    if file.order() == Order::Fortran && shape.len() > 1 {
-        let reason = "arrays must be in C order (numpy.ascontiguousarray)".into();
-        return Err(LearnError::Format { path: path.into(), format: "NumPy", reason });
-    }
+    let fortran = file.order() == Order::Fortran;
     let width = match file.dtype() {
         DType::Plain(ty) if ty.type_char() == TypeChar::Float => ty.size_field(),
         _ => 0,
@@ -93,7 +90,24 @@ fn read_array<R: Read>(path: &Path, file: NpyFile<R>) -> Result<Array, LearnErro
             return Err(LearnError::Format { path: path.into(), format: "NumPy", reason });
         }
     };
+    let values = if fortran { row_major(&shape, &values) } else { values };
     Ok(Array { shape, values })
+}
+
+/// The entries of an array with the first index quickest (as `np.column_stack` leaves it), with the
+/// last index quickest.
+fn row_major(shape: &[usize], values: &[f64]) -> Vec<f64> {
+    let place = |mut index: usize| {
+        let mut stride = values.len();
+        let mut place = 0;
+        for &size in shape.iter().rev() {
+            stride /= size.max(1);
+            place += index % size * stride;
+            index /= size;
+        }
+        place
+    };
+    (0..values.len()).map(|index| values[place(index)]).collect()
 }
 
 /// Adds an array of a `.npz` file as columns; arrays of other shapes are not ours to read.
@@ -125,4 +139,20 @@ pub(super) fn matrix(name: &str, size: usize) -> Vec<String> {
 /// `q_w`, `q_x`, `q_y`, `q_z`.
 pub(super) fn quaternion(name: &str) -> [String; 4] {
     ["w", "x", "y", "z"].map(|part| format!("{name}_{part}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::row_major;
+
+    #[test]
+    fn the_first_index_quickest_is_reordered() {
+        // By hand: the matrix [[0, 1, 2], [3, 4, 5]] column by column.
+        assert_eq!(row_major(&[2, 3], &[0.0, 3.0, 1.0, 4.0, 2.0, 5.0]), [0., 1., 2., 3., 4., 5.]);
+        // The entry (i, j, k) of a 2×2×2 array is 4i + 2j + k.
+        let values = [0.0, 4.0, 2.0, 6.0, 1.0, 5.0, 3.0, 7.0];
+        assert_eq!(row_major(&[2, 2, 2], &values), [0., 1., 2., 3., 4., 5., 6., 7.]);
+        assert_eq!(row_major(&[3], &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+        assert!(row_major(&[0, 3], &[]).is_empty());
+    }
 }

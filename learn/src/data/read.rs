@@ -22,6 +22,11 @@ pub fn read_columns(path: &Path, dim: usize, matrix_size: usize) -> Result<Colum
         Some("npy") => npy::read_npy(path, dim, matrix_size)?,
         #[cfg(feature = "parquet")]
         Some("parquet") => super::parquet::read(path)?,
+        #[cfg(not(feature = "parquet"))]
+        Some("parquet") => {
+            let reason = "this build cannot read it; build with --features parquet".into();
+            return Err(LearnError::Format { path: path.into(), format: "Parquet", reason });
+        }
         _ => return Err(LearnError::UnknownFormat { path: path.into() }),
     };
     if columns.rows() == 0 {

@@ -25,8 +25,8 @@ impl Training<'_> {
         let full = TrainingOptions { seed: self.seed, checkpoint, ..Default::default() };
         let quick = TrainingOptions {
             widths: vec![64, 64],
-            adam_steps: 100,
-            lbfgs_steps: 300,
+            adam_steps: 50,
+            lbfgs_steps: 350,
             ..full.clone()
         };
         self.options.pick(full, quick)

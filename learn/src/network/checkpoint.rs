@@ -3,28 +3,35 @@
 //! A line of JSON, then the numbers as little-endian 64-bit floats. A file is written beside its
 //! place and moved there, so that there is always a whole one.
 
+use std::collections::VecDeque;
 use std::io::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use super::lbfgs::{Descent, Pair};
 use crate::error::LearnError;
 
 /// The first field of every checkpoint.
-const FORMAT: &str = "coadjoint-checkpoint-1";
+const FORMAT: &str = "coadjoint-checkpoint-2";
 
 /// The state between two evaluations of the loss.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct State {
-    /// The unknowns.
-    pub(super) weights: Vec<f64>,
-    /// Adam's moments.
-    pub(super) adam: Adam,
+    /// What is being done.
+    pub(super) stage: Stage,
     /// The loss of every evaluation so far.
     pub(super) history: Vec<f64>,
-    /// Whether there is nothing more to gain.
-    pub(super) finished: bool,
+}
+
+/// The unknowns, with what the method at work remembers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Stage {
+    /// Steps of Adam.
+    Adam { weights: Vec<f64>, moments: Adam },
+    /// L-BFGS.
+    Descent(Descent),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -33,29 +40,50 @@ struct Header {
     task: u64,
     unknowns: usize,
     evaluations: usize,
-    finished: bool,
+    /// L-BFGS: the pairs it remembers, and whether it is stuck.
+    descent: Option<(usize, bool)>,
 }
 
 impl State {
     pub(super) fn new(weights: Vec<f64>) -> Self {
-        let adam = Adam::new(weights.len());
-        Self { weights, adam, history: Vec::new(), finished: false }
+        let moments = Adam::new(weights.len());
+        Self { stage: Stage::Adam { weights, moments }, history: Vec::new() }
     }
 
     /// Writes the state of the task with this fingerprint.
     pub(super) fn save(&self, path: &Path, task: u64) -> Result<(), LearnError> {
         let fail = |source| LearnError::File { path: path.into(), source };
+        let (weights, descent) = match &self.stage {
+            Stage::Adam { weights, .. } => (weights, None),
+            Stage::Descent(descent) => {
+                (&descent.weights, Some((descent.pairs.len(), descent.stuck)))
+            }
+        };
         let header = Header {
             format: FORMAT.into(),
             task,
-            unknowns: self.weights.len(),
+            unknowns: weights.len(),
             evaluations: self.history.len(),
-            finished: self.finished,
+            descent,
         };
         let mut bytes = serde_json::to_vec(&header).map_err(|e| fail(e.into()))?;
         bytes.push(b'\n');
-        for part in [&self.weights, &self.adam.first, &self.adam.second, &self.history] {
-            bytes.extend(part.iter().flat_map(|v| v.to_le_bytes()));
+        let mut put = |part: &[f64]| bytes.extend(part.iter().flat_map(|v| v.to_le_bytes()));
+        put(&self.history);
+        put(weights);
+        match &self.stage {
+            Stage::Adam { moments, .. } => {
+                put(&moments.first);
+                put(&moments.second);
+            }
+            Stage::Descent(descent) => {
+                put(&descent.gradient);
+                for pair in &descent.pairs {
+                    put(&pair.moved);
+                    put(&pair.change);
+                }
+                put(&[descent.loss]);
+            }
         }
         let mut beside = path.as_os_str().to_owned();
         beside.push(".new");
@@ -85,27 +113,38 @@ impl State {
         if header.task != task {
             return Err(fail("it belongs to other data or other options"));
         }
-        let numbers: Vec<f64> =
-            bytes[end + 1..].chunks_exact(8).map(|c| f64::from_le_bytes(eight(c))).collect();
-        let (n, m) = (header.unknowns, header.evaluations);
-        if n.checked_mul(3).and_then(|k| k.checked_add(m)) != Some(numbers.len()) {
-            return Err(fail("it is cut off"));
-        }
-        let part = |from: usize, to: usize| numbers[from..to].to_vec();
-        Ok(Some(Self {
-            weights: part(0, n),
-            adam: Adam { first: part(n, 2 * n), second: part(2 * n, 3 * n) },
-            history: part(3 * n, 3 * n + m),
-            finished: header.finished,
-        }))
+        let mut numbers = Numbers { bytes: &bytes[end + 1..] };
+        let mut take = |count| numbers.take(count).ok_or_else(|| fail("it is cut off"));
+        let n = header.unknowns;
+        let (history, weights) = (take(header.evaluations)?, take(n)?);
+        let stage = match header.descent {
+            None => Stage::Adam { weights, moments: Adam { first: take(n)?, second: take(n)? } },
+            Some((count, stuck)) => {
+                let gradient = take(n)?;
+                let mut pairs = VecDeque::new();
+                for _ in 0..count {
+                    pairs.push_back(Pair { moved: take(n)?, change: take(n)? });
+                }
+                let loss = take(1)?[0];
+                Stage::Descent(Descent { weights, loss, gradient, pairs, stuck })
+            }
+        };
+        Ok(Some(Self { stage, history }))
     }
 }
 
-/// The eight bytes of a chunk of eight.
-fn eight(chunk: &[u8]) -> [u8; 8] {
-    let mut bytes = [0; 8];
-    bytes.copy_from_slice(chunk);
-    bytes
+/// Numbers not yet read.
+struct Numbers<'a> {
+    bytes: &'a [u8],
+}
+
+impl Numbers<'_> {
+    /// The next numbers, if there are so many.
+    fn take(&mut self, count: usize) -> Option<Vec<f64>> {
+        let (these, rest) = self.bytes.split_at_checked(count.checked_mul(8)?)?;
+        self.bytes = rest;
+        Some(these.as_chunks().0.iter().map(|&c| f64::from_le_bytes(c)).collect())
+    }
 }
 
 /// A number that tells tasks apart: the FNV-1a hash (Fowler, Noll and Vo) of words and numbers,
@@ -149,7 +188,17 @@ mod tests {
         assert_eq!(State::load(&path, task).unwrap(), None);
         let mut state = State::new(vec![0.1, -1e-300, f64::MAX]);
         state.history = vec![3.0, 2.0];
-        state.adam.second[1] = 0.25;
+        state.save(&path, task).unwrap();
+        assert_eq!(State::load(&path, task).unwrap(), Some(state.clone()));
+        let row = |seed: f64| vec![seed, 0.25 - seed, 7.0 * seed];
+        let pair = |seed| Pair { moved: row(seed), change: row(-seed) };
+        state.stage = Stage::Descent(Descent {
+            weights: row(1.0),
+            loss: f64::INFINITY,
+            gradient: row(2.0),
+            pairs: [pair(3.0), pair(4.0)].into(),
+            stuck: true,
+        });
         state.save(&path, task).unwrap();
         assert_eq!(State::load(&path, task).unwrap(), Some(state));
         let reason = |task| State::load(&path, task).unwrap_err().to_string();

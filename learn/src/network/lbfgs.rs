@@ -5,7 +5,8 @@
 
 use std::collections::VecDeque;
 
-use super::line_search::{Line, dot};
+use super::line_search::Line;
+use super::row::{add, dot, norm};
 use crate::error::LearnError;
 
 /// A loss and its gradient.
@@ -14,105 +15,102 @@ pub(super) type Evaluate<'a> = dyn FnMut(&[f64]) -> Result<(f64, Vec<f64>), Lear
 /// Pairs of differences kept.
 const MEMORY: usize = 10;
 
-/// How a descent went.
-#[derive(Clone, Debug)]
+/// Where a descent stands, and what it remembers.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Descent {
     /// The best weights found.
     pub(super) weights: Vec<f64>,
-    /// The loss of every evaluation, in order.
-    pub(super) losses: Vec<f64>,
+    /// The loss there.
+    pub(super) loss: f64,
+    /// The gradient there.
+    pub(super) gradient: Vec<f64>,
+    /// The last steps, the latest last.
+    pub(super) pairs: VecDeque<Pair>,
     /// Whether no step could be found that lowers the loss.
     pub(super) stuck: bool,
 }
 
-/// Lowers the loss from `start`, by at most `budget` evaluations.
-pub(super) fn descend(
-    start: Vec<f64>,
-    budget: usize,
-    evaluate: &mut Evaluate<'_>,
-) -> Result<Descent, LearnError> {
-    let mut losses = Vec::with_capacity(budget);
-    let mut evaluate = |at: &[f64]| -> Result<(f64, Vec<f64>), LearnError> {
-        let found = evaluate(at)?;
-        losses.push(found.0);
-        Ok(found)
-    };
-    let mut left = budget.saturating_sub(1);
-    let (mut loss, mut gradient) = evaluate(&start)?;
-    let mut weights = start;
-    let mut pairs: VecDeque<Pair> = VecDeque::new();
-    let mut stuck = false;
-    while left > 0 && !stuck {
-        let mut direction = newton_like(&pairs, &gradient);
-        if dot(&direction, &gradient).is_nan() || dot(&direction, &gradient) >= 0.0 {
-            pairs.clear();
-            direction = gradient.iter().map(|g| -g).collect();
+/// s = xₖ₊₁ − xₖ and y = gₖ₊₁ − gₖ.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Pair {
+    pub(super) moved: Vec<f64>,
+    pub(super) change: Vec<f64>,
+}
+
+impl Descent {
+    /// Begins at `weights`, by one evaluation.
+    pub(super) fn begin(
+        weights: Vec<f64>,
+        evaluate: &mut Evaluate<'_>,
+    ) -> Result<Self, LearnError> {
+        let (loss, gradient) = evaluate(&weights)?;
+        Ok(Self { weights, loss, gradient, pairs: VecDeque::new(), stuck: false })
+    }
+
+    /// Searches along one direction, by at most `left` evaluations.
+    pub(super) fn advance(
+        &mut self,
+        left: &mut usize,
+        evaluate: &mut Evaluate<'_>,
+    ) -> Result<(), LearnError> {
+        let mut direction = self.newton_like();
+        let mut slope = dot(&direction, &self.gradient);
+        if slope.is_nan() || slope >= 0.0 {
+            self.pairs.clear();
+            direction = self.gradient.iter().map(|g| -g).collect();
+            slope = dot(&direction, &self.gradient);
         }
-        let slope = dot(&direction, &gradient);
         if slope.is_nan() || slope >= 0.0 {
             // The gradient is zero, or not a number.
-            stuck = true;
-            continue;
+            self.stuck = true;
+            return Ok(());
         }
         // Without a past, the step that would lower a linear loss to 0.
-        let first = if pairs.is_empty() { loss.abs() / dot(&gradient, &gradient) } else { 1.0 };
-        let line = Line { from: &weights, direction: &direction, loss, slope };
-        match line.search(first, &mut left, &mut evaluate)? {
+        let first = if self.pairs.is_empty() { self.loss.abs() / -slope } else { 1.0 };
+        let line = Line { from: &self.weights, direction: &direction, loss: self.loss, slope };
+        match line.search(first, left, evaluate)? {
             Some(found) => {
-                let moved: Vec<f64> = direction.iter().map(|d| found.step * d).collect();
+                let weights = line.at(found.step);
+                direction.iter_mut().for_each(|d| *d *= found.step);
                 let change: Vec<f64> =
-                    found.gradient.iter().zip(&gradient).map(|(a, b)| a - b).collect();
-                let curvature = dot(&moved, &change);
-                if curvature > f64::EPSILON * norm(&moved) * norm(&change) {
-                    if pairs.len() == MEMORY {
-                        pairs.pop_front();
+                    found.gradient.iter().zip(&self.gradient).map(|(a, b)| a - b).collect();
+                if dot(&direction, &change) > f64::EPSILON * norm(&direction) * norm(&change) {
+                    if self.pairs.len() == MEMORY {
+                        self.pairs.pop_front();
                     }
-                    pairs.push_back(Pair { inverse: 1.0 / curvature, moved, change });
+                    self.pairs.push_back(Pair { moved: direction, change });
                 }
-                weights = line.at(found.step);
-                (loss, gradient) = (found.loss, found.gradient);
+                (self.weights, self.loss, self.gradient) = (weights, found.loss, found.gradient);
             }
             // Once more, from the gradient alone.
-            None if !pairs.is_empty() => pairs.clear(),
-            None => stuck = true,
+            None if !self.pairs.is_empty() => self.pairs.clear(),
+            None => self.stuck = true,
         }
+        Ok(())
     }
-    Ok(Descent { weights, losses, stuck })
-}
 
-/// s = xₖ₊₁ − xₖ, y = gₖ₊₁ − gₖ and 1/(s·y).
-struct Pair {
-    moved: Vec<f64>,
-    change: Vec<f64>,
-    inverse: f64,
-}
-
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
-}
-
-fn add(target: &mut [f64], factor: f64, other: &[f64]) {
-    target.iter_mut().zip(other).for_each(|(t, o)| *t += factor * o);
-}
-
-/// −H g by the two loops.
-fn newton_like(pairs: &VecDeque<Pair>, gradient: &[f64]) -> Vec<f64> {
-    let mut direction: Vec<f64> = gradient.iter().map(|g| -g).collect();
-    let mut weights = Vec::with_capacity(pairs.len());
-    for pair in pairs.iter().rev() {
-        let weight = pair.inverse * dot(&pair.moved, &direction);
-        add(&mut direction, -weight, &pair.change);
-        weights.push(weight);
+    /// −H g by the two loops.
+    fn newton_like(&self) -> Vec<f64> {
+        let mut direction: Vec<f64> = self.gradient.iter().map(|g| -g).collect();
+        let curvature = |pair: &Pair| dot(&pair.moved, &pair.change);
+        let inverses: Vec<f64> = self.pairs.iter().map(|pair| 1.0 / curvature(pair)).collect();
+        let mut weights = Vec::with_capacity(inverses.len());
+        for (pair, inverse) in self.pairs.iter().zip(&inverses).rev() {
+            let weight = inverse * dot(&pair.moved, &direction);
+            add(&mut direction, -weight, &pair.change);
+            weights.push(weight);
+        }
+        if let (Some(last), Some(inverse)) = (self.pairs.back(), inverses.last()) {
+            let scale = 1.0 / (inverse * dot(&last.change, &last.change));
+            direction.iter_mut().for_each(|d| *d *= scale);
+        }
+        for ((pair, inverse), weight) in self.pairs.iter().zip(&inverses).zip(weights.iter().rev())
+        {
+            let other = inverse * dot(&pair.change, &direction);
+            add(&mut direction, weight - other, &pair.moved);
+        }
+        direction
     }
-    if let Some(last) = pairs.back() {
-        let scale = 1.0 / (last.inverse * dot(&last.change, &last.change));
-        direction.iter_mut().for_each(|d| *d *= scale);
-    }
-    for (pair, weight) in pairs.iter().zip(weights.iter().rev()) {
-        let other = pair.inverse * dot(&pair.change, &direction);
-        add(&mut direction, weight - other, &pair.moved);
-    }
-    direction
 }
 
 #[cfg(test)]
@@ -134,26 +132,38 @@ mod tests {
         (sum, gradient)
     }
 
+    /// From −½ by at most `budget` evaluations of `scale` times the function; also their number.
+    fn descend(scale: f64, budget: usize) -> (Descent, usize) {
+        let mut count = 0;
+        let mut evaluate = |x: &[f64]| {
+            count += 1;
+            let (f, g) = rosenbrock(x);
+            Ok((scale * f, g.iter().map(|v| scale * v).collect()))
+        };
+        let mut descent = Descent::begin(vec![-0.5; 10], &mut evaluate).unwrap();
+        let mut left = budget - 1;
+        while left > 0 && !descent.stuck {
+            descent.advance(&mut left, &mut evaluate).unwrap();
+        }
+        (descent, count)
+    }
+
     #[test]
     fn finds_the_minimum_to_rounding_whatever_the_scale_of_the_loss() {
         for scale in [1e-20, 1.0, 1e20] {
-            let mut evaluate = |x: &[f64]| {
-                let (f, g) = rosenbrock(x);
-                Ok((scale * f, g.iter().map(|v| scale * v).collect()))
-            };
-            let found = descend(vec![-0.5; 10], 500, &mut evaluate).unwrap();
+            let (found, count) = descend(scale, 500);
             let largest = found.weights.iter().map(|w| (w - 1.0).abs()).fold(0.0, f64::max);
-            assert!(largest < 1e-7, "{largest:e} after {}", found.losses.len());
+            assert!(largest < 1e-7, "{largest:e} after {count}");
         }
     }
 
     #[test]
     fn keeps_the_budget_and_never_gets_worse() {
         for budget in [1, 2, 3, 7, 20, 50] {
-            let mut evaluate = |x: &[f64]| Ok(rosenbrock(x));
-            let found = descend(vec![-0.5; 10], budget, &mut evaluate).unwrap();
-            assert!(found.losses.len() <= budget);
-            assert!(rosenbrock(&found.weights).0 <= found.losses[0]);
+            let (found, count) = descend(1.0, budget);
+            assert!(count <= budget);
+            assert_eq!(rosenbrock(&found.weights), (found.loss, found.gradient));
+            assert!(found.loss <= rosenbrock(&[-0.5; 10]).0);
         }
     }
 }

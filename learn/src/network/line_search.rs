@@ -2,6 +2,8 @@
 //!
 //! J. Nocedal and S. Wright, *Numerical Optimization*, 2nd edition, algorithms 3.5 and 3.6.
 
+use super::lbfgs::Evaluate;
+use super::row::dot;
 use crate::error::LearnError;
 
 /// Sufficient decrease.
@@ -10,10 +12,6 @@ const DECREASE: f64 = 1e-4;
 const FLATTENING: f64 = 0.9;
 /// The most evaluations of one line search.
 const SEARCH: usize = 20;
-
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
 
 /// The loss along a direction.
 pub(super) struct Line<'a> {
@@ -37,11 +35,7 @@ impl Line<'_> {
         self.from.iter().zip(self.direction).map(|(x, d)| x + step * d).collect()
     }
 
-    fn look(
-        &self,
-        step: f64,
-        evaluate: &mut impl FnMut(&[f64]) -> Result<(f64, Vec<f64>), LearnError>,
-    ) -> Result<Point, LearnError> {
+    fn look(&self, step: f64, evaluate: &mut Evaluate<'_>) -> Result<Point, LearnError> {
         let (loss, gradient) = evaluate(&self.at(step))?;
         let slope = dot(&gradient, self.direction);
         Ok(Point { step, loss, slope, gradient })
@@ -62,7 +56,7 @@ impl Line<'_> {
         &self,
         first: f64,
         left: &mut usize,
-        evaluate: &mut impl FnMut(&[f64]) -> Result<(f64, Vec<f64>), LearnError>,
+        evaluate: &mut Evaluate<'_>,
     ) -> Result<Option<Point>, LearnError> {
         let origin = Point { step: 0.0, loss: self.loss, slope: self.slope, gradient: Vec::new() };
         let mut low = origin;

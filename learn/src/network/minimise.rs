@@ -1,7 +1,7 @@
 //! The loop that lowers a loss: Adam with a schedule, then L-BFGS, with checkpoints.
 
-use super::checkpoint::State;
-use super::lbfgs::{Evaluate, descend};
+use super::checkpoint::{Stage, State};
+use super::lbfgs::{Descent, Evaluate};
 use super::options::{Progress, TrainingOptions};
 use crate::error::LearnError;
 
@@ -9,9 +9,9 @@ use crate::error::LearnError;
 const WATCH: usize = 10;
 /// Steps of Adam between two checkpoints.
 const SAVE: usize = 50;
-/// Evaluations by L-BFGS between two checkpoints. It forgets its past there, so that an
-/// interrupted run ends with the bits of an uninterrupted one.
-const ROUND: usize = 250;
+/// Evaluations by L-BFGS between two checkpoints, which hold its whole memory: twenty rows of
+/// unknowns.
+const SAVE_MEMORY: usize = 200;
 
 /// A loss on data that are watched, not fitted.
 pub(super) type Watch<'a> = dyn FnMut(&[f64]) -> Result<f64, LearnError> + 'a;
@@ -36,48 +36,61 @@ pub(super) fn minimise(
     let save = |state: &State| path.map_or(Ok(()), |path| state.save(path, task));
     let total = options.adam_steps + options.lbfgs_steps;
 
-    for step in state.history.len()..options.adam_steps {
-        let (loss, gradient) = evaluate(&state.weights)?;
+    while state.history.len() < options.adam_steps {
+        let Stage::Adam { weights, moments } = &mut state.stage else { break };
+        let step = state.history.len();
+        let (loss, gradient) = evaluate(weights)?;
         if !loss.is_finite() && step == 0 {
             let reason = "the loss is not finite at the first weights".into();
             return Err(LearnError::NotConverged { reason });
         }
         let validation = match &mut watch {
-            Some(watch) if step % WATCH == 0 => Some(watch(&state.weights)?),
+            Some(watch) if step % WATCH == 0 => Some(watch(weights)?),
             _ => None,
         };
         state.history.push(loss);
         progress(Progress { step, total, loss, validation });
-        state.adam.step(step, options.rate(step), &mut state.weights, &gradient);
+        moments.step(step, options.rate(step), weights, &gradient);
         if (step + 1) % SAVE == 0 {
             save(&state)?;
         }
     }
-    while !state.finished {
-        let done = state.history.len().saturating_sub(options.adam_steps);
-        let budget = ROUND.min(options.lbfgs_steps.saturating_sub(done));
-        if budget < 2 {
-            state.finished = true;
-        } else {
-            let before = state.history.len();
-            let mut count = 0;
-            let mut tell = |at: &[f64]| {
-                let found = evaluate(at)?;
-                let now = Progress { step: before + count, total, loss: found.0, validation: None };
-                progress(now);
-                count += 1;
-                Ok(found)
-            };
-            let descent = descend(state.weights, budget, &mut tell)?;
-            state.weights = descent.weights;
-            state.history.extend(descent.losses);
-            state.finished = descent.stuck;
+    let mut saved = state.history.len();
+    loop {
+        let mut left = total.saturating_sub(state.history.len());
+        let history = &mut state.history;
+        let mut tell = |at: &[f64]| {
+            let found = evaluate(at)?;
+            progress(Progress { step: history.len(), total, loss: found.0, validation: None });
+            history.push(found.0);
+            Ok(found)
+        };
+        match &mut state.stage {
+            Stage::Adam { weights, .. } if left >= 2 => {
+                let weights = std::mem::take(weights);
+                state.stage = Stage::Descent(Descent::begin(weights, &mut tell)?);
+            }
+            Stage::Descent(descent) if left >= 1 && !descent.stuck => {
+                descent.advance(&mut left, &mut tell)?;
+            }
+            _ => break,
         }
-        save(&state)?;
+        if state.history.len() >= saved + SAVE_MEMORY {
+            save(&state)?;
+            saved = state.history.len();
+        }
     }
+    save(&state)?;
+    let (weights, loss) = match state.stage {
+        Stage::Descent(descent) => (descent.weights, descent.loss),
+        Stage::Adam { weights, .. } => {
+            let loss = evaluate(&weights)?.0;
+            (weights, loss)
+        }
+    };
     let mut history = state.history;
-    history.push(evaluate(&state.weights)?.0);
-    Ok((state.weights, history))
+    history.push(loss);
+    Ok((weights, history))
 }
 
 #[cfg(test)]

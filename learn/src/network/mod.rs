@@ -4,8 +4,10 @@
 mod activation;
 mod adam;
 mod architecture;
+mod back_propagation;
 mod checkpoint;
 mod dense;
+mod exponential;
 mod gradient;
 #[cfg(feature = "neural")]
 mod latent;
@@ -15,6 +17,7 @@ mod minimise;
 #[cfg(feature = "neural")]
 mod objective;
 mod options;
+mod row;
 #[cfg(feature = "neural")]
 mod tensors;
 mod train;

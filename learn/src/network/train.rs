@@ -63,12 +63,12 @@ pub fn fit_network_to_gradients(
         };
         SlopeFit::new(architecture, &u, &(weighted(gradients) / scale))
     };
-    let train = fit(points, gradients);
-    let held_out = validation.map(|(points, gradients)| fit(points, gradients));
+    let mut train = fit(points, gradients);
+    let mut held_out = validation.map(|(points, gradients)| fit(points, gradients));
     let start =
         train.architecture().draw(options.seed).into_iter().flat_map(|part| part.0).collect();
     let mut evaluate = |flat: &[f64]| Ok(train.value_and_gradient(flat));
-    let mut watch = held_out.as_ref().map(|data| |flat: &[f64]| Ok(data.value(flat)));
+    let mut watch = held_out.as_mut().map(|data| |flat: &[f64]| Ok(data.value(flat)));
     let watch = watch.as_mut().map(|w| w as &mut Watch<'_>);
     let task = options.task("gradients", &[points.as_slice(), gradients.as_slice()]);
     let (flat, history) = minimise(start, task, options, &mut evaluate, watch, progress)?;

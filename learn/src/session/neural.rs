@@ -14,7 +14,7 @@ use crate::network::{Progress, TrainingOptions, fit_network};
 pub struct NetworkSettings {
     /// Widths of the hidden layers.
     pub widths: Vec<usize>,
-    /// Evaluations of the loss: the first third by Adam, the others by L-BFGS.
+    /// Evaluations of the loss: the first twentieth by Adam, the others by L-BFGS.
     pub evaluations: usize,
     /// Checkpoints are written to files whose names begin with this; training goes on from them.
     pub checkpoint: Option<PathBuf>,
@@ -69,7 +69,7 @@ pub(super) fn train(
 ) -> Result<Trained, LearnError> {
     let settings = &request.network;
     let name = if kind == Kind::Network { "network" } else { "hybrid" };
-    let adam_steps = settings.evaluations / 3;
+    let adam_steps = settings.evaluations / 20;
     let options = TrainingOptions {
         widths: settings.widths.clone(),
         adam_steps,
