@@ -74,7 +74,7 @@ where
     let label = format!("harder-truths.{first_seed}");
     let training = Training { options, seed: seed(3), label };
     training.symmetric::<G, Exponential>(&task, None, say, &mut table)?;
-    task.polynomials::<Exponential>(&[2, 4, 6, 8], "", &mut table);
+    task.polynomials::<Exponential>(&[2, 4, 6, 8], "", say, &mut table);
     let selection = SelectionOptions { seed: seed(4), ..Default::default() };
     let selection = select_polynomial(&task.train, &selection)?;
     let figures = task.figures::<Exponential>(&selection.model);

@@ -46,8 +46,8 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         let training = Training { options, seed: seed(3), label: format!("table-1.{number}") };
         training.symmetric::<SO3, Cayley>(&cayley, Some(paper), say, &mut table)?;
         baseline::rows(&cayley, &train, &training, paper_baseline, say, &mut table)?;
-        cayley.polynomials::<Cayley>(&[2, 4, 6, 8], "", &mut table);
-        exponential.polynomials::<Exponential>(&[4, 6, 8], ", exp chart", &mut table);
+        cayley.polynomials::<Cayley>(&[2, 4, 6, 8], "", say, &mut table);
+        exponential.polynomials::<Exponential>(&[4, 6, 8], ", exp chart", say, &mut table);
         say("  Gaussian process");
         cayley.gaussian_process::<Cayley>(options.pick(400, 150), &mut table)?;
         report.tables.push(table);

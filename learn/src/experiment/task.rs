@@ -83,14 +83,17 @@ impl<'a, G: DataGroup> Task<'a, G> {
         &self,
         degrees: &[usize],
         remark: &str,
+        say: &mut dyn FnMut(&str),
         table: &mut Table,
     ) {
         for &degree in degrees {
             if Basis::size(self.group.dim(), degree) > 1000 {
                 continue;
             }
+            let from = std::time::Instant::now();
             if let Ok(model) = fit_polynomial(&self.train, degree, 0.0) {
                 let name = format!("polynomial degree {degree}{remark}");
+                say(&format!("  {name}: {:.1} ms", 1e3 * from.elapsed().as_secs_f64()));
                 table.push(row(name, &self.figures::<C>(&model), None));
             }
         }
