@@ -70,6 +70,11 @@ fn bad_data_and_models_exit_with_two() {
     let message = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
     assert!(message.contains("is not `coadjoint-model`"), "{message}");
     coadjoint().args(["learn", "missing.csv", "--dt", "0.1"]).assert().code(2);
+    let relu =
+        ["learn", "missing.csv", "--dt", "0.1", "--model", "network", "--activation", "relu"];
+    let run = coadjoint().args(relu).assert().code(2);
+    let message = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    assert!(message.contains("piecewise constant"), "{message}");
     coadjoint().args(["reproduce", "table-3"]).assert().code(2);
 }
 

@@ -32,7 +32,7 @@ fn request(name: &str, truth: &impl MomentumFunction, count: usize) -> Request {
         momenta_only: false,
         start: None,
         seed: 0,
-        network: NetworkSettings { widths: vec![24, 24], evaluations: 300, checkpoint: None },
+        network: NetworkSettings { widths: vec![24, 24], evaluations: 300, ..Default::default() },
         drift_steps: 10,
     }
 }

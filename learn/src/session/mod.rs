@@ -37,6 +37,20 @@ pub enum Kind {
     Hybrid,
 }
 
+impl Kind {
+    /// The name users write.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Polynomial => "polynomial",
+            Self::GaussianProcess => "gp",
+            Self::Network => "network",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}
+
 /// What to learn from what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {

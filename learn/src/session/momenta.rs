@@ -23,7 +23,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     if !matches!(request.kind, Kind::Auto | Kind::Polynomial) {
         return Err(LearnError::InvalidOption {
             option: "model",
-            value: format!("{:?}", request.kind),
+            value: request.kind.name().into(),
             requirement: "momenta alone are learned by polynomials; use auto or polynomial".into(),
         });
     }

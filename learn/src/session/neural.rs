@@ -7,13 +7,15 @@ use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::hybrid::fit_hybrid;
 use crate::model::Model;
-use crate::network::{Progress, TrainingOptions, fit_network};
+use crate::network::{Activation, Progress, TrainingOptions, fit_network};
 
 /// The network to train, and where its training keeps its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkSettings {
     /// Widths of the hidden layers.
     pub widths: Vec<usize>,
+    /// The activation.
+    pub activation: Activation,
     /// Evaluations of the loss: the first twentieth by Adam, the others by L-BFGS.
     pub evaluations: usize,
     /// Checkpoints are written to files whose names begin with this; training goes on from them.
@@ -23,7 +25,12 @@ pub struct NetworkSettings {
 impl Default for NetworkSettings {
     /// The paper's net and budget, without checkpoints.
     fn default() -> Self {
-        Self { widths: vec![500, 500], evaluations: 1000, checkpoint: None }
+        Self {
+            widths: vec![500, 500],
+            activation: Activation::default(),
+            evaluations: 1000,
+            checkpoint: None,
+        }
     }
 }
 
@@ -68,10 +75,18 @@ pub(super) fn train(
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<Trained, LearnError> {
     let settings = &request.network;
+    if settings.evaluations == 0 {
+        return Err(LearnError::InvalidOption {
+            option: "evaluations",
+            value: "0".into(),
+            requirement: "a network is trained by at least one".into(),
+        });
+    }
     let name = if kind == Kind::Network { "network" } else { "hybrid" };
     let adam_steps = settings.evaluations / 20;
     let options = TrainingOptions {
         widths: settings.widths.clone(),
+        activation: settings.activation,
         adam_steps,
         lbfgs_steps: settings.evaluations - adam_steps,
         seed: request.seed,
