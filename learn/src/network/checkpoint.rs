@@ -123,7 +123,7 @@ impl State {
                 let gradient = take(n)?;
                 let mut pairs = VecDeque::new();
                 for _ in 0..count {
-                    pairs.push_back(Pair { moved: take(n)?, change: take(n)? });
+                    pairs.push_back(Pair::new(take(n)?, take(n)?));
                 }
                 let loss = take(1)?[0];
                 Stage::Descent(Descent { weights, loss, gradient, pairs, stuck })
@@ -191,7 +191,7 @@ mod tests {
         state.save(&path, task).unwrap();
         assert_eq!(State::load(&path, task).unwrap(), Some(state.clone()));
         let row = |seed: f64| vec![seed, 0.25 - seed, 7.0 * seed];
-        let pair = |seed| Pair { moved: row(seed), change: row(-seed) };
+        let pair = |seed| Pair::new(row(seed), row(-seed));
         state.stage = Stage::Descent(Descent {
             weights: row(1.0),
             loss: f64::INFINITY,

@@ -30,11 +30,19 @@ pub(super) struct Descent {
     pub(super) stuck: bool,
 }
 
-/// s = xₖ₊₁ − xₖ and y = gₖ₊₁ − gₖ.
+/// s = xₖ₊₁ − xₖ, y = gₖ₊₁ − gₖ and 1/(s·y).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pair {
     pub(super) moved: Vec<f64>,
     pub(super) change: Vec<f64>,
+    inverse: f64,
+}
+
+impl Pair {
+    pub(super) fn new(moved: Vec<f64>, change: Vec<f64>) -> Self {
+        let inverse = 1.0 / dot(&moved, &change);
+        Self { moved, change, inverse }
+    }
 }
 
 impl Descent {
@@ -78,7 +86,7 @@ impl Descent {
                     if self.pairs.len() == MEMORY {
                         self.pairs.pop_front();
                     }
-                    self.pairs.push_back(Pair { moved: direction, change });
+                    self.pairs.push_back(Pair::new(direction, change));
                 }
                 (self.weights, self.loss, self.gradient) = (weights, found.loss, found.gradient);
             }
@@ -92,21 +100,18 @@ impl Descent {
     /// −H g by the two loops.
     fn newton_like(&self) -> Vec<f64> {
         let mut direction: Vec<f64> = self.gradient.iter().map(|g| -g).collect();
-        let curvature = |pair: &Pair| dot(&pair.moved, &pair.change);
-        let inverses: Vec<f64> = self.pairs.iter().map(|pair| 1.0 / curvature(pair)).collect();
-        let mut weights = Vec::with_capacity(inverses.len());
-        for (pair, inverse) in self.pairs.iter().zip(&inverses).rev() {
-            let weight = inverse * dot(&pair.moved, &direction);
+        let mut weights = Vec::with_capacity(self.pairs.len());
+        for pair in self.pairs.iter().rev() {
+            let weight = pair.inverse * dot(&pair.moved, &direction);
             add(&mut direction, -weight, &pair.change);
             weights.push(weight);
         }
-        if let (Some(last), Some(inverse)) = (self.pairs.back(), inverses.last()) {
-            let scale = 1.0 / (inverse * dot(&last.change, &last.change));
+        if let Some(last) = self.pairs.back() {
+            let scale = 1.0 / (last.inverse * dot(&last.change, &last.change));
             direction.iter_mut().for_each(|d| *d *= scale);
         }
-        for ((pair, inverse), weight) in self.pairs.iter().zip(&inverses).zip(weights.iter().rev())
-        {
-            let other = inverse * dot(&pair.change, &direction);
+        for (pair, weight) in self.pairs.iter().zip(weights.iter().rev()) {
+            let other = pair.inverse * dot(&pair.change, &direction);
             add(&mut direction, weight - other, &pair.moved);
         }
         direction
