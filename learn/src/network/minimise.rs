@@ -80,6 +80,10 @@ pub(super) fn minimise(
             saved = state.history.len();
         }
     }
+    if let Stage::Descent(descent) = &mut state.stage {
+        // Nothing follows, so nothing need be remembered.
+        descent.pairs.clear();
+    }
     save(&state)?;
     let (weights, loss) = match state.stage {
         Stage::Descent(descent) => (descent.weights, descent.loss),
