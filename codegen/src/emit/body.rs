@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::parts::{Scope, parts};
 use crate::graph::{Id, Node, Program};
 
 /// Expressions nest at most this deep before an intermediate gets a name.
@@ -18,31 +19,76 @@ pub struct Body {
     pub outputs: Vec<TokenStream>,
 }
 
-/// Writes `program` down.
+/// Writes `program` down, in several functions where it is large.
 #[must_use]
-pub fn body(program: &Program) -> Body {
-    let uses = program.uses();
-    let mut statements = TokenStream::new();
-    let mut written: Vec<Written> = Vec::with_capacity(program.nodes().len());
-    for (index, node) in program.nodes().iter().enumerate() {
-        let mut expression = write(node, &written);
+pub fn body(program: &Program, scope: &Scope) -> Body {
+    if let Some(body) = parts(program, scope) {
+        return body;
+    }
+    let mut writer = Writer::new(program);
+    for index in 0..program.nodes().len() {
+        writer.write(index);
+    }
+    let outputs = program.outputs().iter().map(|&id| writer.value(id)).collect();
+    Body { statements: writer.take_statements(), outputs }
+}
+
+/// Turns the nodes of a program into statements, one after the other.
+pub(super) struct Writer<'a> {
+    program: &'a Program,
+    uses: Vec<usize>,
+    written: Vec<Written>,
+    statements: TokenStream,
+}
+
+impl<'a> Writer<'a> {
+    /// A writer that has written nothing.
+    pub fn new(program: &'a Program) -> Self {
+        let nothing = Written { tokens: TokenStream::new(), depth: 0, atomic: true };
+        let written = vec![nothing; program.nodes().len()];
+        Self { program, uses: program.uses(), written, statements: TokenStream::new() }
+    }
+
+    /// Writes a node whose operands are written.
+    pub fn write(&mut self, index: usize) {
+        let node = &self.program.nodes()[index];
+        self.written[index] = write(node, &self.written);
         let is_input = matches!(node, Node::Input(_));
-        let shared = uses[index] > 1 && !matches!(node, Node::Zero | Node::Slot(_));
-        if is_input || shared || expression.depth >= DEPTH {
+        let shared = self.uses[index] > 1 && !matches!(node, Node::Zero | Node::Slot(_));
+        if is_input || shared || self.written[index].depth >= DEPTH {
             let name = match node {
                 Node::Input(i) => format_ident!("p{i}"),
                 _ => format_ident!("t{index}"),
             };
-            let value = &expression.tokens;
-            statements.extend(quote!(let #name = #value;));
-            expression = Written { tokens: quote!(#name), depth: 0, atomic: true };
+            let value = &self.written[index].tokens;
+            self.statements.extend(quote!(let #name = #value;));
+            self.read_as(index, quote!(#name));
         }
-        written.push(expression);
     }
-    let outputs = program.outputs().iter().map(|id| written[id.index()].tokens.clone()).collect();
-    Body { statements, outputs }
+
+    /// From here on the node is read as `tokens`, a name or a place.
+    pub fn read_as(&mut self, index: usize, tokens: TokenStream) {
+        self.written[index] = Written { tokens, depth: 0, atomic: true };
+    }
+
+    /// Stores the value of a written node in a place.
+    pub fn store(&mut self, index: usize, place: &TokenStream) {
+        let value = &self.written[index].tokens;
+        self.statements.extend(quote!(#place = #value;));
+    }
+
+    /// The expression of a written node.
+    pub fn value(&self, id: Id) -> TokenStream {
+        self.written[id.index()].tokens.clone()
+    }
+
+    /// The statements since the last call.
+    pub fn take_statements(&mut self) -> TokenStream {
+        std::mem::take(&mut self.statements)
+    }
 }
 
+#[derive(Clone)]
 struct Written {
     tokens: TokenStream,
     depth: usize,

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::body::{Body, body};
 use super::item::Parts;
+use super::parts::Scope;
 use crate::graph::Program;
 use crate::integrator::{Integrator, Predictor};
 use crate::problem::Solver;
@@ -18,10 +19,15 @@ pub fn generating_function(
     parts: &Parts,
 ) -> TokenStream {
     let Parts { dim, group, chart, vector, matrix, .. } = parts;
-    let value = scalar_function(&integrator.value);
-    let gradient = vector_function(&integrator.gradient, vector);
+    let scope = Scope {
+        krate: krate.clone(),
+        input: vector.clone(),
+        slots: integrator.coefficients.slots().len(),
+    };
+    let value = scalar_function(&integrator.value, &scope);
+    let gradient = vector_function(&integrator.gradient, vector, &scope);
     let hessian = integrator.hessian.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix);
+        let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
             #[inline(always)]
             fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
@@ -32,7 +38,7 @@ pub fn generating_function(
     });
     let solver = (integrator.plan.solver == Solver::FixedPoint)
         .then(|| quote!(const SOLVER: #krate::Solver = #krate::Solver::FixedPoint;));
-    let predictor = vector_function(&integrator.predictor, vector);
+    let predictor = vector_function(&integrator.predictor, vector, &scope);
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => predictor,
         Predictor::Flow(_) => quote! {
@@ -41,7 +47,7 @@ pub fn generating_function(
         },
     };
     let newton = integrator.newton.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix);
+        let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
             #[inline(always)]
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
@@ -108,15 +114,15 @@ pub fn generating_function(
 
 /// The body of a function with one output.
 #[must_use]
-pub fn scalar_function(program: &Program) -> TokenStream {
-    let Body { statements, outputs } = body(program);
+pub fn scalar_function(program: &Program, scope: &Scope) -> TokenStream {
+    let Body { statements, outputs } = body(program, scope);
     quote!(#statements #(#outputs)*)
 }
 
 /// The body of a function with as many outputs as `vector` has entries.
 #[must_use]
-pub fn vector_function(program: &Program, vector: &TokenStream) -> TokenStream {
-    let Body { statements, outputs } = body(program);
+pub fn vector_function(program: &Program, vector: &TokenStream, scope: &Scope) -> TokenStream {
+    let Body { statements, outputs } = body(program, scope);
     quote!(#statements <#vector>::from([#(#outputs),*]))
 }
 
@@ -125,8 +131,9 @@ fn hessian_function(
     dim: usize,
     vector: &TokenStream,
     matrix: &TokenStream,
+    scope: &Scope,
 ) -> TokenStream {
-    let Body { statements, outputs } = body(program);
+    let Body { statements, outputs } = body(program, scope);
     let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
     let mut entry = triangle.iter();
     let mut lets = TokenStream::new();

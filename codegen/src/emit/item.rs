@@ -7,6 +7,7 @@ use super::constructor::constructor;
 use super::generating_function::{generating_function, scalar_function};
 use super::group::group_type;
 use super::header;
+use super::parts::Scope;
 use crate::integrator::Integrator;
 
 /// How the Rust is to look from outside.
@@ -64,7 +65,12 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let constructor = constructor(integrator, krate, &parts.vector);
     let generating = generating_function(integrator, krate, name, &parts);
     let lanes = lanes(krate, name);
-    let energy = scalar_function(&integrator.energy);
+    let scope = Scope {
+        krate: krate.clone(),
+        input: vector.clone(),
+        slots: integrator.coefficients.slots().len(),
+    };
+    let energy = scalar_function(&integrator.energy, &scope);
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     quote! {

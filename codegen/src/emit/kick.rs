@@ -7,6 +7,7 @@ use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
 use super::group::group_type;
 use super::header::one_line;
+use super::parts::Scope;
 use super::{Options, parameter, table};
 use crate::integrator::Kick;
 
@@ -30,8 +31,13 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
     let table = table::table(krate, &kick.coefficients);
 
-    let energy = scalar_function(&kick.energy);
-    let torque = vector_function(&kick.torque, &vector);
+    let scope = Scope {
+        krate: krate.clone(),
+        input: quote!([T; #entries]),
+        slots: kick.coefficients.slots().len(),
+    };
+    let energy = scalar_function(&kick.energy, &scope);
+    let torque = vector_function(&kick.torque, &vector, &scope);
     let cost = kick.torque.cost();
     let summary = [
         format!(" Potential: `{}`", one_line(&potential.source)),
@@ -48,7 +54,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
         let input: [T; #entries] = ::core::array::from_fn(|k| {
             #krate::LieGroup::matrix_entry(group, g, k / #size, k % #size)
         });
-        let c = &self.coefficients;
+        let (input, c) = (&input, &self.coefficients);
     };
     quote! {
         #definition

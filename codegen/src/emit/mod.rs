@@ -15,6 +15,7 @@ mod kick;
 mod limit;
 mod number;
 mod parameter;
+mod parts;
 mod table;
 
 pub use file::{file, potential_items};

@@ -1,0 +1,133 @@
+//! Large programs as several functions.
+//!
+//! The compiler's time grows faster than a function's length, so a program of many operations is cut
+//! into functions of bounded length. They hand values to each other through an array.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::body::{Body, Writer};
+use crate::graph::{Id, Node, Program};
+
+/// What the names a program uses stand for.
+pub struct Scope {
+    /// The path of the runtime crate.
+    pub krate: TokenStream,
+    /// The type of `input`, over the scalar `T`.
+    pub input: TokenStream,
+    /// The length of `c`, an array of `T`.
+    pub slots: usize,
+}
+
+/// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride,
+/// and inlines into a step for lanes, which makes use of wider registers.
+const LARGE: usize = 3000;
+
+/// The most operations of one function of a program that is cut.
+const MOST_OPERATIONS: usize = 1000;
+
+/// The program in several functions; `None` where one is enough.
+pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
+    let nodes = program.nodes();
+    let part_of = assign(nodes)?;
+    let count = part_of.last()? + 1;
+    let handed = handed_on(program, &part_of);
+    let places = Literal::usize_unsuffixed(handed.len());
+
+    let Scope { krate, input, slots } = scope;
+    let slots = Literal::usize_unsuffixed(*slots);
+    let place = |k: usize| {
+        let k = Literal::usize_unsuffixed(k);
+        quote!(shared[#k])
+    };
+    let mut places_taken = handed.iter().enumerate().map(|(k, &index)| (index, k)).peekable();
+    let mut functions = TokenStream::new();
+    let mut calls = TokenStream::new();
+    let mut writer = Writer::new(program);
+    let mut start = 0;
+    for part in 0..count {
+        let end = start + part_of[start..].iter().take_while(|&&p| p == part).count();
+        for input in inputs(&nodes[start..end], nodes) {
+            writer.write(input);
+        }
+        for index in start..end {
+            if !matches!(nodes[index], Node::Input(_)) {
+                writer.write(index);
+            }
+        }
+        while let Some((index, k)) = places_taken.next_if(|&(index, _)| index < end) {
+            let place = place(k);
+            writer.store(index, &place);
+            writer.read_as(index, place);
+        }
+        let name = format_ident!("part{part}");
+        let statements = writer.take_statements();
+        functions.extend(quote! {
+            #[inline(never)]
+            fn #name<T: #krate::Scalar>(input: &#input, c: &[T; #slots], shared: &mut [T; #places]) {
+                #statements
+            }
+        });
+        calls.extend(quote!(#name(input, c, &mut shared);));
+        start = end;
+    }
+    let statements = quote! {
+        #functions
+        let mut shared = [T::of(0.0); #places];
+        #calls
+    };
+    let outputs = program.outputs().iter().map(|&id| match nodes[id.index()] {
+        Node::Input(i) => {
+            let i = Literal::u32_unsuffixed(i);
+            quote!(input[#i])
+        }
+        _ => writer.value(id),
+    });
+    Some(Body { statements, outputs: outputs.collect() })
+}
+
+fn operands(node: &Node) -> impl Iterator<Item = Id> {
+    let operands = match *node {
+        Node::Zero | Node::Input(_) | Node::Slot(_) => [None; 3],
+        Node::Add(a, b) | Node::Mul(a, b) => [Some(a), Some(b), None],
+        Node::TimesPlus(a, b, c) => [Some(a), Some(b), Some(c)],
+    };
+    operands.into_iter().flatten()
+}
+
+/// The part of every node: as many operations in each, in their order. `None` for a single part.
+fn assign(nodes: &[Node]) -> Option<Vec<usize>> {
+    let is_operation = |node: &Node| operands(node).next().is_some();
+    let operations = nodes.iter().filter(|node| is_operation(node)).count();
+    if operations <= LARGE {
+        return None;
+    }
+    let length = operations.div_ceil(operations.div_ceil(MOST_OPERATIONS));
+    let mut seen = 0;
+    let part = nodes.iter().map(|node| {
+        seen += usize::from(is_operation(node));
+        seen.saturating_sub(1) / length
+    });
+    Some(part.collect())
+}
+
+/// The nodes that are computed in one part and read in another or by the caller, in order.
+fn handed_on(program: &Program, part_of: &[usize]) -> BTreeSet<usize> {
+    let nodes = program.nodes();
+    let read_elsewhere = nodes.iter().zip(part_of).flat_map(|(node, part)| {
+        operands(node).map(|id| id.index()).filter(move |&operand| part_of[operand] != *part)
+    });
+    let outputs = program.outputs().iter().map(|id| id.index());
+    read_elsewhere
+        .chain(outputs)
+        .filter(|&index| operands(&nodes[index]).next().is_some())
+        .collect()
+}
+
+/// The inputs that these nodes read.
+fn inputs(part: &[Node], nodes: &[Node]) -> BTreeSet<usize> {
+    let read = part.iter().flat_map(operands).map(|id| id.index());
+    read.filter(|&index| matches!(nodes[index], Node::Input(_))).collect()
+}

@@ -1,0 +1,67 @@
+//! Emitted code of a large system, cut into several functions, computes what the interpreter does.
+#![allow(clippy::unwrap_used)]
+
+use coadjoint::nalgebra::SVector;
+use coadjoint::{GeneratingFunction, LieGroup, Phase};
+use coadjoint_codegen::emit;
+use coadjoint_codegen::graph::Program;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::system::{Options, read};
+
+/// Twenty spins.
+const DIM: usize = 60;
+
+mod built {
+    include!(concat!(env!("OUT_DIR"), "/ring_20.rs"));
+}
+
+fn integrator() -> Integrator {
+    let text = std::fs::read_to_string("systems/ring_20.toml").unwrap();
+    let problem = read(&text, Options::default()).unwrap().problem;
+    Integrator::build(problem, TermLimit::default()).unwrap()
+}
+
+#[test]
+fn parts_compute_what_the_interpreter_does() {
+    let integrator = integrator();
+    let code = emit::file(&integrator, &emit::Options::for_problem("ring"));
+    assert!(code.contains("fn part3<"), "the ring is too short to be cut");
+
+    let h = 0.05;
+    let step = built::Ring20::new(h).unwrap();
+    let slots = integrator.coefficients.fold(h, &[]);
+    let run = |program: &Program, p: &SVector<f64, DIM>| {
+        let mut outputs = vec![0.0; program.outputs().len()];
+        program.run(p.as_slice(), &slots, &mut Vec::new(), &mut outputs);
+        outputs
+    };
+    for shift in [0.3, 1.9] {
+        let p = SVector::from_fn(|i, _| (1.3 * i as f64 + shift).sin());
+        let near = |a: &[f64], b: Vec<f64>| {
+            assert_eq!(a.len(), b.len());
+            assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-14), "{a:?} {b:?}");
+        };
+        near(step.gradient(&p).as_slice(), run(&integrator.gradient, &p));
+        near(step.predict(&p).as_slice(), run(&integrator.predictor, &p));
+        let relative = step.value(&p) / run(&integrator.value, &p)[0] - 1.0;
+        assert!(relative.abs() < 1e-13, "{relative:e}");
+    }
+}
+
+#[test]
+fn a_step_in_parts_keeps_the_momentum() {
+    let step = built::Ring20::new(0.05).unwrap();
+    let group = built::Ring20Group::<f64>::new();
+    let mu = SVector::<f64, DIM>::from_fn(|i, _| (0.7 * i as f64).cos());
+    let mut phase = Phase::<built::Ring20Group>::at_identity(mu);
+    let before = phase.spatial_momentum(&group);
+    let energy = step.energy(&phase.momentum);
+    for _ in 0..100 {
+        step.advance(&mut phase).unwrap();
+    }
+    assert!((phase.spatial_momentum(&group) - before).amax() < 1e-13);
+    // The motion is no mere rotation, and its energy swings with h⁴.
+    assert!((phase.momentum - mu).amax() > 0.1);
+    assert!((step.energy(&phase.momentum) / energy - 1.0).abs() < 1e-4);
+}
