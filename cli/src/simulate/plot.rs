@@ -15,6 +15,10 @@ const PANEL: u32 = 270;
 const SHOWN: usize = 400;
 /// With more coordinates than this their names are left out.
 const NAMED: usize = 8;
+/// With more coordinates than this only the first few are drawn.
+const MOST_LINES: usize = 32;
+/// How many are drawn then.
+const FEW_LINES: usize = 6;
 /// The height of the strip that names the lines.
 const LEGEND: i32 = 40;
 /// Drawn for a difference of zero, which has no logarithm.
@@ -73,7 +77,9 @@ fn motion(
     run: &Trajectory,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let records = &run.records[..run.records.len().min(SHOWN)];
-    let values = || records.iter().flat_map(|record| record.momentum.iter().copied());
+    let all = run.coordinates.len();
+    let lines = if all > MOST_LINES { FEW_LINES } else { all };
+    let values = || records.iter().flat_map(|record| record.momentum.iter().copied().take(lines));
     let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
     let margin = 0.06 * (high - low).max(f64::MIN_POSITIVE);
     let times = || records.iter().map(|record| record.time);
@@ -92,12 +98,16 @@ fn motion(
         .light_line_style(WHITE)
         .bold_line_style(RGBColor(225, 225, 225))
         .draw()?;
-    area.draw(&Text::new("momentum in the body", (76, 12), ("sans-serif", 18)))?;
-    for (i, name) in run.coordinates.iter().enumerate() {
+    let title = match lines {
+        lines if lines < all => format!("momentum, {lines} of {all}"),
+        _ => "momentum in the body".to_owned(),
+    };
+    area.draw(&Text::new(title, (76, 12), ("sans-serif", 18)))?;
+    for (i, name) in run.coordinates.iter().take(lines).enumerate() {
         let color = COLORS[i % COLORS.len()];
         let points = records.iter().filter_map(|r| Some((r.time, *r.momentum.get(i)?)));
         chart.draw_series(LineSeries::new(points, color))?;
-        if run.coordinates.len() <= NAMED {
+        if lines <= NAMED {
             let place = (260 + 70 * i as i32, 14);
             area.draw(&Text::new(
                 name.clone(),
