@@ -1,0 +1,69 @@
+//! The emitted code of a learned model: it is the committed code, it compiles, and its steps are
+//! the model's own.
+//!
+//! The model, `reference/learned_body.json`, is a polynomial of degree 4 learned from 60 pairs of
+//! the free body, Δt = 0.1 (`coadjoint learn pairs.csv --dt 0.1 --degree 4 --out …`).
+//! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test learned_step` rewrites the code.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+
+use coadjoint::nalgebra::Vector3;
+use coadjoint::{Exponential, GeneratingFunction, Phase, SO3, advance, poisson_map};
+use coadjoint_codegen::emit;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_learn::{Generating, ModelFile, problem};
+
+mod learned {
+    include!("../golden/learned.rs");
+}
+
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn model() -> ModelFile {
+    ModelFile::load(&path("reference/learned_body.json")).unwrap()
+}
+
+#[test]
+fn the_emitted_code_is_the_committed_one() {
+    let problem = problem(&model(), "learned").unwrap();
+    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
+    let text = emit::file(&integrator, &emit::Options::for_problem("learned"));
+    let golden = path("golden/learned.rs");
+    if std::env::var_os("COADJOINT_BLESS").is_some() {
+        std::fs::write(&golden, &text).unwrap();
+    }
+    let committed = std::fs::read_to_string(&golden).unwrap();
+    assert!(committed == text, "{} differs from what is emitted now", golden.display());
+}
+
+#[test]
+fn the_emitted_steps_are_the_models_own() {
+    let file = model();
+    let group = SO3::new();
+    let learned = Generating::<SO3, Exponential, _>::new(group, &file.model);
+    let emitted = learned::Learned::new(file.step).unwrap();
+    for point in 0..5 {
+        let p = Vector3::from_fn(|i, _| 1.5 * ((1 + point) as f64 * (1.3 + i as f64)).sin());
+        let (gradient, hessian) = learned.gradient_and_hessian(&p);
+        let (by_code, hessian_by_code) = emitted.gradient_and_hessian(&p);
+        assert!((gradient - by_code).amax() < 1e-14);
+        assert!((hessian - hessian_by_code).amax() < 1e-14);
+        let image = poisson_map(&learned, &p).unwrap();
+        assert!((image - poisson_map(&emitted, &p).unwrap()).amax() < 1e-14);
+    }
+    // Along a trajectory differences of rounding add up.
+    let mut by_model = Phase::<SO3>::at_identity(Vector3::new(1.5, 0.5, 1.0));
+    let mut by_code = by_model.clone();
+    for _ in 0..500 {
+        advance(&learned, &mut by_model).unwrap();
+        emitted.advance(&mut by_code).unwrap();
+    }
+    assert!((by_model.momentum - by_code.momentum).amax() < 1e-11);
+    assert!(by_model.group_element.angle_to(&by_code.group_element) < 1e-11);
+    assert!((by_model.momentum - Vector3::new(1.5, 0.5, 1.0)).norm() > 0.1);
+}
