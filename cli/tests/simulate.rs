@@ -47,6 +47,24 @@ fn the_rigid_body_of_the_paper_ends_where_it_should() {
     }
 }
 
+/// The tail of the series summed: the same step, ten times closer.
+#[test]
+fn a_tuned_run_ends_closer() {
+    let command = ["simulate", "examples/rigid_body.toml", "--truncation", "9"];
+    let options = ["--step", "0.5", "--format", "json"];
+    let plain = json(&[command, options].concat());
+    let tuned = json(&[&command[..], &["--tuned"], &options].concat());
+    let (plain_error, tuned_error) = (error(&plain), error(&tuned));
+    assert!(tuned_error < plain_error / 5.0, "{plain_error:e} {tuned_error:e}");
+    assert!(tuned["drift"]["casimirs"].as_f64().unwrap() <= 1e-13);
+    assert_eq!(tuned["method"], "K = 9, exp, tuned");
+
+    // Kicks leave the flow's motion.
+    let refused = run(&["simulate", "examples/satellite.toml", "--tuned"]);
+    assert_eq!(refused.0, 2);
+    assert!(refused.2.contains("--tuned"), "{}", refused.2);
+}
+
 #[test]
 fn json_has_the_keys_programs_rely_on() {
     let run = json(&["simulate", "examples/heavy_top.toml", "--time", "1", "--format", "json"]);
