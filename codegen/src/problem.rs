@@ -89,7 +89,7 @@ impl Solver {
     /// Newton's method is the default up to this dimension. From about 15 to 50 dimensions a step
     /// costs nearly the same either way; but the Hessian's code grows with the square of the
     /// dimension where the couplings are dense, and so do the times of generation and compilation.
-    /// Below, Newton's method is the faster, and it converges for longer steps.
+    /// Below, Newton's method is mostly the faster, and it converges for longer steps.
     pub const NEWTON_DIMENSIONS: usize = 24;
 
     /// The names users write, `newton` and `fixed_point`.

@@ -9,7 +9,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::body::{Body, Writer};
-use crate::graph::{Id, Node, Program};
+use crate::graph::{Node, Program, operands};
 
 /// What the names a program uses stand for.
 pub struct Scope {
@@ -86,15 +86,6 @@ pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
         _ => writer.value(id),
     });
     Some(Body { statements, outputs: outputs.collect() })
-}
-
-fn operands(node: &Node) -> impl Iterator<Item = Id> {
-    let operands = match *node {
-        Node::Zero | Node::Input(_) | Node::Slot(_) => [None; 3],
-        Node::Add(a, b) | Node::Mul(a, b) => [Some(a), Some(b), None],
-        Node::TimesPlus(a, b, c) => [Some(a), Some(b), Some(c)],
-    };
-    operands.into_iter().flatten()
 }
 
 /// The part of every node: as many operations in each, in their order. `None` for a single part.

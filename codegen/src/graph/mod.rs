@@ -11,4 +11,4 @@ mod node;
 
 pub use horner::{SlotPolynomial, SlotTerm, lower};
 pub use interpret::Number;
-pub use node::{Cost, Graph, Id, Node, Program};
+pub use node::{Cost, Graph, Id, Node, Program, operands};
