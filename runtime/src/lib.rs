@@ -132,8 +132,8 @@ mod tail;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `poisson_map`, `energy`, `step`, and the implementations of
-/// [`GeneratingFunction`] and [`Lanes`]. Every mistake in the function is reported at its place.
+/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `poisson_map`,
+/// `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`]. Every mistake in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
 
 /// Turns a function computing a potential V(g) into its body torque −g⁻¹dV(g), derived exactly, for

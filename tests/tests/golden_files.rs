@@ -4,8 +4,6 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::path::PathBuf;
-
 use coadjoint_codegen::emit;
 use coadjoint_tests::{from_function, golden};
 
@@ -13,12 +11,7 @@ fn check_golden(source: (&str, &str)) {
     let integrator = from_function(source.0, source.1).unwrap();
     let name = &integrator.problem.name;
     let text = emit::file(&integrator, &emit::Options::for_problem(name));
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.rs"));
-    if std::env::var_os("COADJOINT_BLESS").is_some() {
-        std::fs::write(&path, &text).unwrap();
-    }
-    let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(committed == text, "{} differs from what is emitted now", path.display());
+    golden::check(name, &text);
     // The same again, byte for byte.
     let again = from_function(source.0, source.1).unwrap();
     assert_eq!(emit::file(&again, &emit::Options::for_problem(name)), text);

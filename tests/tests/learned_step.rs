@@ -7,7 +7,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use coadjoint::nalgebra::Vector3;
 use coadjoint::{Exponential, GeneratingFunction, Phase, SO3, advance, poisson_map};
@@ -15,17 +15,14 @@ use coadjoint_codegen::emit;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_learn::{Generating, ModelFile, problem};
+use coadjoint_tests::golden;
 
 mod learned {
     include!("../golden/learned.rs");
 }
 
-fn path(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
-}
-
 fn model() -> ModelFile {
-    ModelFile::load(&path("reference/learned_body.json")).unwrap()
+    ModelFile::load(Path::new("reference/learned_body.json")).unwrap()
 }
 
 #[test]
@@ -33,12 +30,7 @@ fn the_emitted_code_is_the_committed_one() {
     let problem = problem(&model(), "learned").unwrap();
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
     let text = emit::file(&integrator, &emit::Options::for_problem("learned"));
-    let golden = path("golden/learned.rs");
-    if std::env::var_os("COADJOINT_BLESS").is_some() {
-        std::fs::write(&golden, &text).unwrap();
-    }
-    let committed = std::fs::read_to_string(&golden).unwrap();
-    assert!(committed == text, "{} differs from what is emitted now", golden.display());
+    golden::check("learned", &text);
 }
 
 #[test]

@@ -17,17 +17,13 @@ pub fn generating_function(
     krate: &TokenStream,
     name: &Ident,
     parts: &Parts,
+    scope: &Scope,
 ) -> TokenStream {
     let Parts { dim, group, chart, vector, matrix, .. } = parts;
-    let scope = Scope {
-        krate: krate.clone(),
-        input: vector.clone(),
-        slots: integrator.coefficients.slots().len(),
-    };
-    let value = scalar_function(&integrator.value, &scope);
-    let gradient = vector_function(&integrator.gradient, vector, &scope);
+    let value = scalar_function(&integrator.value, scope);
+    let gradient = vector_function(&integrator.gradient, vector, scope);
     let hessian = integrator.hessian.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix, &scope);
+        let function = hessian_function(program, *dim, vector, matrix, scope);
         quote! {
             #[inline(always)]
             fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
@@ -38,7 +34,7 @@ pub fn generating_function(
     });
     let solver = (integrator.plan.solver == Solver::FixedPoint)
         .then(|| quote!(const SOLVER: #krate::Solver = #krate::Solver::FixedPoint;));
-    let predictor = vector_function(&integrator.predictor, vector, &scope);
+    let predictor = vector_function(&integrator.predictor, vector, scope);
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => predictor,
         Predictor::Flow(_) => quote! {
@@ -47,7 +43,7 @@ pub fn generating_function(
         },
     };
     let newton = integrator.newton.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix, &scope);
+        let function = hessian_function(program, *dim, vector, matrix, scope);
         quote! {
             #[inline(always)]
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {

@@ -63,13 +63,13 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let constructor = constructor(integrator, krate, &parts.vector);
-    let generating = generating_function(integrator, krate, name, &parts);
-    let lanes = lanes(krate, name);
     let scope = Scope {
         krate: krate.clone(),
         input: vector.clone(),
         slots: integrator.coefficients.slots().len(),
     };
+    let generating = generating_function(integrator, krate, name, &parts, &scope);
+    let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, &scope);
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
