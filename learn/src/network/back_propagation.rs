@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut, Dyn, MatrixView};
 
 use super::activation::Activation;
 use super::architecture::Architecture;
+use super::pass;
 
 /// A layer's M, its transpose, and b.
 pub(super) struct Layer<'a> {
@@ -95,7 +96,7 @@ impl Piece {
                 column.copy_from_slice(layer.bias);
             }
             value.gemm(1.0, &layer.matrix, input, 1.0);
-            activation.apply(value.as_mut_slice());
+            pass::apply(activation, value.as_mut_slice());
         }
         if let Some(top) = self.states.last_mut() {
             for mut column in top.above.column_iter_mut() {
@@ -105,9 +106,7 @@ impl Piece {
         for (k, layer) in layers.iter().enumerate().rev() {
             let (below, states) = self.states.split_at_mut(k);
             let State { value, above, inner, .. } = &mut states[0];
-            for ((c, b), a) in inner.iter_mut().zip(above.iter()).zip(value.iter()) {
-                *c = b * activation.slope(*a);
-            }
+            pass::inner(activation, value.as_slice(), above.as_slice(), inner.as_mut_slice());
             let target = below.last_mut().map_or(&mut self.miss, |state| &mut state.above);
             target.gemm(1.0, &layer.transpose, inner, 0.0);
         }
@@ -141,11 +140,14 @@ impl Piece {
             let State { value, above, inner, by_above, by_input } = &mut states[0];
             by_matrix.gemm(1.0, inner, &transposed(by_below), 0.0);
             by_above.gemm(1.0, &layer.matrix, by_below, 0.0);
-            let targets = by_above.iter_mut().zip(by_input.iter_mut());
-            for ((up, input), (a, b)) in targets.zip(value.iter().zip(above.iter())) {
-                *input = *up * b * activation.bend(*a);
-                *up *= activation.slope(*a);
-            }
+            let (value, above) = (value.as_slice(), above.as_slice());
+            pass::upwards(
+                activation,
+                value,
+                above,
+                by_above.as_mut_slice(),
+                by_input.as_mut_slice(),
+            );
         }
         sum_columns(self.states.last().map_or(&self.miss, |state| &state.by_above), rest);
         // Downwards: through σ and σ′ to Z_k, and by M_k and b_k in Z_k = M_k A_{k−1} + b_k.
@@ -154,11 +156,8 @@ impl Piece {
             let (below, states) = self.states.split_at_mut(k);
             let State { value, above, by_input, .. } = &mut states[0];
             if k < highest {
-                for ((input, by_value), a) in
-                    by_input.iter_mut().zip(above.iter()).zip(value.iter())
-                {
-                    *input += by_value * activation.slope(*a);
-                }
+                let (value, by_value) = (value.as_slice(), above.as_slice());
+                pass::downwards(activation, value, by_value, by_input.as_mut_slice());
             }
             let input = below.last().map_or(&self.points, |state| &state.value);
             let mut by_matrix = by_matrix;
@@ -174,6 +173,6 @@ impl Piece {
 fn sum_columns(m: &DMatrix<f64>, sum: &mut [f64]) {
     sum.fill(0.0);
     for column in m.column_iter() {
-        sum.iter_mut().zip(column.iter()).for_each(|(s, c)| *s += c);
+        sum.iter_mut().zip(column.as_slice()).for_each(|(s, c)| *s += c);
     }
 }

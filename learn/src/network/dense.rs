@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::activation::Activation;
+use super::row::dot;
 use crate::function::MomentumFunction;
 use crate::polynomial::Scaling;
 
@@ -43,10 +44,6 @@ impl Layer {
         }
         result
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 fn times(a: &[f64], b: &[f64]) -> Vec<f64> {

@@ -27,7 +27,7 @@ const INVERSE_FACTORIALS: [f64; 14] = [
 /// eˣ to a few units in the last place, for |x| ≤ 700 (beyond, that of ±700): by arithmetic alone,
 /// so that it has the same bits on every machine and compilers do several at a time (the standard
 /// library's took a fifth of the training).
-#[inline]
+#[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
     let x = x.clamp(-700.0, 700.0);
     // x = n ln 2 + r, |r| ≤ (ln 2)/2: the first term left out is below 5e-18.

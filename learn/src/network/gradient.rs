@@ -4,12 +4,15 @@
 //! their order: the bits do not depend on how many threads there are.
 
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 
 use super::architecture::Architecture;
 use super::back_propagation::{Layer, Piece};
+use super::row;
 
-/// Samples of a piece.
-const PIECE: usize = 125;
+/// Samples of a piece. More would leave threads idle on a few hundred samples, fewer make the
+/// products of matrices slower.
+const PIECE: usize = 64;
 
 /// Points and the slopes wanted there, a sample per column.
 pub(super) struct SlopeFit {
@@ -53,26 +56,12 @@ impl SlopeFit {
     pub(super) fn value_and_gradient(&mut self, flat: &[f64]) -> (f64, Vec<f64>) {
         let (layers, last) = cut(&self.architecture, flat);
         let activation = self.architecture.activation;
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let portion = self.pieces.len().div_ceil(threads).max(1);
-        std::thread::scope(|scope| {
-            let mut portions = self.pieces.chunks_mut(portion);
-            let own = portions.next();
-            let work = |pieces: &mut [Piece]| {
-                pieces.iter_mut().for_each(|piece| piece.differentiate(activation, &layers, last));
-            };
-            for pieces in portions {
-                scope.spawn(move || work(pieces));
-            }
-            own.map(work);
+        self.pieces.par_iter_mut().for_each(|piece| {
+            piece.differentiate(activation, &layers, last);
         });
-        let mut squares = 0.0;
-        let mut gradient = vec![0.0; flat.len()];
-        for piece in &self.pieces {
-            squares += piece.squares;
-            gradient.iter_mut().zip(&piece.gradient).for_each(|(g, s)| *g += s);
-        }
-        gradient.iter_mut().for_each(|g| *g *= 2.0 / self.entries);
+        let squares: f64 = self.pieces.iter().map(|piece| piece.squares).sum();
+        let gradients: Vec<&[f64]> = self.pieces.iter().map(|piece| &*piece.gradient).collect();
+        let gradient = row::sum(&gradients, 2.0 / self.entries, flat.len());
         (squares / self.entries, gradient)
     }
 }
@@ -113,7 +102,7 @@ mod tests {
                 DMatrix::from_fn(3, count, |i, j| (seed + 1.7 * i as f64 + 0.9 * j as f64).sin())
             };
             // More than one piece.
-            let mut fit = SlopeFit::new(architecture, &wave(0.3, 140), &wave(1.1, 140));
+            let mut fit = SlopeFit::new(architecture, &wave(0.3, 270), &wave(1.1, 270));
             let (value, gradient) = fit.value_and_gradient(&flat);
             assert!((value - fit.value(&flat)).abs() <= 1e-14 * value);
             for index in 0..flat.len() {

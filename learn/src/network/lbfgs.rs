@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 
 use super::line_search::Line;
-use super::row::{add, dot, norm};
+use super::row::{self, add_and_dot, dot, norm};
 use crate::error::LearnError;
 
 /// A loss and its gradient.
@@ -30,18 +30,20 @@ pub(super) struct Descent {
     pub(super) stuck: bool,
 }
 
-/// s = xₖ₊₁ − xₖ, y = gₖ₊₁ − gₖ and 1/(s·y).
+/// s = xₖ₊₁ − xₖ, y = gₖ₊₁ − gₖ, 1/(s·y) and (s·y)/(y·y).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pair {
     pub(super) moved: Vec<f64>,
     pub(super) change: Vec<f64>,
     inverse: f64,
+    scale: f64,
 }
 
 impl Pair {
     pub(super) fn new(moved: Vec<f64>, change: Vec<f64>) -> Self {
-        let inverse = 1.0 / dot(&moved, &change);
-        Self { moved, change, inverse }
+        let product = dot(&moved, &change);
+        let scale = product / dot(&change, &change);
+        Self { moved, change, inverse: 1.0 / product, scale }
     }
 }
 
@@ -65,7 +67,7 @@ impl Descent {
         let mut slope = dot(&direction, &self.gradient);
         if slope.is_nan() || slope >= 0.0 {
             self.pairs.clear();
-            direction = self.gradient.iter().map(|g| -g).collect();
+            direction = row::map([&self.gradient], |[g]| -g);
             slope = dot(&direction, &self.gradient);
         }
         if slope.is_nan() || slope >= 0.0 {
@@ -79,14 +81,13 @@ impl Descent {
         match line.search(first, left, evaluate)? {
             Some(found) => {
                 let weights = line.at(found.step);
-                direction.iter_mut().for_each(|d| *d *= found.step);
-                let change: Vec<f64> =
-                    found.gradient.iter().zip(&self.gradient).map(|(a, b)| a - b).collect();
-                if dot(&direction, &change) > f64::EPSILON * norm(&direction) * norm(&change) {
+                let moved = row::map([&direction], |[d]| found.step * d);
+                let change = row::map([&found.gradient, &self.gradient], |[a, b]| a - b);
+                if dot(&moved, &change) > f64::EPSILON * norm(&moved) * norm(&change) {
                     if self.pairs.len() == MEMORY {
                         self.pairs.pop_front();
                     }
-                    self.pairs.push_back(Pair::new(direction, change));
+                    self.pairs.push_back(Pair::new(moved, change));
                 }
                 (self.weights, self.loss, self.gradient) = (weights, found.loss, found.gradient);
             }
@@ -97,22 +98,29 @@ impl Descent {
         Ok(())
     }
 
-    /// −H g by the two loops.
+    /// −H g by the two loops. Every walk along the direction also makes the product that the next
+    /// pair begins with.
     fn newton_like(&self) -> Vec<f64> {
-        let mut direction: Vec<f64> = self.gradient.iter().map(|g| -g).collect();
+        let mut direction = row::map([&self.gradient], |[g]| -g);
+        let (Some(first), Some(last)) = (self.pairs.front(), self.pairs.back()) else {
+            return direction;
+        };
+        let before = self.pairs.iter().rev().skip(1).map(|pair| &pair.moved).chain([&first.change]);
         let mut weights = Vec::with_capacity(self.pairs.len());
-        for pair in self.pairs.iter().rev() {
-            let weight = pair.inverse * dot(&pair.moved, &direction);
-            add(&mut direction, -weight, &pair.change);
+        let mut product = dot(&last.moved, &direction);
+        for (pair, next) in self.pairs.iter().rev().zip(before) {
+            let weight = pair.inverse * product;
+            product = add_and_dot(&mut direction, 1.0, -weight, &pair.change, next);
             weights.push(weight);
         }
-        if let Some(last) = self.pairs.back() {
-            let scale = 1.0 / (last.inverse * dot(&last.change, &last.change));
-            direction.iter_mut().for_each(|d| *d *= scale);
-        }
-        for (pair, weight) in self.pairs.iter().zip(weights.iter().rev()) {
-            let other = pair.inverse * dot(&pair.change, &direction);
-            add(&mut direction, weight - other, &pair.moved);
+        let mut scale = last.scale;
+        product *= scale;
+        // The last product is used by nobody.
+        let after = self.pairs.iter().skip(1).map(|pair| &pair.change).chain([&last.change]);
+        for ((pair, weight), next) in self.pairs.iter().zip(weights.iter().rev()).zip(after) {
+            let factor = weight - pair.inverse * product;
+            product = add_and_dot(&mut direction, scale, factor, &pair.moved, next);
+            scale = 1.0;
         }
         direction
     }

@@ -3,7 +3,7 @@
 //! J. Nocedal and S. Wright, *Numerical Optimization*, 2nd edition, algorithms 3.5 and 3.6.
 
 use super::lbfgs::Evaluate;
-use super::row::dot;
+use super::row::{self, dot};
 use crate::error::LearnError;
 
 /// Sufficient decrease.
@@ -32,7 +32,7 @@ pub(super) struct Point {
 
 impl Line<'_> {
     pub(super) fn at(&self, step: f64) -> Vec<f64> {
-        self.from.iter().zip(self.direction).map(|(x, d)| x + step * d).collect()
+        row::map([self.from, self.direction], |[x, d]| x + step * d)
     }
 
     fn look(&self, step: f64, evaluate: &mut Evaluate<'_>) -> Result<Point, LearnError> {

@@ -17,6 +17,7 @@ mod minimise;
 #[cfg(feature = "neural")]
 mod objective;
 mod options;
+mod pass;
 mod row;
 #[cfg(feature = "neural")]
 mod tensors;
