@@ -132,8 +132,8 @@ mod tail;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `poisson_map`,
-/// `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`]. Every mistake
+/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `advance_by`,
+/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`]. Every mistake
 /// in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
 
@@ -202,7 +202,7 @@ pub use polynomial_function::PolynomialFunction;
 #[cfg(feature = "alloc")]
 pub use product::DirectProduct;
 pub use product::{Power, Product};
-pub use reconstruct::{StepReport, advance, poisson_map, reconstruct};
+pub use reconstruct::{StepReport, advance, advance_by, poisson_map, reconstruct};
 pub use reversed::Reversed;
 pub use scalar::Scalar;
 pub use se2::SE2;

@@ -3,31 +3,32 @@
 use crate::error::StepError;
 use crate::scalar::Scalar;
 
-/// All coefficients of a generated step as data: sums of factor · h^power · Π symbolᵢ^powerᵢ.
+/// All coefficients of a generated step as data. A *base* is a sum of *parts*, a part a power of h
+/// times a sum of *terms* factor · Π symbolᵢ^powerᵢ, and a *slot* a base times an integer.
 #[derive(Debug)]
 pub struct Table<const SYMBOLS: usize> {
-    /// Summands: factor, power of h, power of each symbol.
-    pub terms: &'static [(f64, u8, [u8; SYMBOLS])],
-    /// Where the summands of base number i end.
-    pub ends: &'static [u32],
-    /// Slots: a base and the integer that multiplies it.
+    /// Factor and power of each symbol.
+    pub terms: &'static [(f64, [u8; SYMBOLS])],
+    /// For each part the power of h, and where its terms end.
+    pub parts: &'static [(u8, u32)],
+    /// Where the parts of base number i end.
+    pub bases: &'static [u32],
+    /// For each slot the base, and the integer that multiplies it.
     pub slots: &'static [(u32, u32)],
     /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
     pub series: usize,
 }
 
-/// Folds `table` for one step size and parameter set: `BASES` sums, then `SLOTS` multiples. S_k is
-/// multiplied by `factor(k)`.
+/// The parts for one step size and parameter set. No power reaches `POWERS`.
 ///
 /// # Errors
 /// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].
-pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: usize>(
+pub fn parts<T: Scalar, const SYMBOLS: usize, const POWERS: usize, const PARTS: usize>(
     table: &Table<SYMBOLS>,
     names: &[&'static str; SYMBOLS],
     step: T,
     symbols: &[T; SYMBOLS],
-    factor: &dyn Fn(usize) -> T,
-) -> Result<[T; SLOTS], StepError> {
+) -> Result<[T; PARTS], StepError> {
     use nalgebra::SimdBool;
 
     if !step.all_finite() || step.simd_eq(T::of(0.0)).any() {
@@ -38,36 +39,69 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const BASES: usize, const SLOTS: us
             return Err(StepError::InvalidParameter { name, value: symbol.largest_lane() });
         }
     }
-    let mut bases = [T::of(0.0); BASES];
+    let step = powers::<T, POWERS>(step);
+    let symbols = symbols.map(powers::<T, POWERS>);
+    // No power reaches POWERS; the compiler is told.
+    let power = |of: &[T; POWERS], power: u8| of[usize::from(power).min(POWERS - 1)];
+    let mut parts = [T::of(0.0); PARTS];
     let mut start = 0;
-    for (number, (base, &end)) in bases.iter_mut().zip(table.ends).enumerate() {
-        for (number_in_front, power, powers) in table.terms.get(start..end as usize).unwrap_or(&[])
-        {
-            let mut product = T::of(*number_in_front);
-            for _ in 0..*power {
-                product *= step;
+    for (part, &(step_power, end)) in parts.iter_mut().zip(table.parts) {
+        for (factor, term) in table.terms.get(start..end as usize).unwrap_or(&[]) {
+            let mut product = T::of(*factor);
+            for (of, &n) in symbols.iter().zip(term) {
+                product *= power(of, n);
             }
-            for (&symbol, &power) in symbols.iter().zip(powers) {
-                for _ in 0..power {
-                    product *= symbol;
-                }
-            }
-            if number < table.series {
-                product *= factor(usize::from(*power));
-            }
-            *base += product;
+            *part += product;
         }
-        if !base.all_finite() {
+        *part *= power(&step, step_power);
+        if !part.all_finite() {
             let name = "of the generating function";
-            return Err(StepError::InvalidParameter { name, value: base.largest_lane() });
+            return Err(StepError::InvalidParameter { name, value: part.largest_lane() });
         }
         start = end as usize;
+    }
+    Ok(parts)
+}
+
+/// 1, x, x², …
+fn powers<T: Scalar, const POWERS: usize>(x: T) -> [T; POWERS] {
+    let mut next = T::of(1.0);
+    core::array::from_fn(|_| {
+        let power = next;
+        next *= x;
+        power
+    })
+}
+
+/// The slots, S_k being multiplied by `factor(k)`.
+pub fn slots<
+    T: Scalar,
+    const SYMBOLS: usize,
+    const POWERS: usize,
+    const PARTS: usize,
+    const BASES: usize,
+    const SLOTS: usize,
+>(
+    table: &Table<SYMBOLS>,
+    parts: &[T; PARTS],
+    factor: &dyn Fn(usize) -> T,
+) -> [T; SLOTS] {
+    let factors: [T; POWERS] = core::array::from_fn(factor);
+    let mut bases = [T::of(0.0); BASES];
+    let mut parts = table.parts.iter().zip(parts);
+    let mut start = 0;
+    for (number, (base, &end)) in bases.iter_mut().zip(table.bases).enumerate() {
+        for (&(step_power, _), &part) in parts.by_ref().take((end - start) as usize) {
+            let factor = factors[usize::from(step_power).min(POWERS - 1)];
+            *base += if number < table.series { part * factor } else { part };
+        }
+        start = end;
     }
     let mut slots = [T::of(0.0); SLOTS];
     for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
         *slot = bases.get(base as usize).copied().unwrap_or(T::of(0.0)) * T::of(f64::from(scale));
     }
-    Ok(slots)
+    slots
 }
 
 /// Σ weight·|slot|, sorted by degree: the coefficients of a bound as a polynomial in the size of

@@ -4,22 +4,34 @@
 
 #![allow(clippy::unwrap_used)]
 
+use std::path::Path;
+
 use coadjoint_codegen::emit;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_learn::{ModelFile, problem};
 use coadjoint_tests::{from_function, golden};
 
-fn check_golden(source: (&str, &str)) {
-    let integrator = from_function(source.0, source.1).unwrap();
+fn check_golden(build: impl Fn() -> Integrator) {
+    let integrator = build();
     let name = &integrator.problem.name;
     let text = emit::file(&integrator, &emit::Options::for_problem(name));
     golden::check(name, &text);
     // The same again, byte for byte.
-    let again = from_function(source.0, source.1).unwrap();
-    assert_eq!(emit::file(&again, &emit::Options::for_problem(name)), text);
+    assert_eq!(emit::file(&build(), &emit::Options::for_problem(name)), text);
 }
 
 #[test]
 fn emitted_files_are_the_committed_ones() {
     for source in [golden::RIGID_BODY, golden::CAYLEY_BODY, golden::HEAVY_TOP, golden::THREE_WAVE] {
-        check_golden(source);
+        check_golden(|| from_function(source.0, source.1).unwrap());
     }
+}
+
+#[test]
+fn emitted_learned_models_are_the_committed_ones() {
+    check_golden(|| {
+        let model = ModelFile::load(Path::new("reference/learned_body.json")).unwrap();
+        Integrator::build(problem(&model, "learned").unwrap(), TermLimit::default()).unwrap()
+    });
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{Chart, GeneratingFunction, StepError};
+use coadjoint::{Chart, GeneratingFunction, Phase, SO3, StepError};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_tests::{from_function, golden};
 
@@ -110,5 +110,30 @@ fn a_group_given_by_tables_keeps_momentum_and_steps_in_time() -> Result<(), Step
     }
     let drift = (phase.spatial_momentum(&group) - before).amax();
     assert!(drift < 1e-12, "{drift:e}");
+    Ok(())
+}
+
+#[test]
+fn many_steps_are_as_many_single_ones() -> Result<(), StepError> {
+    let step = rigid_body::RigidBody::new(0.3)?;
+    let start = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+    let (mut many, mut single) = (start.clone(), start.clone());
+    let report = step.advance_by(&mut many, 50)?;
+    let mut worst = 0.0_f64;
+    for _ in 0..50 {
+        worst = worst.max(step.advance(&mut single)?.residual);
+    }
+    assert!((many.momentum - single.momentum).amax() < 1e-14);
+    assert!(many.group_element.angle_to(&single.group_element) < 1e-14);
+    assert!(report.iterations == 1 && report.residual > 0.0 && report.residual <= 2.0 * worst);
+
+    // No step changes nothing; one that fails leaves the state before it.
+    let mut state = start.clone();
+    assert_eq!(step.advance_by(&mut state, 0)?.iterations, 0);
+    state.momentum *= 1e3;
+    let before = state.clone();
+    assert!(step.advance_by(&mut state, 10).is_err());
+    assert_eq!(state.momentum, before.momentum);
+    assert_eq!(state.group_element, before.group_element);
     Ok(())
 }

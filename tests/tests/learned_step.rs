@@ -1,9 +1,8 @@
-//! The emitted code of a learned model: it is the committed code, it compiles, and its steps are
-//! the model's own.
+//! The emitted code of a learned model, which `golden_files` compares with what is emitted now: it
+//! compiles, and its steps are the model's own.
 //!
 //! The model, `reference/learned_body.json`, is a polynomial of degree 4 learned from 60 pairs of
 //! the free body, Δt = 0.1 (`coadjoint learn pairs.csv --dt 0.1 --degree 4 --out …`).
-//! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test learned_step` rewrites the code.
 
 #![allow(clippy::unwrap_used)]
 
@@ -11,31 +10,15 @@ use std::path::Path;
 
 use coadjoint::nalgebra::Vector3;
 use coadjoint::{Exponential, GeneratingFunction, Phase, SO3, advance, poisson_map};
-use coadjoint_codegen::emit;
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_learn::{Generating, ModelFile, problem};
-use coadjoint_tests::golden;
+use coadjoint_learn::{Generating, ModelFile};
 
 mod learned {
     include!("../golden/learned.rs");
 }
 
-fn model() -> ModelFile {
-    ModelFile::load(Path::new("reference/learned_body.json")).unwrap()
-}
-
-#[test]
-fn the_emitted_code_is_the_committed_one() {
-    let problem = problem(&model(), "learned").unwrap();
-    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    let text = emit::file(&integrator, &emit::Options::for_problem("learned"));
-    golden::check("learned", &text);
-}
-
 #[test]
 fn the_emitted_steps_are_the_models_own() {
-    let file = model();
+    let file = ModelFile::load(Path::new("reference/learned_body.json")).unwrap();
     let group = SO3::new();
     let learned = Generating::<SO3, Exponential, _>::new(group, &file.model);
     let emitted = learned::Learned::new(file.step).unwrap();

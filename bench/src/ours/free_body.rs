@@ -39,9 +39,7 @@ macro_rules! truncated {
                 };
                 let step = step.map_err(failed)?;
                 let mut phase = Phase::<SO3>::at_identity(momentum);
-                for _ in 0..count {
-                    step.advance(&mut phase).map_err(failed)?;
-                }
+                step.advance_by(&mut phase, count as u64).map_err(failed)?;
                 let q = &phase.group_element;
                 let m = phase.momentum;
                 Ok(FreeBody::state([m[0], m[1], m[2]], Rotation::Quaternion([q.w, q.i, q.j, q.k])))

@@ -22,6 +22,17 @@ impl<T: Copy> Outputs<'_, T> {
     }
 }
 
+/// The parts of an integrator's coefficients for the step size.
+fn fold_parts(integrator: &Integrator, step: f64) -> Result<Vec<f64>, StepError> {
+    if step == 0.0 || !step.is_finite() {
+        return Err(StepError::InvalidStep { step });
+    }
+    // Parameters are substituted; what symbols are left (sqrt(2)) need none.
+    let symbols: Vec<f64> =
+        integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+    Ok(integrator.coefficients.fold_parts(step, &symbols))
+}
+
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved by
 /// the fixed point or by Newton's method.
 #[derive(Clone, Debug)]
@@ -42,7 +53,7 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
 {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
-        Self::fold(integrator, group, step, &|_| 1.0)
+        Ok(Self::fold(integrator, group, &fold_parts(integrator, step)?, &|_| 1.0))
     }
 
     /// Folds the coefficients for the step size, with the tail of the series summed for motions
@@ -56,33 +67,28 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
     where
         G: LieGroup<Scalar = f64> + Clone,
     {
+        let parts = fold_parts(integrator, step)?;
         let series =
-            |factor: &dyn Fn(usize) -> f64| Self::fold(integrator, group.clone(), step, factor);
+            |factor: &dyn Fn(usize) -> f64| Self::fold(integrator, group.clone(), &parts, factor);
         let truncation = integrator.problem.truncation;
         let tail = Tail::along(truncation, [momentum.clone()], series)?;
-        series(&|k| tail.factor(k))
+        Ok(series(&|k| tail.factor(k)))
     }
 
     /// The coefficients of Σ factor(k) S_k.
     fn fold(
         integrator: &'a Integrator,
         group: G,
-        step: f64,
+        parts: &[f64],
         factor: &dyn Fn(usize) -> f64,
-    ) -> Result<Self, StepError> {
-        if step == 0.0 || !step.is_finite() {
-            return Err(StepError::InvalidStep { step });
-        }
-        // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-        let symbols: Vec<f64> =
-            integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
-        let slots = integrator.coefficients.fold_with(step, &symbols, factor);
+    ) -> Self {
+        let slots = integrator.coefficients.slots_of_parts(parts, factor);
         let mut defect = vec![0.0; integrator.defect_len()];
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
         }
         let quadratic = integrator.problem.is_quadratic();
-        Ok(Self { integrator, group, slots, defect, quadratic, chart: PhantomData })
+        Self { integrator, group, slots, defect, quadratic, chart: PhantomData }
     }
 
     /// Evaluates a program and hands its outputs to `read`.

@@ -4,7 +4,8 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::number::float;
-use super::{parameter, table};
+use super::parameter;
+use super::table::{self, Sizes};
 use crate::integrator::Integrator;
 use crate::problem::{Parameter, Shape};
 
@@ -21,8 +22,7 @@ pub fn constructor(
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
-    let bases = Literal::usize_unsuffixed(integrator.coefficients.bases().len());
-    let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
+    let Sizes { powers, parts, bases, slots } = Sizes::of(&integrator.coefficients);
     let table = table::table(krate, &integrator.coefficients);
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
@@ -42,7 +42,8 @@ pub fn constructor(
             step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            Self::fold(step, &#symbols, &|_| T::of(1.0))
+            let parts = Self::parts(step, &#symbols)?;
+            ::core::result::Result::Ok(Self::fold(step, &parts, &|_| T::of(1.0)))
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
@@ -55,31 +56,43 @@ pub fn constructor(
             #(#arguments,)*
             momenta: impl ::core::iter::IntoIterator<Item = impl ::core::convert::Into<#vector>>,
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let symbols = #symbols;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, factor)
-            };
+            let parts = Self::parts(step, &#symbols)?;
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| Self::fold(step, &parts, factor);
             let momenta = momenta.into_iter().map(::core::convert::Into::into);
             let tail = #krate::Tail::along(Self::TRUNCATION, momenta, &series)?;
-            series(&|k| tail.factor(k))
+            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+        }
+
+        fn table() -> &'static #krate::plumbing::Table<#count> {
+            static TABLE: #krate::plumbing::Table<#count> = #table;
+            &TABLE
+        }
+
+        fn parts(
+            step: T,
+            symbols: &[T; #count],
+        ) -> ::core::result::Result<[T; #parts], #krate::StepError> {
+            #krate::plumbing::parts::<T, #count, #powers, #parts>(
+                Self::table(),
+                &[#(#texts),*],
+                step,
+                symbols,
+            )
         }
 
         /// The coefficients of Σ factor(k) S_k.
         fn fold(
             step: T,
-            symbols: &[T; #count],
+            parts: &[T; #parts],
             factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> ::core::result::Result<Self, #krate::StepError> {
-            static TABLE: #krate::plumbing::Table<#count> = #table;
-            let coefficients = #krate::plumbing::fold::<T, #count, #bases, #slots>(
-                &TABLE,
-                &[#(#texts),*],
-                step,
-                symbols,
+        ) -> Self {
+            let coefficients = #krate::plumbing::slots::<T, #count, #powers, #parts, #bases, #slots>(
+                Self::table(),
+                parts,
                 factor,
-            )?;
+            );
             let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
-            ::core::result::Result::Ok(Self { step, coefficients, defect })
+            Self { step, coefficients, defect }
         }
     }
 }
@@ -113,7 +126,7 @@ pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
 /// A parameter's name as an argument; an underscore is added where it would be a keyword or one of
 /// the constructor's own names.
 fn argument_name(name: &str) -> Ident {
-    let taken = ["step", "symbols", "momenta", "series", "tail", "factor"].contains(&name);
+    let taken = ["step", "momenta", "parts", "series", "tail", "factor"].contains(&name);
     match syn::parse_str::<Ident>(name) {
         Ok(name) if !taken => name,
         _ => format_ident!("{name}_"),

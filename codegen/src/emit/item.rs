@@ -123,6 +123,19 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                     #krate::advance(self, phase)
                 }
 
+                /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
+                /// worst of them, and on error `phase` is left before the step that failed.
+                ///
+                /// # Errors
+                /// As `advance`.
+                pub fn advance_by(
+                    &self,
+                    phase: &mut #krate::Phase<#group>,
+                    steps: u64,
+                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
+                    #krate::advance_by(self, phase, steps)
+                }
+
                 /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
                 ///
                 /// # Errors

@@ -8,7 +8,8 @@ use super::generating_function::{scalar_function, vector_function};
 use super::group::group_type;
 use super::header::one_line;
 use super::parts::Scope;
-use super::{Options, parameter, table};
+use super::table::{self, Sizes};
+use super::{Options, parameter};
 use crate::integrator::Kick;
 
 /// The potential as items: a struct and its implementation.
@@ -27,8 +28,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(potential.symbols.len());
-    let bases = Literal::usize_unsuffixed(kick.coefficients.bases().len());
-    let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
+    let Sizes { powers, parts, bases, slots } = Sizes::of(&kick.coefficients);
     let table = table::table(krate, &kick.coefficients);
 
     let scope = Scope {
@@ -80,13 +80,17 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                     static TABLE: #krate::plumbing::Table<#count> = #table;
                     let symbols: [T; #count] = [#(#symbols),*];
                     // No coefficient holds the step size.
-                    let coefficients = #krate::plumbing::fold::<T, #count, #bases, #slots>(
+                    let parts = #krate::plumbing::parts::<T, #count, #powers, #parts>(
                         &TABLE,
                         &[#(#texts),*],
                         T::of(1.0),
                         &symbols,
-                        &|_| T::of(1.0),
                     )?;
+                    let coefficients = #krate::plumbing::slots::<T, #count, #powers, #parts, #bases, #slots>(
+                        &TABLE,
+                        &parts,
+                        &|_| T::of(1.0),
+                    );
                     ::core::result::Result::Ok(Self { coefficients })
                 }
 

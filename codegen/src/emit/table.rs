@@ -6,18 +6,51 @@ use quote::quote;
 use super::number::float;
 use crate::integrator::Coefficients;
 
+/// The sizes of a table, as the literals that generic functions want.
+pub struct Sizes {
+    /// More than any power.
+    pub powers: Literal,
+    /// How many parts there are.
+    pub parts: Literal,
+    /// How many bases there are.
+    pub bases: Literal,
+    /// How many slots there are.
+    pub slots: Literal,
+}
+
+impl Sizes {
+    /// The sizes of the table of `coefficients`.
+    #[must_use]
+    pub fn of(coefficients: &Coefficients) -> Self {
+        let terms = coefficients.bases().iter().flatten();
+        let powers = terms.flat_map(|t| t.symbol_powers.iter().copied().chain([t.step_power]));
+        Self {
+            powers: Literal::u32_unsuffixed(powers.max().unwrap_or(0) + 1),
+            parts: Literal::usize_unsuffixed(coefficients.parts().flatten().count()),
+            bases: Literal::usize_unsuffixed(coefficients.bases().len()),
+            slots: Literal::usize_unsuffixed(coefficients.slots().len()),
+        }
+    }
+}
+
 /// The expression of a `coadjoint::plumbing::Table` holding `coefficients`.
 #[must_use]
 pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
     let terms = coefficients.bases().iter().flatten().map(|term| {
         let factor = float(term.rounded_factor());
-        let step = Literal::u32_unsuffixed(term.step_power);
         let symbols = term.symbol_powers.iter().map(|&p| Literal::u32_unsuffixed(p));
-        quote!((#factor, #step, [#(#symbols),*]))
+        quote!((#factor, [#(#symbols),*]))
     });
     let mut end = 0;
-    let ends = coefficients.bases().iter().map(|base| {
-        end += base.len();
+    let parts = coefficients.parts().flatten().map(|part| {
+        end += part.len();
+        let power = Literal::u32_unsuffixed(part.first().map_or(0, |term| term.step_power));
+        let end = Literal::usize_unsuffixed(end);
+        quote!((#power, #end))
+    });
+    let mut end = 0;
+    let bases = coefficients.parts().map(|parts| {
+        end += parts.count();
         Literal::usize_unsuffixed(end)
     });
     let slots = coefficients.slots().iter().map(|&(base, scale)| {
@@ -29,7 +62,8 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
     quote! {
         #krate::plumbing::Table {
             terms: &[#(#terms),*],
-            ends: &[#(#ends),*],
+            parts: &[#(#parts),*],
+            bases: &[#(#bases),*],
             slots: &[#(#slots),*],
             series: #series,
         }

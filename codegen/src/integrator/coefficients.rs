@@ -19,8 +19,9 @@ pub struct Contribution {
 
 /// All coefficients a step needs.
 ///
-/// *Bases* are the C_m(h, parameters) of the generating function, the predictor and the energy.
-/// *Slots* are what programs read: a base times a small integer, which differentiation brings.
+/// *Bases* are the C_m(h, parameters) of the generating function, the predictor and the energy; what
+/// they have at one power of h is a *part*. *Slots* are what programs read: a base times a small
+/// integer, which differentiation brings.
 #[derive(Clone, Debug, Default)]
 pub struct Coefficients {
     bases: Vec<Vec<Contribution>>,
@@ -32,7 +33,8 @@ pub struct Coefficients {
 
 impl Coefficients {
     /// Adds a base coefficient and returns its number.
-    pub fn add_base(&mut self, contributions: Vec<Contribution>) -> usize {
+    pub fn add_base(&mut self, mut contributions: Vec<Contribution>) -> usize {
+        contributions.sort_by_key(|contribution| contribution.step_power);
         self.bases.push(contributions);
         self.bases.len() - 1
     }
@@ -70,25 +72,48 @@ impl Coefficients {
         &self.slots
     }
 
+    /// For each base its parts: the summands of one power of h.
+    pub fn parts(&self) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]>> {
+        self.bases.iter().map(|base| base.chunk_by(|a, b| a.step_power == b.step_power))
+    }
+
     /// The value of every slot for a step size and symbol values, by the same sequence of
     /// operations as emitted code.
     #[must_use]
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
-        self.fold_with(step, symbols, &|_| 1.0)
+        self.slots_of_parts(&self.fold_parts(step, symbols), &|_| 1.0)
     }
 
-    /// As [`Coefficients::fold`], S_k multiplied by `factor(k)`.
+    /// The value of every part for a step size and symbol values.
     #[must_use]
-    pub fn fold_with(&self, step: f64, symbols: &[f64], factor: &dyn Fn(usize) -> f64) -> Vec<f64> {
-        let base = |(number, base): (usize, &Vec<Contribution>)| {
-            base.iter().fold(0.0, |sum, c| {
-                let factor = if number < self.series { factor(c.step_power as usize) } else { 1.0 };
-                sum + c.evaluate(step, symbols) * factor
-            })
-        };
-        let bases: Vec<f64> = self.bases.iter().enumerate().map(base).collect();
+    pub fn fold_parts(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
+        self.parts().flatten().map(|part| evaluate(part, step, symbols)).collect()
+    }
+
+    /// The value of every slot from those of the parts, S_k being multiplied by `factor(k)`.
+    #[must_use]
+    pub fn slots_of_parts(&self, parts: &[f64], factor: &dyn Fn(usize) -> f64) -> Vec<f64> {
+        let mut values = parts.iter();
+        let mut bases = Vec::with_capacity(self.bases.len());
+        for (number, parts) in self.parts().enumerate() {
+            bases.push(parts.zip(values.by_ref()).fold(0.0, |sum, (part, value)| {
+                let power = part.first().map_or(0, |summand| summand.step_power as usize);
+                sum + if number < self.series { value * factor(power) } else { *value }
+            }));
+        }
         self.slots.iter().map(|&(base, scale)| bases[base] * f64::from(scale)).collect()
     }
+}
+
+/// The value of a part.
+fn evaluate(part: &[Contribution], step: f64, symbols: &[f64]) -> f64 {
+    // As a table of powers is made: one factor after another.
+    let power = |x: f64, n: u32| (0..n).fold(1.0, |power, _| power * x);
+    let sum = part.iter().fold(0.0, |sum, term| {
+        let powers = symbols.iter().zip(&term.symbol_powers);
+        sum + powers.fold(term.rounded_factor(), |product, (&x, &n)| product * power(x, n))
+    });
+    sum * power(step, part.first().map_or(0, |summand| summand.step_power))
 }
 
 impl Contribution {
@@ -96,18 +121,5 @@ impl Contribution {
     #[must_use]
     pub fn rounded_factor(&self) -> f64 {
         self.factor.to_f64().unwrap_or(f64::NAN)
-    }
-
-    fn evaluate(&self, step: f64, symbols: &[f64]) -> f64 {
-        let mut product = self.rounded_factor();
-        for _ in 0..self.step_power {
-            product *= step;
-        }
-        for (&symbol, &power) in symbols.iter().zip(&self.symbol_powers) {
-            for _ in 0..power {
-                product *= symbol;
-            }
-        }
-        product
     }
 }
