@@ -19,19 +19,19 @@ pub fn run(options: &CasimirOptions) -> Result<(), CliError> {
     })?;
     match options.format {
         Format::Text => {
-            println!(
+            outln!(
                 "{}: {} generating Casimirs of degree up to {}",
                 problem.algebra.name(),
                 found.len(),
                 options.degree
             );
             for casimir in &found {
-                println!("{}", text(&problem, casimir));
+                outln!("{}", text(&problem, casimir));
             }
         }
         Format::Json => {
             let list: Vec<String> = found.iter().map(|c| text(&problem, c)).collect();
-            println!("{:#}", json!({ "group": problem.algebra.name(), "casimirs": list }));
+            outln!("{:#}", json!({ "group": problem.algebra.name(), "casimirs": list }));
         }
     }
     Ok(())

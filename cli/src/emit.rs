@@ -29,7 +29,7 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
         Some(path) => std::fs::write(path, module)
             .map_err(|error| CliError::Write { path: path.clone(), message: error.to_string() }),
         None => {
-            print!("{module}");
+            out!("{module}");
             Ok(())
         }
     }

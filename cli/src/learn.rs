@@ -154,7 +154,7 @@ impl Fit {
             Format::Json => {
                 let text = serde_json::to_string_pretty(summary)
                     .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
-                println!("{text}");
+                outln!("{text}");
             }
             Format::Text => print(summary),
         }
@@ -205,7 +205,7 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
 }
 
 fn print(summary: &Summary) {
-    println!("{}", summary.choice);
+    outln!("{}", summary.choice);
     let show = |name: &str, figures: &Figures| {
         let line = |what: &str, errors: &Errors| {
             let parts: Vec<String> =
@@ -213,13 +213,13 @@ fn print(summary: &Summary) {
                     .iter()
                     .filter_map(|(q, value)| value.map(|v| format!("{q} {v:.2e}")))
                     .collect();
-            println!("  {what:<10}{}", parts.join("  "));
+            outln!("  {what:<10}{}", parts.join("  "));
         };
-        println!("{name}: {} samples", figures.samples);
+        outln!("{name}: {} samples", figures.samples);
         line("mse", &figures.mse);
         line("max error", &figures.max_error);
         if !figures.unsolved.is_empty() {
-            println!("  no step could be made at rows {:?}", figures.unsolved);
+            outln!("  no step could be made at rows {:?}", figures.unsolved);
         }
     };
     show("train", &summary.train);
@@ -227,12 +227,14 @@ fn print(summary: &Summary) {
         show("test", test);
     }
     if let Some(drifts) = &summary.drifts {
-        println!(
+        outln!(
             "drift over {} steps: momentum {:.1e}, Casimirs {:.1e}",
-            drifts.steps, drifts.momentum, drifts.casimir
+            drifts.steps,
+            drifts.momentum,
+            drifts.casimir
         );
     }
     for (row, reason) in &summary.dropped {
-        println!("left out row {row}: {reason}");
+        outln!("left out row {row}: {reason}");
     }
 }

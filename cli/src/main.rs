@@ -1,8 +1,11 @@
 //! `coadjoint`: derive, emit, simulate and check Lie–Poisson integrators from a system file.
 //!
 //! This crate only wires: reading and derivation are in `coadjoint-codegen`, groups and steps in
-//! `coadjoint`, learning in `coadjoint-learn`. Exit codes: 0 fine, 1 a failure while running (or a law that does not hold),
-//! 2 bad input.
+//! `coadjoint`, learning in `coadjoint-learn`. Exit codes: 0 fine, 1 a failure while running (or a law
+//! that does not hold), 2 bad input.
+
+#[macro_use]
+mod output;
 
 mod arguments;
 mod casimirs;

@@ -85,12 +85,15 @@ impl Visitor for Follow<'_> {
             out.flush().map_err(fail)?;
         }
         let found = drifts(&map, &group, &start, steps, None)?;
-        println!(
+        outln!(
             "{} steps of {}: drift of the momentum {:.1e}, of the Casimirs {:.1e}",
-            steps, model.step, found.momentum, found.casimir
+            steps,
+            model.step,
+            found.momentum,
+            found.casimir
         );
         if !model.attitude {
-            println!(
+            outln!(
                 "learned from momenta alone: the attitude is not known and not written, since the \
                  data leave it open up to a rotation about the momentum"
             );
@@ -145,7 +148,7 @@ pub fn emit(path: &Path, out: Option<&Path>) -> Result<(), CliError> {
         Some(path) => std::fs::write(path, module)
             .map_err(|error| CliError::Write { path: path.into(), message: error.to_string() }),
         None => {
-            print!("{module}");
+            out!("{module}");
             Ok(())
         }
     }

@@ -38,13 +38,13 @@ pub fn run(options: &ReproduceOptions) -> Result<(), CliError> {
     match options.format {
         Format::Text => {
             for report in &reports {
-                println!("{}", report.text());
+                outln!("{}", report.text());
             }
         }
         Format::Json => {
             let text = serde_json::to_string_pretty(&reports)
                 .map_err(|e| CliError::Option(format!("the report cannot be printed: {e}")))?;
-            println!("{text}");
+            outln!("{text}");
         }
     }
     Ok(())

@@ -294,7 +294,8 @@ fn bad_rows_are_told_and_do_not_stop_the_rest() {
     assert!(list[2].starts_with("3,0,\"the attitude is off the group by 4.1e-1"), "{list:?}");
     assert_eq!(list[3], "4,0,\"6 cells instead of 7\"");
     assert_eq!(list[4], "5,0,\"mu_3: 'one' is no number\"");
-    assert!(list[5].starts_with("6,1,\""), "{list:?}");
+    // Far outside the chart; at which step it is noticed depends on rounding.
+    assert!(list[5].starts_with("6,") && list[5].contains("did not converge"), "{list:?}");
     // Without bad rows the list of an earlier run goes away.
     written(&directory, "in.csv", &momenta(3));
     ensemble(&initial, &out, &[]);

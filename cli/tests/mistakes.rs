@@ -132,3 +132,30 @@ fn a_problem_too_large_says_so() {
     assert_eq!(code, 2);
     assert!(error.contains("too large") && error.contains("lower the truncation"), "{error}");
 }
+
+/// A reader that stops reading (`| head`) is no failure, and nothing to complain about; a full disk is.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_closed_pipe_is_no_failure_and_a_full_disk_is_one() {
+    use std::process::{Command, Stdio};
+
+    let emit = |output: Stdio| {
+        Command::new(env!("CARGO_BIN_EXE_coadjoint"))
+            .args(["emit", "examples/rigid_body.toml"])
+            .current_dir(support::root())
+            .stdout(output)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    let mut child = emit(Stdio::piped());
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = emit(full.into()).wait_with_output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.starts_with("error: standard output cannot be written"), "{message}");
+}

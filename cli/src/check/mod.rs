@@ -64,7 +64,7 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
         lie::Chart::Exponential => trial.laws::<_, Exponential>(group)?,
         lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?)?,
     };
-    print!("{}", report::report(&trial, &laws, options.format));
+    out!("{}", report::report(&trial, &laws, options.format));
     let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
     if failed.is_empty() {
         return Ok(());

@@ -29,9 +29,9 @@ pub fn run(options: &DeriveOptions) -> Result<(), CliError> {
     .map_err(|source| CliError::Derive { file: options.source.file.clone(), source })?;
     let derived = Derived { problem, series };
     match options.format {
-        SeriesFormat::Text => print!("{}", text::series(&derived)),
-        SeriesFormat::Json => println!("{}", json::series(&derived)),
-        SeriesFormat::Latex => print!("{}", latex::series(&derived)),
+        SeriesFormat::Text => out!("{}", text::series(&derived)),
+        SeriesFormat::Json => outln!("{}", json::series(&derived)),
+        SeriesFormat::Latex => out!("{}", latex::series(&derived)),
     }
     Ok(())
 }

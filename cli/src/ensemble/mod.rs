@@ -83,7 +83,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let outcome = run::run(job)?;
     let text =
         report::report(&outcome, &integrator, step, steps, engine.casimirs(), options.format);
-    print!("{text}");
+    out!("{text}");
     Ok(())
 }
 

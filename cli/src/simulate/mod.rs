@@ -119,6 +119,6 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if let Some(plot) = &options.plot {
         plot::draw(plot, &runs)?;
     }
-    print!("{}", report::report(&runs, options.format));
+    out!("{}", report::report(&runs, options.format));
     Ok(())
 }
