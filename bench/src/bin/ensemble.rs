@@ -1,10 +1,10 @@
-//! Many free bodies on one core.
+//! Many free bodies on one core, or ours on several.
 
 use std::{error::Error, fs, path::PathBuf};
 
 use clap::Parser;
 use coadjoint_bench::{
-    ensemble::{bodies, compare, markdown, peers},
+    ensemble::{bodies, compare, markdown, ours, peers},
     problem,
     report::Machine,
 };
@@ -21,6 +21,9 @@ struct Arguments {
     /// Rounds over all methods and settings.
     #[arg(long, default_value_t = 5)]
     rounds: usize,
+    /// Threads for ours; the peers take one.
+    #[arg(long, default_value_t = 1)]
+    threads: usize,
     /// Only methods whose name contains this; may be repeated.
     #[arg(long, value_name = "TEXT")]
     method: Vec<String>,
@@ -37,9 +40,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     {
         return Err("--bodies, --rounds and --end must be positive".into());
     }
+    rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build_global()?;
     let mut template = problem::named("free-body-a")?;
     template.end = arguments.end;
-    let mut methods = peers();
+    let mut methods = ours();
+    methods.extend(peers());
     if !arguments.method.is_empty() {
         methods.retain(|method| arguments.method.iter().any(|text| method.name().contains(text)));
     }

@@ -3,10 +3,12 @@
 mod bodies;
 mod compare;
 mod method;
+mod ours;
 
 pub use bodies::bodies;
 pub use compare::{Row, compare, markdown};
 pub use method::{EnsembleMethod, OneByOne, TaylorBatch};
+pub use ours::ours;
 
 use crate::{
     method::Setting,
