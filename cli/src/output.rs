@@ -3,12 +3,12 @@
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write, stdout};
 
-/// As `print!`, by [`write`].
+/// As `print!`, by [`write()`].
 macro_rules! out {
     ($($argument:tt)*) => { $crate::output::write(format_args!($($argument)*)) };
 }
 
-/// As `println!`, by [`write`].
+/// As `println!`, by [`write()`].
 macro_rules! outln {
     ($($argument:tt)*) => { out!("{}\n", format_args!($($argument)*)) };
 }
