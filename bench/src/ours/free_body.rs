@@ -12,7 +12,7 @@ use crate::{
 /// Writes the Hamiltonian at one truncation and its run over an interval.
 macro_rules! truncated {
     ($module:ident, $truncation:literal) => {
-        mod $module {
+        pub(crate) mod $module {
             use super::*;
 
             /// Free rigid body, moments of inertia in kg m².
@@ -40,9 +40,7 @@ macro_rules! truncated {
                 let step = step.map_err(failed)?;
                 let mut phase = Phase::<SO3>::at_identity(momentum);
                 step.advance_by(&mut phase, count as u64).map_err(failed)?;
-                let q = &phase.group_element;
-                let m = phase.momentum;
-                Ok(FreeBody::state([m[0], m[1], m[2]], Rotation::Quaternion([q.w, q.i, q.j, q.k])))
+                Ok(state(&phase))
             }
         }
     };
@@ -54,6 +52,12 @@ truncated!(eleven, 11);
 truncated!(thirteen, 13);
 truncated!(fifteen, 15);
 truncated!(seventeen, 17);
+
+/// A phase point as the comparison has it.
+pub(crate) fn state(phase: &Phase<SO3>) -> State {
+    let (m, q) = (phase.momentum, &phase.group_element);
+    FreeBody::state([m[0], m[1], m[2]], Rotation::Quaternion([q.w, q.i, q.j, q.k]))
+}
 
 type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, bool) -> Result<State, RunError>;
 

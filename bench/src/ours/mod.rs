@@ -1,6 +1,6 @@
 //! Our methods, as users write them.
 
-mod free_body;
+pub(crate) mod free_body;
 mod moving_body;
 
 use crate::{

@@ -23,9 +23,7 @@ macro_rules! run {
         };
         let integrator = integrator.map_err(failed)?;
         let mut phase = Phase::<SE3>::at_identity(momentum);
-        for _ in 0..$count {
-            integrator.advance(&mut phase).map_err(failed)?;
-        }
+        integrator.advance_by(&mut phase, $count as u64).map_err(failed)?;
         Ok(state(&phase))
     }};
 }
