@@ -133,8 +133,8 @@ mod tail;
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
 /// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `advance_by`,
-/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`]. Every mistake
-/// in the function is reported at its place.
+/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`].
+/// Every mistake in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
 
 /// Turns a function computing a potential V(g) into its body torque −g⁻¹dV(g), derived exactly, for

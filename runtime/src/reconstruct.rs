@@ -51,7 +51,7 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: what a step reads of `generating` is then
-/// prepared once (measured on the free body: a fifth to a third of the time). The report holds the
+/// prepared once (a twentieth to a fifth of the time on the free body). The report holds the
 /// largest number of iterations and the largest residual of a step; no step, none.
 ///
 /// # Errors
