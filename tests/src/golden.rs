@@ -1,21 +1,5 @@
-//! Emitted code that is committed under `golden/`: the comparison, and the systems by the arguments
-//! of the attribute and the function.
-
-use std::path::PathBuf;
-
-/// Compares `text` with the committed `golden/{name}.rs`, which it becomes first where
-/// `COADJOINT_BLESS` is set.
-///
-/// # Panics
-/// Where they differ, or the file cannot be written.
-pub fn check(name: &str, text: &str) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.rs"));
-    if std::env::var_os("COADJOINT_BLESS").is_some() {
-        std::fs::write(&path, text).unwrap();
-    }
-    let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(committed == text, "{} differs from what is emitted now", path.display());
-}
+//! The systems whose emitted code is committed under `golden/`: arguments of the attribute, and the
+//! function.
 
 /// The paper's rigid body, its Hessian truncated for Newton's method.
 pub const RIGID_BODY: (&str, &str) = (
