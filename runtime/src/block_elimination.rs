@@ -98,29 +98,44 @@ where
 
 /// The adjugate and the determinant of the diagonal block that begins at `k`, of side 1, 2 or 3.
 #[inline(always)]
-fn adjugate<T: Scalar, M>(a: &M, k: usize, side: usize) -> ([[T; SIDE]; SIDE], T)
+fn adjugate<T: Scalar, M>(m: &M, k: usize, side: usize) -> ([[T; SIDE]; SIDE], T)
 where
     M: Index<(usize, usize), Output = T>,
 {
     let zero = T::of(0.0);
-    let at = |i: usize, j: usize| a[(k + i, k + j)];
     match side {
-        1 => ([[T::of(1.0), zero, zero], [zero; SIDE], [zero; SIDE]], at(0, 0)),
+        1 => ([[T::of(1.0), zero, zero], [zero; SIDE], [zero; SIDE]], m[(k, k)]),
         2 => {
-            let determinant = at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0);
-            let rows = [[at(1, 1), -at(0, 1), zero], [-at(1, 0), at(0, 0), zero], [zero; SIDE]];
-            (rows, determinant)
+            let (a, b) = (m[(k, k)], m[(k, k + 1)]);
+            let (c, d) = (m[(k + 1, k)], m[(k + 1, k + 1)]);
+            ([[d, -b, zero], [-c, a, zero], [zero; SIDE]], a * d - b * c)
         }
         _ => {
-            let cross = |r: usize, s: usize| {
-                let minor = |i: usize, j: usize| at(r, i) * at(s, j) - at(r, j) * at(s, i);
-                [minor(1, 2), minor(2, 0), minor(0, 1)]
-            };
-            let (a, b, c) = (cross(1, 2), cross(2, 0), cross(0, 1));
-            let determinant = at(0, 0) * a[0] + at(0, 1) * a[1] + at(0, 2) * a[2];
+            let rows = [row(m, k, 0), row(m, k, 1), row(m, k, 2)];
+            let a = cross(&rows[1], &rows[2]);
+            let b = cross(&rows[2], &rows[0]);
+            let c = cross(&rows[0], &rows[1]);
+            let determinant = rows[0][0] * a[0] + rows[0][1] * a[1] + rows[0][2] * a[2];
             ([[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]], determinant)
         }
     }
+}
+
+// Functions, not closures: in wide lanes the compiler leaves closures as calls.
+
+/// Row k + i of the diagonal block that begins at `k`.
+#[inline(always)]
+fn row<T: Scalar, M>(m: &M, k: usize, i: usize) -> [T; SIDE]
+where
+    M: Index<(usize, usize), Output = T>,
+{
+    [m[(k + i, k)], m[(k + i, k + 1)], m[(k + i, k + 2)]]
+}
+
+/// a × b.
+#[inline(always)]
+fn cross<T: Scalar>(a: &[T; SIDE], b: &[T; SIDE]) -> [T; SIDE] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

@@ -49,29 +49,57 @@ pub trait Coordinates<T: Scalar>:
         result
     }
 
+    // Loops, not closures, from here on: in wide lanes the compiler leaves closures as calls.
+
+    /// self − other.
+    #[inline(always)]
+    #[must_use]
+    fn minus(mut self, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] -= other[i];
+        }
+        self
+    }
+
+    /// In each lane this vector where `mask` holds, else the other.
+    #[inline(always)]
+    #[must_use]
+    fn select(mut self, mask: T::SimdBool, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] = self[i].select(mask, other[i]);
+        }
+        self
+    }
+
     /// 1 − a·b.
     #[inline(always)]
     fn one_minus_product(dim: usize, a: &Self::Matrix, b: &Self::Matrix) -> Self::Matrix {
-        Self::matrix_from_entries(dim, |i, j| {
-            let mut sum = a[(i, 0)] * b[(0, j)];
-            for k in 1..dim {
-                sum = a[(i, k)].times_plus(b[(k, j)], sum);
+        let mut result = Self::zero_matrix(dim);
+        for i in 0..dim {
+            for j in 0..dim {
+                let mut sum = a[(i, 0)] * b[(0, j)];
+                for k in 1..dim {
+                    sum = a[(i, k)].times_plus(b[(k, j)], sum);
+                }
+                result[(i, j)] = if i == j { T::of(1.0) - sum } else { -sum };
             }
-            if i == j { T::of(1.0) - sum } else { -sum }
-        })
+        }
+        result
     }
 
     /// The product of a matrix with this vector.
     #[inline(always)]
     fn left_multiply(&self, matrix: &Self::Matrix) -> Self {
         let dim = self.dim();
-        Self::from_entries(dim, |i| {
+        let mut result = Self::zeros(dim);
+        for i in 0..dim {
             let mut sum = matrix[(i, 0)] * self[0];
             for j in 1..dim {
                 sum = matrix[(i, j)].times_plus(self[j], sum);
             }
-            sum
-        })
+            result[i] = sum;
+        }
+        result
     }
 
     /// The pairing ⟨self, other⟩ = Σ selfᵢ otherᵢ.

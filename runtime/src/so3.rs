@@ -138,11 +138,20 @@ impl<T: Scalar> LieGroup for SO3<T> {
     /// accumulate in the norm over many steps.
     #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        let product = g.as_ref() * h.as_ref();
-        let c = &product.coords;
-        let norm_squared = (c.x * c.x + c.y * c.y) + (c.z * c.z + c.w * c.w);
+        // Written out: in wide lanes nalgebra's product stays a call.
+        let (a, b) = (g.as_ref(), h.as_ref());
+        let w = a.w * b.w - a.i * b.i - a.j * b.j - a.k * b.k;
+        let i = a.w * b.i + a.i * b.w + a.j * b.k - a.k * b.j;
+        let j = a.w * b.j - a.i * b.k + a.j * b.w + a.k * b.i;
+        let k = a.w * b.k + a.i * b.j - a.j * b.i + a.k * b.w;
+        let norm_squared = (i * i + j * j) + (k * k + w * w);
         let factor = T::of(1.5) - T::of(0.5) * norm_squared;
-        UnitQuaternion::new_unchecked(product * factor)
+        UnitQuaternion::new_unchecked(Quaternion::new(
+            w * factor,
+            i * factor,
+            j * factor,
+            k * factor,
+        ))
     }
 
     #[inline(always)]

@@ -8,8 +8,11 @@ use nalgebra::SimdBool;
 
 use crate::scalar::Scalar;
 
-/// Up to this t (θ = 1.5) the polynomials below are exact to rounding.
-const NEAR: f64 = 2.25;
+/// Up to this t (θ = 2.4) the polynomials below are exact to rounding.
+const NEAR: f64 = 5.8;
+
+/// Their coefficients.
+const TERMS: usize = 12;
 
 /// 1/n! with the sign of a cosine-like series: `alternating(k, n)` = (−1)ᵏ/n!.
 const fn alternating(k: usize, n: usize) -> f64 {
@@ -22,29 +25,29 @@ const fn alternating(k: usize, n: usize) -> f64 {
     if k.is_multiple_of(2) { 1.0 / factorial } else { -1.0 / factorial }
 }
 
-/// Evaluates Σ cₖ tᵏ for ten coefficients, in pairs (Estrin) to keep the chain short.
+/// Evaluates Σ cₖ tᵏ for twelve coefficients, in pairs (Estrin) to keep the chain short.
 #[inline(always)]
-fn polynomial<T: Scalar>(c: &[f64; 10], t: T) -> T {
+fn polynomial<T: Scalar>(c: &[f64; TERMS], t: T) -> T {
     let pair = |k: usize| T::of(c[k + 1]).times_plus(t, T::of(c[k]));
     let t2 = t * t;
     let t4 = t2 * t2;
     let low = pair(2).times_plus(t2, pair(0));
     let high = pair(6).times_plus(t2, pair(4));
-    let top = pair(8).times_plus(t4, high);
-    top.times_plus(t4, low)
+    let top = pair(10).times_plus(t2, pair(8));
+    top.times_plus(t4, high).times_plus(t4, low)
 }
 
 /// Coefficient tables, each Σ cₖ tᵏ.
 mod table {
-    use super::alternating;
+    use super::{TERMS, alternating};
 
     macro_rules! coefficients {
         ($(#[$doc:meta])* $name:ident, $k:ident => $value:expr) => {
             $(#[$doc])*
-            pub const $name: [f64; 10] = {
-                let mut c = [0.0; 10];
+            pub const $name: [f64; TERMS] = {
+                let mut c = [0.0; TERMS];
                 let mut $k = 0;
-                while $k < 10 {
+                while $k < TERMS {
                     c[$k] = $value;
                     $k += 1;
                 }
@@ -244,11 +247,11 @@ pub fn dexp_inverse_with_slope<T: Scalar>(t: T) -> WithSlope<T> {
 }
 
 /// (2 sin(θ/2)/θ − cos(θ/2))/t = Σ (−1)ᵏ (2k+2)/(4ᵏ⁺¹ (2k+3)!) tᵏ.
-const SINE_MINUS_COSINE: [f64; 10] = {
-    let mut c = [0.0; 10];
+const SINE_MINUS_COSINE: [f64; TERMS] = {
+    let mut c = [0.0; TERMS];
     let mut quarter = 0.25;
     let mut k = 0;
-    while k < 10 {
+    while k < TERMS {
         c[k] = quarter * (2 * k + 2) as f64 * alternating(k, 2 * k + 3);
         quarter *= 0.25;
         k += 1;
@@ -257,11 +260,11 @@ const SINE_MINUS_COSINE: [f64; 10] = {
 };
 
 /// The derivative of [`SINE_MINUS_COSINE`].
-const SINE_MINUS_COSINE_SLOPE: [f64; 10] = {
-    let mut c = [0.0; 10];
+const SINE_MINUS_COSINE_SLOPE: [f64; TERMS] = {
+    let mut c = [0.0; TERMS];
     let mut quarter = 0.0625;
     let mut k = 0;
-    while k < 10 {
+    while k < TERMS {
         c[k] = quarter * ((k + 1) * (2 * k + 4)) as f64 * alternating(k + 1, 2 * k + 5);
         quarter *= 0.25;
         k += 1;
@@ -279,4 +282,27 @@ pub fn log_factor<T: Scalar>(w: T, s: T) -> T {
     // Close to a full turn (w < 0, SU(2) only) s is small too, but nothing is lost there.
     let tiny = s.simd_le(T::of(1e-9)) & w.simd_gt(T::of(0.0));
     series.select(tiny, factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_and_closed_forms_agree_up_to_the_seam() {
+        for t in [1.0, 3.0, 5.0, NEAR] {
+            let (near, far) = (half_angle(t), half_angle_far(t));
+            assert!((near.cosine - far.cosine).abs() < 3e-16, "{t}");
+            assert!((near.sine_over_angle - far.sine_over_angle).abs() < 3e-16, "{t}");
+            let (near, far) = (dexp(t), dexp_far(t));
+            for (a, b) in [(near.b, far.b), (near.c, far.c)] {
+                assert!((a - b).abs() < 3e-16, "{t}: {a} {b}");
+            }
+            for (a, b) in [(near.b_slope, far.b_slope), (near.c_slope, far.c_slope)] {
+                assert!((a - b).abs() < 1e-15, "{t}: {a} {b}");
+            }
+            let (near, far) = (dexp_curvature(t), dexp_curvature_far(t));
+            assert!((near.b - far.b).abs() < 1e-14 && (near.c - far.c).abs() < 1e-14, "{t}");
+        }
+    }
 }
