@@ -8,7 +8,7 @@ use crate::error::StepError;
 use crate::generating_function::GeneratingFunction;
 use crate::lanes::{F64x8, LaneGroup, Lanes};
 use crate::phase::Phase;
-use crate::reconstruct::advance;
+use crate::reconstruct::advance_after;
 
 /// Lanes per pack.
 const WIDTH: usize = <F64x8 as SimdValue>::LANES;
@@ -31,7 +31,7 @@ pub struct Failure {
 /// processor has, spread over rayon's threads.
 ///
 /// The result does not depend on the number of threads, on the grouping into packs, or on the
-/// processor's vector width: each trajectory gets the bits that [`advance`] gives. A trajectory
+/// processor's vector width: each trajectory gets the bits that [`advance_by`](crate::advance_by) gives. A trajectory
 /// that fails keeps its last good state and is reported (sorted by index); the others go on.
 pub fn advance_all<S>(step: &S, states: &mut [Phase<S::Group>], steps: u64) -> Vec<Failure>
 where
@@ -74,8 +74,9 @@ fn advance_pack<S: Lanes>(
         return;
     }
     for (lane, state) in states.iter_mut().enumerate() {
+        let mut last = None;
         for done in 0..steps {
-            if let Err(error) = advance(step, state) {
+            if let Err(error) = advance_after(step, state, &mut last) {
                 failures.push(Failure { index: first + lane, step: done, error });
                 break;
             }
@@ -95,8 +96,9 @@ impl<S: GeneratingFunction> WithSimd for Run<'_, S> {
 
     #[inline(always)]
     fn with_simd<I: Simd>(self, _simd: I) -> Self::Output {
+        let mut last = None;
         for _ in 0..self.steps {
-            advance(self.step, self.phase)?;
+            advance_after(self.step, self.phase, &mut last)?;
         }
         Ok(())
     }

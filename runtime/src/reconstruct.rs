@@ -8,7 +8,7 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
-use crate::solve::solve;
+use crate::solve::{solve, solve_from};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,14 +45,32 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let solution = solve(generating, &phase.momentum)?;
+    advance_after(generating, phase, &mut None)
+}
+
+/// [`advance`], where `last` is the p of the step before, if there was one, and becomes that of this
+/// step.
+#[inline(always)]
+pub(crate) fn advance_after<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    phase: &mut Phase<S::Group>,
+    last: &mut Option<VectorOf<S>>,
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
+    let mu = &phase.momentum;
+    let guess = match last {
+        Some(last) => generating.predict_after(last, mu),
+        None => generating.predict(mu),
+    };
+    let solution = solve_from(generating, mu, guess)?;
     reconstruct(generating, phase, &solution.x);
+    *last = Some(solution.p);
     Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
 }
 
-/// Many steps of [`advance`], and faster than one by one: what a step reads of `generating` is then
-/// prepared once (a twentieth to a fifth of the time on the free body). The report holds the
-/// largest number of iterations and the largest residual of a step; no step, none.
+/// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
+/// one before ([`GeneratingFunction::predict_after`]), and what steps read of `generating` is
+/// prepared once. The report holds the largest number of iterations and the largest residual of a
+/// step; no step, none.
 ///
 /// # Errors
 /// As [`solve`]; `phase` is then left before the step that failed.
@@ -64,8 +82,9 @@ pub fn advance_by<S: GeneratingFunction + ?Sized>(
     steps: u64,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
+    let mut last = None;
     for _ in 0..steps {
-        let StepReport { iterations, residual } = advance(generating, phase)?;
+        let StepReport { iterations, residual } = advance_after(generating, phase, &mut last)?;
         worst.iterations = worst.iterations.max(iterations);
         worst.residual = worst.residual.simd_max(residual);
     }

@@ -42,6 +42,17 @@ pub fn generating_function(
             #krate::Chart::pull_back(<#chart as ::core::default::Default>::default(), self.group(), &x, input)
         },
     };
+    let continuation = integrator.continuation.as_ref().map(|program| {
+        let twice_even = vector_function(program, vector, scope);
+        quote! {
+            #[inline(always)]
+            fn predict_after(&self, last: &#vector, input: &#vector) -> #vector {
+                let c = &self.coefficients;
+                let twice_even = { #twice_even };
+                twice_even - last
+            }
+        }
+    });
     let newton = integrator.newton.as_ref().map(|program| {
         let function = hessian_function(program, *dim, vector, matrix, scope);
         quote! {
@@ -98,6 +109,8 @@ pub fn generating_function(
                 let c = &self.coefficients;
                 #predictor
             }
+
+            #continuation
 
             #newton
 

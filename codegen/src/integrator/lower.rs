@@ -29,6 +29,28 @@ pub fn vector_program(
     graph.finish(dim, &outputs)
 }
 
+/// Twice the parts of the same polynomials that are even in h; `None` where a monomial has even and
+/// odd powers of h.
+pub fn even_program(
+    coefficients: &mut Coefficients,
+    dim: usize,
+    components: &[Vec<BaseTerm>],
+) -> Option<Program> {
+    let mut graph = Graph::new();
+    let mut outputs = Vec::with_capacity(dim);
+    for terms in components {
+        let mut even = Vec::new();
+        for term in terms {
+            if coefficients.is_even(term.base)? {
+                even.push(term);
+            }
+        }
+        let twice = weighted(coefficients, even, &[], |_| 2);
+        outputs.push(lower(&mut graph, &twice));
+    }
+    Some(graph.finish(dim, &outputs))
+}
+
 /// ∂S/∂p alone.
 pub fn gradient_program(
     coefficients: &mut Coefficients,

@@ -25,6 +25,7 @@ const INDEPENDENT: f64 = 1e-20;
 pub fn fixed_point<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
+    guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let (group, chart) = (generating.group(), generating.chart());
     let dim = mu.dim();
@@ -38,7 +39,7 @@ pub fn fixed_point<S: GeneratingFunction + ?Sized>(
     let rounding = ScalarOf::<S>::of(32.0) * ScalarOf::<S>::epsilon();
     let half = ScalarOf::<S>::of(0.5);
 
-    let mut p = generating.predict(mu);
+    let mut p = guess;
     let mut solved = (p.clone(), mu.clone());
     let mut remaining = one;
     // 1 in lanes that go on, 0 in those that are done.

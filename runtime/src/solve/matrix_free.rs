@@ -63,6 +63,11 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
         self.0.predict(mu)
     }
+
+    #[inline(always)]
+    fn predict_after(&self, last: &VectorOf<Self>, mu: &VectorOf<Self>) -> VectorOf<Self> {
+        self.0.predict_after(last, mu)
+    }
 }
 
 impl<S: Lanes> Lanes for MatrixFree<S> {

@@ -57,10 +57,23 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    solve_from(generating, mu, generating.predict(mu))
+}
+
+/// As [`solve`], from another first guess of p.
+///
+/// # Errors
+/// As [`solve`].
+#[inline(always)]
+pub fn solve_from<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    guess: VectorOf<S>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
     match S::SOLVER {
-        Solver::Newton => newton::newton(generating, mu),
-        Solver::FixedPoint => fixed_point::fixed_point(generating, mu),
+        Solver::Newton => newton::newton(generating, mu, guess),
+        Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
     }
 }
 

@@ -21,6 +21,7 @@ const CHORDS: u32 = 4;
 pub fn newton<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
+    guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let group = generating.group();
     let chart = generating.chart();
@@ -35,7 +36,7 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
     let half = ScalarOf::<S>::of(0.5);
     let half_defect = half * scale * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
 
-    let mut p = generating.predict(mu);
+    let mut p = guess;
     let mut solved = (p.clone(), mu.clone());
     let mut remaining = one;
     let mut iterations = 0;
@@ -50,12 +51,12 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
         let mut bent = ScalarOf::<S>::of(0.0);
         for chord in 0..CHORDS {
             iterations += 1;
-            let residual = VectorOf::<S>::from_entries(dim, |i| p[i] - pulled[i]);
+            let residual = p.clone().minus(&pulled);
             let correction = VectorOf::<S>::solve(&factors, residual);
             let shift = correction.left_multiply(&hessian);
-            let next = VectorOf::<S>::from_entries(dim, |i| p[i] - correction[i]);
+            let next = p.minus(&correction);
             // x moves linearly with p; what that leaves out is of the order of what Newton leaves.
-            let moved = VectorOf::<S>::from_entries(dim, |i| x[i] - shift[i]);
+            let moved = x.clone().minus(&shift);
 
             let relative = correction.largest_entry() * inverse_scale;
             let stretch = shift.largest_entry();
@@ -66,10 +67,7 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
             let curved = stretched + half * stretch + bent + bend;
             let left = stretch * curved + half_defect * relative;
             let was_open = remaining.simd_gt(tolerance);
-            solved = (
-                VectorOf::<S>::from_entries(dim, |i| next[i].select(was_open, solved.0[i])),
-                VectorOf::<S>::from_entries(dim, |i| moved[i].select(was_open, solved.1[i])),
-            );
+            solved = (next.clone().select(was_open, &solved.0), moved.select(was_open, &solved.1));
             remaining = left.select(was_open, remaining);
             if remaining.simd_le(tolerance).all() {
                 let (p, x) = solved;
