@@ -52,6 +52,7 @@ extern crate alloc;
 #[cfg(feature = "systems")]
 extern crate self as coadjoint;
 
+mod adjustable;
 mod block_elimination;
 mod catalogue;
 mod chart;
@@ -61,6 +62,8 @@ mod element_error;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
 mod error;
+#[cfg(feature = "alloc")]
+mod fit;
 mod generating_function;
 mod group;
 mod heisenberg;
@@ -179,6 +182,7 @@ pub use coadjoint_macros::lie_poisson;
 pub use coadjoint_macros::potential;
 pub use nalgebra;
 
+pub use adjustable::{Adjustable, Part, Term};
 pub use catalogue::{
     Aff1, Aff1Algebra, SL2, SL2Algebra, SO4, SO4Algebra, SO5, SO5Algebra, SU3, SU3Algebra, SU4,
     SU4Algebra, U2, U2Algebra, U3, U3Algebra,
@@ -188,6 +192,8 @@ pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
 pub use coordinates::{Coordinates, Factors};
 pub use element_error::ElementError;
 pub use error::StepError;
+#[cfg(feature = "alloc")]
+pub use fit::{Fit, FitError, MAX_FITTED_TERMS, fit};
 pub use generating_function::{
     GeneratingFunction, MatrixOf, ScalarOf, VectorOf, hessian_by_differences,
 };
@@ -209,7 +215,7 @@ pub use se2::SE2;
 pub use se3::SE3;
 pub use so3::SO3;
 pub use so3_matrix::SO3Matrix;
-pub use solve::{MAX_EVALUATIONS, MAX_ITERATIONS, MatrixFree, Solution, Solver, solve};
+pub use solve::{MAX_EVALUATIONS, MAX_ITERATIONS, MatrixFree, Solution, Solver, solve, solve_from};
 pub use splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 pub use su2::SU2;
 pub use table::{

@@ -1,5 +1,6 @@
 //! What generated code calls. Not part of the public interface; it may change at any time.
 
+use crate::adjustable::{Part, Term};
 use crate::error::StepError;
 use crate::scalar::Scalar;
 
@@ -17,6 +18,10 @@ pub struct Table<const SYMBOLS: usize> {
     pub slots: &'static [(u32, u32)],
     /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
     pub series: usize,
+    /// Their monomials, each as pairs of a coordinate and its exponent.
+    pub monomials: &'static [&'static [(u32, u32)]],
+    /// The terms of the first guess that are even in h: base (ascending), coordinate, monomial.
+    pub guess: &'static [(u32, u32, &'static [(u32, u32)])],
 }
 
 /// The parts for one step size and parameter set. No power reaches `POWERS`.
@@ -102,6 +107,50 @@ pub fn slots<
         *slot = bases.get(base as usize).copied().unwrap_or(T::of(0.0)) * T::of(f64::from(scale));
     }
     slots
+}
+
+/// How many adjustable terms there are.
+#[must_use]
+pub fn terms<const SYMBOLS: usize>(table: &Table<SYMBOLS>) -> usize {
+    table.monomials.len() + table.guess.len()
+}
+
+/// The adjustable term with this number; a constant beyond the last one.
+#[must_use]
+pub fn term<const SYMBOLS: usize>(table: &Table<SYMBOLS>, number: usize) -> Term<'static> {
+    let Some(&monomial) = table.monomials.get(number) else {
+        let guess = number.checked_sub(table.monomials.len()).and_then(|n| table.guess.get(n));
+        let &(base, coordinate, monomial) = guess.unwrap_or(&(u32::MAX, 0, &[]));
+        let part = Part::Guess(coordinate as usize);
+        return Term { part, monomial, order: order(table, base as usize) };
+    };
+    Term { part: Part::Series, monomial, order: order(table, number) }
+}
+
+/// The highest power of h in a base.
+fn order<const SYMBOLS: usize>(table: &Table<SYMBOLS>, base: usize) -> usize {
+    let parts = table.bases.get(base).and_then(|&end| table.parts.get(..end as usize));
+    parts.and_then(|parts| parts.last()).map_or(0, |&(power, _)| usize::from(power))
+}
+
+/// Adds to the slots what a correction of each adjustable term brings.
+pub fn adjust<T: Scalar, const SYMBOLS: usize>(
+    table: &Table<SYMBOLS>,
+    slots: &mut [T],
+    corrections: &[T],
+) {
+    let series = table.monomials.len();
+    for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
+        let number = if (base as usize) < series {
+            Some(base as usize)
+        } else {
+            let guess = table.guess.binary_search_by_key(&base, |&(of, ..)| of);
+            guess.ok().map(|place| series + place)
+        };
+        if let Some(&correction) = number.and_then(|number| corrections.get(number)) {
+            *slot += correction * T::of(f64::from(scale));
+        }
+    }
 }
 
 /// Σ weight·|slot|, sorted by degree: the coefficients of a bound as a polynomial in the size of

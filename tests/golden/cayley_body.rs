@@ -15,7 +15,7 @@
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 pub struct CayleyBody<T = f64> {
     step: T,
-    coefficients: [T; 175],
+    coefficients: [T; 258],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
 }
@@ -403,6 +403,89 @@ const _: () = {
                     (3, 4),
                     (5, 4),
                     (1, 8),
+                    (24, 2),
+                    (26, 2),
+                    (27, 2),
+                    (28, 2),
+                    (29, 2),
+                    (31, 2),
+                    (32, 2),
+                    (34, 2),
+                    (35, 2),
+                    (36, 2),
+                    (38, 2),
+                    (39, 2),
+                    (40, 2),
+                    (41, 2),
+                    (42, 2),
+                    (43, 2),
+                    (45, 2),
+                    (46, 2),
+                    (47, 2),
+                    (48, 2),
+                    (49, 2),
+                    (51, 2),
+                    (52, 2),
+                    (53, 2),
+                    (54, 2),
+                    (55, 2),
+                    (56, 2),
+                    (57, 2),
+                    (58, 2),
+                    (59, 2),
+                    (60, 2),
+                    (61, 2),
+                    (62, 2),
+                    (63, 2),
+                    (65, 2),
+                    (66, 2),
+                    (67, 2),
+                    (70, 2),
+                    (71, 2),
+                    (73, 2),
+                    (76, 2),
+                    (77, 2),
+                    (78, 2),
+                    (80, 2),
+                    (81, 2),
+                    (84, 2),
+                    (85, 2),
+                    (87, 2),
+                    (89, 2),
+                    (90, 2),
+                    (91, 2),
+                    (93, 2),
+                    (94, 2),
+                    (95, 2),
+                    (97, 2),
+                    (98, 2),
+                    (99, 2),
+                    (100, 2),
+                    (101, 2),
+                    (102, 2),
+                    (103, 2),
+                    (104, 2),
+                    (106, 2),
+                    (109, 2),
+                    (110, 2),
+                    (112, 2),
+                    (113, 2),
+                    (114, 2),
+                    (117, 2),
+                    (118, 2),
+                    (120, 2),
+                    (121, 2),
+                    (122, 2),
+                    (125, 2),
+                    (127, 2),
+                    (128, 2),
+                    (130, 2),
+                    (131, 2),
+                    (132, 2),
+                    (134, 2),
+                    (135, 2),
+                    (137, 2),
+                    (138, 2),
                     (22, 1),
                     (23, 1),
                     (24, 1),
@@ -543,6 +626,111 @@ const _: () = {
                     (21, 1),
                 ],
                 series: 18,
+                monomials: &[
+                    &[(2, 2)],
+                    &[(2, 4)],
+                    &[(1, 2)],
+                    &[(1, 2), (2, 2)],
+                    &[(1, 4)],
+                    &[(0, 1), (1, 2), (2, 2)],
+                    &[(0, 2)],
+                    &[(0, 2), (2, 2)],
+                    &[(0, 2), (1, 2)],
+                    &[(0, 3)],
+                    &[(0, 3), (2, 2)],
+                    &[(0, 3), (1, 2)],
+                    &[(0, 4)],
+                    &[(0, 4), (2, 2)],
+                    &[(0, 4), (1, 2)],
+                    &[(0, 5)],
+                    &[(0, 6)],
+                    &[(0, 7)],
+                ],
+                guess: &[
+                    (24, 0, &[(1, 2), (2, 4)]),
+                    (26, 0, &[(1, 4), (2, 2)]),
+                    (27, 0, &[(0, 1)]),
+                    (28, 0, &[(0, 1), (2, 2)]),
+                    (29, 0, &[(0, 1), (2, 4)]),
+                    (31, 0, &[(0, 1), (1, 2)]),
+                    (32, 0, &[(0, 1), (1, 2), (2, 2)]),
+                    (34, 0, &[(0, 1), (1, 4)]),
+                    (35, 0, &[(0, 2), (2, 2)]),
+                    (36, 0, &[(0, 2), (2, 4)]),
+                    (38, 0, &[(0, 2), (1, 2)]),
+                    (39, 0, &[(0, 2), (1, 2), (2, 2)]),
+                    (40, 0, &[(0, 2), (1, 4)]),
+                    (41, 0, &[(0, 3)]),
+                    (42, 0, &[(0, 3), (2, 2)]),
+                    (43, 0, &[(0, 3), (2, 4)]),
+                    (45, 0, &[(0, 3), (1, 2)]),
+                    (46, 0, &[(0, 3), (1, 2), (2, 2)]),
+                    (47, 0, &[(0, 3), (1, 4)]),
+                    (48, 0, &[(0, 4)]),
+                    (49, 0, &[(0, 4), (2, 2)]),
+                    (51, 0, &[(0, 4), (1, 2)]),
+                    (52, 0, &[(0, 5)]),
+                    (53, 0, &[(0, 5), (2, 2)]),
+                    (54, 0, &[(0, 5), (1, 2)]),
+                    (55, 0, &[(0, 6)]),
+                    (56, 0, &[(0, 6), (2, 2)]),
+                    (57, 0, &[(0, 6), (1, 2)]),
+                    (58, 0, &[(0, 7)]),
+                    (59, 0, &[(0, 8)]),
+                    (60, 0, &[(0, 9)]),
+                    (61, 1, &[(1, 1)]),
+                    (62, 1, &[(1, 1), (2, 2)]),
+                    (63, 1, &[(1, 1), (2, 4)]),
+                    (65, 1, &[(1, 3)]),
+                    (66, 1, &[(1, 3), (2, 2)]),
+                    (67, 1, &[(1, 5)]),
+                    (70, 1, &[(0, 1), (1, 1), (2, 2)]),
+                    (71, 1, &[(0, 1), (1, 1), (2, 4)]),
+                    (73, 1, &[(0, 1), (1, 3), (2, 2)]),
+                    (76, 1, &[(0, 2), (1, 1)]),
+                    (77, 1, &[(0, 2), (1, 1), (2, 2)]),
+                    (78, 1, &[(0, 2), (1, 1), (2, 4)]),
+                    (80, 1, &[(0, 2), (1, 3)]),
+                    (81, 1, &[(0, 2), (1, 3), (2, 2)]),
+                    (84, 1, &[(0, 3), (1, 1)]),
+                    (85, 1, &[(0, 3), (1, 1), (2, 2)]),
+                    (87, 1, &[(0, 3), (1, 3)]),
+                    (89, 1, &[(0, 4), (1, 1)]),
+                    (90, 1, &[(0, 4), (1, 1), (2, 2)]),
+                    (91, 1, &[(0, 4), (1, 3)]),
+                    (93, 1, &[(0, 5), (1, 1)]),
+                    (94, 1, &[(0, 5), (1, 1), (2, 2)]),
+                    (95, 1, &[(0, 5), (1, 3)]),
+                    (97, 1, &[(0, 6), (1, 1)]),
+                    (98, 1, &[(0, 7), (1, 1)]),
+                    (99, 1, &[(0, 8), (1, 1)]),
+                    (100, 2, &[(2, 1)]),
+                    (101, 2, &[(2, 3)]),
+                    (102, 2, &[(2, 5)]),
+                    (103, 2, &[(1, 2), (2, 1)]),
+                    (104, 2, &[(1, 2), (2, 3)]),
+                    (106, 2, &[(1, 4), (2, 1)]),
+                    (109, 2, &[(0, 1), (1, 2), (2, 1)]),
+                    (110, 2, &[(0, 1), (1, 2), (2, 3)]),
+                    (112, 2, &[(0, 1), (1, 4), (2, 1)]),
+                    (113, 2, &[(0, 2), (2, 1)]),
+                    (114, 2, &[(0, 2), (2, 3)]),
+                    (117, 2, &[(0, 2), (1, 2), (2, 1)]),
+                    (118, 2, &[(0, 2), (1, 2), (2, 3)]),
+                    (120, 2, &[(0, 2), (1, 4), (2, 1)]),
+                    (121, 2, &[(0, 3), (2, 1)]),
+                    (122, 2, &[(0, 3), (2, 3)]),
+                    (125, 2, &[(0, 3), (1, 2), (2, 1)]),
+                    (127, 2, &[(0, 4), (2, 1)]),
+                    (128, 2, &[(0, 4), (2, 3)]),
+                    (130, 2, &[(0, 4), (1, 2), (2, 1)]),
+                    (131, 2, &[(0, 5), (2, 1)]),
+                    (132, 2, &[(0, 5), (2, 3)]),
+                    (134, 2, &[(0, 5), (1, 2), (2, 1)]),
+                    (135, 2, &[(0, 6), (2, 1)]),
+                    (137, 2, &[(0, 7), (2, 1)]),
+                    (138, 2, &[(0, 8), (2, 1)]),
+                ],
             };
             &TABLE
         }
@@ -569,8 +757,11 @@ const _: () = {
                 5,
                 142,
                 139,
-                175,
+                258,
             >(Self::table(), parts, factor);
+            Self::with(step, coefficients)
+        }
+        fn with(step: T, coefficients: [T; 258]) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
             Self { step, coefficients, defect }
         }
@@ -589,8 +780,8 @@ const _: () = {
             let p2 = input[2];
             (p0 * p0)
                 .times_plus(
-                    p0.times_plus(c[174], c[173]),
-                    (p1 * p1).times_plus(c[172], (p2 * p2) * c[171]),
+                    p0.times_plus(c[257], c[256]),
+                    (p1 * p1).times_plus(c[255], (p2 * p2) * c[254]),
                 )
         }
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
@@ -654,12 +845,12 @@ const _: () = {
                                 .times_plus(
                                     p0
                                         .times_plus(
-                                            p0.times_plus(p0.times_plus(c[170], c[169]), c[168]),
-                                            t7.times_plus(c[167], t10.times_plus(c[166], c[165])),
+                                            p0.times_plus(p0.times_plus(c[253], c[252]), c[251]),
+                                            t7.times_plus(c[250], t10.times_plus(c[249], c[248])),
                                         ),
-                                    t7.times_plus(c[164], t10.times_plus(c[163], c[162])),
+                                    t7.times_plus(c[247], t10.times_plus(c[246], c[245])),
                                 ),
-                            t7.times_plus(c[161], t10.times_plus(c[160], c[159])),
+                            t7.times_plus(c[244], t10.times_plus(c[243], c[242])),
                         ),
                     (t7 * t10) * c[12],
                 );
@@ -667,8 +858,8 @@ const _: () = {
                 t31,
                 t7
                     .times_plus(
-                        t7.times_plus(c[158], t10.times_plus(c[157], c[156])),
-                        t10 * t10.times_plus(c[155], c[154]),
+                        t7.times_plus(c[241], t10.times_plus(c[240], c[239])),
+                        t10 * t10.times_plus(c[238], c[237]),
                     ),
             )
         }
@@ -819,18 +1010,18 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[74],
-                                            t6.times_plus(c[72], t9.times_plus(c[71], c[70])),
+                                            c[157],
+                                            t6.times_plus(c[155], t9.times_plus(c[154], c[153])),
                                         ),
-                                    t6.times_plus(c[66], t9.times_plus(c[64], c[63])),
+                                    t6.times_plus(c[149], t9.times_plus(c[147], c[146])),
                                 ),
                             t6
                                 .times_plus(
-                                    t6.times_plus(c[55], t9.times_plus(c[54], c[53])),
-                                    t9 * t9.times_plus(c[51], c[50]),
+                                    t6.times_plus(c[138], t9.times_plus(c[137], c[136])),
+                                    t9 * t9.times_plus(c[134], c[133]),
                                 ),
                         ),
-                    t41 * t6.times_plus(c[41], t9 * c[39]),
+                    t41 * t6.times_plus(c[124], t9 * c[122]),
                 );
             let t82 = p0
                 .times_plus(
@@ -840,25 +1031,25 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            t1.times_plus(c[75], c[73]),
-                                            t6.times_plus(c[69], t9.times_plus(c[68], c[67])),
+                                            t1.times_plus(c[158], c[156]),
+                                            t6.times_plus(c[152], t9.times_plus(c[151], c[150])),
                                         ),
                                     t6
                                         .times_plus(
-                                            t6.times_plus(c[62], t9.times_plus(c[61], c[60])),
-                                            t9.times_plus(t9.times_plus(c[58], c[57]), c[56]),
+                                            t6.times_plus(c[145], t9.times_plus(c[144], c[143])),
+                                            t9.times_plus(t9.times_plus(c[141], c[140]), c[139]),
                                         ),
                                 ),
                             t6
                                 .times_plus(
-                                    t6.times_plus(c[49], t9.times_plus(c[47], c[46])),
-                                    t9.times_plus(t9.times_plus(c[44], c[43]), c[42]),
+                                    t6.times_plus(c[132], t9.times_plus(c[130], c[129])),
+                                    t9.times_plus(t9.times_plus(c[127], c[126]), c[125]),
                                 ),
                         ),
                     (t1
                         .times_plus(
-                            t1.times_plus(c[65], c[52]),
-                            t6.times_plus(c[40], t9.times_plus(c[38], c[37])),
+                            t1.times_plus(c[148], c[135]),
+                            t6.times_plus(c[123], t9.times_plus(c[121], c[120])),
                         ) * (p1 * p2)) + t47,
                 );
             let t89 = p0 * p1;
@@ -869,19 +1060,19 @@ const _: () = {
                             .times_plus(
                                 t1
                                     .times_plus(
-                                        t1.times_plus(c[114], c[112]),
-                                        t6.times_plus(c[106], t9.times_plus(c[105], c[104])),
+                                        t1.times_plus(c[197], c[195]),
+                                        t6.times_plus(c[189], t9.times_plus(c[188], c[187])),
                                     ),
                                 t9
                                     .times_plus(
-                                        t6.times_plus(c[96], t9.times_plus(c[93], c[92])),
-                                        t6.times_plus(c[95], c[91]),
+                                        t6.times_plus(c[179], t9.times_plus(c[176], c[175])),
+                                        t6.times_plus(c[178], c[174]),
                                     ),
                             ),
                         t6
                             .times_plus(
-                                t6.times_plus(c[82], t9.times_plus(c[81], c[80])),
-                                t9.times_plus(t9.times_plus(c[78], c[77]), c[76]),
+                                t6.times_plus(c[165], t9.times_plus(c[164], c[163])),
+                                t9.times_plus(t9.times_plus(c[161], c[160]), c[159]),
                             ),
                     );
             let t150 = p0 * p2;
@@ -889,10 +1080,10 @@ const _: () = {
                 .times_plus(
                     t1
                         .times_plus(
-                            c[107],
-                            t6.times_plus(c[101], t9.times_plus(c[98], c[97])),
+                            c[190],
+                            t6.times_plus(c[184], t9.times_plus(c[181], c[180])),
                         ),
-                    t6.times_plus(c[87], t9.times_plus(c[84], c[83])),
+                    t6.times_plus(c[170], t9.times_plus(c[167], c[166])),
                 )
                 .times_plus(
                     t150,
@@ -902,10 +1093,10 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            t1.times_plus(c[111], c[103]),
-                                            t6.times_plus(c[94], t9.times_plus(c[90], c[89])),
+                                            t1.times_plus(c[194], c[186]),
+                                            t6.times_plus(c[177], t9.times_plus(c[173], c[172])),
                                         ),
-                                    t41 * c[79],
+                                    t41 * c[162],
                                 ),
                             t123,
                         ),
@@ -918,12 +1109,12 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[113],
-                                            t6.times_plus(c[110], t9.times_plus(c[109], c[108])),
+                                            c[196],
+                                            t6.times_plus(c[193], t9.times_plus(c[192], c[191])),
                                         ),
-                                    t6.times_plus(c[102], t9.times_plus(c[100], c[99])),
+                                    t6.times_plus(c[185], t9.times_plus(c[183], c[182])),
                                 ),
-                            t9 * t6.times_plus(c[88], t9.times_plus(c[86], c[85])),
+                            t9 * t6.times_plus(c[171], t9.times_plus(c[169], c[168])),
                         ),
                     t151,
                 );
@@ -934,19 +1125,19 @@ const _: () = {
                             .times_plus(
                                 t1
                                     .times_plus(
-                                        t1.times_plus(c[153], c[150]),
-                                        t6.times_plus(c[145], t9.times_plus(c[143], c[142])),
+                                        t1.times_plus(c[236], c[233]),
+                                        t6.times_plus(c[228], t9.times_plus(c[226], c[225])),
                                     ),
                                 t6
                                     .times_plus(
-                                        t6.times_plus(c[135], t9.times_plus(c[133], c[132])),
-                                        t9.times_plus(c[129], c[128]),
+                                        t6.times_plus(c[218], t9.times_plus(c[216], c[215])),
+                                        t9.times_plus(c[212], c[211]),
                                     ),
                             ),
                         t6
                             .times_plus(
-                                t6.times_plus(c[121], t9.times_plus(c[119], c[118])),
-                                t9.times_plus(t9.times_plus(c[117], c[116]), c[115]),
+                                t6.times_plus(c[204], t9.times_plus(c[202], c[201])),
+                                t9.times_plus(t9.times_plus(c[200], c[199]), c[198]),
                             ),
                     );
             let t231 = t89
@@ -955,10 +1146,10 @@ const _: () = {
                         .times_plus(
                             t1
                                 .times_plus(
-                                    c[148],
-                                    t6.times_plus(c[141], t9.times_plus(c[139], c[138])),
+                                    c[231],
+                                    t6.times_plus(c[224], t9.times_plus(c[222], c[221])),
                                 ),
-                            t6.times_plus(c[126], t9.times_plus(c[123], c[122])),
+                            t6.times_plus(c[209], t9.times_plus(c[206], c[205])),
                         ),
                     p1
                         .times_plus(
@@ -966,10 +1157,10 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            t1.times_plus(c[151], c[144]),
-                                            t6.times_plus(c[134], t9.times_plus(c[131], c[130])),
+                                            t1.times_plus(c[234], c[227]),
+                                            t6.times_plus(c[217], t9.times_plus(c[214], c[213])),
                                         ),
-                                    t41 * c[120],
+                                    t41 * c[203],
                                 ),
                             t204,
                         ),
@@ -982,12 +1173,12 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[152],
-                                            t6.times_plus(c[149], t9.times_plus(c[147], c[146])),
+                                            c[235],
+                                            t6.times_plus(c[232], t9.times_plus(c[230], c[229])),
                                         ),
-                                    t6.times_plus(c[140], t9.times_plus(c[137], c[136])),
+                                    t6.times_plus(c[223], t9.times_plus(c[220], c[219])),
                                 ),
-                            t6 * t6.times_plus(c[127], t9.times_plus(c[125], c[124])),
+                            t6 * t6.times_plus(c[210], t9.times_plus(c[208], c[207])),
                         ),
                     t231,
                 );
@@ -996,11 +1187,156 @@ const _: () = {
                 3,
             >>::from([
                 t1
-                    .times_plus(c[59], t6.times_plus(c[48], t9 * c[45]))
+                    .times_plus(c[142], t6.times_plus(c[131], t9 * c[128]))
                     .times_plus(p2 * t89, t82),
                 t172,
                 t252,
             ])
+        }
+        #[inline(always)]
+        fn predict_after(
+            &self,
+            last: &::coadjoint::nalgebra::SVector<T, 3>,
+            input: &::coadjoint::nalgebra::SVector<T, 3>,
+        ) -> ::coadjoint::nalgebra::SVector<T, 3> {
+            let c = &self.coefficients;
+            let twice_even = {
+                let p0 = input[0];
+                let p1 = input[1];
+                let t7 = p1 * p1;
+                let p2 = input[2];
+                let t10 = p2 * p2;
+                let t39 = p0
+                    .times_plus(
+                        p0
+                            .times_plus(
+                                p0
+                                    .times_plus(
+                                        p0
+                                            .times_plus(
+                                                p0.times_plus(p0.times_plus(c[67], c[66]), c[65]),
+                                                t7.times_plus(c[64], t10.times_plus(c[63], c[62])),
+                                            ),
+                                        t7.times_plus(c[61], t10.times_plus(c[60], c[59])),
+                                    ),
+                                t7.times_plus(c[58], t10.times_plus(c[57], c[56])),
+                            ),
+                        t7
+                            .times_plus(
+                                t7.times_plus(c[55], t10.times_plus(c[54], c[53])),
+                                t10.times_plus(t10.times_plus(c[52], c[51]), c[50]),
+                            ),
+                    );
+                let t69 = p0
+                    .times_plus(
+                        p0
+                            .times_plus(
+                                p0
+                                    .times_plus(
+                                        t39,
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(c[49], t10.times_plus(c[48], c[47])),
+                                                t10 * t10.times_plus(c[46], c[45]),
+                                            ),
+                                    ),
+                                t7
+                                    .times_plus(
+                                        t7.times_plus(c[44], t10.times_plus(c[43], c[42])),
+                                        t10.times_plus(t10.times_plus(c[41], c[40]), c[39]),
+                                    ),
+                            ),
+                        (t7 * t10) * t7.times_plus(c[38], t10 * c[37]),
+                    );
+                let t102 = p0
+                    .times_plus(
+                        p0
+                            .times_plus(
+                                p0
+                                    .times_plus(
+                                        p0
+                                            .times_plus(
+                                                p0.times_plus(p0.times_plus(c[93], c[92]), c[91]),
+                                                t7.times_plus(c[90], t10.times_plus(c[89], c[88])),
+                                            ),
+                                        t7.times_plus(c[87], t10.times_plus(c[86], c[85])),
+                                    ),
+                                t7.times_plus(c[84], t10.times_plus(c[83], c[82])),
+                            ),
+                        t10
+                            .times_plus(
+                                t7.times_plus(c[81], t10.times_plus(c[79], c[78])),
+                                t7.times_plus(c[80], c[77]),
+                            ),
+                    );
+                let t122 = p1
+                    * p0
+                        .times_plus(
+                            p0
+                                .times_plus(
+                                    t102,
+                                    t10 * t7.times_plus(c[76], t10.times_plus(c[75], c[74])),
+                                ),
+                            t7
+                                .times_plus(
+                                    t7.times_plus(c[73], t10.times_plus(c[72], c[71])),
+                                    t10.times_plus(t10.times_plus(c[70], c[69]), c[68]),
+                                ),
+                        );
+                let t155 = p0
+                    .times_plus(
+                        p0
+                            .times_plus(
+                                p0
+                                    .times_plus(
+                                        p0
+                                            .times_plus(
+                                                p0.times_plus(p0.times_plus(c[119], c[118]), c[117]),
+                                                t7.times_plus(c[116], t10.times_plus(c[115], c[114])),
+                                            ),
+                                        t7.times_plus(c[113], t10.times_plus(c[112], c[111])),
+                                    ),
+                                t7.times_plus(c[110], t10.times_plus(c[109], c[108])),
+                            ),
+                        t7
+                            .times_plus(
+                                t7.times_plus(c[107], t10.times_plus(c[106], c[105])),
+                                t10.times_plus(c[104], c[103]),
+                            ),
+                    );
+                let t175 = p2
+                    * p0
+                        .times_plus(
+                            p0
+                                .times_plus(
+                                    t155,
+                                    t7 * t7.times_plus(c[102], t10.times_plus(c[101], c[100])),
+                                ),
+                            t7
+                                .times_plus(
+                                    t7.times_plus(c[99], t10.times_plus(c[98], c[97])),
+                                    t10.times_plus(t10.times_plus(c[96], c[95]), c[94]),
+                                ),
+                        );
+                <::coadjoint::nalgebra::SVector<T, 3>>::from([t69, t122, t175])
+            };
+            twice_even - last
+        }
+    }
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for CayleyBody<T> {
+        fn truncation(&self) -> usize {
+            Self::TRUNCATION
+        }
+        fn terms(&self) -> usize {
+            ::coadjoint::plumbing::terms(Self::table())
+        }
+        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+            ::coadjoint::plumbing::term(Self::table(), number)
+        }
+        fn adjusted(&self, corrections: &[T]) -> Self {
+            let mut coefficients = self.coefficients;
+            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
+            Self::with(self.step, coefficients)
         }
     }
     impl ::coadjoint::Lanes for CayleyBody<f64> {

@@ -1605,6 +1605,44 @@ const _: () = {
                     (69, 1),
                 ],
                 series: 35,
+                monomials: &[
+                    &[],
+                    &[(2, 1)],
+                    &[(2, 2)],
+                    &[(2, 3)],
+                    &[(2, 4)],
+                    &[(1, 1)],
+                    &[(1, 1), (2, 1)],
+                    &[(1, 1), (2, 2)],
+                    &[(1, 1), (2, 3)],
+                    &[(1, 2)],
+                    &[(1, 2), (2, 1)],
+                    &[(1, 2), (2, 2)],
+                    &[(1, 3)],
+                    &[(1, 3), (2, 1)],
+                    &[(1, 4)],
+                    &[(0, 1)],
+                    &[(0, 1), (2, 1)],
+                    &[(0, 1), (2, 2)],
+                    &[(0, 1), (2, 3)],
+                    &[(0, 1), (1, 1)],
+                    &[(0, 1), (1, 1), (2, 1)],
+                    &[(0, 1), (1, 1), (2, 2)],
+                    &[(0, 1), (1, 2)],
+                    &[(0, 1), (1, 2), (2, 1)],
+                    &[(0, 1), (1, 3)],
+                    &[(0, 2)],
+                    &[(0, 2), (2, 1)],
+                    &[(0, 2), (2, 2)],
+                    &[(0, 2), (1, 1)],
+                    &[(0, 2), (1, 1), (2, 1)],
+                    &[(0, 2), (1, 2)],
+                    &[(0, 3)],
+                    &[(0, 3), (2, 1)],
+                    &[(0, 3), (1, 1)],
+                    &[(0, 4)],
+                ],
+                guess: &[],
             };
             &TABLE
         }
@@ -1633,6 +1671,9 @@ const _: () = {
                 427,
                 460,
             >(Self::table(), parts, factor);
+            Self::with(step, coefficients)
+        }
+        fn with(step: T, coefficients: [T; 460]) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
             Self { step, coefficients, defect }
         }
@@ -2794,6 +2835,22 @@ const _: () = {
                         p1.times_plus(p1.times_plus(t686, t699), p2 * t713),
                     ),
             ])
+        }
+    }
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for Learned<T> {
+        fn truncation(&self) -> usize {
+            Self::TRUNCATION
+        }
+        fn terms(&self) -> usize {
+            ::coadjoint::plumbing::terms(Self::table())
+        }
+        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+            ::coadjoint::plumbing::term(Self::table(), number)
+        }
+        fn adjusted(&self, corrections: &[T]) -> Self {
+            let mut coefficients = self.coefficients;
+            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
+            Self::with(self.step, coefficients)
         }
     }
     impl ::coadjoint::Lanes for Learned<f64> {

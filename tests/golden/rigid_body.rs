@@ -15,7 +15,7 @@
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 pub struct RigidBody<T = f64> {
     step: T,
-    coefficients: [T; 345],
+    coefficients: [T; 438],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 9],
 }
@@ -648,6 +648,99 @@ const _: () = {
                     (40, 1),
                     (41, 1),
                     (42, 1),
+                    (56, 2),
+                    (57, 2),
+                    (58, 2),
+                    (59, 2),
+                    (60, 2),
+                    (61, 2),
+                    (62, 2),
+                    (63, 2),
+                    (64, 2),
+                    (65, 2),
+                    (66, 2),
+                    (67, 2),
+                    (68, 2),
+                    (69, 2),
+                    (70, 2),
+                    (77, 2),
+                    (78, 2),
+                    (79, 2),
+                    (80, 2),
+                    (81, 2),
+                    (82, 2),
+                    (83, 2),
+                    (84, 2),
+                    (85, 2),
+                    (89, 2),
+                    (90, 2),
+                    (91, 2),
+                    (92, 2),
+                    (93, 2),
+                    (95, 2),
+                    (96, 2),
+                    (97, 2),
+                    (98, 2),
+                    (99, 2),
+                    (100, 2),
+                    (101, 2),
+                    (102, 2),
+                    (103, 2),
+                    (104, 2),
+                    (105, 2),
+                    (106, 2),
+                    (107, 2),
+                    (118, 2),
+                    (119, 2),
+                    (120, 2),
+                    (121, 2),
+                    (122, 2),
+                    (123, 2),
+                    (124, 2),
+                    (125, 2),
+                    (126, 2),
+                    (127, 2),
+                    (134, 2),
+                    (135, 2),
+                    (136, 2),
+                    (137, 2),
+                    (138, 2),
+                    (139, 2),
+                    (143, 2),
+                    (144, 2),
+                    (145, 2),
+                    (147, 2),
+                    (148, 2),
+                    (149, 2),
+                    (150, 2),
+                    (151, 2),
+                    (152, 2),
+                    (153, 2),
+                    (154, 2),
+                    (155, 2),
+                    (156, 2),
+                    (157, 2),
+                    (158, 2),
+                    (169, 2),
+                    (170, 2),
+                    (171, 2),
+                    (172, 2),
+                    (173, 2),
+                    (174, 2),
+                    (175, 2),
+                    (176, 2),
+                    (177, 2),
+                    (178, 2),
+                    (185, 2),
+                    (186, 2),
+                    (187, 2),
+                    (188, 2),
+                    (189, 2),
+                    (190, 2),
+                    (194, 2),
+                    (195, 2),
+                    (196, 2),
+                    (198, 2),
                     (46, 1),
                     (47, 1),
                     (48, 1),
@@ -831,6 +924,146 @@ const _: () = {
                     (45, 1),
                 ],
                 series: 43,
+                monomials: &[
+                    &[(2, 2)],
+                    &[(1, 2)],
+                    &[(1, 2), (2, 2)],
+                    &[(1, 2), (2, 4)],
+                    &[(1, 2), (2, 6)],
+                    &[(1, 2), (2, 8)],
+                    &[(1, 4), (2, 2)],
+                    &[(1, 4), (2, 4)],
+                    &[(1, 4), (2, 6)],
+                    &[(1, 6), (2, 2)],
+                    &[(1, 6), (2, 4)],
+                    &[(1, 8), (2, 2)],
+                    &[(0, 2)],
+                    &[(0, 2), (2, 2)],
+                    &[(0, 2), (2, 4)],
+                    &[(0, 2), (2, 6)],
+                    &[(0, 2), (2, 8)],
+                    &[(0, 2), (1, 2)],
+                    &[(0, 2), (1, 2), (2, 2)],
+                    &[(0, 2), (1, 2), (2, 4)],
+                    &[(0, 2), (1, 2), (2, 6)],
+                    &[(0, 2), (1, 4)],
+                    &[(0, 2), (1, 4), (2, 2)],
+                    &[(0, 2), (1, 4), (2, 4)],
+                    &[(0, 2), (1, 6)],
+                    &[(0, 2), (1, 6), (2, 2)],
+                    &[(0, 2), (1, 8)],
+                    &[(0, 4), (2, 2)],
+                    &[(0, 4), (2, 4)],
+                    &[(0, 4), (2, 6)],
+                    &[(0, 4), (1, 2)],
+                    &[(0, 4), (1, 2), (2, 2)],
+                    &[(0, 4), (1, 2), (2, 4)],
+                    &[(0, 4), (1, 4)],
+                    &[(0, 4), (1, 4), (2, 2)],
+                    &[(0, 4), (1, 6)],
+                    &[(0, 6), (2, 2)],
+                    &[(0, 6), (2, 4)],
+                    &[(0, 6), (1, 2)],
+                    &[(0, 6), (1, 2), (2, 2)],
+                    &[(0, 6), (1, 4)],
+                    &[(0, 8), (2, 2)],
+                    &[(0, 8), (1, 2)],
+                ],
+                guess: &[
+                    (56, 0, &[(0, 1)]),
+                    (57, 0, &[(0, 1), (2, 2)]),
+                    (58, 0, &[(0, 1), (2, 4)]),
+                    (59, 0, &[(0, 1), (2, 6)]),
+                    (60, 0, &[(0, 1), (2, 8)]),
+                    (61, 0, &[(0, 1), (1, 2)]),
+                    (62, 0, &[(0, 1), (1, 2), (2, 2)]),
+                    (63, 0, &[(0, 1), (1, 2), (2, 4)]),
+                    (64, 0, &[(0, 1), (1, 2), (2, 6)]),
+                    (65, 0, &[(0, 1), (1, 4)]),
+                    (66, 0, &[(0, 1), (1, 4), (2, 2)]),
+                    (67, 0, &[(0, 1), (1, 4), (2, 4)]),
+                    (68, 0, &[(0, 1), (1, 6)]),
+                    (69, 0, &[(0, 1), (1, 6), (2, 2)]),
+                    (70, 0, &[(0, 1), (1, 8)]),
+                    (77, 0, &[(0, 3), (2, 2)]),
+                    (78, 0, &[(0, 3), (2, 4)]),
+                    (79, 0, &[(0, 3), (2, 6)]),
+                    (80, 0, &[(0, 3), (1, 2)]),
+                    (81, 0, &[(0, 3), (1, 2), (2, 2)]),
+                    (82, 0, &[(0, 3), (1, 2), (2, 4)]),
+                    (83, 0, &[(0, 3), (1, 4)]),
+                    (84, 0, &[(0, 3), (1, 4), (2, 2)]),
+                    (85, 0, &[(0, 3), (1, 6)]),
+                    (89, 0, &[(0, 5), (2, 2)]),
+                    (90, 0, &[(0, 5), (2, 4)]),
+                    (91, 0, &[(0, 5), (1, 2)]),
+                    (92, 0, &[(0, 5), (1, 2), (2, 2)]),
+                    (93, 0, &[(0, 5), (1, 4)]),
+                    (95, 0, &[(0, 7), (2, 2)]),
+                    (96, 0, &[(0, 7), (1, 2)]),
+                    (97, 1, &[(1, 1)]),
+                    (98, 1, &[(1, 1), (2, 2)]),
+                    (99, 1, &[(1, 1), (2, 4)]),
+                    (100, 1, &[(1, 1), (2, 6)]),
+                    (101, 1, &[(1, 1), (2, 8)]),
+                    (102, 1, &[(1, 3), (2, 2)]),
+                    (103, 1, &[(1, 3), (2, 4)]),
+                    (104, 1, &[(1, 3), (2, 6)]),
+                    (105, 1, &[(1, 5), (2, 2)]),
+                    (106, 1, &[(1, 5), (2, 4)]),
+                    (107, 1, &[(1, 7), (2, 2)]),
+                    (118, 1, &[(0, 2), (1, 1)]),
+                    (119, 1, &[(0, 2), (1, 1), (2, 2)]),
+                    (120, 1, &[(0, 2), (1, 1), (2, 4)]),
+                    (121, 1, &[(0, 2), (1, 1), (2, 6)]),
+                    (122, 1, &[(0, 2), (1, 3)]),
+                    (123, 1, &[(0, 2), (1, 3), (2, 2)]),
+                    (124, 1, &[(0, 2), (1, 3), (2, 4)]),
+                    (125, 1, &[(0, 2), (1, 5)]),
+                    (126, 1, &[(0, 2), (1, 5), (2, 2)]),
+                    (127, 1, &[(0, 2), (1, 7)]),
+                    (134, 1, &[(0, 4), (1, 1)]),
+                    (135, 1, &[(0, 4), (1, 1), (2, 2)]),
+                    (136, 1, &[(0, 4), (1, 1), (2, 4)]),
+                    (137, 1, &[(0, 4), (1, 3)]),
+                    (138, 1, &[(0, 4), (1, 3), (2, 2)]),
+                    (139, 1, &[(0, 4), (1, 5)]),
+                    (143, 1, &[(0, 6), (1, 1)]),
+                    (144, 1, &[(0, 6), (1, 1), (2, 2)]),
+                    (145, 1, &[(0, 6), (1, 3)]),
+                    (147, 1, &[(0, 8), (1, 1)]),
+                    (148, 2, &[(2, 1)]),
+                    (149, 2, &[(1, 2), (2, 1)]),
+                    (150, 2, &[(1, 2), (2, 3)]),
+                    (151, 2, &[(1, 2), (2, 5)]),
+                    (152, 2, &[(1, 2), (2, 7)]),
+                    (153, 2, &[(1, 4), (2, 1)]),
+                    (154, 2, &[(1, 4), (2, 3)]),
+                    (155, 2, &[(1, 4), (2, 5)]),
+                    (156, 2, &[(1, 6), (2, 1)]),
+                    (157, 2, &[(1, 6), (2, 3)]),
+                    (158, 2, &[(1, 8), (2, 1)]),
+                    (169, 2, &[(0, 2), (2, 1)]),
+                    (170, 2, &[(0, 2), (2, 3)]),
+                    (171, 2, &[(0, 2), (2, 5)]),
+                    (172, 2, &[(0, 2), (2, 7)]),
+                    (173, 2, &[(0, 2), (1, 2), (2, 1)]),
+                    (174, 2, &[(0, 2), (1, 2), (2, 3)]),
+                    (175, 2, &[(0, 2), (1, 2), (2, 5)]),
+                    (176, 2, &[(0, 2), (1, 4), (2, 1)]),
+                    (177, 2, &[(0, 2), (1, 4), (2, 3)]),
+                    (178, 2, &[(0, 2), (1, 6), (2, 1)]),
+                    (185, 2, &[(0, 4), (2, 1)]),
+                    (186, 2, &[(0, 4), (2, 3)]),
+                    (187, 2, &[(0, 4), (2, 5)]),
+                    (188, 2, &[(0, 4), (1, 2), (2, 1)]),
+                    (189, 2, &[(0, 4), (1, 2), (2, 3)]),
+                    (190, 2, &[(0, 4), (1, 4), (2, 1)]),
+                    (194, 2, &[(0, 6), (2, 1)]),
+                    (195, 2, &[(0, 6), (2, 3)]),
+                    (196, 2, &[(0, 6), (1, 2), (2, 1)]),
+                    (198, 2, &[(0, 8), (2, 1)]),
+                ],
             };
             &TABLE
         }
@@ -857,8 +1090,11 @@ const _: () = {
                 10,
                 199,
                 199,
-                345,
+                438,
             >(Self::table(), parts, factor);
+            Self::with(step, coefficients)
+        }
+        fn with(step: T, coefficients: [T; 438]) -> Self {
             let defect = ::coadjoint::plumbing::bound::<
                 T,
                 9,
@@ -901,7 +1137,7 @@ const _: () = {
             let p1 = input[1];
             let p2 = input[2];
             (p0 * p0)
-                .times_plus(c[344], (p1 * p1).times_plus(c[343], (p2 * p2) * c[342]))
+                .times_plus(c[437], (p1 * p1).times_plus(c[436], (p2 * p2) * c[435]))
         }
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
         ///
@@ -966,25 +1202,25 @@ const _: () = {
                                     t1
                                         .times_plus(
                                             c[163],
-                                            t3.times_plus(c[161], t7.times_plus(c[160], c[341])),
+                                            t3.times_plus(c[161], t7.times_plus(c[160], c[434])),
                                         ),
                                     t3
                                         .times_plus(
-                                            t3.times_plus(c[158], t7.times_plus(c[157], c[339])),
-                                            t7.times_plus(t7.times_plus(c[156], c[338]), c[337]),
+                                            t3.times_plus(c[158], t7.times_plus(c[157], c[432])),
+                                            t7.times_plus(t7.times_plus(c[156], c[431]), c[430]),
                                         ),
                                 ),
                             t3
                                 .times_plus(
                                     t3
                                         .times_plus(
-                                            t3.times_plus(c[154], t7.times_plus(c[153], c[334])),
-                                            t7.times_plus(t7.times_plus(c[152], c[333]), c[332]),
+                                            t3.times_plus(c[154], t7.times_plus(c[153], c[427])),
+                                            t7.times_plus(t7.times_plus(c[152], c[426]), c[425]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[151], c[331]), c[330]),
-                                            c[329],
+                                            t7.times_plus(t7.times_plus(c[151], c[424]), c[423]),
+                                            c[422],
                                         ),
                                 ),
                         ),
@@ -994,16 +1230,16 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            t1.times_plus(c[162], t7.times_plus(c[159], c[340])),
-                                            t7.times_plus(t7.times_plus(c[155], c[336]), c[335]),
+                                            t1.times_plus(c[162], t7.times_plus(c[159], c[433])),
+                                            t7.times_plus(t7.times_plus(c[155], c[429]), c[428]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[150], c[328]), c[327]),
-                                            c[326],
+                                            t7.times_plus(t7.times_plus(c[150], c[421]), c[420]),
+                                            c[419],
                                         ),
                                 ),
-                            c[325],
+                            c[418],
                         ),
                 );
             let t90 = t3
@@ -1014,18 +1250,18 @@ const _: () = {
                                 .times_plus(
                                     t3
                                         .times_plus(
-                                            t3.times_plus(c[149], t7.times_plus(c[148], c[324])),
-                                            t7.times_plus(t7.times_plus(c[147], c[323]), c[322]),
+                                            t3.times_plus(c[149], t7.times_plus(c[148], c[417])),
+                                            t7.times_plus(t7.times_plus(c[147], c[416]), c[415]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[146], c[321]), c[320]),
-                                            c[319],
+                                            t7.times_plus(t7.times_plus(c[146], c[414]), c[413]),
+                                            c[412],
                                         ),
                                 ),
-                            c[318],
+                            c[411],
                         ),
-                    t7 * c[317],
+                    t7 * c[410],
                 );
             t1.times_plus(t66, t90)
         }
@@ -1536,26 +1772,26 @@ const _: () = {
                         .times_plus(
                             t1
                                 .times_plus(
-                                    c[212],
-                                    t4.times_plus(c[206], t7.times_plus(c[205], c[204])),
+                                    c[305],
+                                    t4.times_plus(c[299], t7.times_plus(c[298], c[297])),
                                 ),
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[194], t7.times_plus(c[193], c[192])),
-                                    t7.times_plus(t7.times_plus(c[191], c[190]), c[189]),
+                                    t4.times_plus(c[287], t7.times_plus(c[286], c[285])),
+                                    t7.times_plus(t7.times_plus(c[284], c[283]), c[282]),
                                 ),
                         ),
                     t4
                         .times_plus(
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[173], t7.times_plus(c[172], c[171])),
-                                    t7.times_plus(t7.times_plus(c[170], c[169]), c[168]),
+                                    t4.times_plus(c[266], t7.times_plus(c[265], c[264])),
+                                    t7.times_plus(t7.times_plus(c[263], c[262]), c[261]),
                                 ),
                             t7
                                 .times_plus(
-                                    t7.times_plus(t7.times_plus(c[167], c[166]), c[165]),
-                                    c[164],
+                                    t7.times_plus(t7.times_plus(c[260], c[259]), c[258]),
+                                    c[257],
                                 ),
                         ),
                 ) * (p1 * p2);
@@ -1567,26 +1803,26 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[214],
-                                            t4.times_plus(c[211], t7.times_plus(c[210], c[209])),
+                                            c[307],
+                                            t4.times_plus(c[304], t7.times_plus(c[303], c[302])),
                                         ),
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[203], t7.times_plus(c[202], c[201])),
-                                            t7.times_plus(t7.times_plus(c[200], c[199]), c[198]),
+                                            t4.times_plus(c[296], t7.times_plus(c[295], c[294])),
+                                            t7.times_plus(t7.times_plus(c[293], c[292]), c[291]),
                                         ),
                                 ),
                             t4
                                 .times_plus(
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[188], t7.times_plus(c[187], c[186])),
-                                            t7.times_plus(t7.times_plus(c[185], c[184]), c[183]),
+                                            t4.times_plus(c[281], t7.times_plus(c[280], c[279])),
+                                            t7.times_plus(t7.times_plus(c[278], c[277]), c[276]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[182], c[181]), c[180]),
-                                            c[179],
+                                            t7.times_plus(t7.times_plus(c[275], c[274]), c[273]),
+                                            c[272],
                                         ),
                                 ),
                         ),
@@ -1596,16 +1832,16 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            t1.times_plus(c[213], t7.times_plus(c[208], c[207])),
-                                            t7.times_plus(t7.times_plus(c[197], c[196]), c[195]),
+                                            t1.times_plus(c[306], t7.times_plus(c[301], c[300])),
+                                            t7.times_plus(t7.times_plus(c[290], c[289]), c[288]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[178], c[177]), c[176]),
-                                            c[175],
+                                            t7.times_plus(t7.times_plus(c[271], c[270]), c[269]),
+                                            c[268],
                                         ),
                                 ),
-                            c[174],
+                            c[267],
                         ),
                 );
             let t169 = t1
@@ -1616,26 +1852,26 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[265],
-                                            t4.times_plus(c[263], t7.times_plus(c[262], c[261])),
+                                            c[358],
+                                            t4.times_plus(c[356], t7.times_plus(c[355], c[354])),
                                         ),
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[257], t7.times_plus(c[256], c[255])),
-                                            t7.times_plus(t7.times_plus(c[254], c[253]), c[252]),
+                                            t4.times_plus(c[350], t7.times_plus(c[349], c[348])),
+                                            t7.times_plus(t7.times_plus(c[347], c[346]), c[345]),
                                         ),
                                 ),
                             t4
                                 .times_plus(
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[245], t7.times_plus(c[244], c[243])),
-                                            t7.times_plus(t7.times_plus(c[242], c[241]), c[240]),
+                                            t4.times_plus(c[338], t7.times_plus(c[337], c[336])),
+                                            t7.times_plus(t7.times_plus(c[335], c[334]), c[333]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[239], c[238]), c[237]),
-                                            c[236],
+                                            t7.times_plus(t7.times_plus(c[332], c[331]), c[330]),
+                                            c[329],
                                         ),
                                 ),
                         ),
@@ -1645,16 +1881,16 @@ const _: () = {
                                 .times_plus(
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[225], t7.times_plus(c[224], c[223])),
-                                            t7.times_plus(t7.times_plus(c[222], c[221]), c[220]),
+                                            t4.times_plus(c[318], t7.times_plus(c[317], c[316])),
+                                            t7.times_plus(t7.times_plus(c[315], c[314]), c[313]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[219], c[218]), c[217]),
-                                            c[216],
+                                            t7.times_plus(t7.times_plus(c[312], c[311]), c[310]),
+                                            c[309],
                                         ),
                                 ),
-                            c[215],
+                            c[308],
                         ),
                 );
             let t211 = t1
@@ -1663,26 +1899,26 @@ const _: () = {
                         .times_plus(
                             t1
                                 .times_plus(
-                                    c[264],
-                                    t4.times_plus(c[260], t7.times_plus(c[259], c[258])),
+                                    c[357],
+                                    t4.times_plus(c[353], t7.times_plus(c[352], c[351])),
                                 ),
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[251], t7.times_plus(c[250], c[249])),
-                                    t7.times_plus(t7.times_plus(c[248], c[247]), c[246]),
+                                    t4.times_plus(c[344], t7.times_plus(c[343], c[342])),
+                                    t7.times_plus(t7.times_plus(c[341], c[340]), c[339]),
                                 ),
                         ),
                     t4
                         .times_plus(
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[235], t7.times_plus(c[234], c[233])),
-                                    t7.times_plus(t7.times_plus(c[232], c[231]), c[230]),
+                                    t4.times_plus(c[328], t7.times_plus(c[327], c[326])),
+                                    t7.times_plus(t7.times_plus(c[325], c[324]), c[323]),
                                 ),
                             t7
                                 .times_plus(
-                                    t7.times_plus(t7.times_plus(c[229], c[228]), c[227]),
-                                    c[226],
+                                    t7.times_plus(t7.times_plus(c[322], c[321]), c[320]),
+                                    c[319],
                                 ),
                         ),
                 )
@@ -1695,26 +1931,26 @@ const _: () = {
                                 .times_plus(
                                     t1
                                         .times_plus(
-                                            c[316],
-                                            t4.times_plus(c[314], t7.times_plus(c[313], c[312])),
+                                            c[409],
+                                            t4.times_plus(c[407], t7.times_plus(c[406], c[405])),
                                         ),
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[308], t7.times_plus(c[307], c[306])),
-                                            t7.times_plus(t7.times_plus(c[305], c[304]), c[303]),
+                                            t4.times_plus(c[401], t7.times_plus(c[400], c[399])),
+                                            t7.times_plus(t7.times_plus(c[398], c[397]), c[396]),
                                         ),
                                 ),
                             t4
                                 .times_plus(
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[296], t7.times_plus(c[295], c[294])),
-                                            t7.times_plus(t7.times_plus(c[293], c[292]), c[291]),
+                                            t4.times_plus(c[389], t7.times_plus(c[388], c[387])),
+                                            t7.times_plus(t7.times_plus(c[386], c[385]), c[384]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[290], c[289]), c[288]),
-                                            c[287],
+                                            t7.times_plus(t7.times_plus(c[383], c[382]), c[381]),
+                                            c[380],
                                         ),
                                 ),
                         ),
@@ -1724,16 +1960,16 @@ const _: () = {
                                 .times_plus(
                                     t4
                                         .times_plus(
-                                            t4.times_plus(c[276], t7.times_plus(c[275], c[274])),
-                                            t7.times_plus(t7.times_plus(c[273], c[272]), c[271]),
+                                            t4.times_plus(c[369], t7.times_plus(c[368], c[367])),
+                                            t7.times_plus(t7.times_plus(c[366], c[365]), c[364]),
                                         ),
                                     t7
                                         .times_plus(
-                                            t7.times_plus(t7.times_plus(c[270], c[269]), c[268]),
-                                            c[267],
+                                            t7.times_plus(t7.times_plus(c[363], c[362]), c[361]),
+                                            c[360],
                                         ),
                                 ),
-                            c[266],
+                            c[359],
                         ),
                 );
             let t314 = t1
@@ -1742,26 +1978,26 @@ const _: () = {
                         .times_plus(
                             t1
                                 .times_plus(
-                                    c[315],
-                                    t4.times_plus(c[311], t7.times_plus(c[310], c[309])),
+                                    c[408],
+                                    t4.times_plus(c[404], t7.times_plus(c[403], c[402])),
                                 ),
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[302], t7.times_plus(c[301], c[300])),
-                                    t7.times_plus(t7.times_plus(c[299], c[298]), c[297]),
+                                    t4.times_plus(c[395], t7.times_plus(c[394], c[393])),
+                                    t7.times_plus(t7.times_plus(c[392], c[391]), c[390]),
                                 ),
                         ),
                     t4
                         .times_plus(
                             t4
                                 .times_plus(
-                                    t4.times_plus(c[286], t7.times_plus(c[285], c[284])),
-                                    t7.times_plus(t7.times_plus(c[283], c[282]), c[281]),
+                                    t4.times_plus(c[379], t7.times_plus(c[378], c[377])),
+                                    t7.times_plus(t7.times_plus(c[376], c[375]), c[374]),
                                 ),
                             t7
                                 .times_plus(
-                                    t7.times_plus(t7.times_plus(c[280], c[279]), c[278]),
-                                    c[277],
+                                    t7.times_plus(t7.times_plus(c[373], c[372]), c[371]),
+                                    c[370],
                                 ),
                         ),
                 )
@@ -1770,6 +2006,174 @@ const _: () = {
                 T,
                 3,
             >>::from([p0.times_plus(t107, t46), t211, t314])
+        }
+        #[inline(always)]
+        fn predict_after(
+            &self,
+            last: &::coadjoint::nalgebra::SVector<T, 3>,
+            input: &::coadjoint::nalgebra::SVector<T, 3>,
+        ) -> ::coadjoint::nalgebra::SVector<T, 3> {
+            let c = &self.coefficients;
+            let twice_even = {
+                let p0 = input[0];
+                let p1 = input[1];
+                let t2 = p1 * p1;
+                let t3 = p0 * p0;
+                let p2 = input[2];
+                let t7 = p2 * p2;
+                let t66 = t2
+                    .times_plus(
+                        t3
+                            .times_plus(
+                                t3
+                                    .times_plus(
+                                        t3
+                                            .times_plus(
+                                                c[194],
+                                                t2.times_plus(c[192], t7.times_plus(c[191], c[190])),
+                                            ),
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[187], t7.times_plus(c[186], c[185])),
+                                                t7.times_plus(t7.times_plus(c[184], c[183]), c[182]),
+                                            ),
+                                    ),
+                                t2
+                                    .times_plus(
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[178], t7.times_plus(c[177], c[176])),
+                                                t7.times_plus(t7.times_plus(c[175], c[174]), c[173]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[172], c[171]), c[170]),
+                                                c[169],
+                                            ),
+                                    ),
+                            ),
+                        t7
+                            .times_plus(
+                                t3
+                                    .times_plus(
+                                        t3
+                                            .times_plus(
+                                                t3.times_plus(c[193], t7.times_plus(c[189], c[188])),
+                                                t7.times_plus(t7.times_plus(c[181], c[180]), c[179]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[168], c[167]), c[166]),
+                                                c[165],
+                                            ),
+                                    ),
+                                c[164],
+                            ),
+                    );
+                let t128 = t3
+                    .times_plus(
+                        t3
+                            .times_plus(
+                                t3
+                                    .times_plus(
+                                        t3
+                                            .times_plus(
+                                                c[225],
+                                                t2.times_plus(c[224], t7.times_plus(c[223], c[222])),
+                                            ),
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[221], t7.times_plus(c[220], c[219])),
+                                                t7.times_plus(t7.times_plus(c[218], c[217]), c[216]),
+                                            ),
+                                    ),
+                                t2
+                                    .times_plus(
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[215], t7.times_plus(c[214], c[213])),
+                                                t7.times_plus(t7.times_plus(c[212], c[211]), c[210]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[209], c[208]), c[207]),
+                                                c[206],
+                                            ),
+                                    ),
+                            ),
+                        t7
+                            .times_plus(
+                                t2
+                                    .times_plus(
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[205], t7.times_plus(c[204], c[203])),
+                                                t7.times_plus(t7.times_plus(c[202], c[201]), c[200]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[199], c[198]), c[197]),
+                                                c[196],
+                                            ),
+                                    ),
+                                c[195],
+                            ),
+                    );
+                let t190 = t3
+                    .times_plus(
+                        t3
+                            .times_plus(
+                                t3
+                                    .times_plus(
+                                        t3
+                                            .times_plus(
+                                                c[256],
+                                                t2.times_plus(c[255], t7.times_plus(c[254], c[253])),
+                                            ),
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[252], t7.times_plus(c[251], c[250])),
+                                                t7.times_plus(t7.times_plus(c[249], c[248]), c[247]),
+                                            ),
+                                    ),
+                                t2
+                                    .times_plus(
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[246], t7.times_plus(c[245], c[244])),
+                                                t7.times_plus(t7.times_plus(c[243], c[242]), c[241]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[240], c[239]), c[238]),
+                                                c[237],
+                                            ),
+                                    ),
+                            ),
+                        t2
+                            .times_plus(
+                                t2
+                                    .times_plus(
+                                        t2
+                                            .times_plus(
+                                                t2.times_plus(c[236], t7.times_plus(c[235], c[234])),
+                                                t7.times_plus(t7.times_plus(c[233], c[232]), c[231]),
+                                            ),
+                                        t7
+                                            .times_plus(
+                                                t7.times_plus(t7.times_plus(c[230], c[229]), c[228]),
+                                                c[227],
+                                            ),
+                                    ),
+                                c[226],
+                            ),
+                    );
+                <::coadjoint::nalgebra::SVector<
+                    T,
+                    3,
+                >>::from([p0 * t66, p1 * t128, p2 * t190])
+            };
+            twice_even - last
         }
         #[inline(always)]
         fn newton_model(
@@ -2012,6 +2416,22 @@ const _: () = {
         #[inline(always)]
         fn hessian_defect(&self, size: T) -> T {
             ::coadjoint::plumbing::polynomial(&self.defect, size)
+        }
+    }
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for RigidBody<T> {
+        fn truncation(&self) -> usize {
+            Self::TRUNCATION
+        }
+        fn terms(&self) -> usize {
+            ::coadjoint::plumbing::terms(Self::table())
+        }
+        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+            ::coadjoint::plumbing::term(Self::table(), number)
+        }
+        fn adjusted(&self, corrections: &[T]) -> Self {
+            let mut coefficients = self.coefficients;
+            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
+            Self::with(self.step, coefficients)
         }
     }
     impl ::coadjoint::Lanes for RigidBody<f64> {

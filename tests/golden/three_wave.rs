@@ -44,7 +44,7 @@ pub type ThreeWaveGroup<T = f64> = ::coadjoint::StaticMatrixGroup<
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 pub struct ThreeWave<T = f64> {
     step: T,
-    coefficients: [T; 42],
+    coefficients: [T; 63],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
 }
@@ -276,6 +276,27 @@ const _: () = {
                     (4, 1),
                     (4, 8),
                     (3, 4),
+                    (7, 2),
+                    (8, 2),
+                    (9, 2),
+                    (10, 2),
+                    (11, 2),
+                    (12, 2),
+                    (13, 2),
+                    (14, 2),
+                    (16, 2),
+                    (17, 2),
+                    (18, 2),
+                    (21, 2),
+                    (22, 2),
+                    (24, 2),
+                    (25, 2),
+                    (27, 2),
+                    (28, 2),
+                    (29, 2),
+                    (32, 2),
+                    (33, 2),
+                    (35, 2),
                     (7, 1),
                     (8, 1),
                     (9, 1),
@@ -311,6 +332,36 @@ const _: () = {
                     (6, 1),
                 ],
                 series: 5,
+                monomials: &[
+                    &[(1, 1), (2, 1)],
+                    &[(0, 2)],
+                    &[(0, 2), (1, 1), (2, 1)],
+                    &[(0, 2), (1, 2), (2, 2)],
+                    &[(0, 4), (1, 1), (2, 1)],
+                ],
+                guess: &[
+                    (7, 0, &[(0, 1)]),
+                    (8, 0, &[(0, 1), (1, 1), (2, 1)]),
+                    (9, 0, &[(0, 1), (1, 2), (2, 2)]),
+                    (10, 0, &[(0, 1), (1, 3), (2, 3)]),
+                    (11, 0, &[(0, 3), (1, 1), (2, 1)]),
+                    (12, 0, &[(0, 3), (1, 2), (2, 2)]),
+                    (13, 0, &[(0, 5), (1, 1), (2, 1)]),
+                    (14, 1, &[(1, 1)]),
+                    (16, 1, &[(0, 2), (1, 1)]),
+                    (17, 1, &[(0, 2), (1, 2), (2, 1)]),
+                    (18, 1, &[(0, 2), (1, 3), (2, 2)]),
+                    (21, 1, &[(0, 4), (1, 1)]),
+                    (22, 1, &[(0, 4), (1, 2), (2, 1)]),
+                    (24, 1, &[(0, 6), (1, 1)]),
+                    (25, 2, &[(2, 1)]),
+                    (27, 2, &[(0, 2), (2, 1)]),
+                    (28, 2, &[(0, 2), (1, 1), (2, 2)]),
+                    (29, 2, &[(0, 2), (1, 2), (2, 3)]),
+                    (32, 2, &[(0, 4), (2, 1)]),
+                    (33, 2, &[(0, 4), (1, 1), (2, 2)]),
+                    (35, 2, &[(0, 6), (2, 1)]),
+                ],
             };
             &TABLE
         }
@@ -337,8 +388,11 @@ const _: () = {
                 7,
                 36,
                 36,
-                42,
+                63,
             >(Self::table(), parts, factor);
+            Self::with(step, coefficients)
+        }
+        fn with(step: T, coefficients: [T; 63]) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
             Self { step, coefficients, defect }
         }
@@ -355,7 +409,7 @@ const _: () = {
             let p0 = input[0];
             let p1 = input[1];
             let p2 = input[2];
-            (p0 * p0).times_plus(c[41], (p1 * p2) * c[40])
+            (p0 * p0).times_plus(c[62], (p1 * p2) * c[61])
         }
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
         ///
@@ -413,8 +467,8 @@ const _: () = {
                 .times_plus(
                     p1
                         .times_plus(
-                            p2 * t1.times_plus(c[6], p1.times_plus(p2 * c[39], c[5])),
-                            c[38],
+                            p2 * t1.times_plus(c[6], p1.times_plus(p2 * c[60], c[5])),
+                            c[59],
                         ),
                     (p1 * p2) * c[4],
                 );
@@ -503,8 +557,8 @@ const _: () = {
             let t18 = p2
                 * t3
                     .times_plus(
-                        t3.times_plus(c[15], p1.times_plus(p2 * c[14], c[13])),
-                        p1.times_plus(p2 * p1.times_plus(p2 * c[12], c[11]), c[10]),
+                        t3.times_plus(c[36], p1.times_plus(p2 * c[35], c[34])),
+                        p1.times_plus(p2 * p1.times_plus(p2 * c[33], c[32]), c[31]),
                     );
             let t44 = p0
                 .times_plus(
@@ -514,14 +568,14 @@ const _: () = {
                                 .times_plus(
                                     p0
                                         .times_plus(
-                                            p0.times_plus(c[26], c[25]),
-                                            p1.times_plus(p2 * c[24], c[23]),
+                                            p0.times_plus(c[47], c[46]),
+                                            p1.times_plus(p2 * c[45], c[44]),
                                         ),
-                                    p1.times_plus(p2 * c[22], c[21]),
+                                    p1.times_plus(p2 * c[43], c[42]),
                                 ),
-                            p1.times_plus(p2 * p1.times_plus(p2 * c[20], c[19]), c[18]),
+                            p1.times_plus(p2 * p1.times_plus(p2 * c[41], c[40]), c[39]),
                         ),
-                    c[17],
+                    c[38],
                 );
             let t70 = p0
                 .times_plus(
@@ -531,27 +585,86 @@ const _: () = {
                                 .times_plus(
                                     p0
                                         .times_plus(
-                                            p0.times_plus(c[37], c[36]),
-                                            p1.times_plus(p2 * c[35], c[34]),
+                                            p0.times_plus(c[58], c[57]),
+                                            p1.times_plus(p2 * c[56], c[55]),
                                         ),
-                                    p1.times_plus(p2 * c[33], c[32]),
+                                    p1.times_plus(p2 * c[54], c[53]),
                                 ),
-                            p1.times_plus(p2 * p1.times_plus(p2 * c[31], c[30]), c[29]),
+                            p1.times_plus(p2 * p1.times_plus(p2 * c[52], c[51]), c[50]),
                         ),
-                    c[28],
+                    c[49],
                 );
             <::coadjoint::nalgebra::SVector<
                 T,
                 3,
             >>::from([
-                p0 * p1.times_plus(t18, c[9]),
-                p1 * p0.times_plus(t44, c[16]),
-                p2 * p0.times_plus(t70, c[27]),
+                p0 * p1.times_plus(t18, c[30]),
+                p1 * p0.times_plus(t44, c[37]),
+                p2 * p0.times_plus(t70, c[48]),
             ])
+        }
+        #[inline(always)]
+        fn predict_after(
+            &self,
+            last: &::coadjoint::nalgebra::SVector<T, 3>,
+            input: &::coadjoint::nalgebra::SVector<T, 3>,
+        ) -> ::coadjoint::nalgebra::SVector<T, 3> {
+            let c = &self.coefficients;
+            let twice_even = {
+                let p0 = input[0];
+                let p1 = input[1];
+                let p2 = input[2];
+                let t3 = p0 * p0;
+                let t18 = p2
+                    * t3
+                        .times_plus(
+                            t3.times_plus(c[15], p1.times_plus(p2 * c[14], c[13])),
+                            p1.times_plus(p2 * p1.times_plus(p2 * c[12], c[11]), c[10]),
+                        );
+                let t37 = t3
+                    .times_plus(
+                        t3
+                            .times_plus(
+                                t3.times_plus(c[22], p1.times_plus(p2 * c[21], c[20])),
+                                p1.times_plus(p2 * p1.times_plus(p2 * c[19], c[18]), c[17]),
+                            ),
+                        c[16],
+                    );
+                let t54 = t3
+                    .times_plus(
+                        t3
+                            .times_plus(
+                                t3.times_plus(c[29], p1.times_plus(p2 * c[28], c[27])),
+                                p1.times_plus(p2 * p1.times_plus(p2 * c[26], c[25]), c[24]),
+                            ),
+                        c[23],
+                    );
+                <::coadjoint::nalgebra::SVector<
+                    T,
+                    3,
+                >>::from([p0 * p1.times_plus(t18, c[9]), p1 * t37, p2 * t54])
+            };
+            twice_even - last
         }
         #[inline(always)]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
+        }
+    }
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for ThreeWave<T> {
+        fn truncation(&self) -> usize {
+            Self::TRUNCATION
+        }
+        fn terms(&self) -> usize {
+            ::coadjoint::plumbing::terms(Self::table())
+        }
+        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+            ::coadjoint::plumbing::term(Self::table(), number)
+        }
+        fn adjusted(&self, corrections: &[T]) -> Self {
+            let mut coefficients = self.coefficients;
+            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
+            Self::with(self.step, coefficients)
         }
     }
     impl ::coadjoint::Lanes for ThreeWave<f64> {

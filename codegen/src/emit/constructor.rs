@@ -91,6 +91,10 @@ pub fn constructor(
                 parts,
                 factor,
             );
+            Self::with(step, coefficients)
+        }
+
+        fn with(step: T, coefficients: [T; #slots]) -> Self {
             let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
             Self { step, coefficients, defect }
         }

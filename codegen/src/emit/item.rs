@@ -69,6 +69,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         slots: integrator.coefficients.slots().len(),
     };
     let generating = generating_function(integrator, krate, name, &parts, &scope);
+    let adjustable = adjustable(krate, name);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, &scope);
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
@@ -151,8 +152,35 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
 
             #generating
 
+            #adjustable
+
             #lanes
         };
+    }
+}
+
+/// `impl Adjustable`.
+fn adjustable(krate: &TokenStream, name: &Ident) -> TokenStream {
+    quote! {
+        impl<T: #krate::Scalar> #krate::Adjustable for #name<T> {
+            fn truncation(&self) -> usize {
+                Self::TRUNCATION
+            }
+
+            fn terms(&self) -> usize {
+                #krate::plumbing::terms(Self::table())
+            }
+
+            fn term(&self, number: usize) -> #krate::Term<'_> {
+                #krate::plumbing::term(Self::table(), number)
+            }
+
+            fn adjusted(&self, corrections: &[T]) -> Self {
+                let mut coefficients = self.coefficients;
+                #krate::plumbing::adjust(Self::table(), &mut coefficients, corrections);
+                Self::with(self.step, coefficients)
+            }
+        }
     }
 }
 

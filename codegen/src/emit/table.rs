@@ -59,6 +59,13 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
         quote!((#base, #scale))
     });
     let series = Literal::usize_unsuffixed(coefficients.series());
+    let monomials = coefficients.monomials().iter().map(|factors| monomial(factors));
+    let guess = coefficients.guess().iter().map(|term| {
+        let base = Literal::usize_unsuffixed(term.base);
+        let coordinate = Literal::usize_unsuffixed(term.coordinate);
+        let monomial = monomial(&term.factors);
+        quote!((#base, #coordinate, #monomial))
+    });
     quote! {
         #krate::plumbing::Table {
             terms: &[#(#terms),*],
@@ -66,6 +73,18 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
             bases: &[#(#bases),*],
             slots: &[#(#slots),*],
             series: #series,
+            monomials: &[#(#monomials),*],
+            guess: &[#(#guess),*],
         }
     }
+}
+
+/// A monomial as a slice of pairs.
+fn monomial(factors: &[(u32, u32)]) -> TokenStream {
+    let factors = factors.iter().map(|&(coordinate, exponent)| {
+        let coordinate = Literal::u32_unsuffixed(coordinate);
+        let exponent = Literal::u32_unsuffixed(exponent);
+        quote!((#coordinate, #exponent))
+    });
+    quote!(&[#(#factors),*])
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use num_traits::ToPrimitive;
 
+use super::terms::BaseTerm;
 use crate::number::Rational;
 
 /// One summand factor · h^step_power · Π symbolᵢ^powerᵢ of a base coefficient.
@@ -27,8 +28,22 @@ pub struct Coefficients {
     bases: Vec<Vec<Contribution>>,
     slots: Vec<(usize, u32)>,
     known: HashMap<(usize, u32), usize>,
-    /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
-    series: usize,
+    /// The monomials of the series S₁ + … + S_K, S_k having the power k of h; its bases are the
+    /// first.
+    monomials: Vec<Vec<(u32, u32)>>,
+    /// The terms of the first guess that are even in h.
+    guess: Vec<GuessTerm>,
+}
+
+/// A term of a coordinate of the first guess.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GuessTerm {
+    /// The number of its base coefficient.
+    pub base: usize,
+    /// The coordinate of p.
+    pub coordinate: usize,
+    /// Its monomial, as (coordinate of μ, exponent), ascending.
+    pub factors: Vec<(u32, u32)>,
 }
 
 impl Coefficients {
@@ -39,15 +54,35 @@ impl Coefficients {
         self.bases.len() - 1
     }
 
-    /// Declares the bases added so far to be those of the series.
-    pub fn end_series(&mut self) {
-        self.series = self.bases.len();
+    /// Declares the bases added so far to be those of the series with these terms.
+    pub fn end_series(&mut self, terms: &[BaseTerm]) {
+        self.monomials = terms.iter().map(|term| term.factors.clone()).collect();
     }
 
     /// How many bases belong to the series S₁ + … + S_K; they are the first.
     #[must_use]
     pub fn series(&self) -> usize {
-        self.series
+        self.monomials.len()
+    }
+
+    /// The monomials of the series, each as (coordinate, exponent), ascending.
+    #[must_use]
+    pub fn monomials(&self) -> &[Vec<(u32, u32)>] {
+        &self.monomials
+    }
+
+    /// Declares a term to be one of a coordinate of the first guess; bases must ascend.
+    pub fn add_guess(&mut self, coordinate: usize, term: &BaseTerm) {
+        if self.is_even(term.base) == Some(true) {
+            let factors = term.factors.clone();
+            self.guess.push(GuessTerm { base: term.base, coordinate, factors });
+        }
+    }
+
+    /// The terms of the first guess that are even in h.
+    #[must_use]
+    pub fn guess(&self) -> &[GuessTerm] {
+        &self.guess
     }
 
     /// The slot that holds `scale` times base number `base`.
@@ -84,6 +119,14 @@ impl Coefficients {
         self.slots_of_parts(&self.fold_parts(step, symbols), &|_| 1.0)
     }
 
+    /// Whether a base has even powers of h only, or odd ones only; `None` where it has both.
+    #[must_use]
+    pub fn is_even(&self, base: usize) -> Option<bool> {
+        let mut parities = self.bases.get(base)?.iter().map(|term| term.step_power % 2 == 0);
+        let first = parities.next()?;
+        parities.all(|parity| parity == first).then_some(first)
+    }
+
     /// The value of every part for a step size and symbol values.
     #[must_use]
     pub fn fold_parts(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
@@ -98,7 +141,7 @@ impl Coefficients {
         for (number, parts) in self.parts().enumerate() {
             bases.push(parts.zip(values.by_ref()).fold(0.0, |sum, (part, value)| {
                 let power = part.first().map_or(0, |summand| summand.step_power as usize);
-                sum + if number < self.series { value * factor(power) } else { *value }
+                sum + if number < self.series() { value * factor(power) } else { *value }
             }));
         }
         self.slots.iter().map(|&(base, scale)| bases[base] * f64::from(scale)).collect()

@@ -7,7 +7,7 @@ mod lower;
 mod plan;
 mod terms;
 
-pub use coefficients::{Coefficients, Contribution};
+pub use coefficients::{Coefficients, Contribution, GuessTerm};
 pub use kick::Kick;
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
@@ -44,6 +44,9 @@ pub struct Integrator {
     pub defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
+    /// μ ↦ twice the part of an explicit predictor that is even in h, from which a step that follows
+    /// another takes the p of the one before; `None` where it cannot be told apart.
+    pub continuation: Option<Program>,
     /// μ ↦ H_red(μ).
     pub energy: Program,
 }
@@ -79,7 +82,7 @@ impl Integrator {
         let mut coefficients = Coefficients::default();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let s = terms::collect(&mut coefficients, dim, orders);
-        coefficients.end_series();
+        coefficients.end_series(&s);
         let h = terms::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
 
         let table = &mut coefficients;
@@ -106,6 +109,7 @@ impl Integrator {
             .map(|whole| (lower::hessian_program(table, dim, &s, kept), whole))
             .and_then(|(program, whole)| (program != *whole).then_some(program));
         let defect = lower::defect(table, &s, kept);
+        let mut continuation = None;
         let predictor = match plan.predictor {
             Predictor::Flow(degree) => flow::increment_program(table, &problem, degree),
             Predictor::Explicit(_) => {
@@ -115,6 +119,12 @@ impl Integrator {
                         terms::collect(table, dim, orders)
                     })
                     .collect();
+                continuation = lower::even_program(table, dim, &components);
+                if continuation.is_some() {
+                    for (coordinate, terms) in components.iter().enumerate() {
+                        terms.iter().for_each(|term| table.add_guess(coordinate, term));
+                    }
+                }
                 lower::vector_program(table, dim, &components)
             }
         };
@@ -132,6 +142,7 @@ impl Integrator {
             newton,
             defect,
             predictor,
+            continuation,
             energy,
         })
     }
