@@ -1,8 +1,8 @@
 //! The free body by the attribute, as a user writes it, at several truncations.
 
-use coadjoint::{Phase, SO3, lie_poisson};
+use coadjoint::{Phase, SO3, fit, lie_poisson};
 
-use super::rows;
+use super::{Coefficients, rows};
 use crate::{
     method::{Method, RunError, Setting},
     problem::{FreeBody, Problem, System},
@@ -28,16 +28,21 @@ macro_rules! truncated {
                 momentum: [f64; 3],
                 end: f64,
                 step: f64,
-                tuned: bool,
+                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, end);
                 let failed = |_| RunError::NotConverged;
-                let step = if tuned {
-                    RigidBody::tuned(h, body.inertia, [momentum])
-                } else {
-                    RigidBody::new(h, body.inertia)
+                let series = |h| RigidBody::new(h, body.inertia);
+                let step = match coefficients {
+                    Coefficients::Series => series(h).map_err(failed)?,
+                    Coefficients::Tuned => {
+                        RigidBody::tuned(h, body.inertia, [momentum]).map_err(failed)?
+                    }
+                    Coefficients::Fitted(duration) => {
+                        let fitted = fit(h, series, [momentum], duration);
+                        fitted.map_err(|_| RunError::NotConverged)?.integrator
+                    }
                 };
-                let step = step.map_err(failed)?;
                 let mut phase = Phase::<SO3>::at_identity(momentum);
                 step.advance_by(&mut phase, count as u64).map_err(failed)?;
                 Ok(state(&phase))
@@ -46,6 +51,7 @@ macro_rules! truncated {
     };
 }
 
+truncated!(five, 5);
 truncated!(seven, 7);
 truncated!(nine, 9);
 truncated!(eleven, 11);
@@ -59,25 +65,31 @@ pub(crate) fn state(phase: &Phase<SO3>) -> State {
     FreeBody::state([m[0], m[1], m[2]], Rotation::Quaternion([q.w, q.i, q.j, q.k]))
 }
 
-type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, bool) -> Result<State, RunError>;
+type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, Coefficients) -> Result<State, RunError>;
 
 impl super::Run for FreeBodyRun {
     fn applies(&self, system: &System) -> bool {
         matches!(system, System::FreeBody(_))
     }
 
-    fn run(&self, problem: &Problem, step: f64, tuned: bool) -> Option<Result<State, RunError>> {
+    fn run(
+        &self,
+        problem: &Problem,
+        step: f64,
+        coefficients: Coefficients,
+    ) -> Option<Result<State, RunError>> {
         let System::FreeBody(body) = &problem.system else {
             return None;
         };
-        Some(self(body, problem.initial.momentum, problem.end, step, tuned))
+        Some(self(body, problem.initial.momentum, problem.end, step, coefficients))
     }
 }
 
 /// Every truncation.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Method>> {
-    let runs: [(u32, FreeBodyRun); 6] = [
+    let runs: [(u32, FreeBodyRun); 7] = [
+        (5, five::run),
         (7, seven::run),
         (9, nine::run),
         (11, eleven::run),

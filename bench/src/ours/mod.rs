@@ -22,29 +22,61 @@ trait Run {
     /// Whether there is one for such a system.
     fn applies(&self, system: &System) -> bool;
 
-    /// Integrates by equal steps of about `step`, with the series as it is or tuned to the motion;
-    /// `None` where there is no integrator for the system.
-    fn run(&self, problem: &Problem, step: f64, tuned: bool) -> Option<Result<State, RunError>>;
+    /// Integrates by equal steps of about `step`; `None` where there is no integrator for the system.
+    fn run(
+        &self,
+        problem: &Problem,
+        step: f64,
+        coefficients: Coefficients,
+    ) -> Option<Result<State, RunError>>;
+}
+
+/// Where the coefficients of S come from. Their making counts as work in every row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Coefficients {
+    /// The series as it is.
+    Series,
+    /// Its tail summed for the motion.
+    Tuned,
+    /// Fitted to the motion, followed for so long.
+    Fitted(f64),
+}
+
+/// How long fitted motions are followed, in the problem's unit of time.
+const FOLLOWED: f64 = 8.0;
+/// The highest truncation that is fitted.
+const HIGHEST_FITTED: u32 = 9;
+
+/// The kinds of rows.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Series,
+    Tuned,
+    Fitted,
 }
 
 /// A truncation as a row.
 struct Ours<R> {
     name: String,
     truncation: u32,
-    tuned: bool,
+    kind: Kind,
     runs: R,
 }
 
-/// The rows of a truncation: the series as it is, and with its tail summed.
+/// The rows of a truncation: the series as it is, with its tail summed, and fitted.
 fn rows<R: Run + Copy + 'static>(
     truncation: u32,
     group: &str,
     runs: R,
 ) -> impl Iterator<Item = Box<dyn Method>> {
     let plain = format!("coadjoint, {group}, K = {truncation}");
-    [(plain.clone(), false), (format!("{plain}, tuned"), true)].into_iter().map(
-        move |(name, tuned)| Box::new(Ours { name, truncation, tuned, runs }) as Box<dyn Method>,
-    )
+    let tuned = (format!("{plain}, tuned"), Kind::Tuned);
+    let fitted = (format!("{plain}, fitted"), Kind::Fitted);
+    let fitted = (truncation <= HIGHEST_FITTED).then_some(fitted);
+    [(plain, Kind::Series), tuned]
+        .into_iter()
+        .chain(fitted)
+        .map(move |(name, kind)| Box::new(Ours { name, truncation, kind, runs }) as Box<dyn Method>)
 }
 
 impl<R: Run> Method for Ours<R> {
@@ -56,9 +88,10 @@ impl<R: Run> Method for Ours<R> {
         "coadjoint"
     }
 
-    /// Tuned, the term of order K + 1 is small beside the next, and no order is measured cleanly.
+    /// Tuned, the term of order K + 1 is small beside the next, and no order is measured cleanly;
+    /// fitted, there is none.
     fn order(&self) -> Option<u32> {
-        (!self.tuned).then_some(self.truncation + 1)
+        (self.kind == Kind::Series).then_some(self.truncation + 1)
     }
 
     fn applies(&self, problem: &Problem) -> bool {
@@ -71,7 +104,12 @@ impl<R: Run> Method for Ours<R> {
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {
         let step = setting.fixed_step(&self.name)?;
-        self.runs.run(problem, step, self.tuned).unwrap_or_else(|| {
+        let coefficients = match self.kind {
+            Kind::Series => Coefficients::Series,
+            Kind::Tuned => Coefficients::Tuned,
+            Kind::Fitted => Coefficients::Fitted(FOLLOWED * problem.time_scale),
+        };
+        self.runs.run(problem, step, coefficients).unwrap_or_else(|| {
             Err(RunError::NotApplicable {
                 method: self.name.clone(),
                 problem: problem.name.to_owned(),

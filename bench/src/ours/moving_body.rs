@@ -1,9 +1,9 @@
 //! Tops and bodies in a fluid by the attribute, as a user writes them, at several truncations.
 
-use coadjoint::{Phase, SE3, lie_poisson};
+use coadjoint::{Phase, SE3, fit, lie_poisson};
 use nalgebra::Vector6;
 
-use super::rows;
+use super::{Coefficients, rows};
 use crate::{
     method::{Method, RunError, Setting},
     problem::{Gravity, Mass, MovingBody, Problem, System},
@@ -12,16 +12,21 @@ use crate::{
 
 /// Runs a generated integrator from the problem's initial state to its end.
 macro_rules! run {
-    ($body:ident($($argument:expr),*), $tuned:expr, $problem:expr, $count:expr) => {{
+    ($body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $problem:expr, $count:expr) => {{
         let failed = |_| RunError::NotConverged;
         let (m, f) = ($problem.initial.momentum, $problem.initial.force);
         let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
-        let integrator = if $tuned {
-            $body::tuned($($argument,)* [momentum])
-        } else {
-            $body::new($($argument),*)
+        let series = |h| $body::new(h, $($argument),*);
+        let integrator = match $coefficients {
+            Coefficients::Series => series($h).map_err(failed)?,
+            Coefficients::Tuned => {
+                $body::tuned($h, $($argument,)* [momentum]).map_err(failed)?
+            }
+            Coefficients::Fitted(duration) => {
+                let fitted = fit($h, series, [momentum], duration);
+                fitted.map_err(|_| RunError::NotConverged)?.integrator
+            }
         };
-        let integrator = integrator.map_err(failed)?;
         let mut phase = Phase::<SE3>::at_identity(momentum);
         integrator.advance_by(&mut phase, $count as u64).map_err(failed)?;
         Ok(state(&phase))
@@ -47,11 +52,11 @@ macro_rules! top {
                 body: &MovingBody<Gravity<$axis>>,
                 problem: &Problem,
                 step: f64,
-                tuned: bool,
+                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let weight = body.translation.weight;
-                run!(HeavyTop(h, body.inverse_inertia, weight), tuned, problem, count)
+                run!(HeavyTop(h, body.inverse_inertia, weight), coefficients, problem, count)
             }
         }
     };
@@ -78,11 +83,11 @@ macro_rules! kirchhoff {
                 body: &MovingBody<Mass>,
                 problem: &Problem,
                 step: f64,
-                tuned: bool,
+                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let inverse = body.translation.inverse;
-                run!(Kirchhoff(h, body.inverse_inertia, inverse), tuned, problem, count)
+                run!(Kirchhoff(h, body.inverse_inertia, inverse), coefficients, problem, count)
             }
         }
     };
@@ -97,7 +102,7 @@ top!(second_axis_nine, 9, 1);
 kirchhoff!(kirchhoff_five, 5);
 kirchhoff!(kirchhoff_seven, 7);
 
-type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, bool) -> Result<State, RunError>;
+type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<State, RunError>;
 
 /// One truncation over the three kinds of systems on se(3)\*.
 #[derive(Clone, Copy)]
@@ -117,12 +122,21 @@ impl super::Run for Runs {
         }
     }
 
-    fn run(&self, problem: &Problem, step: f64, tuned: bool) -> Option<Result<State, RunError>> {
+    fn run(
+        &self,
+        problem: &Problem,
+        step: f64,
+        coefficients: Coefficients,
+    ) -> Option<Result<State, RunError>> {
         match &problem.system {
             System::FreeBody(_) => None,
-            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step, tuned)),
-            System::Kovalevskaya(body) => Some((self.first_axis)(body, problem, step, tuned)),
-            System::Kirchhoff(body) => self.kirchhoff.map(|run| run(body, problem, step, tuned)),
+            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step, coefficients)),
+            System::Kovalevskaya(body) => {
+                Some((self.first_axis)(body, problem, step, coefficients))
+            }
+            System::Kirchhoff(body) => {
+                self.kirchhoff.map(|run| run(body, problem, step, coefficients))
+            }
         }
     }
 }
