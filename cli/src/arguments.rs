@@ -221,6 +221,10 @@ pub struct SimulateOptions {
     /// Sum the tail of the series for this motion: as fast, and more accurate from K = 5 on
     #[arg(long, conflicts_with = "model")]
     pub tuned: bool,
+    /// Fit the coefficients of S to this motion, followed for so long (a period, say): as fast, and
+    /// more accurate by many orders
+    #[arg(long, value_name = "DURATION", conflicts_with_all = ["model", "tuned"])]
+    pub fitted: Option<f64>,
     /// Record every n-th step
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,

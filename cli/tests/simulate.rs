@@ -65,6 +65,29 @@ fn a_tuned_run_ends_closer() {
     assert!(refused.2.contains("--tuned"), "{}", refused.2);
 }
 
+/// Fitted to the motion, K = 5 is closer than K = 9 is.
+#[test]
+fn a_fitted_run_ends_closer_by_orders() {
+    let command = ["simulate", "examples/rigid_body.toml", "--truncation", "5"];
+    let options = ["--step", "0.5", "--format", "json"];
+    let plain = json(&[command, options].concat());
+    let fitted = json(&[&command[..], &["--fitted", "12"], &options].concat());
+    let (plain_error, fitted_error) = (error(&plain), error(&fitted));
+    assert!(fitted_error < plain_error / 1e4, "{plain_error:e} {fitted_error:e}");
+    assert!(fitted["drift"]["casimirs"].as_f64().unwrap() <= 1e-13);
+    assert_eq!(fitted["method"], "K = 5, exp, fitted");
+
+    for (mistake, said) in [
+        (vec!["examples/satellite.toml", "--fitted", "12"], "kicks of a potential"),
+        (vec!["examples/rigid_body.toml", "--fitted", "0"], "duration 0 is not usable"),
+        (vec!["examples/rigid_body.toml", "--fitted", "12", "--tuned"], "--tuned"),
+    ] {
+        let refused = run(&[&["simulate"], &mistake[..]].concat());
+        assert_eq!(refused.0, 2, "{mistake:?}");
+        assert!(refused.2.contains(said), "{}", refused.2);
+    }
+}
+
 #[test]
 fn json_has_the_keys_programs_rely_on() {
     let run = json(&["simulate", "examples/heavy_top.toml", "--time", "1", "--format", "json"]);

@@ -3,8 +3,8 @@
 use std::marker::PhantomData;
 
 use coadjoint::{
-    Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Scalar, ScalarOf, Solver,
-    StepError, Tail, VectorOf, hessian_by_differences,
+    Adjustable, Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Part, Scalar, ScalarOf,
+    Solver, StepError, Tail, Term, VectorOf, hessian_by_differences,
 };
 use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
@@ -82,7 +82,10 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
         parts: &[f64],
         factor: &dyn Fn(usize) -> f64,
     ) -> Self {
-        let slots = integrator.coefficients.slots_of_parts(parts, factor);
+        Self::of_slots(integrator, group, integrator.coefficients.slots_of_parts(parts, factor))
+    }
+
+    fn of_slots(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
         let mut defect = vec![0.0; integrator.defect_len()];
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
@@ -190,5 +193,28 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
             sum = sum.times_plus(size, Scalar::of(coefficient));
         }
         sum
+    }
+}
+
+impl<G: LieGroup<Scalar = f64>, C: Chart<G>, const FIXED_POINT: bool> Adjustable
+    for Interpreter<'_, G, C, FIXED_POINT>
+{
+    fn truncation(&self) -> usize {
+        self.integrator.problem.truncation
+    }
+
+    fn terms(&self) -> usize {
+        self.integrator.coefficients.series()
+    }
+
+    fn term(&self, number: usize) -> Term<'_> {
+        let coefficients = &self.integrator.coefficients;
+        let monomial = coefficients.monomials().get(number).map_or(&[][..], Vec::as_slice);
+        Term { part: Part::Series, monomial, order: coefficients.order(number) }
+    }
+
+    fn adjusted(&self, corrections: &[f64]) -> Self {
+        let slots = self.integrator.coefficients.adjusted(&self.slots, corrections);
+        Self::of_slots(self.integrator, self.group.clone(), slots)
     }
 }

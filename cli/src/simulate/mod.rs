@@ -60,9 +60,14 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         let System { problem, potential, run } = system;
-        if options.tuned && potential.is_some() {
-            let what = "--tuned follows the flow, which kicks of a potential leave: leave it out";
-            return Err(CliError::Option(what.to_owned()));
+        let follows = [("--tuned", options.tuned), ("--fitted", options.fitted.is_some())];
+        if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
+            && potential.is_some()
+        {
+            let what = format!(
+                "{option} follows the flow, which kicks of a potential leave: leave it out"
+            );
+            return Err(CliError::Option(what));
         }
         let setup = Setup::new(options, &run, problem.algebra.dim())?;
         let kept = potential.as_ref().map(|(potential, _)| potential);

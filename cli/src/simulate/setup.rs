@@ -52,6 +52,8 @@ pub struct Setup {
     pub every: u64,
     /// Whether the tail of the series is summed for the motion from the initial momentum.
     pub tuned: bool,
+    /// How long the motion is followed to which the coefficients are fitted, if they are.
+    pub fitted: Option<f64>,
     /// μ at the start.
     pub momentum: DVector<f64>,
     group_element: Option<Vec<Vec<f64>>>,
@@ -85,6 +87,7 @@ impl Setup {
             steps,
             every: every as u64,
             tuned: options.tuned,
+            fitted: options.fitted,
             momentum: DVector::from_vec(momentum),
             group_element: run.group_element.clone(),
         })

@@ -1,6 +1,6 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use coadjoint::{Chart, GeneratingFunction, Phase, Solution, StepError, reconstruct, solve};
+use coadjoint::{Chart, GeneratingFunction, Phase, Solution, StepError, fit, reconstruct, solve};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use nalgebra::DVector;
@@ -54,14 +54,17 @@ impl<'a> Task<'a> {
         &self,
         group: G,
     ) -> Result<Trajectory, CliError> {
-        let Setup { step: h, tuned, momentum, .. } = self.setup;
-        let (integrator, own) = (self.integrator, group.clone());
-        let step = if *tuned {
-            Interpreter::<G, C, FIXED_POINT>::tuned(integrator, own, *h, momentum)
-        } else {
-            Interpreter::<G, C, FIXED_POINT>::new(integrator, own, *h)
+        let Setup { step: h, tuned, fitted, momentum, .. } = self.setup;
+        let series = |h| Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h);
+        let step = match fitted {
+            Some(duration) => {
+                let fit = fit(*h, series, [momentum.clone()], *duration);
+                fit.map_err(|error| CliError::Option(format!("--fitted: {error}")))?.integrator
+            }
+            None if *tuned => Interpreter::tuned(self.integrator, group.clone(), *h, momentum)
+                .map_err(at_start)?,
+            None => series(*h).map_err(at_start)?,
         };
-        let step = step.map_err(at_start)?;
         self.march(&group, &mut |_, phase, recorder| {
             let solution = solve(&step, &phase.momentum)?;
             recorder.solved(solution.iterations, residual(&step, &phase.momentum, &solution));
@@ -78,6 +81,9 @@ impl<'a> Task<'a> {
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
         if setup.tuned {
             label.push_str(", tuned");
+        }
+        if setup.fitted.is_some() {
+            label.push_str(", fitted");
         }
         if let Some(forces) = self.forces {
             label = format!("{label}, {}", forces.splitting.name());

@@ -127,6 +127,23 @@ impl Coefficients {
         parities.all(|parity| parity == first).then_some(first)
     }
 
+    /// The highest power of h in a base.
+    #[must_use]
+    pub fn order(&self, base: usize) -> usize {
+        let terms = self.bases.get(base).and_then(|terms| terms.last());
+        terms.map_or(0, |term| term.step_power as usize)
+    }
+
+    /// The slots of S + Σ correctionᵢ · monomialᵢ, given those of S.
+    #[must_use]
+    pub fn adjusted(&self, slots: &[f64], corrections: &[f64]) -> Vec<f64> {
+        let series = corrections.get(..self.series()).unwrap_or(corrections);
+        let adjust = |(&slot, &(base, scale)): (&f64, &(usize, u32))| {
+            slot + series.get(base).map_or(0.0, |correction| correction * f64::from(scale))
+        };
+        slots.iter().zip(&self.slots).map(adjust).collect()
+    }
+
     /// The value of every part for a step size and symbol values.
     #[must_use]
     pub fn fold_parts(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
