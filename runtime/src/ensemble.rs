@@ -13,6 +13,11 @@ use crate::reconstruct::advance_after;
 /// Lanes per pack.
 const WIDTH: usize = <F64x8 as SimdValue>::LANES;
 
+/// Something made of packs, each within one line of the cache: otherwise every coefficient of a step
+/// is read from two.
+#[repr(align(64))]
+struct Aligned<T>(T);
+
 /// Trajectories handed to a thread at a time.
 const BLOCK: usize = 64 * WIDTH;
 
@@ -39,13 +44,13 @@ where
     S::Over<F64x8>: Sync,
     Phase<S::Group>: Send,
 {
-    let packed = step.splat::<F64x8>();
+    let packed = Aligned(step.splat::<F64x8>());
     let blocks = states.par_chunks_mut(BLOCK).enumerate();
     let failures = blocks.map(|(block, states)| {
         let mut failures = Vec::new();
         for (pack, states) in states.chunks_mut(WIDTH).enumerate() {
             let first = block * BLOCK + pack * WIDTH;
-            advance_pack(step, &packed, states, first, steps, &mut failures);
+            advance_pack(step, &packed.0, states, first, steps, &mut failures);
         }
         failures
     });
@@ -63,13 +68,13 @@ fn advance_pack<S: Lanes>(
 ) {
     let Some(lead) = states.first() else { return };
     // A partial pack repeats its first state in the lanes left over.
-    let mut lanes = <S::Group as LaneGroup>::splat::<F64x8>(lead);
+    let mut lanes = Aligned(<S::Group as LaneGroup>::splat::<F64x8>(lead));
     for (lane, state) in states.iter().enumerate() {
-        <S::Group as LaneGroup>::insert(&mut lanes, lane, state);
+        <S::Group as LaneGroup>::insert(&mut lanes.0, lane, state);
     }
-    if Arch::new().dispatch(Run { step: packed, phase: &mut lanes, steps }).is_ok() {
+    if Arch::new().dispatch(Run { step: packed, phase: &mut lanes.0, steps }).is_ok() {
         for (lane, state) in states.iter_mut().enumerate() {
-            *state = <S::Group as LaneGroup>::extract(&lanes, lane);
+            *state = <S::Group as LaneGroup>::extract(&lanes.0, lane);
         }
         return;
     }

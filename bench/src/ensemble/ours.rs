@@ -4,20 +4,24 @@ use coadjoint::{F64x8, Lanes, Phase, SO3, StepError, ensemble::advance_all};
 
 use super::EnsembleMethod;
 use crate::{
-    arithmetic::Vector,
+    arithmetic::{Vector, dot},
     method::{RunError, Setting},
-    ours::free_body::{self, eleven, nine, seventeen, thirteen},
+    ours::free_body::{self, eleven, fifteen, nine, thirteen},
     problem::{FreeBody, Problem, System},
     state::State,
 };
 
-/// Bodies from whose motion the tail of the series is summed.
+/// Bodies from whose motion the tail of the series is summed, of each class.
 const SAMPLE: usize = 16;
 
-/// The ends of bodies that start at the identity: body, momenta, end time, step.
+/// Classes of bodies by the size of their momenta: slow bodies get longer steps, as a method with
+/// chosen steps gives them.
+const CLASSES: usize = 8;
+
+/// The ends of bodies that start at the identity: body, momenta, end time, step of the fastest.
 type Run = fn(&FreeBody, &[Vector], f64, f64) -> Result<Vec<State>, RunError>;
 
-/// The ends by the step that `tuned` makes for a step size and some of the momenta.
+/// The ends by the steps that `tuned` makes for a step size and some of the momenta.
 fn ends<S>(
     tuned: impl Fn(f64, &[Vector]) -> Result<S, StepError>,
     momenta: &[Vector],
@@ -28,15 +32,26 @@ where
     S: Lanes<Group = SO3> + Sync,
     S::Over<F64x8>: Sync,
 {
-    let (count, h) = Setting::steps(step, end);
-    let sample = &momenta[..SAMPLE.min(momenta.len())];
-    let step = tuned(h, sample).map_err(|_| RunError::NotConverged)?;
-    let start = |&momentum: &Vector| Phase::<SO3>::at_identity(momentum);
-    let mut states: Vec<Phase<SO3>> = momenta.iter().map(start).collect();
-    if !advance_all(&step, &mut states, count as u64).is_empty() {
-        return Err(RunError::NotConverged);
+    let size = |index: usize| dot(&momenta[index], &momenta[index]).sqrt();
+    let mut order: Vec<usize> = (0..momenta.len()).collect();
+    order.sort_by(|&a, &b| size(a).total_cmp(&size(b)));
+    let fastest = order.last().map_or(0.0, |&last| size(last));
+    let mut ends = vec![None; momenta.len()];
+    for class in order.chunks(momenta.len().div_ceil(CLASSES).max(1)) {
+        let own = class.last().map_or(fastest, |&last| size(last));
+        let (count, h) = Setting::steps(step * fastest / own, end);
+        let sample = class.iter().step_by(class.len().div_ceil(SAMPLE)).map(|&i| momenta[i]);
+        let step = tuned(h, &sample.collect::<Vec<_>>()).map_err(|_| RunError::NotConverged)?;
+        let start = |&index: &usize| Phase::<SO3>::at_identity(momenta[index]);
+        let mut states: Vec<Phase<SO3>> = class.iter().map(start).collect();
+        if !advance_all(&step, &mut states, count as u64).is_empty() {
+            return Err(RunError::NotConverged);
+        }
+        for (&index, state) in class.iter().zip(&states) {
+            ends[index] = Some(free_body::state(state));
+        }
     }
-    Ok(states.iter().map(free_body::state).collect())
+    ends.into_iter().collect::<Option<_>>().ok_or(RunError::NotConverged)
 }
 
 /// The run by the integrator of one truncation.
@@ -63,7 +78,7 @@ impl EnsembleMethod for Ours {
     }
 
     fn settings(&self) -> Vec<Setting> {
-        (2..=14).map(|k| Setting::Step(2f64.powf(-f64::from(k) / 4.0))).collect()
+        (0..=10).map(|k| Setting::Step(2f64.powf(-f64::from(k) / 4.0))).collect()
     }
 
     fn run(
@@ -87,7 +102,7 @@ impl EnsembleMethod for Ours {
 #[must_use]
 pub fn ours() -> Vec<Box<dyn EnsembleMethod>> {
     let runs: [(u32, Run); 4] =
-        [(9, run!(nine)), (11, run!(eleven)), (13, run!(thirteen)), (17, run!(seventeen))];
+        [(9, run!(nine)), (11, run!(eleven)), (13, run!(thirteen)), (15, run!(fifteen))];
     let row = |(truncation, run)| {
         let name = format!("coadjoint, K = {truncation}, tuned, 8 lanes");
         Box::new(Ours { name, run }) as Box<dyn EnsembleMethod>

@@ -29,7 +29,8 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
     let one = ScalarOf::<S>::of(1.0);
 
     // The smallest positive scale keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
-    let scale = mu.largest_entry() + ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
+    let smallest = ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
+    let scale = mu.largest_entry() + smallest;
     let inverse_scale = one / scale;
     let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
 
@@ -49,6 +50,7 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
         // How far the model of this Newton step is off, where p and x move by the steps below.
         let mut stretched = ScalarOf::<S>::of(0.0);
         let mut bent = ScalarOf::<S>::of(0.0);
+        let mut previous = one;
         for chord in 0..CHORDS {
             iterations += 1;
             let residual = p.clone().minus(&pulled);
@@ -65,7 +67,13 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
             // chart, |D| |S‴ δp δp| from S with |D| ≈ |μ|/2, and, where the Hessian is not the
             // whole one, D·(Hess S − H)·δp.
             let curved = stretched + half * stretch + bent + bend;
-            let left = stretch * curved + half_defect * relative;
+            let bound = stretch * curved + half_defect * relative;
+            // The bound knows no more of S than the size of its coefficients. From the second step on
+            // the steps themselves tell by what they shrink, and one of rounding's size is the last.
+            let shrunk = ScalarOf::<S>::of(2.0) * relative * relative / previous;
+            let left = if chord > 0 { bound.simd_min(shrunk) } else { bound };
+            let left = left.simd_min(relative).select(relative.simd_le(tolerance), left);
+            previous = relative + smallest;
             let was_open = remaining.simd_gt(tolerance);
             solved = (next.clone().select(was_open, &solved.0), moved.select(was_open, &solved.1));
             remaining = left.select(was_open, remaining);
