@@ -75,13 +75,19 @@ pub trait Coordinates<T: Scalar>:
     #[inline(always)]
     fn one_minus_product(dim: usize, a: &Self::Matrix, b: &Self::Matrix) -> Self::Matrix {
         let mut result = Self::zero_matrix(dim);
+        if dim == 3 {
+            // Written out: a loop over the rows is vectorised as such, with gathers across the lanes.
+            macro_rules! entries {
+                ($(($i:literal, $j:literal)),*) => {$(
+                    result[($i, $j)] = one_minus_entry(a, b, dim, $i, $j);
+                )*};
+            }
+            entries!((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2));
+            return result;
+        }
         for i in 0..dim {
             for j in 0..dim {
-                let mut sum = a[(i, 0)] * b[(0, j)];
-                for k in 1..dim {
-                    sum = a[(i, k)].times_plus(b[(k, j)], sum);
-                }
-                result[(i, j)] = if i == j { T::of(1.0) - sum } else { -sum };
+                result[(i, j)] = one_minus_entry(a, b, dim, i, j);
             }
         }
         result
@@ -139,6 +145,19 @@ pub trait Coordinates<T: Scalar>:
         block_elimination::solve(right.dim(), &factors.matrix, factors.last, &mut right);
         right
     }
+}
+
+/// Entry (i, j) of 1 − a·b.
+#[inline(always)]
+fn one_minus_entry<T: Scalar, M>(a: &M, b: &M, dim: usize, i: usize, j: usize) -> T
+where
+    M: Index<(usize, usize), Output = T>,
+{
+    let mut sum = a[(i, 0)] * b[(0, j)];
+    for k in 1..dim {
+        sum = a[(i, k)].times_plus(b[(k, j)], sum);
+    }
+    if i == j { T::of(1.0) - sum } else { -sum }
 }
 
 /// A matrix made ready for solving, by [`Coordinates::factor`].
