@@ -4,6 +4,9 @@ use crate::adjustable::{Part, Term};
 use crate::error::StepError;
 use crate::scalar::Scalar;
 
+/// A monomial, as pairs of a coordinate and its exponent.
+pub type Monomial = &'static [(u32, u32)];
+
 /// All coefficients of a generated step as data. A *base* is a sum of *parts*, a part a power of h
 /// times a sum of *terms* factor · Π symbolᵢ^powerᵢ, and a *slot* a base times an integer.
 #[derive(Debug)]
@@ -18,10 +21,10 @@ pub struct Table<const SYMBOLS: usize> {
     pub slots: &'static [(u32, u32)],
     /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
     pub series: usize,
-    /// Their monomials, each as pairs of a coordinate and its exponent.
-    pub monomials: &'static [&'static [(u32, u32)]],
+    /// Their monomials.
+    pub monomials: &'static [Monomial],
     /// The terms of the first guess that are even in h: base (ascending), coordinate, monomial.
-    pub guess: &'static [(u32, u32, &'static [(u32, u32)])],
+    pub guess: &'static [(u32, u32, Monomial)],
 }
 
 /// The parts for one step size and parameter set. No power reaches `POWERS`.

@@ -166,6 +166,7 @@ fn what_cannot_be_fitted_is_said() {
         let message = refused(STEP, vec![START], duration);
         assert!(message.starts_with(&format!("duration {duration} is not usable")), "{message}");
     }
+    assert!(refused(STEP, vec![START], 1e300).contains("at most 1000000"));
     assert!(refused(STEP, vec![], 12.0).contains("at least one momentum"));
     assert!(refused(0.0, vec![START], 12.0).contains("step size 0"));
     assert!(refused(STEP, vec![[f64::NAN, 0.0, 1.0]], 12.0).contains("not finite"));

@@ -38,6 +38,9 @@ const EQUATIONS: usize = 3;
 const MIN_SAMPLES: usize = 5;
 /// One in so many samples is left out of the fit, to judge it.
 const UNSEEN: usize = 5;
+/// Steps over which a motion is followed at most: some seconds of work.
+const MAX_STEPS: f64 = 1e6;
+
 /// A fitted generating function and how good it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit<S> {
@@ -66,6 +69,17 @@ pub enum FitError {
     InvalidDuration {
         /// The duration given.
         duration: f64,
+    },
+    /// The duration is so many steps that following them would take long.
+    #[error(
+        "duration {duration} is {steps:.0} steps, and motions are followed for at most 1000000: give \
+         the time in which the motion comes near to all it does later"
+    )]
+    TooLong {
+        /// The duration given.
+        duration: f64,
+        /// In steps.
+        steps: f64,
     },
     /// No momentum was given.
     #[error("there is no motion to fit to: give at least one momentum")]
@@ -132,6 +146,10 @@ where
         return Err(FitError::InvalidDuration { duration });
     }
     let whole = series(step)?;
+    let steps = duration / step.abs();
+    if steps > MAX_STEPS {
+        return Err(FitError::TooLong { duration, steps });
+    }
     let free = free_terms(&whole);
     let terms = free.len();
     if terms > MAX_FITTED_TERMS {
@@ -146,7 +164,7 @@ where
     let dim = whole.group().dim();
     let wanted = (EQUATIONS * terms / (dim * momenta.len())).max(MIN_SAMPLES * dim);
     let count = wanted.div_ceil(2) * UNSEEN / (UNSEEN - 1);
-    let spacing = duration / step.abs() * substeps as f64 / count as f64;
+    let spacing = steps * substeps as f64 / count as f64;
     let mut points = Vec::with_capacity(count * momenta.len());
     for momentum in momenta {
         let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
