@@ -44,8 +44,8 @@ pub(crate) enum Coefficients {
 
 /// How long fitted motions are followed, in the problem's unit of time.
 const FOLLOWED: f64 = 8.0;
-/// The highest truncation that is fitted.
-const HIGHEST_FITTED: u32 = 9;
+/// Up to which truncation there are fitted rows: beyond, a fit takes longer than the whole motion.
+const FITTED: [(&str, u32); 2] = [("SO(3)", 9), ("SE(3)", 5)];
 
 /// The kinds of rows.
 #[derive(Clone, Copy, PartialEq)]
@@ -72,7 +72,8 @@ fn rows<R: Run + Copy + 'static>(
     let plain = format!("coadjoint, {group}, K = {truncation}");
     let tuned = (format!("{plain}, tuned"), Kind::Tuned);
     let fitted = (format!("{plain}, fitted"), Kind::Fitted);
-    let fitted = (truncation <= HIGHEST_FITTED).then_some(fitted);
+    let wanted = FITTED.iter().any(|&(on, highest)| on == group && truncation <= highest);
+    let fitted = wanted.then_some(fitted);
     [(plain, Kind::Series), tuned]
         .into_iter()
         .chain(fitted)

@@ -33,7 +33,7 @@ pub const MAX_FITTED_TERMS: usize = 1024;
 /// Shortened steps in a step at most.
 const MAX_SUBSTEPS: f64 = 64.0;
 /// Equations for each coefficient.
-const EQUATIONS: usize = 3;
+const EQUATIONS: usize = 2;
 /// Samples of a motion at least, for each dimension: motions in more dimensions fill larger tori.
 const MIN_SAMPLES: usize = 5;
 /// One in so many samples is left out of the fit, to judge it.
