@@ -19,7 +19,7 @@ const WIDTH: usize = <F64x8 as SimdValue>::LANES;
 struct Aligned<T>(T);
 
 /// Trajectories handed to a thread at a time.
-const BLOCK: usize = 64 * WIDTH;
+const BLOCK: usize = 16 * WIDTH;
 
 /// A trajectory that stopped early.
 #[derive(Clone, Copy, Debug, PartialEq)]
