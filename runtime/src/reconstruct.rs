@@ -8,7 +8,7 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
-use crate::solve::{solve, solve_from};
+use crate::solve::{solve, solve_after};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,11 +57,7 @@ pub(crate) fn advance_after<S: GeneratingFunction + ?Sized>(
     last: &mut Option<VectorOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let mu = &phase.momentum;
-    let guess = match last {
-        Some(last) => generating.predict_after(last, mu),
-        None => generating.predict(mu),
-    };
-    let solution = solve_from(generating, mu, guess)?;
+    let solution = solve_after(generating, mu, last.as_ref())?;
     reconstruct(generating, phase, &solution.x);
     *last = Some(solution.p);
     Ok(StepReport { iterations: solution.iterations, residual: solution.residual })

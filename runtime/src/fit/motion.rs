@@ -7,7 +7,7 @@ use super::FitError;
 use crate::chart::Chart;
 use crate::generating_function::{GeneratingFunction, VectorOf};
 use crate::group::LieGroup;
-use crate::solve::solve_from;
+use crate::solve::solve_after;
 
 /// A point of the Lagrangian submanifold of the exact flow over a step.
 #[derive(Clone, Debug)]
@@ -53,11 +53,7 @@ pub fn follow<S: GeneratingFunction>(
         if starts.next_if_eq(&now).is_some() {
             open.push(Window { start: now, mu: mu.clone(), increment: group.identity() });
         }
-        let guess = match &last {
-            Some(last) => fine.predict_after(last, &mu),
-            None => fine.predict(&mu),
-        };
-        let solution = solve_from(fine, &mu, guess).map_err(FitError::from)?;
+        let solution = solve_after(fine, &mu, last.as_ref()).map_err(FitError::from)?;
         let (increment, next) = chart.transport(group, &solution.x, &mu);
         for window in &mut open {
             window.increment = group.compose(&window.increment, &increment);

@@ -60,6 +60,20 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     solve_from(generating, mu, generating.predict(mu))
 }
 
+/// As [`solve`], where `last` is the p of the step that has led to μ, if there was one.
+#[inline(always)]
+pub(crate) fn solve_after<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    last: Option<&VectorOf<S>>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    let guess = match last {
+        Some(last) => generating.predict_after(last, mu),
+        None => generating.predict(mu),
+    };
+    solve_from(generating, mu, guess)
+}
+
 /// As [`solve`], from another first guess of p.
 ///
 /// # Errors
