@@ -72,7 +72,7 @@ pub enum FitError {
     },
     /// The duration is so many steps that following them would take long.
     #[error(
-        "duration {duration} is {steps:.0} steps, and motions are followed for at most 1000000: give \
+        "duration {duration} is {steps:.0} steps, and motions are followed for at most {MAX_STEPS}: give \
          the time in which the motion comes near to all it does later"
     )]
     TooLong {
@@ -179,7 +179,7 @@ where
     let before = error(&whole, &unseen);
     let fitted = whole.adjusted(&coefficients::of_series(&whole, &free, &seen));
     let (after, at_unseen) = (error(&fitted, &seen), error(&fitted, &unseen));
-    if at_unseen >= before {
+    if at_unseen >= before || at_unseen.is_nan() {
         return Ok(Fit { integrator: whole, before, fitted: before, unseen: before });
     }
     let guessing = fitted.adjusted(&coefficients::of_guess(&fitted, &seen));
@@ -209,7 +209,8 @@ where
 
 /// The largest of the numbers; NaN if one of them is.
 fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
-    numbers.fold(0.0, |largest, number| if number <= largest { largest } else { number })
+    let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
+    numbers.fold(0.0, larger)
 }
 
 /// Into how many parts a step is divided, so that the remainder left in the data does not count. A fit
