@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
-use super::least_squares::{least_squares, smallest_solution};
+use super::least_squares::least_squares;
 use super::motion::{Point, Step};
 use crate::adjustable::{Adjustable, Part};
 use crate::coordinates::Coordinates;
@@ -13,7 +13,7 @@ use crate::group::LieGroup;
 
 /// Directions in the space of coefficients that change the values by less than this are left alone:
 /// the motion does not tell them.
-const RIDGE: f64 = 1e-9;
+const RIDGE: f64 = 1e-7;
 
 /// The same for the first guess, of which nobody needs more than half the digits.
 const GUESS_RIDGE: f64 = 1e-6;
@@ -57,14 +57,16 @@ where
             right[n * dim + i] = left[i] * weight;
         }
     }
-    for (mut column, &number) in matrix.column_iter_mut().zip(free) {
-        let monomial = generating.term(number).monomial;
-        for (n, step) in steps.iter().enumerate() {
-            for &(i, exponent) in monomial {
+    let monomials: Vec<Monomial> = free.iter().map(|&n| generating.term(n).monomial).collect();
+    let highest = highest_exponent(&monomials);
+    for (n, step) in steps.iter().enumerate() {
+        let powers = Powers::of(&step.p, dim, highest);
+        for (column, monomial) in monomials.iter().enumerate() {
+            for &(i, exponent) in *monomial {
                 let derivative = monomial.iter().fold(f64::from(exponent), |product, &(j, e)| {
-                    product * power(step.p[j as usize], if i == j { e - 1 } else { e })
+                    product * powers.get(j, if i == j { e - 1 } else { e })
                 });
-                column[n * dim + i as usize] = derivative * weights[i as usize];
+                matrix[(n * dim + i as usize, column)] = derivative * weights[i as usize];
             }
         }
     }
@@ -84,19 +86,23 @@ where
 {
     let mut corrections = alloc::vec![0.0; generating.terms()];
     let errors: Vec<_> = points.iter().map(|point| missed(generating, point)).collect();
-    for coordinate in 0..generating.group().dim() {
+    let dim = generating.group().dim();
+    for coordinate in 0..dim {
         let free = free_guess(generating, coordinate);
+        let monomials: Vec<Monomial> = free.iter().map(|&n| generating.term(n).monomial).collect();
+        let highest = highest_exponent(&monomials);
+        let powers = points.iter().map(|point| Powers::of(&point.mu, dim, highest));
+        let powers: Vec<Powers> = powers.collect();
         let mut matrix = DMatrix::zeros(points.len(), free.len());
         let right = DVector::from_iterator(points.len(), errors.iter().map(|e| e[coordinate]));
-        for (mut column, &number) in matrix.column_iter_mut().zip(&free) {
-            let monomial = generating.term(number).monomial;
-            for (entry, point) in column.iter_mut().zip(points) {
-                let factors = monomial.iter().map(|&(j, e)| power(point.mu[j as usize], e));
+        for (n, powers) in powers.iter().enumerate() {
+            for (column, monomial) in monomials.iter().enumerate() {
                 // The even part is taken twice.
-                *entry = factors.fold(2.0, |product, factor| product * factor);
+                let value = |product: f64, &(j, e): &(u32, u32)| product * powers.get(j, e);
+                matrix[(n, column)] = monomial.iter().fold(2.0, value);
             }
         }
-        let found = smallest_solution(matrix, &right, GUESS_RIDGE);
+        let found = least_squares(matrix, &right, GUESS_RIDGE);
         for (&number, &value) in free.iter().zip(found.iter()) {
             corrections[number] = value;
         }
@@ -122,9 +128,37 @@ where
     step.x.clone().minus(&generating.gradient(&step.p))
 }
 
-/// xⁿ.
-fn power(x: f64, n: u32) -> f64 {
-    (0..n).fold(1.0, |power, _| power * x)
+/// Pairs of a coordinate and its exponent.
+type Monomial<'a> = &'a [(u32, u32)];
+
+fn highest_exponent(monomials: &[Monomial]) -> u32 {
+    monomials.iter().flat_map(|monomial| monomial.iter()).map(|&(_, e)| e).max().unwrap_or(0)
+}
+
+/// The powers of coordinates up to some exponent.
+struct Powers {
+    /// How many there are of each coordinate.
+    count: usize,
+    powers: Vec<f64>,
+}
+
+impl Powers {
+    fn of<V: Coordinates<f64>>(vector: &V, dim: usize, highest: u32) -> Self {
+        let count = highest as usize + 1;
+        let mut powers = Vec::with_capacity(dim * count);
+        for i in 0..dim {
+            let mut power = 1.0;
+            for _ in 0..count {
+                powers.push(power);
+                power *= vector[i];
+            }
+        }
+        Self { count, powers }
+    }
+
+    fn get(&self, coordinate: u32, exponent: u32) -> f64 {
+        self.powers[coordinate as usize * self.count + exponent as usize]
+    }
 }
 
 /// How much the coordinates of x count: as much as the coordinates of p they are paired with, so that

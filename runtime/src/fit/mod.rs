@@ -155,37 +155,83 @@ where
     if terms > MAX_FITTED_TERMS {
         return Err(FitError::TooManyTerms { terms });
     }
-    let substeps = substeps(whole.truncation());
-    let fine = series(step / substeps as f64)?;
     let momenta: Vec<V> = momenta.into_iter().map(Into::into).collect();
     if momenta.is_empty() {
         return Err(FitError::NoMotion);
     }
+    let motions = Motions { series, step, momenta, duration };
+    let (fit, points) = of_series(&whole, &free, &motions)?;
+    Ok(with_guess(fit, &points))
+}
+
+/// What is fitted to.
+struct Motions<F, V> {
+    series: F,
+    step: f64,
+    momenta: Vec<V>,
+    duration: f64,
+}
+
+/// Points to fit to and points to judge by.
+struct Points<V> {
+    seen: Vec<Point<V>>,
+    unseen: Vec<Point<V>>,
+}
+
+/// `whole` with its `free` terms fitted; as it was where the fit does not hold.
+fn of_series<S, F, V>(
+    whole: &S,
+    free: &[usize],
+    motions: &Motions<F, V>,
+) -> Result<(Fit<S>, Points<V>), FitError>
+where
+    S: Adjustable,
+    S::Group: LieGroup<Scalar = f64, Vector = V>,
+    F: Fn(f64) -> Result<S, StepError>,
+    V: Coordinates<f64>,
+{
+    let Motions { series, step, momenta, duration } = motions;
     let dim = whole.group().dim();
-    let wanted = (EQUATIONS * terms / (dim * momenta.len())).max(MIN_SAMPLES * dim);
+    let substeps = substeps(whole.truncation(), dim);
+    let fine = series(step / substeps as f64)?;
+    let wanted = (EQUATIONS * free.len() / (dim * momenta.len())).max(MIN_SAMPLES * dim);
     let count = wanted.div_ceil(2) * UNSEEN / (UNSEEN - 1);
-    let spacing = steps * substeps as f64 / count as f64;
+    let spacing = duration / step.abs() * substeps as f64 / count as f64;
+    let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
     let mut points = Vec::with_capacity(count * momenta.len());
-    for momentum in momenta {
-        let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
-        follow(&fine, momentum, &places, substeps, &mut points)
-            .map_err(|error| error.unwrap_or(FitError::OutsideChart { step }))?;
+    for momentum in momenta.iter().cloned() {
+        follow(whole, &fine, momentum, &places, substeps, &mut points)
+            .map_err(|error| error.unwrap_or(FitError::OutsideChart { step: *step }))?;
     }
     let (unseen, seen): (Vec<_>, Vec<_>) =
         points.into_iter().enumerate().partition(|(n, _)| n % UNSEEN == UNSEEN / 2);
     let unseen: Vec<_> = unseen.into_iter().map(|(_, point)| point).collect();
     let seen: Vec<_> = seen.into_iter().map(|(_, point)| point).collect();
 
-    let before = error(&whole, &unseen);
-    let fitted = whole.adjusted(&coefficients::of_series(&whole, &free, &seen));
-    let (after, at_unseen) = (error(&fitted, &seen), error(&fitted, &unseen));
-    if at_unseen >= before || at_unseen.is_nan() {
-        return Ok(Fit { integrator: whole, before, fitted: before, unseen: before });
-    }
-    let guessing = fitted.adjusted(&coefficients::of_guess(&fitted, &seen));
-    let better = guess_error(&guessing, &unseen) < guess_error(&fitted, &unseen);
-    let integrator = if better { guessing } else { fitted };
-    Ok(Fit { integrator, before, fitted: after, unseen: at_unseen })
+    let before = error(whole, &unseen);
+    let integrator = whole.adjusted(&coefficients::of_series(whole, free, &seen));
+    let (fitted, at_unseen) = (error(&integrator, &seen), error(&integrator, &unseen));
+    let fit = if at_unseen >= before || at_unseen.is_nan() {
+        let as_it_was = whole.adjusted(&alloc::vec![0.0; whole.terms()]);
+        Fit { integrator: as_it_was, before, fitted: before, unseen: before }
+    } else {
+        Fit { integrator, before, fitted, unseen: at_unseen }
+    };
+    Ok((fit, Points { seen, unseen }))
+}
+
+/// The fit with its first guess fitted too, where that makes it better.
+fn with_guess<S, V>(fit: Fit<S>, points: &Points<V>) -> Fit<S>
+where
+    S: Adjustable,
+    S::Group: LieGroup<Scalar = f64, Vector = V>,
+    V: Coordinates<f64>,
+{
+    let integrator =
+        fit.integrator.adjusted(&coefficients::of_guess(&fit.integrator, &points.seen));
+    let better =
+        guess_error(&integrator, &points.unseen) < guess_error(&fit.integrator, &points.unseen);
+    if better { Fit { integrator, ..fit } } else { fit }
 }
 
 /// The largest coordinate of x − ∂S/∂p(p) at the points.
@@ -213,10 +259,11 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, larger)
 }
 
-/// Into how many parts a step is divided, so that the remainder left in the data does not count. A fit
-/// of K = 5 makes the remainder smaller by some seven digits, and by one more for each term.
-fn substeps(truncation: usize) -> u64 {
-    let digits = (truncation as f64 + 9.0) / 2.0;
+/// Into how many parts a step is divided, so that the remainder left in the data does not count. A
+/// fit of the free body, whose motions are curves, makes that of K = 5 smaller by some seven digits,
+/// and by one more for each term; on larger tori a fit gains six at most.
+fn substeps(truncation: usize, dim: usize) -> u64 {
+    let digits = if dim > 3 { 6.0 } else { (truncation as f64 + 9.0) / 2.0 };
     let order = truncation as f64 + 1.0;
     // Not f64's own methods, which need `std`.
     ComplexField::ceil(ComplexField::powf(10.0_f64, digits / order)).min(MAX_SUBSTEPS) as u64

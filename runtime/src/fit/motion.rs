@@ -34,9 +34,12 @@ struct Window<V, E> {
 }
 
 /// The points of the motion from `mu` that lie `length` and `places` steps of `fine` later; a step from
-/// point to point is made of `length` of these. The error is `None` where such a step has no
+/// point to point is made of `length` of these. From one place to another far away it goes by steps
+/// of `coarse`, as long as `length` of `fine`: their error leads to a motion beside the one meant,
+/// and the points are those of an exact motion still. The error is `None` where a step has no
 /// coordinate.
 pub fn follow<S: GeneratingFunction>(
+    coarse: &S,
     fine: &S,
     mut mu: VectorOf<S>,
     places: &[u64],
@@ -48,8 +51,18 @@ pub fn follow<S: GeneratingFunction>(
     let mut starts = starts.into_iter().peekable();
     let mut open: Vec<Window<VectorOf<S>, _>> = Vec::new();
     let mut done: Vec<(u64, VectorOf<S>, Step<VectorOf<S>>)> = Vec::new();
-    let (mut now, mut last) = (0, None);
+    let (mut now, mut last, mut far_last) = (0, None, None);
     while starts.peek().is_some() || !open.is_empty() {
+        let far = starts.peek().is_some_and(|&start| start >= now + length);
+        if open.is_empty()
+            && far
+            && let Ok(solution) = solve_after(coarse, &mu, far_last.as_ref())
+        {
+            mu = chart.transport(group, &solution.x, &mu).1;
+            (far_last, last, now) = (Some(solution.p), None, now + length);
+            continue;
+        }
+        far_last = None;
         if starts.next_if_eq(&now).is_some() {
             open.push(Window { start: now, mu: mu.clone(), increment: group.identity() });
         }
