@@ -10,18 +10,18 @@ pub type Monomial = &'static [(u32, u32)];
 /// All coefficients of a generated step as data. A *base* is a sum of *parts*, a part a power of h
 /// times a sum of *terms* factor · Π symbolᵢ^powerᵢ, and a *slot* a base times an integer.
 #[derive(Debug)]
-pub struct Table<const SYMBOLS: usize> {
-    /// Factor and power of each symbol.
-    pub terms: &'static [(f64, [u8; SYMBOLS])],
+pub struct Table {
+    /// The products Π symbolᵢ^powerᵢ, each an earlier one times a symbol; before the first stands 1.
+    pub products: &'static [(u32, u32)],
+    /// Factor and product, which is counted from one; zero is 1.
+    pub terms: &'static [(f64, u32)],
     /// For each part the power of h, and where its terms end.
     pub parts: &'static [(u8, u32)],
     /// Where the parts of base number i end.
     pub bases: &'static [u32],
     /// For each slot the base, and the integer that multiplies it.
     pub slots: &'static [(u32, u32)],
-    /// The first so many bases belong to the series S₁ + … + S_K, S_k having the power k of h.
-    pub series: usize,
-    /// Their monomials.
+    /// The monomials of the series S₁ + … + S_K, S_k having the power k of h; its bases are the first.
     pub monomials: &'static [Monomial],
     /// The terms of the first guess that are even in h: base (ascending), coordinate, monomial.
     pub guess: &'static [(u32, u32, Monomial)],
@@ -31,11 +31,11 @@ pub struct Table<const SYMBOLS: usize> {
 ///
 /// # Errors
 /// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].
-pub fn parts<T: Scalar, const SYMBOLS: usize, const POWERS: usize, const PARTS: usize>(
-    table: &Table<SYMBOLS>,
-    names: &[&'static str; SYMBOLS],
+pub fn parts<T: Scalar, const POWERS: usize, const PRODUCTS: usize, const PARTS: usize>(
+    table: &Table,
+    names: &[&'static str],
     step: T,
-    symbols: &[T; SYMBOLS],
+    symbols: &[T],
 ) -> Result<[T; PARTS], StepError> {
     use nalgebra::SimdBool;
 
@@ -48,20 +48,19 @@ pub fn parts<T: Scalar, const SYMBOLS: usize, const POWERS: usize, const PARTS: 
         }
     }
     let step = powers::<T, POWERS>(step);
-    let symbols = symbols.map(powers::<T, POWERS>);
-    // No power reaches POWERS; the compiler is told.
-    let power = |of: &[T; POWERS], power: u8| of[usize::from(power).min(POWERS - 1)];
+    let mut products = [T::of(1.0); PRODUCTS];
+    for (n, &(of, symbol)) in table.products.iter().enumerate() {
+        // No index reaches its array's end; the compiler is told.
+        let product = products[(of as usize).min(PRODUCTS - 1)] * symbols[symbol as usize];
+        products[(n + 1).min(PRODUCTS - 1)] = product;
+    }
     let mut parts = [T::of(0.0); PARTS];
     let mut start = 0;
     for (part, &(step_power, end)) in parts.iter_mut().zip(table.parts) {
-        for (factor, term) in table.terms.get(start..end as usize).unwrap_or(&[]) {
-            let mut product = T::of(*factor);
-            for (of, &n) in symbols.iter().zip(term) {
-                product *= power(of, n);
-            }
-            *part += product;
+        for &(factor, product) in table.terms.get(start..end as usize).unwrap_or(&[]) {
+            *part += T::of(factor) * products[(product as usize).min(PRODUCTS - 1)];
         }
-        *part *= power(&step, step_power);
+        *part *= step[usize::from(step_power).min(POWERS - 1)];
         if !part.all_finite() {
             let name = "of the generating function";
             return Err(StepError::InvalidParameter { name, value: part.largest_lane() });
@@ -84,13 +83,12 @@ fn powers<T: Scalar, const POWERS: usize>(x: T) -> [T; POWERS] {
 /// The slots, S_k being multiplied by `factor(k)`.
 pub fn slots<
     T: Scalar,
-    const SYMBOLS: usize,
     const POWERS: usize,
     const PARTS: usize,
     const BASES: usize,
     const SLOTS: usize,
 >(
-    table: &Table<SYMBOLS>,
+    table: &Table,
     parts: &[T; PARTS],
     factor: &dyn Fn(usize) -> T,
 ) -> [T; SLOTS] {
@@ -101,7 +99,7 @@ pub fn slots<
     for (number, (base, &end)) in bases.iter_mut().zip(table.bases).enumerate() {
         for (&(step_power, _), &part) in parts.by_ref().take((end - start) as usize) {
             let factor = factors[usize::from(step_power).min(POWERS - 1)];
-            *base += if number < table.series { part * factor } else { part };
+            *base += if number < table.monomials.len() { part * factor } else { part };
         }
         start = end;
     }
@@ -114,13 +112,13 @@ pub fn slots<
 
 /// How many adjustable terms there are.
 #[must_use]
-pub fn terms<const SYMBOLS: usize>(table: &Table<SYMBOLS>) -> usize {
+pub fn terms(table: &Table) -> usize {
     table.monomials.len() + table.guess.len()
 }
 
 /// The adjustable term with this number; a constant beyond the last one.
 #[must_use]
-pub fn term<const SYMBOLS: usize>(table: &Table<SYMBOLS>, number: usize) -> Term<'static> {
+pub fn term(table: &Table, number: usize) -> Term<'static> {
     let Some(&monomial) = table.monomials.get(number) else {
         let guess = number.checked_sub(table.monomials.len()).and_then(|n| table.guess.get(n));
         let &(base, coordinate, monomial) = guess.unwrap_or(&(u32::MAX, 0, &[]));
@@ -131,17 +129,13 @@ pub fn term<const SYMBOLS: usize>(table: &Table<SYMBOLS>, number: usize) -> Term
 }
 
 /// The highest power of h in a base.
-fn order<const SYMBOLS: usize>(table: &Table<SYMBOLS>, base: usize) -> usize {
+fn order(table: &Table, base: usize) -> usize {
     let parts = table.bases.get(base).and_then(|&end| table.parts.get(..end as usize));
     parts.and_then(|parts| parts.last()).map_or(0, |&(power, _)| usize::from(power))
 }
 
 /// Adds to the slots what a correction of each adjustable term brings.
-pub fn adjust<T: Scalar, const SYMBOLS: usize>(
-    table: &Table<SYMBOLS>,
-    slots: &mut [T],
-    corrections: &[T],
-) {
+pub fn adjust<T: Scalar>(table: &Table, slots: &mut [T], corrections: &[T]) {
     let series = table.monomials.len();
     for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
         let number = if (base as usize) < series {

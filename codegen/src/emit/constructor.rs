@@ -22,7 +22,7 @@ pub fn constructor(
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
-    let Sizes { powers, parts, bases, slots } = Sizes::of(&integrator.coefficients);
+    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients);
     let table = table::table(krate, &integrator.coefficients);
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
@@ -63,8 +63,8 @@ pub fn constructor(
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
 
-        fn table() -> &'static #krate::plumbing::Table<#count> {
-            static TABLE: #krate::plumbing::Table<#count> = #table;
+        fn table() -> &'static #krate::plumbing::Table {
+            static TABLE: #krate::plumbing::Table = #table;
             &TABLE
         }
 
@@ -72,7 +72,7 @@ pub fn constructor(
             step: T,
             symbols: &[T; #count],
         ) -> ::core::result::Result<[T; #parts], #krate::StepError> {
-            #krate::plumbing::parts::<T, #count, #powers, #parts>(
+            #krate::plumbing::parts::<T, #powers, #products, #parts>(
                 Self::table(),
                 &[#(#texts),*],
                 step,
@@ -86,7 +86,7 @@ pub fn constructor(
             parts: &[T; #parts],
             factor: &dyn ::core::ops::Fn(usize) -> T,
         ) -> Self {
-            let coefficients = #krate::plumbing::slots::<T, #count, #powers, #parts, #bases, #slots>(
+            let coefficients = #krate::plumbing::slots::<T, #powers, #parts, #bases, #slots>(
                 Self::table(),
                 parts,
                 factor,

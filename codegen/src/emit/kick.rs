@@ -28,7 +28,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(potential.symbols.len());
-    let Sizes { powers, parts, bases, slots } = Sizes::of(&kick.coefficients);
+    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&kick.coefficients);
     let table = table::table(krate, &kick.coefficients);
 
     let scope = Scope {
@@ -77,16 +77,16 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 pub fn new(
                     #(#arguments),*
                 ) -> ::core::result::Result<Self, #krate::StepError> {
-                    static TABLE: #krate::plumbing::Table<#count> = #table;
+                    static TABLE: #krate::plumbing::Table = #table;
                     let symbols: [T; #count] = [#(#symbols),*];
                     // No coefficient holds the step size.
-                    let parts = #krate::plumbing::parts::<T, #count, #powers, #parts>(
+                    let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
                         &TABLE,
                         &[#(#texts),*],
                         T::of(1.0),
                         &symbols,
                     )?;
-                    let coefficients = #krate::plumbing::slots::<T, #count, #powers, #parts, #bases, #slots>(
+                    let coefficients = #krate::plumbing::slots::<T, #powers, #parts, #bases, #slots>(
                         &TABLE,
                         &parts,
                         &|_| T::of(1.0),

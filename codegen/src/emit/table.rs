@@ -4,12 +4,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::number::float;
-use crate::integrator::Coefficients;
+use crate::integrator::{Coefficients, Products};
 
 /// The sizes of a table, as the literals that generic functions want.
 pub struct Sizes {
-    /// More than any power.
+    /// More than any power of h.
     pub powers: Literal,
+    /// How many products of symbols there are, 1 among them.
+    pub products: Literal,
     /// How many parts there are.
     pub parts: Literal,
     /// How many bases there are.
@@ -23,9 +25,10 @@ impl Sizes {
     #[must_use]
     pub fn of(coefficients: &Coefficients) -> Self {
         let terms = coefficients.bases().iter().flatten();
-        let powers = terms.flat_map(|t| t.symbol_powers.iter().copied().chain([t.step_power]));
+        let power = terms.map(|term| term.step_power).max().unwrap_or(0);
         Self {
-            powers: Literal::u32_unsuffixed(powers.max().unwrap_or(0) + 1),
+            powers: Literal::u32_unsuffixed(power + 1),
+            products: Literal::usize_unsuffixed(Products::of(coefficients).steps().len() + 1),
             parts: Literal::usize_unsuffixed(coefficients.parts().flatten().count()),
             bases: Literal::usize_unsuffixed(coefficients.bases().len()),
             slots: Literal::usize_unsuffixed(coefficients.slots().len()),
@@ -36,10 +39,16 @@ impl Sizes {
 /// The expression of a `coadjoint::plumbing::Table` holding `coefficients`.
 #[must_use]
 pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
+    let all = Products::of(coefficients);
+    let pair = |&(of, symbol): &(usize, usize)| {
+        let (of, symbol) = (Literal::usize_unsuffixed(of), Literal::usize_unsuffixed(symbol));
+        quote!((#of, #symbol))
+    };
+    let products = all.steps().iter().map(pair);
     let terms = coefficients.bases().iter().flatten().map(|term| {
         let factor = float(term.rounded_factor());
-        let symbols = term.symbol_powers.iter().map(|&p| Literal::u32_unsuffixed(p));
-        quote!((#factor, [#(#symbols),*]))
+        let product = Literal::usize_unsuffixed(all.number(&term.symbol_powers));
+        quote!((#factor, #product))
     });
     let mut end = 0;
     let parts = coefficients.parts().flatten().map(|part| {
@@ -58,7 +67,6 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
         let scale = Literal::u32_unsuffixed(scale);
         quote!((#base, #scale))
     });
-    let series = Literal::usize_unsuffixed(coefficients.series());
     let monomials = coefficients.monomials().iter().map(|factors| monomial(factors));
     let guess = coefficients.guess().iter().map(|term| {
         let base = Literal::usize_unsuffixed(term.base);
@@ -68,11 +76,11 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
     });
     quote! {
         #krate::plumbing::Table {
+            products: &[#(#products),*],
             terms: &[#(#terms),*],
             parts: &[#(#parts),*],
             bases: &[#(#bases),*],
             slots: &[#(#slots),*],
-            series: #series,
             monomials: &[#(#monomials),*],
             guess: &[#(#guess),*],
         }

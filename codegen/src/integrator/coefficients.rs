@@ -167,13 +167,14 @@ impl Coefficients {
 
 /// The value of a part.
 fn evaluate(part: &[Contribution], step: f64, symbols: &[f64]) -> f64 {
-    // As a table of powers is made: one factor after another.
-    let power = |x: f64, n: u32| (0..n).fold(1.0, |power, _| power * x);
+    let times_power = |product: f64, x: f64, n: u32| (0..n).fold(product, |product, _| product * x);
     let sum = part.iter().fold(0.0, |sum, term| {
         let powers = symbols.iter().zip(&term.symbol_powers);
-        sum + powers.fold(term.rounded_factor(), |product, (&x, &n)| product * power(x, n))
+        let product = powers.fold(1.0, |product, (&x, &n)| times_power(product, x, n));
+        sum + term.rounded_factor() * product
     });
-    sum * power(step, part.first().map_or(0, |summand| summand.step_power))
+    let power = part.first().map_or(0, |summand| summand.step_power);
+    sum * times_power(1.0, step, power)
 }
 
 impl Contribution {

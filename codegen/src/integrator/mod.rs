@@ -5,12 +5,14 @@ mod flow;
 mod kick;
 mod lower;
 mod plan;
+mod products;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution, GuessTerm};
 pub use kick::Kick;
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
+pub use products::Products;
 
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
