@@ -42,17 +42,28 @@ pub(crate) enum Coefficients {
     Fitted(f64),
 }
 
-/// How long fitted motions are followed, in the problem's unit of time.
-const FOLLOWED: f64 = 8.0;
-/// Up to which truncation there are fitted rows: beyond, a fit takes longer than the whole motion.
-const FITTED: [(&str, u32); 2] = [("SO(3)", 9), ("SE(3)", 5)];
+/// Rows with fitted coefficients.
+struct Fitting {
+    group: &'static str,
+    /// Up to this truncation; beyond, a fit takes longer than the whole motion.
+    highest: u32,
+    /// How long motions are followed, in the problem's unit of time: those on curves once around,
+    /// those on larger tori longer.
+    followed: f64,
+}
+
+const FITTINGS: [Fitting; 2] = [
+    Fitting { group: "SO(3)", highest: 11, followed: 8.0 },
+    Fitting { group: "SE(3)", highest: 7, followed: 64.0 },
+];
 
 /// The kinds of rows.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Series,
     Tuned,
-    Fitted,
+    /// Followed for so many units of time.
+    Fitted(f64),
 }
 
 /// A truncation as a row.
@@ -71,9 +82,8 @@ fn rows<R: Run + Copy + 'static>(
 ) -> impl Iterator<Item = Box<dyn Method>> {
     let plain = format!("coadjoint, {group}, K = {truncation}");
     let tuned = (format!("{plain}, tuned"), Kind::Tuned);
-    let fitted = (format!("{plain}, fitted"), Kind::Fitted);
-    let wanted = FITTED.iter().any(|&(on, highest)| on == group && truncation <= highest);
-    let fitted = wanted.then_some(fitted);
+    let fitting = FITTINGS.iter().find(|row| row.group == group && truncation <= row.highest);
+    let fitted = fitting.map(|row| (format!("{plain}, fitted"), Kind::Fitted(row.followed)));
     [(plain, Kind::Series), tuned]
         .into_iter()
         .chain(fitted)
@@ -108,7 +118,7 @@ impl<R: Run> Method for Ours<R> {
         let coefficients = match self.kind {
             Kind::Series => Coefficients::Series,
             Kind::Tuned => Coefficients::Tuned,
-            Kind::Fitted => Coefficients::Fitted(FOLLOWED * problem.time_scale),
+            Kind::Fitted(followed) => Coefficients::Fitted(followed * problem.time_scale),
         };
         self.runs.run(problem, step, coefficients).unwrap_or_else(|| {
             Err(RunError::NotApplicable {

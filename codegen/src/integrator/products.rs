@@ -48,3 +48,33 @@ impl Products {
         self.steps.len()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrator::Contribution;
+    use crate::number::ratio;
+
+    #[test]
+    fn every_product_is_an_earlier_one_times_a_symbol() {
+        let mut coefficients = Coefficients::default();
+        let wanted = [vec![2, 0, 1], vec![0, 0, 0], vec![0, 3, 1], vec![2, 0, 1]];
+        for symbol_powers in wanted.clone() {
+            let term = Contribution { factor: ratio(1, 2), step_power: 1, symbol_powers };
+            coefficients.add_base(vec![term]);
+        }
+        let products = Products::of(&coefficients);
+        let mut powers = vec![vec![0; 3]];
+        for &(of, symbol) in products.steps() {
+            let mut next: Vec<u32> = powers[of].clone();
+            next[symbol] += 1;
+            assert!(!powers.contains(&next), "{next:?} is made twice");
+            powers.push(next);
+        }
+        for wanted in &wanted {
+            assert_eq!(&powers[products.number(wanted)], wanted);
+        }
+        // x, x², x²z, y, y², y³, y³z, and no more.
+        assert_eq!(products.steps().len(), 7);
+    }
+}

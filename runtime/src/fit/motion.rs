@@ -51,18 +51,15 @@ pub fn follow<S: GeneratingFunction>(
     let mut starts = starts.into_iter().peekable();
     let mut open: Vec<Window<VectorOf<S>, _>> = Vec::new();
     let mut done: Vec<(u64, VectorOf<S>, Step<VectorOf<S>>)> = Vec::new();
-    let (mut now, mut last, mut far_last) = (0, None, None);
+    let (mut now, mut last, mut last_coarse) = (0, None, None);
     while starts.peek().is_some() || !open.is_empty() {
-        let far = starts.peek().is_some_and(|&start| start >= now + length);
-        if open.is_empty()
-            && far
-            && let Ok(solution) = solve_after(coarse, &mu, far_last.as_ref())
-        {
+        let far = open.is_empty() && starts.peek().is_some_and(|&start| start >= now + length);
+        if far && let Ok(solution) = solve_after(coarse, &mu, last_coarse.as_ref()) {
             mu = chart.transport(group, &solution.x, &mu).1;
-            (far_last, last, now) = (Some(solution.p), None, now + length);
+            (last_coarse, last, now) = (Some(solution.p), None, now + length);
             continue;
         }
-        far_last = None;
+        last_coarse = None;
         if starts.next_if_eq(&now).is_some() {
             open.push(Window { start: now, mu: mu.clone(), increment: group.identity() });
         }
