@@ -41,7 +41,8 @@ fn random_network(dim: usize, activation: Activation, rng: &mut ChaCha8Rng) -> D
 fn keeps_the_geometry<G: LieGroup<Scalar = f64>, C: Chart<G>>(
     group: &G,
     name: &str,
-    function: impl MomentumFunction,
+    // Not a type for each model: the laws are compiled once for each group and chart.
+    function: &dyn MomentumFunction,
 ) {
     let dim = group.dim();
     let mut rng = ChaCha8Rng::seed_from_u64(9);
@@ -75,13 +76,13 @@ fn random_weights<G: LieGroup<Scalar = f64>, C: Chart<G>>(group: &G) {
     let dim = group.dim();
     for seed in 0..3 {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        keeps_the_geometry::<G, C>(group, "random polynomial", random_polynomial(dim, &mut rng));
+        keeps_the_geometry::<G, C>(group, "random polynomial", &random_polynomial(dim, &mut rng));
         for activation in [Activation::Tanh, Activation::Logistic] {
             let network = random_network(dim, activation, &mut rng);
             keeps_the_geometry::<G, C>(group, "random network", &network);
             let polynomial = random_polynomial(dim, &mut rng);
             let hybrid = Model::Hybrid { polynomial, network };
-            keeps_the_geometry::<G, C>(group, "random hybrid", hybrid);
+            keeps_the_geometry::<G, C>(group, "random hybrid", &hybrid);
         }
     }
 }
