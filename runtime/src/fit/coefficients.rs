@@ -6,7 +6,7 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 
 use super::least_squares::least_squares;
 use super::motion::{Point, Step};
-use crate::adjustable::{Adjustable, Part};
+use crate::adjustable::{Adjustable, Part, Term};
 use crate::coordinates::Coordinates;
 use crate::generating_function::{GeneratingFunction, VectorOf};
 use crate::group::LieGroup;
@@ -14,29 +14,32 @@ use crate::group::LieGroup;
 /// Directions in the space of coefficients that change the values by less than this are left alone:
 /// the motion does not tell them.
 const RIDGE: f64 = 1e-7;
+/// Steps of refinement at most.
+const REFINEMENT: usize = 12;
 
 /// The same for the first guess, of which nobody needs more than half the digits.
 const GUESS_RIDGE: f64 = 1e-6;
+const GUESS_REFINEMENT: usize = 1;
 
 /// The terms of S whose coefficients are fitted: those of S_{K−2} and S_K, on which, along a motion,
 /// what lower ones could do can be done as well; of short series all, which are few.
 pub fn free_terms<S: Adjustable>(generating: &S) -> Vec<usize> {
     let truncation = generating.truncation();
     let lowest = if truncation > 5 { truncation - 2 } else { 0 };
-    chosen(generating, |part, order| part == Part::Series && order >= lowest)
+    let free = |number: &usize| {
+        let term = generating.term(*number);
+        term.part == Part::Series && term.order >= lowest
+    };
+    (0..generating.terms()).filter(free).collect()
 }
 
-/// The terms of one coordinate of the first guess that are fitted: those of the highest two orders.
-fn free_guess<S: Adjustable>(generating: &S, coordinate: usize) -> Vec<usize> {
-    let of_it = |part| part == Part::Guess(coordinate);
-    let terms = (0..generating.terms()).map(|number| generating.term(number));
-    let highest = terms.filter(|term| of_it(term.part)).map(|term| term.order).max().unwrap_or(0);
-    chosen(generating, |part, order| of_it(part) && order + 2 >= highest && order > 0)
-}
-
-fn chosen<S: Adjustable>(generating: &S, wanted: impl Fn(Part, usize) -> bool) -> Vec<usize> {
-    let term = |number: &usize| generating.term(*number);
-    (0..generating.terms()).filter(|n| wanted(term(n).part, term(n).order)).collect()
+/// The terms of one coordinate of the first guess that are fitted, with their numbers: those of the
+/// highest two orders.
+fn free_guess<'a>(terms: &[(usize, Term<'a>)], coordinate: usize) -> Vec<(usize, Monomial<'a>)> {
+    let of_it = terms.iter().filter(|(_, term)| term.part == Part::Guess(coordinate));
+    let highest = of_it.clone().map(|(_, term)| term.order).max().unwrap_or(0);
+    let free = of_it.filter(|(_, term)| term.order + 2 >= highest && term.order > 0);
+    free.map(|(number, term)| (*number, term.monomial)).collect()
 }
 
 /// The corrections of the free terms of S that make Σ (pᵢ δxᵢ)² the least, and of all such the
@@ -58,7 +61,7 @@ where
         }
     }
     let monomials: Vec<Monomial> = free.iter().map(|&n| generating.term(n).monomial).collect();
-    let highest = highest_exponent(&monomials);
+    let highest = highest_exponent(monomials.iter().copied());
     for (n, step) in steps.iter().enumerate() {
         let powers = Powers::of(&step.p, dim, highest);
         for (column, monomial) in monomials.iter().enumerate() {
@@ -71,7 +74,9 @@ where
         }
     }
     let mut corrections = alloc::vec![0.0; generating.terms()];
-    for (&number, &value) in free.iter().zip(least_squares(matrix, &right, RIDGE).iter()) {
+    for (&number, &value) in
+        free.iter().zip(least_squares(matrix, &right, RIDGE, REFINEMENT).iter())
+    {
         corrections[number] = value;
     }
     corrections
@@ -85,25 +90,29 @@ where
     S::Group: LieGroup<Scalar = f64>,
 {
     let mut corrections = alloc::vec![0.0; generating.terms()];
-    let errors: Vec<_> = points.iter().map(|point| missed(generating, point)).collect();
+    let terms = (0..generating.terms()).map(|number| (number, generating.term(number)));
+    let terms: Vec<_> = terms.filter(|(_, term)| term.part != Part::Series).collect();
+    if terms.is_empty() {
+        return corrections;
+    }
     let dim = generating.group().dim();
+    let highest = highest_exponent(terms.iter().map(|(_, term)| term.monomial));
+    let powers = points.iter().map(|point| Powers::of(&point.mu, dim, highest));
+    let powers: Vec<Powers> = powers.collect();
+    let errors: Vec<_> = points.iter().map(|point| missed(generating, point)).collect();
     for coordinate in 0..dim {
-        let free = free_guess(generating, coordinate);
-        let monomials: Vec<Monomial> = free.iter().map(|&n| generating.term(n).monomial).collect();
-        let highest = highest_exponent(&monomials);
-        let powers = points.iter().map(|point| Powers::of(&point.mu, dim, highest));
-        let powers: Vec<Powers> = powers.collect();
+        let free = free_guess(&terms, coordinate);
         let mut matrix = DMatrix::zeros(points.len(), free.len());
         let right = DVector::from_iterator(points.len(), errors.iter().map(|e| e[coordinate]));
         for (n, powers) in powers.iter().enumerate() {
-            for (column, monomial) in monomials.iter().enumerate() {
+            for (column, (_, monomial)) in free.iter().enumerate() {
                 // The even part is taken twice.
                 let value = |product: f64, &(j, e): &(u32, u32)| product * powers.get(j, e);
                 matrix[(n, column)] = monomial.iter().fold(2.0, value);
             }
         }
-        let found = least_squares(matrix, &right, GUESS_RIDGE);
-        for (&number, &value) in free.iter().zip(found.iter()) {
+        let found = least_squares(matrix, &right, GUESS_RIDGE, GUESS_REFINEMENT);
+        for (&(number, _), &value) in free.iter().zip(found.iter()) {
             corrections[number] = value;
         }
     }
@@ -131,8 +140,8 @@ where
 /// Pairs of a coordinate and its exponent.
 type Monomial<'a> = &'a [(u32, u32)];
 
-fn highest_exponent(monomials: &[Monomial]) -> u32 {
-    monomials.iter().flat_map(|monomial| monomial.iter()).map(|&(_, e)| e).max().unwrap_or(0)
+fn highest_exponent<'a>(monomials: impl Iterator<Item = Monomial<'a>>) -> u32 {
+    monomials.flatten().map(|&(_, exponent)| exponent).max().unwrap_or(0)
 }
 
 /// The powers of coordinates up to some exponent.

@@ -4,20 +4,23 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of the refinement at most.
-const STEPS: usize = 12;
 /// The refinement ends where so many steps do not make a fifth of what is left go away.
 const PATIENCE: usize = 3;
 
-/// The y with |A y − b|² + ridge² |y|² least, where columns count as of length one; then refined, so
-/// that the ridge holds back only what hardly changes A y.
+/// The y with |A y − b|² + ridge² |y|² least, where columns count as of length one; then refined in
+/// at most so many steps, so that the ridge holds back only what hardly changes A y.
 ///
 /// By the normal equations, of which there are as many as A has columns, or rows if these are fewer:
 /// y = M b with M = (Aᵀ A + ridge²)⁻¹ Aᵀ = Aᵀ (A Aᵀ + ridge²)⁻¹. What is left, b − A y, is made
 /// smaller by conjugate residuals on K = A M, whose eigenvalues σ²/(σ² + ridge²) are one but for the
 /// few singular values σ below the ridge (Saad, *Iterative Methods for Sparse Linear Systems*, § 6.8).
 /// For rounding not to spoil M a ridge must not be below 1e-7.
-pub fn least_squares(mut matrix: DMatrix<f64>, right: &DVector<f64>, ridge: f64) -> DVector<f64> {
+pub fn least_squares(
+    mut matrix: DMatrix<f64>,
+    right: &DVector<f64>,
+    ridge: f64,
+    steps: usize,
+) -> DVector<f64> {
     let scales = normalise(&mut matrix);
     let mut solution = DVector::zeros(matrix.ncols());
     let transpose = matrix.transpose();
@@ -37,8 +40,8 @@ pub fn least_squares(mut matrix: DMatrix<f64>, right: &DVector<f64>, ridge: f64)
     let mut direction = approximate(&left);
     let mut image = &matrix * &direction;
     let mut weight = left.dot(&image);
-    let mut sizes = Vec::with_capacity(STEPS);
-    for step in 0..STEPS {
+    let mut sizes = Vec::with_capacity(steps);
+    for step in 0..steps {
         let length = weight / image.norm_squared();
         if !length.is_finite() {
             break;
@@ -46,7 +49,8 @@ pub fn least_squares(mut matrix: DMatrix<f64>, right: &DVector<f64>, ridge: f64)
         solution.axpy(length, &direction, 1.0);
         left.axpy(-length, &image, 1.0);
         sizes.push(left.norm());
-        if step >= PATIENCE && sizes[step] > 0.8 * sizes[step - PATIENCE] {
+        let idle = step >= PATIENCE && sizes[step] > 0.8 * sizes[step - PATIENCE];
+        if idle || step + 1 == steps {
             break;
         }
         let next = approximate(&left);
@@ -85,7 +89,7 @@ mod tests {
         let points: Vec<f64> = (0..40).map(|i| 1.0 + 0.005 * f64::from(i)).collect();
         let matrix = DMatrix::from_fn(40, 9, |i, j| points[i].powi(j as i32));
         let right = DVector::from_iterator(40, points.iter().map(|x| x.sin()));
-        let found = least_squares(matrix.clone(), &right, 1e-7);
+        let found = least_squares(matrix.clone(), &right, 1e-7, 12);
         let left = (&matrix * &found - &right).amax();
         assert!(left < 1e-10, "{left:e}");
         // What the equations leave open stays small.
@@ -96,16 +100,16 @@ mod tests {
     fn of_many_solutions_the_smallest_is_found() {
         let matrix = DMatrix::from_fn(3, 6, |i, j| (1.0 + 0.3 * i as f64).powi(j as i32));
         let right = DVector::from_vec(vec![1.0, -2.0, 0.5]);
-        let found = least_squares(matrix.clone(), &right, 1e-7);
+        let found = least_squares(matrix.clone(), &right, 1e-7, 12);
         assert!((&matrix * &found - &right).amax() < 1e-9);
-        let zero = least_squares(DMatrix::zeros(2, 3), &DVector::repeat(2, 1.0), 1e-7);
+        let zero = least_squares(DMatrix::zeros(2, 3), &DVector::repeat(2, 1.0), 1e-7, 12);
         assert_eq!(zero, DVector::zeros(3));
     }
 
     #[test]
     fn a_column_of_zeros_gets_nothing() {
         let matrix = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 2.0, 0.0, 2.0, 0.0]);
-        let found = least_squares(matrix, &DVector::from_vec(vec![2.0, 4.0, 4.0]), 1e-7);
+        let found = least_squares(matrix, &DVector::from_vec(vec![2.0, 4.0, 4.0]), 1e-7, 12);
         assert!((found[0] - 2.0).abs() < 1e-15 && found[1] == 0.0);
     }
 }
