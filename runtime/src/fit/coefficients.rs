@@ -15,7 +15,7 @@ use crate::group::LieGroup;
 /// the motion does not tell them.
 const RIDGE: f64 = 1e-7;
 /// Steps of refinement at most.
-const REFINEMENT: usize = 12;
+const REFINEMENT: usize = 8;
 
 /// The same for the first guess, of which nobody needs more than half the digits.
 const GUESS_RIDGE: f64 = 1e-6;

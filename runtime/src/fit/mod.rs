@@ -159,17 +159,23 @@ where
     if momenta.is_empty() {
         return Err(FitError::NoMotion);
     }
-    let motions = Motions { series, step, momenta, duration };
-    let (fit, points) = of_series(&whole, &free, &motions)?;
-    Ok(with_guess(fit, &points))
-}
+    let Points { seen, unseen } = sample(&whole, free.len(), series, step, momenta, duration)?;
 
-/// What is fitted to.
-struct Motions<F, V> {
-    series: F,
-    step: f64,
-    momenta: Vec<V>,
-    duration: f64,
+    let of_series = coefficients::of_series(&whole, &free, &seen);
+    let of_guess = coefficients::of_guess(&whole, &seen);
+    let both: Vec<f64> = of_series.iter().zip(&of_guess).map(|(a, b)| a + b).collect();
+    let integrator = whole.adjusted(&both);
+    let before = error(&whole, &unseen);
+    let (fitted, at_unseen) = (error(&integrator, &seen), error(&integrator, &unseen));
+    let holds = at_unseen < before;
+    let guesses = guess_error(&integrator, &unseen) <= guess_error(&whole, &unseen);
+    let integrator = match (holds, guesses) {
+        (true, true) => integrator,
+        (true, false) => whole.adjusted(&of_series),
+        (false, _) => whole,
+    };
+    let (fitted, unseen) = if holds { (fitted, at_unseen) } else { (before, before) };
+    Ok(Fit { integrator, before, fitted, unseen })
 }
 
 /// Points to fit to and points to judge by.
@@ -178,60 +184,36 @@ struct Points<V> {
     unseen: Vec<Point<V>>,
 }
 
-/// `whole` with its `free` terms fitted; as it was where the fit does not hold.
-fn of_series<S, F, V>(
+/// Points of the motions, as many as a fit of so many terms wants.
+fn sample<S, V>(
     whole: &S,
-    free: &[usize],
-    motions: &Motions<F, V>,
-) -> Result<(Fit<S>, Points<V>), FitError>
+    terms: usize,
+    series: impl Fn(f64) -> Result<S, StepError>,
+    step: f64,
+    momenta: Vec<V>,
+    duration: f64,
+) -> Result<Points<V>, FitError>
 where
     S: Adjustable,
     S::Group: LieGroup<Scalar = f64, Vector = V>,
-    F: Fn(f64) -> Result<S, StepError>,
     V: Coordinates<f64>,
 {
-    let Motions { series, step, momenta, duration } = motions;
     let dim = whole.group().dim();
     let substeps = substeps(whole.truncation(), dim);
     let fine = series(step / substeps as f64)?;
-    let wanted = (EQUATIONS * free.len() / (dim * momenta.len())).max(MIN_SAMPLES * dim);
+    let wanted = (EQUATIONS * terms / (dim * momenta.len())).max(MIN_SAMPLES * dim);
     let count = wanted.div_ceil(2) * UNSEEN / (UNSEEN - 1);
     let spacing = duration / step.abs() * substeps as f64 / count as f64;
     let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
     let mut points = Vec::with_capacity(count * momenta.len());
-    for momentum in momenta.iter().cloned() {
+    for momentum in momenta {
         follow(whole, &fine, momentum, &places, substeps, &mut points)
-            .map_err(|error| error.unwrap_or(FitError::OutsideChart { step: *step }))?;
+            .map_err(|error| error.unwrap_or(FitError::OutsideChart { step }))?;
     }
     let (unseen, seen): (Vec<_>, Vec<_>) =
         points.into_iter().enumerate().partition(|(n, _)| n % UNSEEN == UNSEEN / 2);
-    let unseen: Vec<_> = unseen.into_iter().map(|(_, point)| point).collect();
-    let seen: Vec<_> = seen.into_iter().map(|(_, point)| point).collect();
-
-    let before = error(whole, &unseen);
-    let integrator = whole.adjusted(&coefficients::of_series(whole, free, &seen));
-    let (fitted, at_unseen) = (error(&integrator, &seen), error(&integrator, &unseen));
-    let fit = if at_unseen >= before || at_unseen.is_nan() {
-        let as_it_was = whole.adjusted(&alloc::vec![0.0; whole.terms()]);
-        Fit { integrator: as_it_was, before, fitted: before, unseen: before }
-    } else {
-        Fit { integrator, before, fitted, unseen: at_unseen }
-    };
-    Ok((fit, Points { seen, unseen }))
-}
-
-/// The fit with its first guess fitted too, where that makes it better.
-fn with_guess<S, V>(fit: Fit<S>, points: &Points<V>) -> Fit<S>
-where
-    S: Adjustable,
-    S::Group: LieGroup<Scalar = f64, Vector = V>,
-    V: Coordinates<f64>,
-{
-    let integrator =
-        fit.integrator.adjusted(&coefficients::of_guess(&fit.integrator, &points.seen));
-    let better =
-        guess_error(&integrator, &points.unseen) < guess_error(&fit.integrator, &points.unseen);
-    if better { Fit { integrator, ..fit } } else { fit }
+    let points = |numbered: Vec<(usize, _)>| numbered.into_iter().map(|(_, point)| point).collect();
+    Ok(Points { seen: points(seen), unseen: points(unseen) })
 }
 
 /// The largest coordinate of x − ∂S/∂p(p) at the points.

@@ -3,5 +3,5 @@
 #[test]
 fn mistakes_are_reported_in_the_users_words() {
     let cases = trybuild::TestCases::new();
-    cases.compile_fail("ui/*.rs");
+    cases.compile_fail("tests/ui/*.rs");
 }
