@@ -96,6 +96,26 @@ fn a_top_is_fitted() -> Result<(), FitError> {
 }
 
 #[test]
+fn a_motion_followed_for_long_is_sampled_all_along() -> Result<(), FitError> {
+    // Whole steps lead from sample to sample: samples of a short while do not know the rest.
+    let start = [2.0, 3.0, 4.0, 1.0, 0.0, 0.0];
+    let short = fit(0.1, Top::<f64>::new, [start], 1.0)?.integrator;
+    let long = fit(0.1, Top::<f64>::new, [start], 200.0)?.integrator;
+    let fine = Top::new(0.1 / 32.0)?;
+    let mut exact = Phase::<SE3>::at_identity(start);
+    fine.advance_by(&mut exact, 200 * 32)?;
+    let error = |step: &Top| {
+        let mut found = Phase::<SE3>::at_identity(start);
+        step.advance_by(&mut found, 200)?;
+        Ok::<_, StepError>((found.momentum - exact.momentum).amax())
+    };
+    let (short, long) = (error(&short)?, error(&long)?);
+    println!("{short:e} {long:e}");
+    assert!(long < short / 3.0, "{short:e} {long:e}");
+    Ok(())
+}
+
+#[test]
 fn several_motions_share_a_fit_and_lanes_take_it() -> Result<(), FitError> {
     let momenta = [START, [1.2, 2.5, 0.6]];
     let fit = fit(0.4, series, momenta, 12.0)?;
