@@ -27,7 +27,8 @@ pub struct Table {
     pub guess: &'static [(u32, u32, Monomial)],
 }
 
-/// The parts for one step size and parameter set. No power reaches `POWERS`.
+/// The parts for one step size and parameter set. No power of h reaches `POWERS`, no
+/// number of a product `PRODUCTS`.
 ///
 /// # Errors
 /// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].

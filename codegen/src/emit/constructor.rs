@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::number::float;
 use super::parameter;
 use super::table::{self, Sizes};
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Products};
 use crate::problem::{Parameter, Shape};
 
 /// The constructors `new(step, parameters…)` and `tuned(step, parameters…, momenta)`.
@@ -22,8 +22,9 @@ pub fn constructor(
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
-    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients);
-    let table = table::table(krate, &integrator.coefficients);
+    let all = Products::of(&integrator.coefficients);
+    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients, &all);
+    let table = table::table(krate, &integrator.coefficients, &all);
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
         let slot = Literal::usize_unsuffixed(term.slot);

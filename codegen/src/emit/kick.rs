@@ -10,7 +10,7 @@ use super::header::one_line;
 use super::parts::Scope;
 use super::table::{self, Sizes};
 use super::{Options, parameter};
-use crate::integrator::Kick;
+use crate::integrator::{Kick, Products};
 
 /// The potential as items: a struct and its implementation.
 #[must_use]
@@ -28,8 +28,9 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(potential.symbols.len());
-    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&kick.coefficients);
-    let table = table::table(krate, &kick.coefficients);
+    let all = Products::of(&kick.coefficients);
+    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&kick.coefficients, &all);
+    let table = table::table(krate, &kick.coefficients, &all);
 
     let scope = Scope {
         krate: krate.clone(),

@@ -21,14 +21,14 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// The sizes of the table of `coefficients`.
+    /// The sizes of the table of `coefficients`, whose symbols make these products.
     #[must_use]
-    pub fn of(coefficients: &Coefficients) -> Self {
+    pub fn of(coefficients: &Coefficients, products: &Products) -> Self {
         let terms = coefficients.bases().iter().flatten();
         let power = terms.map(|term| term.step_power).max().unwrap_or(0);
         Self {
             powers: Literal::u32_unsuffixed(power + 1),
-            products: Literal::usize_unsuffixed(Products::of(coefficients).steps().len() + 1),
+            products: Literal::usize_unsuffixed(products.steps().len() + 1),
             parts: Literal::usize_unsuffixed(coefficients.parts().flatten().count()),
             bases: Literal::usize_unsuffixed(coefficients.bases().len()),
             slots: Literal::usize_unsuffixed(coefficients.slots().len()),
@@ -36,10 +36,10 @@ impl Sizes {
     }
 }
 
-/// The expression of a `coadjoint::plumbing::Table` holding `coefficients`.
+/// The expression of a `coadjoint::plumbing::Table` holding `coefficients`, whose symbols make these
+/// products.
 #[must_use]
-pub fn table(krate: &TokenStream, coefficients: &Coefficients) -> TokenStream {
-    let all = Products::of(coefficients);
+pub fn table(krate: &TokenStream, coefficients: &Coefficients, all: &Products) -> TokenStream {
     let pair = |&(of, symbol): &(usize, usize)| {
         let (of, symbol) = (Literal::usize_unsuffixed(of), Literal::usize_unsuffixed(symbol));
         quote!((#of, #symbol))

@@ -159,7 +159,7 @@ where
     if momenta.is_empty() {
         return Err(FitError::NoMotion);
     }
-    let Points { seen, unseen } = sample(&whole, free.len(), series, step, momenta, duration)?;
+    let Points { seen, unseen } = sample(&whole, terms, series, step, momenta, steps)?;
 
     let of_series = coefficients::of_series(&whole, &free, &seen);
     let of_guess = coefficients::of_guess(&whole, &seen);
@@ -184,14 +184,14 @@ struct Points<V> {
     unseen: Vec<Point<V>>,
 }
 
-/// Points of the motions, as many as a fit of so many terms wants.
+/// Points of the motions over so many steps, as many as a fit of so many terms wants.
 fn sample<S, V>(
     whole: &S,
     terms: usize,
     series: impl Fn(f64) -> Result<S, StepError>,
     step: f64,
     momenta: Vec<V>,
-    duration: f64,
+    steps: f64,
 ) -> Result<Points<V>, FitError>
 where
     S: Adjustable,
@@ -203,7 +203,7 @@ where
     let fine = series(step / substeps as f64)?;
     let wanted = (EQUATIONS * terms / (dim * momenta.len())).max(MIN_SAMPLES * dim);
     let count = wanted.div_ceil(2) * UNSEEN / (UNSEEN - 1);
-    let spacing = duration / step.abs() * substeps as f64 / count as f64;
+    let spacing = steps * substeps as f64 / count as f64;
     let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
     let mut points = Vec::with_capacity(count * momenta.len());
     for momentum in momenta {
