@@ -13,6 +13,7 @@ pub mod pass;
 pub mod poly;
 pub mod potential;
 pub mod problem;
+pub mod spin;
 #[cfg(feature = "system")]
 pub mod system;
 pub mod tolerance;

@@ -1,5 +1,7 @@
 //! What every front end produces: a Lie–Poisson system, ready for the derivation.
 
+use std::borrow::Cow;
+
 use crate::expr::ParameterExpr;
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -106,6 +108,31 @@ impl Solver {
     }
 }
 
+/// What becomes of the spin of a symmetric body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spin {
+    /// S generates the flow of all of H_red.
+    #[default]
+    Keep,
+    /// S generates the flow of what is left, and a turn about the axis of symmetry follows.
+    Split,
+}
+
+impl Spin {
+    /// The names users write, `keep` and `split`.
+    pub const NAMES: [&str; 2] = ["keep", "split"];
+
+    /// The choice of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "keep" => Some(Self::Keep),
+            "split" => Some(Self::Split),
+            _ => None,
+        }
+    }
+}
+
 /// A Hamiltonian H_red on the dual of a Lie algebra, a chart and a truncation.
 ///
 /// H_red is a polynomial over ℚ in the coordinates of the momentum (the first `algebra.dim()`
@@ -132,9 +159,21 @@ pub struct Problem {
     pub truncation: usize,
     /// The solver asked for; `None` leaves it to the dimension.
     pub solver: Option<Solver>,
+    /// The part of H_red that is split off as the spin of a symmetric body and left out of S; see
+    /// [`crate::spin`].
+    pub spin: Option<Polynomial>,
 }
 
 impl Problem {
+    /// The Hamiltonian whose flow S generates: H_red without the spin, where that is split off.
+    #[must_use]
+    pub fn generated(&self) -> Cow<'_, Polynomial> {
+        match &self.spin {
+            Some(spin) => Cow::Owned(&self.hamiltonian - spin),
+            None => Cow::Borrowed(&self.hamiltonian),
+        }
+    }
+
     /// The solver asked for, or the one for this dimension.
     #[must_use]
     pub fn solver(&self) -> Solver {

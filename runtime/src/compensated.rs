@@ -68,6 +68,16 @@ impl<G: CompensatedGroup> CompensatedPhase<G> {
         &self.phase
     }
 
+    /// (g, μ) ↦ (g·k, Ad\*_{k⁻¹} μ).
+    #[inline(always)]
+    fn displace(&mut self, group: &G, k: &G::Element) {
+        let change = group.momentum_change(k, &self.phase.momentum);
+        for i in 0..change.dim() {
+            kahan(&mut self.phase.momentum[i], &mut self.momentum_remainder[i], change[i]);
+        }
+        group.compose_compensated(&mut self.phase.group_element, &mut self.element_remainder, k);
+    }
+
     /// The phase point, rounded; what rounding left over is dropped.
     #[must_use]
     pub fn into_phase(self) -> Phase<G> {
@@ -111,15 +121,10 @@ where
     let group = generating.group();
     let mu = &state.phase.momentum;
     let solution = solve(generating, mu)?;
-    let (increment, _) = generating.chart().transport(group, &solution.x, mu);
-    let change = group.momentum_change(&increment, mu);
-    for i in 0..change.dim() {
-        kahan(&mut state.phase.momentum[i], &mut state.momentum_remainder[i], change[i]);
+    let increment = generating.chart().transport(group, &solution.x, mu).0;
+    state.displace(group, &increment);
+    if let Some(y) = generating.turn(&state.phase.momentum) {
+        state.displace(group, &group.exp(&y));
     }
-    group.compose_compensated(
-        &mut state.phase.group_element,
-        &mut state.element_remainder,
-        &increment,
-    );
     Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
 }

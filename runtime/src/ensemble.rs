@@ -8,7 +8,7 @@ use crate::error::StepError;
 use crate::generating_function::GeneratingFunction;
 use crate::lanes::{F64x8, LaneGroup, Lanes};
 use crate::phase::Phase;
-use crate::reconstruct::advance_after;
+use crate::reconstruct::{Stopped, march};
 
 /// Lanes per pack.
 const WIDTH: usize = <F64x8 as SimdValue>::LANES;
@@ -79,12 +79,8 @@ fn advance_pack<S: Lanes>(
         return;
     }
     for (lane, state) in states.iter_mut().enumerate() {
-        let mut last = None;
-        for done in 0..steps {
-            if let Err(error) = advance_after(step, state, &mut last) {
-                failures.push(Failure { index: first + lane, step: done, error });
-                break;
-            }
+        if let Err(Stopped { done, error }) = march(step, state, steps) {
+            failures.push(Failure { index: first + lane, step: done, error });
         }
     }
 }
@@ -101,10 +97,6 @@ impl<S: GeneratingFunction> WithSimd for Run<'_, S> {
 
     #[inline(always)]
     fn with_simd<I: Simd>(self, _simd: I) -> Self::Output {
-        let mut last = None;
-        for _ in 0..self.steps {
-            advance_after(self.step, self.phase, &mut last)?;
-        }
-        Ok(())
+        march(self.step, self.phase, self.steps).map(drop).map_err(|stopped| stopped.error)
     }
 }

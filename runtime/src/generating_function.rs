@@ -72,6 +72,18 @@ pub trait GeneratingFunction {
         self.predict(mu)
     }
 
+    /// The turn y that follows the map of S where the spin of a symmetric body is left out of S: a
+    /// step is the map of S, then (g, μ) ↦ (g·exp y, Ad\*_{exp(y)⁻¹} μ) with y of that μ. `None`: no
+    /// turn, S generates the whole step.
+    ///
+    /// Both maps must commute and keep y, as the flows of H − f(⟨μ, e⟩) and f(⟨μ, e⟩) do where
+    /// ⟨μ, e⟩ is an integral: then many steps take one turn, many times as far.
+    #[inline(always)]
+    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let _ = mu;
+        None
+    }
+
     /// The exact gradient and a Hessian good enough for Newton's method, which may leave out
     /// terms too small to matter there. See [`GeneratingFunction::hessian_defect`].
     #[inline(always)]

@@ -173,6 +173,11 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     }
 
     #[inline(always)]
+    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.integrator.turn.as_ref().map(|program| self.vector(program, mu))
+    }
+
+    #[inline(always)]
     fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
         match &self.integrator.hessian {
             Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),

@@ -113,6 +113,14 @@ pub enum Mistake {
     /// A solver nobody knows: name, nearest.
     #[error("unknown solver `{0}`{did}", did = did_you_mean(.1))]
     UnknownSolver(String, Option<String>),
+    /// Neither `keep` nor `split`: name, nearest.
+    #[error("`spin = {0}` is not known{did}", did = did_you_mean(.1))]
+    UnknownSpin(String, Option<String>),
+    /// A spin is to be split off where there is none.
+    #[error(
+        "there is no spin to split off: no coordinate of the momentum is an integral that makes the series longer"
+    )]
+    NoSpin,
     /// A chart the group does not have.
     #[error(transparent)]
     Chart(#[from] ChartError),
@@ -250,6 +258,11 @@ impl Mistake {
             Self::TruncationNumber => "write for example truncation = 7",
             Self::UnknownChart(..) => "charts: exp (the default) and cayley",
             Self::UnknownSolver(..) => "solvers: newton and fixed_point",
+            Self::UnknownSpin(..) => "write spin = split, or leave it out (spin = keep)",
+            Self::NoSpin => {
+                "for a symmetric body, write both transverse moments of inertia as one parameter and \
+                 choose coordinates with the axis of symmetry among them; otherwise leave `spin` out"
+            }
             Self::Dimension(_, group, expected) => {
                 return Some(format!("give {expected} coordinates for {group}"));
             }

@@ -63,6 +63,16 @@ pub fn generating_function(
             }
         }
     });
+    let turn = integrator.turn.as_ref().map(|program| {
+        let function = vector_function(program, vector, scope);
+        quote! {
+            #[inline(always)]
+            fn turn(&self, input: &#vector) -> ::core::option::Option<#vector> {
+                let c = &self.coefficients;
+                ::core::option::Option::Some({ #function })
+            }
+        }
+    });
     let bend = integrator.problem.is_quadratic().then(|| {
         quote! {
             #[inline(always)]
@@ -117,6 +127,8 @@ pub fn generating_function(
             #bend
 
             #defect
+
+            #turn
         }
     }
 }

@@ -13,7 +13,10 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
     let iteration = integrator.iteration().cost();
     let what = if integrator.hessian.is_some() { "gradient and Hessian" } else { "gradient" };
     let predictor = integrator.predictor.cost();
-    vec![
+    let spin = problem.spin.as_ref().map(|_| {
+        " The spin of the symmetric body is split off: S generates the rest, and a turn follows."
+    });
+    let mut lines = vec![
         format!(" Hamiltonian: `{}`", one_line(&problem.source)),
         String::new(),
         format!(
@@ -37,7 +40,9 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
             predictor.multiplications,
             predictor.additions
         ),
-    ]
+    ];
+    lines.extend(spin.map(str::to_owned));
+    lines
 }
 
 /// The text on one line, fit for a doc comment.

@@ -28,8 +28,9 @@ pub fn increment_program(
 ) -> Program {
     let dim = problem.algebra.dim();
     let mut flow = Flow::new(coefficients, problem);
-    let field = vector_field(problem);
-    let omega = problem.hamiltonian.gradient(dim);
+    let hamiltonian = problem.generated();
+    let field = problem.algebra.hamiltonian_field(&hamiltonian);
+    let omega = hamiltonian.gradient(dim);
     let omega: Vec<Vec<BaseTerm>> = omega.iter().map(|w| flow.collect(1, w)).collect();
     let mut jets: Vec<Vec<Id>> = vec![Vec::new(); dim];
     for order in 0..degree {
@@ -50,20 +51,6 @@ pub fn increment_program(
     }
     let outputs = if degree < 6 { flow.fourth_order(&jets) } else { flow.sixth_order(&jets) };
     flow.graph.finish(dim, &outputs)
-}
-
-/// ad*_{∂H/∂μ} μ, component by component.
-fn vector_field(problem: &Problem) -> Vec<Polynomial> {
-    let dim = problem.algebra.dim();
-    let variables = problem.hamiltonian.variables();
-    let omega = problem.hamiltonian.gradient(dim);
-    let mut field = vec![Polynomial::zero(variables); dim];
-    for constant in problem.algebra.structure() {
-        let momentum = Polynomial::variable(variables, constant.k);
-        let product = (&omega[constant.i] * &momentum).scale(&constant.value);
-        field[constant.j] = &field[constant.j] + &product;
-    }
-    field
 }
 
 /// Power series in the time over the step, s from 0 to 1, as nodes of a graph.

@@ -51,6 +51,8 @@ pub struct Integrator {
     pub continuation: Option<Program>,
     /// μ ↦ H_red(μ).
     pub energy: Program,
+    /// μ ↦ y, the turn exp y that follows the map of S, where the spin is split off.
+    pub turn: Option<Program>,
 }
 
 impl Integrator {
@@ -62,7 +64,7 @@ impl Integrator {
         let series = hamilton_jacobi::derive(
             &problem.algebra,
             problem.chart,
-            &problem.hamiltonian,
+            &problem.generated(),
             problem.truncation,
             limit,
         )?;
@@ -94,7 +96,8 @@ impl Integrator {
             (solver == Solver::Newton).then(|| lower::hessian_program(table, dim, &s, truncation));
         let (plan, polynomials) = match plan {
             Some(plan) => {
-                let Problem { algebra, chart, hamiltonian, .. } = &problem;
+                let Problem { algebra, chart, .. } = &problem;
+                let hamiltonian = &problem.generated();
                 let polynomials = match plan.predictor {
                     Predictor::Explicit(degree) => {
                         hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?
@@ -133,6 +136,12 @@ impl Integrator {
         let gradient = lower::gradient_program(table, dim, &s);
         let value = lower::value_program(table, dim, &s);
         let energy = lower::value_program(table, dim, &h);
+        let turn = problem.spin.as_ref().map(|spin| {
+            let rates = spin.gradient(dim);
+            let components: Vec<_> =
+                rates.iter().map(|rate| terms::collect(table, dim, [(1, rate)])).collect();
+            lower::vector_program(table, dim, &components)
+        });
         Ok(Self {
             problem,
             series,
@@ -146,6 +155,7 @@ impl Integrator {
             predictor,
             continuation,
             energy,
+            turn,
         })
     }
 

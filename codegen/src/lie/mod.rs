@@ -6,6 +6,7 @@ pub mod catalogue;
 mod chart;
 mod error;
 mod factors;
+mod field;
 mod matrix;
 mod product;
 mod span;

@@ -10,7 +10,8 @@ use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
-use crate::problem::{Parameter, Problem, Solver, Symbol};
+use crate::problem::{Parameter, Problem, Solver, Spin, Symbol};
+use crate::spin::spin;
 
 /// The truncation where none is given: order of accuracy 8.
 pub const DEFAULT_TRUNCATION: usize = 7;
@@ -43,6 +44,8 @@ pub struct Draft {
     pub truncation: Option<usize>,
     /// The solver, if one is asked for.
     pub solver: Option<Solver>,
+    /// What becomes of the spin, and where it is said.
+    pub spin: (Spin, Span),
 }
 
 /// Checks what was read and turns it into a problem.
@@ -77,6 +80,15 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
     };
 
     let (hamiltonian, symbols) = exact(sum, count, &mut table, &draft.parameters);
+    let (choice, span) = draft.spin;
+    let spin = match choice {
+        Spin::Keep => None,
+        Spin::Split => spin(&algebra, draft.chart.0, &hamiltonian),
+    };
+    if choice == Spin::Split && spin.is_none() {
+        diagnostics.report(span, Mistake::NoSpin);
+        return Err(diagnostics);
+    }
     Ok(Problem {
         name: draft.name,
         algebra,
@@ -88,6 +100,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         chart: draft.chart.0,
         truncation,
         solver: draft.solver,
+        spin,
     })
 }
 
@@ -245,6 +258,17 @@ pub fn solver(name: &str) -> Result<Solver, Mistake> {
     Solver::named(name).ok_or_else(|| {
         let suggestion = crate::diagnostic::nearest(name, Solver::NAMES);
         Mistake::UnknownSolver(name.to_owned(), suggestion.map(str::to_owned))
+    })
+}
+
+/// The choice of this name: `keep` or `split`.
+///
+/// # Errors
+/// [`Mistake::UnknownSpin`].
+pub fn spin_choice(name: &str) -> Result<Spin, Mistake> {
+    Spin::named(name).ok_or_else(|| {
+        let suggestion = crate::diagnostic::nearest(name, Spin::NAMES);
+        Mistake::UnknownSpin(name.to_owned(), suggestion.map(str::to_owned))
     })
 }
 

@@ -23,7 +23,8 @@
 //! then picked too unless it is given. `region = 2.5` (a norm of the momentum, or [low, high] for each
 //! coordinate) says where it is to hold; without it, along the run from the initial state.
 //!
-//! In `[integrator]`, `solver` is `newton` or `fixed_point`. For a power such as SO3^64, coordinates and
+//! In `[integrator]`, `solver` is `newton` or `fixed_point`, and `spin = "split"` leaves the spin of a
+//! symmetric body out of the series and makes it a turn after each step (see [`crate::spin`]). For a power such as SO3^64, coordinates and
 //! momentum may be given for one copy: `x` then stands for `x[0]`, `x[1]`, …, the momentum may be
 //! expressions in the copy's number `i`, and `sum(i, 0..64, x[i]*x[(i + 1) % 64])` is a sum over copies.
 //!
@@ -49,7 +50,7 @@ use crate::pass::{
     self, DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
 };
 use crate::potential::Potential;
-use crate::problem::{Problem, Solver};
+use crate::problem::{Problem, Solver, Spin};
 use table::Table;
 
 pub use run::Run;
@@ -129,15 +130,15 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let algebra = group(&root, &name, &mut diagnostics);
     let written = hamiltonian::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
     let integrator = root.table("integrator", &mut diagnostics);
-    let (truncation, chart, solver) = match &integrator {
+    let chosen = match &integrator {
         Some(table) => integrator_table(table, options, &mut diagnostics),
-        None => (Some(DEFAULT_TRUNCATION), (Chart::default(), Span::Whole), None),
+        None => Chosen::default(),
     };
     let truncation = match options.truncation {
         Some(k) => check_truncation(k, Span::Whole, &mut diagnostics),
-        None => truncation,
+        None => chosen.truncation,
     };
-    let chart = options.chart.map_or(chart, |chart| (chart, Span::Whole));
+    let chart = options.chart.map_or(chosen.chart, |chart| (chart, Span::Whole));
     let mut run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = truncation;
@@ -155,7 +156,8 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         source: written.source,
         chart,
         truncation,
-        solver: options.solver.or(solver),
+        solver: options.solver.or(chosen.solver),
+        spin: chosen.spin,
     };
     // Mistakes of both energies at once.
     let potential = potential.and_then(|draft| {
@@ -202,34 +204,54 @@ fn group(root: &Table<'_>, name: &str, diagnostics: &mut Diagnostics) -> Option<
     }
 }
 
-fn integrator_table(
-    table: &Table<'_>,
-    options: Options,
-    diagnostics: &mut Diagnostics,
-) -> (Option<usize>, (Chart, Span), Option<Solver>) {
-    let known = ["truncation", "chart", "solver", "step", "tolerance", "region", "splitting"];
+/// What `[integrator]` says of the method.
+struct Chosen {
+    truncation: Option<usize>,
+    chart: (Chart, Span),
+    solver: Option<Solver>,
+    spin: (Spin, Span),
+}
+
+impl Default for Chosen {
+    fn default() -> Self {
+        Self {
+            truncation: Some(DEFAULT_TRUNCATION),
+            chart: (Chart::default(), Span::Whole),
+            solver: None,
+            spin: (Spin::default(), Span::Whole),
+        }
+    }
+}
+
+fn integrator_table(table: &Table<'_>, options: Options, diagnostics: &mut Diagnostics) -> Chosen {
+    let known =
+        ["truncation", "chart", "solver", "spin", "step", "tolerance", "region", "splitting"];
     table.check_keys(&known, diagnostics);
-    let mut truncation = Some(DEFAULT_TRUNCATION);
+    let mut chosen = Chosen::default();
     if table.has("truncation") && options.truncation.is_none() {
-        truncation = table
+        chosen.truncation = table
             .integer("truncation", "truncation = 7", diagnostics)
             .and_then(|(k, span)| check_truncation(k, span, diagnostics));
     }
-    let mut found = (Chart::default(), Span::Whole);
     if let Some((name, span)) = table.string("chart", "chart = \"exp\"", diagnostics)
         && options.chart.is_none()
     {
         match chart(name) {
-            Ok(chart) => found = (chart, span),
+            Ok(chart) => chosen.chart = (chart, span),
             Err(mistake) => diagnostics.report(span, mistake),
         }
     }
-    let mut solver = None;
     if let Some((name, span)) = table.string("solver", "solver = \"fixed_point\"", diagnostics) {
         match pass::solver(name) {
-            Ok(named) => solver = Some(named),
+            Ok(named) => chosen.solver = Some(named),
             Err(mistake) => diagnostics.report(span, mistake),
         }
     }
-    (truncation, found, solver)
+    if let Some((name, span)) = table.string("spin", "spin = \"split\"", diagnostics) {
+        match pass::spin_choice(name) {
+            Ok(spin) => chosen.spin = (spin, span),
+            Err(mistake) => diagnostics.report(span, mistake),
+        }
+    }
+    chosen
 }

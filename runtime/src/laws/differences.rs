@@ -129,8 +129,19 @@ where
     if let Some(defect) = by_logarithm {
         return Ok(defect);
     }
-    let image = poisson_map(map, &point.momentum)?;
+    let image = generated(map, &point.momentum)?.1;
     Ok(form_defect(group, &point.momentum, &image, &pairs_by_chart(map, &point.momentum)?))
+}
+
+/// x and μ″ of the map of S alone: a turn after it is the exact flow of a function of μ.
+fn generated<S>(map: &S, mu: &Vector<S>) -> Result<(Vector<S>, Vector<S>), StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let x = solve(map, mu)?.x;
+    let moved = map.chart().transport(map.group(), &x, mu).1;
+    Ok((x, moved))
 }
 
 /// Basis vectors of T\*G with their images. g″ = g′τ(x) with x depending on μ′ only, so that
@@ -157,7 +168,8 @@ where
     for i in 0..dim {
         let mut both = |s: f64| {
             let mu = shifted(mu, i, s);
-            Ok(Some([solve(map, &mu)?.x, poisson_map(map, &mu)?]))
+            let (x, image) = generated(map, &mu)?;
+            Ok(Some([x, image]))
         };
         if let Some([slope, nu]) = derivative::<Vector<S>, 2>(dim, step, &mut both)? {
             let right = Vector::<S>::from_entries(dim, |row| rows[row].pairing(&slope));

@@ -68,6 +68,11 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     fn predict_after(&self, last: &VectorOf<Self>, mu: &VectorOf<Self>) -> VectorOf<Self> {
         self.0.predict_after(last, mu)
     }
+
+    #[inline(always)]
+    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.0.turn(mu)
+    }
 }
 
 impl<S: Lanes> Lanes for MatrixFree<S> {

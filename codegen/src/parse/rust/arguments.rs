@@ -5,10 +5,10 @@ use quote::ToTokens;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::{DEFAULT_TRUNCATION, check_truncation, solver};
-use crate::problem::Solver;
+use crate::pass::{DEFAULT_TRUNCATION, check_truncation, solver, spin_choice};
+use crate::problem::{Solver, Spin};
 
-const KEYS: [&str; 4] = ["group", "truncation", "chart", "solver"];
+const KEYS: [&str; 5] = ["group", "truncation", "chart", "solver", "spin"];
 const OWNER: &str = "#[lie_poisson(…)]";
 
 /// What the arguments say; `None` where it was missing or wrong, which is reported.
@@ -17,6 +17,7 @@ pub(super) struct Arguments {
     pub truncation: Option<usize>,
     pub chart: (Chart, Span),
     pub solver: Option<Solver>,
+    pub spin: (Spin, Span),
 }
 
 /// Reads `group = SO3, truncation = 7, chart = exp`.
@@ -26,6 +27,7 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
         truncation: None,
         chart: (Chart::default(), Span::Whole),
         solver: None,
+        spin: (Spin::default(), Span::Whole),
     };
     let mut seen: Vec<String> = Vec::new();
     for (key, span, value) in entries(tokens, diagnostics) {
@@ -40,6 +42,10 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
             "chart" => arguments.chart = (chart(&value, place, diagnostics), place),
             "solver" => match solver(&text(&value)) {
                 Ok(solver) => arguments.solver = Some(solver),
+                Err(mistake) => diagnostics.report(place, mistake),
+            },
+            "spin" => match spin_choice(&text(&value)) {
+                Ok(spin) => arguments.spin = (spin, place),
                 Err(mistake) => diagnostics.report(place, mistake),
             },
             _ => {

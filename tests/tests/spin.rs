@@ -1,0 +1,198 @@
+//! `spin = split`: a symmetric body's spin is a turn of its own, and the series knows nothing of it.
+#![allow(clippy::unwrap_used)]
+
+use coadjoint::nalgebra::{SVector, Vector3, Vector6};
+use coadjoint::{
+    CompensatedPhase, GeneratingFunction, LieGroup, MatrixFree, Phase, Reversed, SE3, SO3,
+    StepError, advance, advance_compensated, ensemble, laws, lie_poisson, poisson_map,
+};
+use coadjoint_codegen::system::{Options, read};
+use coadjoint_tests::reference::{end_state, numbers};
+
+/// A free symmetric body.
+#[lie_poisson(group = SO3, truncation = 1, spin = split)]
+fn dumbbell(mu: [f64; 3], transverse: f64, axial: f64) -> f64 {
+    let [x, y, z] = mu;
+    (x * x + y * y) / (2.0 * transverse) + z * z / (2.0 * axial)
+}
+
+/// A symmetric top in a frame that turns about its axis: a linear term, too.
+#[lie_poisson(group = SE3, truncation = 7, spin = split)]
+fn top(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
+    let [x, y, z, _, v, _] = mu;
+    (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
+}
+
+/// The same, all of it in the series.
+#[lie_poisson(group = SE3, truncation = 9)]
+fn whole(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
+    let [x, y, z, _, v, _] = mu;
+    (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
+}
+
+/// Two symmetric bodies with their axes coupled: both spins are integrals.
+#[lie_poisson(group = SO3 * SO3, truncation = 5, spin = split)]
+fn pair(mu: [f64; 6], transverse: f64, axial: [f64; 2]) -> f64 {
+    let [a, b, c, d, e, f] = mu;
+    (a * a + b * b + d * d + e * e) / (2.0 * transverse)
+        + c * c / (2.0 * axial[0])
+        + f * f / (2.0 * axial[1])
+        + c * f / 3.0
+}
+
+const MU: [f64; 6] = [0.3, -1.7, 0.8, 0.2, 0.9, -0.4];
+
+fn slow(step: f64) -> Result<Top, StepError> {
+    Top::new(step, 0.9, 0.7, 0.6, 0.4)
+}
+
+#[test]
+fn a_free_symmetric_body_is_exact_however_long_the_step() -> Result<(), StepError> {
+    let (transverse, axial) = (2.0, 0.3);
+    let start = Vector3::new(0.6, -0.3, 1.1);
+    for step in [0.1, 1.0, 7.0] {
+        let mut body = Phase::<SO3>::at_identity(start);
+        Dumbbell::new(step, transverse, axial)?.advance_by(&mut body, 3)?;
+        // g(t) = exp(t Π/I₁)·exp(t (1/I₃ − 1/I₁) Π₃ e₃), the solution in Euler's angles.
+        let time = 3.0 * step;
+        let group = SO3::new();
+        let nutation = group.exp(&(start * (time / transverse)));
+        let spin = Vector3::z() * (time * (1.0 / axial - 1.0 / transverse) * start.z);
+        let exact = group.compose(&nutation, &group.exp(&spin));
+        let angle = body.group_element.angle_to(&exact);
+        assert!(angle < 1e-14 * (1.0 + 10.0 * step), "{step}: {angle:e}");
+        let momentum = group.coadjoint(&group.inverse(&exact), &start);
+        assert!((body.momentum - momentum).amax() < 1e-14 * (1.0 + 10.0 * step));
+    }
+    Ok(())
+}
+
+/// Brüls' top spins at 150 rad/s; its axis moves at 7 rad/s, and steps need only follow that.
+#[test]
+fn a_fast_top_takes_steps_of_its_nutation() -> Result<(), StepError> {
+    let entry = end_state("heavy top (Bruels)");
+    let start = SVector::<f64, 6>::from_vec(numbers(&entry.momentum0));
+    let end = SVector::<f64, 6>::from_vec(numbers(&entry.momentum));
+    let element: Vec<f64> = entry.group_element.iter().flat_map(|row| numbers(row)).collect();
+    let mut errors = Vec::new();
+    for steps in [25, 50] {
+        let step = Top::new(1.0 / steps as f64, 15.234_375, 0.468_75, 147.15, 0.0)?;
+        let mut top = Phase::<SE3>::at_identity(start);
+        step.advance_by(&mut top, steps)?;
+        let group = SE3::new();
+        let entries = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        let attitude = entries
+            .map(|(i, j)| {
+                let own = group.matrix_entry(&top.group_element, i, j);
+                (own - element[4 * i + j]).abs()
+            })
+            .fold(0.0, f64::max);
+        errors.push((top.momentum - end).amax() / 100.0 + attitude);
+    }
+    println!("{errors:?}");
+    assert!(errors[1] < 1e-10, "{errors:?}");
+    // Order 8.
+    assert!((errors[0] / errors[1]).log2() > 7.5, "{errors:?}");
+    Ok(())
+}
+
+#[test]
+fn it_is_the_same_flow_as_without() -> Result<(), StepError> {
+    let (mut split, mut straight) = (Phase::<SE3>::at_identity(MU), Phase::at_identity(MU));
+    slow(0.01)?.advance_by(&mut split, 300)?;
+    Whole::new(0.01, 0.9, 0.7, 0.6, 0.4)?.advance_by(&mut straight, 300)?;
+    assert!((split.momentum - straight.momentum).amax() < 1e-12);
+    let (a, b) = (split.group_element, straight.group_element);
+    assert!(a.rotation.angle_to(&b.rotation) < 1e-12);
+    assert!((a.translation.vector - b.translation.vector).amax() < 1e-12);
+    // The energy is that of the whole Hamiltonian.
+    let step = slow(0.01)?;
+    assert!((step.energy(&MU.into()) - whole(MU, 0.9, 0.7, 0.6, 0.4)).abs() < 1e-15);
+    Ok(())
+}
+
+#[test]
+fn every_law_holds() -> Result<(), StepError> {
+    let (forward, backward) = (slow(0.3)?, slow(-0.3)?);
+    let group = SE3::new();
+    let point =
+        |shift: f64| Phase::new(group.exp(&(Vector6::from(MU) * shift)), MU.map(|m| m - shift));
+    for law in laws::check(&forward, Some(&backward), &[point(0.2), point(-0.4)])? {
+        assert!(law.pass(), "{law:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn every_way_to_step_makes_the_turn() -> Result<(), StepError> {
+    let step = slow(0.2)?;
+    let start = Phase::<SE3>::at_identity(MU);
+    // More steps than share a turn.
+    let (mut one, mut many) = (start.clone(), start.clone());
+    for _ in 0..300 {
+        step.advance(&mut one)?;
+    }
+    step.advance_by(&mut many, 300)?;
+    let close = |a: &Phase<SE3>, b: &Phase<SE3>| {
+        (a.momentum - b.momentum).amax() < 1e-12
+            && a.group_element.rotation.angle_to(&b.group_element.rotation) < 1e-12
+    };
+    assert!(close(&one, &many), "{one:?} {many:?}");
+
+    let mut packed = vec![start.clone(); 11];
+    assert!(ensemble::advance_all(&step, &mut packed, 300).is_empty());
+    assert!(
+        packed
+            .iter()
+            .all(|state| state.momentum == many.momentum
+                && state.group_element == many.group_element),
+        "lanes must equal scalars"
+    );
+
+    let mut next = start.clone();
+    advance(&step, &mut next)?;
+    let moved = poisson_map(&step, &start.momentum)?;
+    assert!((moved - next.momentum).amax() < 1e-15);
+    let back = poisson_map(&Reversed(&step), &moved)?;
+    assert!((back - start.momentum).amax() < 1e-14);
+    let matrix_free = poisson_map(&MatrixFree(step), &start.momentum)?;
+    assert!((matrix_free - moved).amax() < 1e-14);
+
+    let body = Dumbbell::new(0.7, 2.0, 0.3)?;
+    let start = Phase::<SO3>::at_identity([0.6, -0.3, 1.1]);
+    let mut compensated = CompensatedPhase::new(&SO3::new(), start.clone());
+    let mut plain = start;
+    body.advance_by(&mut plain, 20)?;
+    for _ in 0..20 {
+        advance_compensated(&body, &mut compensated)?;
+    }
+    let compensated = compensated.phase();
+    assert!((compensated.momentum - plain.momentum).amax() < 1e-14);
+    assert!(compensated.group_element.angle_to(&plain.group_element) < 1e-13);
+    Ok(())
+}
+
+#[test]
+fn several_spins_are_split_off() -> Result<(), StepError> {
+    let mu = SVector::<f64, 6>::from([0.4, -0.2, 0.9, 0.1, 0.7, -1.2]);
+    let step = Pair::new(0.1, 1.5, [0.4, 0.6])?;
+    let turn = step.turn(&mu).unwrap();
+    for (i, (axial, own)) in [(2, (0.4, 0.9)), (5, (0.6, -1.2))] {
+        assert!((turn[i] - 0.1 * (1.0 / axial - 1.0 / 1.5) * own).abs() < 1e-16, "{turn}");
+    }
+    assert!([0, 1, 3, 4].iter().all(|&i| turn[i] == 0.0));
+    Ok(())
+}
+
+#[test]
+fn where_there_is_none_a_file_is_told_so() {
+    let text = "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + 2*y^2 + 3*z^2\"\n[integrator]\nspin = \"split\"\n";
+    let message = read(text, Options::default()).unwrap_err().render("body.toml", text);
+    assert!(
+        message.contains("no spin to split off") && message.contains("body.toml:5"),
+        "{message}"
+    );
+    let text = text.replace("\"split\"", "\"spilt\"");
+    let message = read(&text, Options::default()).unwrap_err().render("body.toml", &text);
+    assert!(message.contains("did you mean `split`"), "{message}");
+}
