@@ -98,7 +98,13 @@ pub trait Method {
 /// Steps from four times the problem's scale of time down, by factors 2^(−1/4).
 #[must_use]
 pub fn step_sweep(problem: &Problem) -> Vec<Setting> {
-    (-8..44).map(|k| Setting::Step(problem.time_scale * 2f64.powf(-f64::from(k) / 4.0))).collect()
+    step_sweep_about(problem.time_scale)
+}
+
+/// Steps from four times a scale of time down, by factors 2^(−1/4).
+#[must_use]
+pub fn step_sweep_about(time_scale: f64) -> Vec<Setting> {
+    (-8..44).map(|k| Setting::Step(time_scale * 2f64.powf(-f64::from(k) / 4.0))).collect()
 }
 
 /// Tolerances from 1e−3 down to 1e−16, four to a decade.

@@ -4,7 +4,7 @@ pub(crate) mod free_body;
 mod moving_body;
 
 use crate::{
-    method::{Method, RunError, Setting, step_sweep},
+    method::{Method, RunError, Setting, step_sweep_about},
     problem::{Problem, System},
     state::State,
 };
@@ -21,6 +21,11 @@ pub fn all() -> Vec<Box<dyn Method>> {
 trait Run {
     /// Whether there is one for such a system.
     fn applies(&self, system: &System) -> bool;
+
+    /// By what factor its steps are longer than those of other methods.
+    fn pace(&self) -> f64 {
+        1.0
+    }
 
     /// Integrates by equal steps of about `step`; `None` where there is no integrator for the system.
     fn run(
@@ -110,7 +115,7 @@ impl<R: Run> Method for Ours<R> {
     }
 
     fn settings(&self, problem: &Problem) -> Vec<Setting> {
-        step_sweep(problem)
+        step_sweep_about(self.runs.pace() * problem.time_scale)
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {

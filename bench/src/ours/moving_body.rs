@@ -62,6 +62,34 @@ macro_rules! top {
     };
 }
 
+/// Writes a symmetric top with its centre of mass on its axis, the second one, at one truncation.
+macro_rules! symmetric_top {
+    ($module:ident, $truncation:literal) => {
+        mod $module {
+            use super::*;
+
+            /// Lagrange's top: inverse moments of inertia in 1/(kg m²), weight times lever arm in J.
+            #[lie_poisson(group = SE3, truncation = $truncation, spin = split)]
+            pub fn lagrange_top(mu: [f64; 6], transverse: f64, axial: f64, weight: f64) -> f64 {
+                0.5 * (transverse * (mu[0] * mu[0] + mu[2] * mu[2]) + axial * mu[1] * mu[1])
+                    + weight * mu[4]
+            }
+
+            pub fn run(
+                body: &MovingBody<Gravity<1>>,
+                problem: &Problem,
+                step: f64,
+                coefficients: Coefficients,
+            ) -> Result<State, RunError> {
+                let (count, h) = Setting::steps(step, problem.end);
+                let [transverse, axial, _] = body.inverse_inertia;
+                let weight = body.translation.weight;
+                run!(LagrangeTop(h, transverse, axial, weight), coefficients, problem, count)
+            }
+        }
+    };
+}
+
 /// Writes Kirchhoff's body at one truncation.
 macro_rules! kirchhoff {
     ($module:ident, $truncation:literal) => {
@@ -99,6 +127,9 @@ top!(first_axis_nine, 9, 0);
 top!(second_axis_five, 5, 1);
 top!(second_axis_seven, 7, 1);
 top!(second_axis_nine, 9, 1);
+symmetric_top!(symmetric_five, 5);
+symmetric_top!(symmetric_seven, 7);
+symmetric_top!(symmetric_nine, 9);
 kirchhoff!(kirchhoff_five, 5);
 kirchhoff!(kirchhoff_seven, 7);
 
@@ -141,6 +172,36 @@ impl super::Run for Runs {
     }
 }
 
+/// One truncation of symmetric tops, the spin split off.
+#[derive(Clone, Copy)]
+struct SymmetricTop(BodyRun<Gravity<1>>);
+
+impl super::Run for SymmetricTop {
+    fn applies(&self, system: &System) -> bool {
+        let symmetric = |inverse: &[f64; 3]| inverse[0] == inverse[2];
+        matches!(system, System::HeavyTop(body) if symmetric(&body.inverse_inertia))
+    }
+
+    /// Steps follow the nutation, which is slower than the spin.
+    fn pace(&self) -> f64 {
+        16.0
+    }
+
+    fn run(
+        &self,
+        problem: &Problem,
+        step: f64,
+        coefficients: Coefficients,
+    ) -> Option<Result<State, RunError>> {
+        match &problem.system {
+            System::HeavyTop(body) if self.applies(&problem.system) => {
+                Some((self.0)(body, problem, step, coefficients))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// Every truncation.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Method>> {
@@ -170,7 +231,16 @@ pub fn all() -> Vec<Box<dyn Method>> {
             },
         ),
     ];
-    runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs)).collect()
+    let symmetric = [
+        (5, symmetric_five::run as BodyRun<_>),
+        (7, symmetric_seven::run),
+        (9, symmetric_nine::run),
+    ];
+    let symmetric = symmetric
+        .into_iter()
+        .flat_map(|(truncation, run)| rows(truncation, "SE(3), spin split off", SymmetricTop(run)));
+    let whole = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
+    whole.chain(symmetric).collect()
 }
 
 fn state(phase: &Phase<SE3>) -> State {
