@@ -1,5 +1,6 @@
 //! Exact Hamilton–Jacobi series of Lie–Poisson systems, lowered to Rust.
 
+pub mod comoving;
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;
@@ -13,7 +14,6 @@ pub mod pass;
 pub mod poly;
 pub mod potential;
 pub mod problem;
-pub mod spin;
 #[cfg(feature = "system")]
 pub mod system;
 pub mod tolerance;

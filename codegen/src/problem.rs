@@ -1,7 +1,6 @@
 //! What every front end produces: a Lie–Poisson system, ready for the derivation.
 
-use std::borrow::Cow;
-
+use crate::comoving::Frame;
 use crate::expr::ParameterExpr;
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -108,26 +107,26 @@ impl Solver {
     }
 }
 
-/// What becomes of the spin of a symmetric body.
+/// The frame in which S generates the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Spin {
+pub enum FrameChoice {
     /// S generates the flow of all of H_red.
     #[default]
-    Keep,
-    /// S generates the flow of what is left, and a turn about the axis of symmetry follows.
-    Split,
+    Fixed,
+    /// S generates what is left in the comoving frame, whose own motion follows each step.
+    Comoving,
 }
 
-impl Spin {
-    /// The names users write, `keep` and `split`.
-    pub const NAMES: [&str; 2] = ["keep", "split"];
+impl FrameChoice {
+    /// The names users write, `fixed` and `comoving`.
+    pub const NAMES: [&str; 2] = ["fixed", "comoving"];
 
     /// The choice of this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name {
-            "keep" => Some(Self::Keep),
-            "split" => Some(Self::Split),
+            "fixed" => Some(Self::Fixed),
+            "comoving" => Some(Self::Comoving),
             _ => None,
         }
     }
@@ -159,19 +158,15 @@ pub struct Problem {
     pub truncation: usize,
     /// The solver asked for; `None` leaves it to the dimension.
     pub solver: Option<Solver>,
-    /// The part of H_red that is split off as the spin of a symmetric body and left out of S; see
-    /// [`crate::spin`].
-    pub spin: Option<Polynomial>,
+    /// The comoving frame, if S is to generate the motion in it.
+    pub comoving: Option<Frame>,
 }
 
 impl Problem {
-    /// The Hamiltonian whose flow S generates: H_red without the spin, where that is split off.
+    /// The Hamiltonian whose flow S generates: H_red without what moves the frame.
     #[must_use]
-    pub fn generated(&self) -> Cow<'_, Polynomial> {
-        match &self.spin {
-            Some(spin) => Cow::Owned(&self.hamiltonian - spin),
-            None => Cow::Borrowed(&self.hamiltonian),
-        }
+    pub fn generated(&self) -> &Polynomial {
+        self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
     /// The solver asked for, or the one for this dimension.

@@ -80,7 +80,7 @@ pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
     let hamiltonian = polynomial.scale(&(Rational::one() / step));
     Ok(Problem {
         solver: None,
-        spin: None,
+        comoving: None,
         name: name.into(),
         coordinates: (1..=algebra.dim()).map(|i| format!("mu_{i}")).collect(),
         algebra,

@@ -123,8 +123,10 @@ where
     let solution = solve(generating, mu)?;
     let increment = generating.chart().transport(group, &solution.x, mu).0;
     state.displace(group, &increment);
-    if let Some(y) = generating.turn(&state.phase.momentum) {
+    let mut part = 0;
+    while let Some(y) = generating.frame(part, &state.phase.momentum) {
         state.displace(group, &group.exp(&y));
+        part += 1;
     }
     Ok(StepReport { iterations: solution.iterations, residual: solution.residual })
 }

@@ -72,15 +72,17 @@ pub trait GeneratingFunction {
         self.predict(mu)
     }
 
-    /// The turn y that follows the map of S where the spin of a symmetric body is left out of S: a
-    /// step is the map of S, then (g, μ) ↦ (g·exp y, Ad\*_{exp(y)⁻¹} μ) with y of that μ. `None`: no
-    /// turn, S generates the whole step.
+    /// Where S generates the motion in a comoving frame, the frame's own motion y in one step: a step
+    /// is the map of S, then (g, μ) ↦ (g·exp y, Ad\*_{exp(y)⁻¹} μ) with y of that μ, for part 0 of
+    /// the frame's motion, then part 1, … up to the first `None`. `None` for part 0: S generates the
+    /// whole step.
     ///
-    /// Both maps must commute and keep y, as the flows of H − f(⟨μ, e⟩) and f(⟨μ, e⟩) do where
-    /// ⟨μ, e⟩ is an integral: then many steps take one turn, many times as far.
+    /// All these maps must commute and each y be an integral of its own, as with the flows of H − f
+    /// and f where f is a function of an integral ⟨μ, e⟩, or a Casimir: then the frame goes the way of
+    /// many steps at once.
     #[inline(always)]
-    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        let _ = mu;
+    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let _ = (part, mu);
         None
     }
 

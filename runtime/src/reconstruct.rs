@@ -20,8 +20,8 @@ pub struct StepReport<T> {
     pub residual: T,
 }
 
-/// The Poisson map μ′ → μ″ = Ad\*_{τ(x)⁻¹} μ′ of 𝔤\* that `generating` induces, with the turn that
-/// follows it where there is one ([`GeneratingFunction::turn`]).
+/// The Poisson map μ′ → μ″ = Ad\*_{τ(x)⁻¹} μ′ of 𝔤\* that `generating` induces, with the
+/// motion of the frame where that is a comoving one ([`GeneratingFunction::frame`]).
 ///
 /// The momentum moves by the group action, so Casimirs are kept whatever residual the solve
 /// leaves.
@@ -36,15 +36,17 @@ pub fn poisson_map<S: GeneratingFunction + ?Sized>(
     let group = generating.group();
     let solution = solve(generating, mu)?;
     let moved = generating.chart().transport(group, &solution.x, mu).1;
-    Ok(match generating.turn(&moved) {
-        Some(y) => group.exp_transport(&y, &moved).1,
-        None => moved,
-    })
+    let (mut moved, mut part) = (moved, 0);
+    while let Some(y) = generating.frame(part, &moved) {
+        moved = group.exp_transport(&y, &moved).1;
+        part += 1;
+    }
+    Ok(moved)
 }
 
 /// Advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′): Algorithm 1 of the paper. Symplectic,
-/// G-equivariant, and J_L-preserving. The turn follows where there is one
-/// ([`GeneratingFunction::turn`]).
+/// G-equivariant, and J_L-preserving. A comoving frame moves on after it
+/// ([`GeneratingFunction::frame`]).
 ///
 /// # Errors
 /// As [`solve`]; `phase` is then left as it was.
@@ -59,8 +61,8 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`GeneratingFunction::predict_after`]), many share a turn, and what steps read of
-/// `generating` is prepared once. The report holds the largest number of iterations and the largest
+/// one before ([`GeneratingFunction::predict_after`]), a comoving frame moves on for many
+/// at once, and what steps read of `generating` is prepared once. The report holds the largest number of iterations and the largest
 /// residual of a step; no step, none.
 ///
 /// # Errors
@@ -83,8 +85,9 @@ pub(crate) struct Stopped {
     pub(crate) error: StepError,
 }
 
-/// The most steps that share a turn: rounding moves its angle by less than that of one step each.
-const STEPS_PER_TURN: u64 = 256;
+/// The most steps for which a comoving frame moves on at once: few enough for its integrals, which drift
+/// by rounding, to be the same in all of them.
+const STEPS_PER_FRAME: u64 = 256;
 
 /// The steps of [`advance_by`].
 #[inline(always)]
@@ -95,35 +98,35 @@ pub(crate) fn march<S: GeneratingFunction + ?Sized>(
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     let mut last = None;
-    // Steps whose turn is still to come.
-    let mut straight = 0;
+    // Steps that the frame has not made yet.
+    let mut behind = 0;
     for done in 0..steps {
         let Solution { p, x, iterations, residual } =
             match solve_after(generating, &phase.momentum, last.as_ref()) {
                 Ok(solution) => solution,
                 Err(error) => {
-                    turn(generating, phase, straight);
+                    move_frame(generating, phase, behind);
                     return Err(Stopped { done, error });
                 }
             };
         displace(generating, phase, &x);
         last = Some(p);
-        straight += 1;
-        if straight == STEPS_PER_TURN {
-            if turn(generating, phase, straight) {
+        behind += 1;
+        if behind == STEPS_PER_FRAME {
+            if move_frame(generating, phase, behind) {
                 last = None;
             }
-            straight = 0;
+            behind = 0;
         }
         worst.iterations = worst.iterations.max(iterations);
         worst.residual = worst.residual.simd_max(residual);
     }
-    turn(generating, phase, straight);
+    move_frame(generating, phase, behind);
     Ok(worst)
 }
 
 /// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that
-/// [`solve`] has found for μ′, and makes the turn.
+/// [`solve`] has found for μ′, and moves a comoving frame on.
 #[inline(always)]
 pub fn reconstruct<S: GeneratingFunction + ?Sized>(
     generating: &S,
@@ -131,7 +134,7 @@ pub fn reconstruct<S: GeneratingFunction + ?Sized>(
     x: &VectorOf<S>,
 ) {
     displace(generating, phase, x);
-    turn(generating, phase, 1);
+    move_frame(generating, phase, 1);
 }
 
 /// (g, μ) ↦ (g·τ(x), Ad\*_{τ(x)⁻¹} μ).
@@ -147,21 +150,24 @@ fn displace<S: GeneratingFunction + ?Sized>(
     phase.momentum = momentum;
 }
 
-/// The turns of so many steps at once; whether there are any.
+/// Moves a comoving frame on by so many steps; whether there is one.
 #[inline(always)]
-fn turn<S: GeneratingFunction + ?Sized>(
+fn move_frame<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     steps: u64,
 ) -> bool {
-    let Some(mut y) = generating.turn(&phase.momentum) else { return false };
-    let times = ScalarOf::<S>::of(steps as f64);
-    for i in 0..y.dim() {
-        y[i] *= times;
-    }
     let group = generating.group();
-    let (increment, momentum) = group.exp_transport(&y, &phase.momentum);
-    phase.group_element = group.compose(&phase.group_element, &increment);
-    phase.momentum = momentum;
-    true
+    let times = ScalarOf::<S>::of(steps as f64);
+    let mut part = 0;
+    while let Some(mut y) = generating.frame(part, &phase.momentum) {
+        for i in 0..y.dim() {
+            y[i] *= times;
+        }
+        let (increment, momentum) = group.exp_transport(&y, &phase.momentum);
+        phase.group_element = group.compose(&phase.group_element, &increment);
+        phase.momentum = momentum;
+        part += 1;
+    }
+    part > 0
 }

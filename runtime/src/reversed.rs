@@ -29,8 +29,8 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
         VectorOf::<S>::from_entries(x.dim(), |i| -x[i])
     }
 
-    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        self.0.turn(mu).map(|y| VectorOf::<S>::from_entries(y.dim(), |i| -y[i]))
+    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.0.frame(part, mu).map(|y| VectorOf::<S>::from_entries(y.dim(), |i| -y[i]))
     }
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {

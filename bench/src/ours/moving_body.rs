@@ -69,7 +69,7 @@ macro_rules! symmetric_top {
             use super::*;
 
             /// Lagrange's top: inverse moments of inertia in 1/(kg m²), weight times lever arm in J.
-            #[lie_poisson(group = SE3, truncation = $truncation, spin = split)]
+            #[lie_poisson(group = SE3, truncation = $truncation, frame = comoving)]
             pub fn lagrange_top(mu: [f64; 6], transverse: f64, axial: f64, weight: f64) -> f64 {
                 0.5 * (transverse * (mu[0] * mu[0] + mu[2] * mu[2]) + axial * mu[1] * mu[1])
                     + weight * mu[4]
@@ -172,7 +172,7 @@ impl super::Run for Runs {
     }
 }
 
-/// One truncation of symmetric tops, the spin split off.
+/// One truncation of symmetric tops in the comoving frame.
 #[derive(Clone, Copy)]
 struct SymmetricTop(BodyRun<Gravity<1>>);
 
@@ -238,7 +238,7 @@ pub fn all() -> Vec<Box<dyn Method>> {
     ];
     let symmetric = symmetric
         .into_iter()
-        .flat_map(|(truncation, run)| rows(truncation, "SE(3), spin split off", SymmetricTop(run)));
+        .flat_map(|(truncation, run)| rows(truncation, "SE(3), comoving", SymmetricTop(run)));
     let whole = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
     whole.chain(symmetric).collect()
 }

@@ -22,7 +22,7 @@ pub fn run(options: &DeriveOptions) -> Result<(), CliError> {
     let series = hamilton_jacobi::derive(
         &problem.algebra,
         problem.chart,
-        &problem.generated(),
+        problem.generated(),
         problem.truncation,
         TermLimit::default(),
     )

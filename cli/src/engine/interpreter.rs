@@ -173,8 +173,8 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     }
 
     #[inline(always)]
-    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        self.integrator.turn.as_ref().map(|program| self.vector(program, mu))
+    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.integrator.frame.get(part).map(|program| self.vector(program, mu))
     }
 
     #[inline(always)]

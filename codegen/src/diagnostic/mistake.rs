@@ -113,14 +113,14 @@ pub enum Mistake {
     /// A solver nobody knows: name, nearest.
     #[error("unknown solver `{0}`{did}", did = did_you_mean(.1))]
     UnknownSolver(String, Option<String>),
-    /// Neither `keep` nor `split`: name, nearest.
-    #[error("`spin = {0}` is not known{did}", did = did_you_mean(.1))]
-    UnknownSpin(String, Option<String>),
-    /// A spin is to be split off where there is none.
+    /// A frame nobody knows: name, nearest.
+    #[error("unknown frame `{0}`{did}", did = did_you_mean(.1))]
+    UnknownFrame(String, Option<String>),
+    /// A comoving frame is asked for where none makes the series shorter.
     #[error(
-        "there is no spin to split off: no coordinate of the momentum is an integral that makes the series longer"
+        "there is no comoving frame: neither a coordinate that is an integral nor a quadratic Casimir takes terms from the series"
     )]
-    NoSpin,
+    NoFrame,
     /// A chart the group does not have.
     #[error(transparent)]
     Chart(#[from] ChartError),
@@ -258,10 +258,10 @@ impl Mistake {
             Self::TruncationNumber => "write for example truncation = 7",
             Self::UnknownChart(..) => "charts: exp (the default) and cayley",
             Self::UnknownSolver(..) => "solvers: newton and fixed_point",
-            Self::UnknownSpin(..) => "write spin = split, or leave it out (spin = keep)",
-            Self::NoSpin => {
+            Self::UnknownFrame(..) => "frames: fixed (the default) and comoving",
+            Self::NoFrame => {
                 "for a symmetric body, write both transverse moments of inertia as one parameter and \
-                 choose coordinates with the axis of symmetry among them; otherwise leave `spin` out"
+                 choose coordinates with the axis of symmetry among them; otherwise leave `frame` out"
             }
             Self::Dimension(_, group, expected) => {
                 return Some(format!("give {expected} coordinates for {group}"));

@@ -63,13 +63,19 @@ pub fn generating_function(
             }
         }
     });
-    let turn = integrator.turn.as_ref().map(|program| {
-        let function = vector_function(program, vector, scope);
+    let frame = (!integrator.frame.is_empty()).then(|| {
+        let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
+            let function = vector_function(program, vector, scope);
+            quote!(#part => ::core::option::Option::Some({ #function }),)
+        });
         quote! {
             #[inline(always)]
-            fn turn(&self, input: &#vector) -> ::core::option::Option<#vector> {
+            fn frame(&self, part: usize, input: &#vector) -> ::core::option::Option<#vector> {
                 let c = &self.coefficients;
-                ::core::option::Option::Some({ #function })
+                match part {
+                    #(#parts)*
+                    _ => ::core::option::Option::None,
+                }
             }
         }
     });
@@ -128,7 +134,7 @@ pub fn generating_function(
 
             #defect
 
-            #turn
+            #frame
         }
     }
 }

@@ -13,9 +13,10 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
     let iteration = integrator.iteration().cost();
     let what = if integrator.hessian.is_some() { "gradient and Hessian" } else { "gradient" };
     let predictor = integrator.predictor.cost();
-    let spin = problem.spin.as_ref().map(|_| {
-        " The spin of the symmetric body is split off: S generates the rest, and a turn follows."
-    });
+    let frame = problem
+        .comoving
+        .as_ref()
+        .map(|_| " Comoving frame: S generates the motion in it.".to_owned());
     let mut lines = vec![
         format!(" Hamiltonian: `{}`", one_line(&problem.source)),
         String::new(),
@@ -41,7 +42,7 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
             predictor.additions
         ),
     ];
-    lines.extend(spin.map(str::to_owned));
+    lines.extend(frame);
     lines
 }
 

@@ -29,7 +29,7 @@ pub fn increment_program(
     let dim = problem.algebra.dim();
     let mut flow = Flow::new(coefficients, problem);
     let hamiltonian = problem.generated();
-    let field = problem.algebra.hamiltonian_field(&hamiltonian);
+    let field = problem.algebra.hamiltonian_field(hamiltonian);
     let omega = hamiltonian.gradient(dim);
     let omega: Vec<Vec<BaseTerm>> = omega.iter().map(|w| flow.collect(1, w)).collect();
     let mut jets: Vec<Vec<Id>> = vec![Vec::new(); dim];

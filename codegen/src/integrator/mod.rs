@@ -14,6 +14,7 @@ pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
 pub use products::Products;
 
+use crate::comoving::Frame;
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
 use crate::problem::{Problem, Solver};
@@ -51,8 +52,8 @@ pub struct Integrator {
     pub continuation: Option<Program>,
     /// μ ↦ H_red(μ).
     pub energy: Program,
-    /// μ ↦ y, the turn exp y that follows the map of S, where the spin is split off.
-    pub turn: Option<Program>,
+    /// μ ↦ y for each part of the comoving frame's motion: exp y follows the map of S.
+    pub frame: Vec<Program>,
 }
 
 impl Integrator {
@@ -64,7 +65,7 @@ impl Integrator {
         let series = hamilton_jacobi::derive(
             &problem.algebra,
             problem.chart,
-            &problem.generated(),
+            problem.generated(),
             problem.truncation,
             limit,
         )?;
@@ -97,7 +98,7 @@ impl Integrator {
         let (plan, polynomials) = match plan {
             Some(plan) => {
                 let Problem { algebra, chart, .. } = &problem;
-                let hamiltonian = &problem.generated();
+                let hamiltonian = problem.generated();
                 let polynomials = match plan.predictor {
                     Predictor::Explicit(degree) => {
                         hamilton_jacobi::predictor(algebra, *chart, hamiltonian, degree, limit)?
@@ -136,12 +137,15 @@ impl Integrator {
         let gradient = lower::gradient_program(table, dim, &s);
         let value = lower::value_program(table, dim, &s);
         let energy = lower::value_program(table, dim, &h);
-        let turn = problem.spin.as_ref().map(|spin| {
-            let rates = spin.gradient(dim);
-            let components: Vec<_> =
-                rates.iter().map(|rate| terms::collect(table, dim, [(1, rate)])).collect();
-            lower::vector_program(table, dim, &components)
-        });
+        let frame = problem.comoving.iter().flat_map(Frame::parts);
+        let frame = frame
+            .map(|part| {
+                let rates = part.gradient(dim);
+                let components: Vec<_> =
+                    rates.iter().map(|rate| terms::collect(table, dim, [(1, rate)])).collect();
+                lower::vector_program(table, dim, &components)
+            })
+            .collect();
         Ok(Self {
             problem,
             series,
@@ -155,7 +159,7 @@ impl Integrator {
             predictor,
             continuation,
             energy,
-            turn,
+            frame,
         })
     }
 

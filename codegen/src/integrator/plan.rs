@@ -225,7 +225,7 @@ fn affordable(
     limit: TermLimit,
     lower: bool,
 ) -> Result<Option<Vec<Vec<Polynomial>>>, DeriveError> {
-    match predictor(&problem.algebra, problem.chart, &problem.generated(), degree, limit) {
+    match predictor(&problem.algebra, problem.chart, problem.generated(), degree, limit) {
         Ok(polynomials) => Ok(Some(polynomials)),
         Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) if lower => Ok(None),
         Err(error) => Err(error),

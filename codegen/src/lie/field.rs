@@ -12,7 +12,7 @@ impl LieAlgebra {
     /// use coadjoint_codegen::number::ratio;
     /// use coadjoint_codegen::poly::Polynomial;
     ///
-    /// // A symmetric body, H = (μ₀² + μ₁²)/2 + μ₂²: its spin μ₂ does not move.
+    /// // A symmetric body, H = (μ₀² + μ₁²)/2 + μ₂²: its spin μ₂ is an integral.
     /// let square = |i, half| (Polynomial::variable(3, i).pow(2)).scale(&ratio(half, 2));
     /// let h = &(&square(0, 1) + &square(1, 1)) + &square(2, 2);
     /// let field = lookup("SO3").unwrap().hamiltonian_field(&h);

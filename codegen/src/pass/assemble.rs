@@ -4,14 +4,14 @@ use num_integer::Integer;
 
 use super::coefficient::{ONE, Table};
 use super::polynomial::{Sum, polynomial};
+use crate::comoving::comoving;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
-use crate::problem::{Parameter, Problem, Solver, Spin, Symbol};
-use crate::spin::spin;
+use crate::problem::{FrameChoice, Parameter, Problem, Solver, Symbol};
 
 /// The truncation where none is given: order of accuracy 8.
 pub const DEFAULT_TRUNCATION: usize = 7;
@@ -44,8 +44,8 @@ pub struct Draft {
     pub truncation: Option<usize>,
     /// The solver, if one is asked for.
     pub solver: Option<Solver>,
-    /// What becomes of the spin, and where it is said.
-    pub spin: (Spin, Span),
+    /// The frame, and where it is given.
+    pub frame: (FrameChoice, Span),
 }
 
 /// Checks what was read and turns it into a problem.
@@ -79,15 +79,17 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         return Err(diagnostics);
     };
 
-    let (hamiltonian, symbols) = exact(sum, count, &mut table, &draft.parameters);
-    let (choice, span) = draft.spin;
-    let spin = match choice {
-        Spin::Keep => None,
-        Spin::Split => spin(&algebra, draft.chart.0, &hamiltonian),
-    };
-    if choice == Spin::Split && spin.is_none() {
-        diagnostics.report(span, Mistake::NoSpin);
-        return Err(diagnostics);
+    let (mut hamiltonian, mut symbols) = exact(sum, count, &mut table, &draft.parameters);
+    let mut frame = None;
+    if let (FrameChoice::Comoving, span) = draft.frame {
+        let Some(found) = comoving(&algebra, draft.chart.0, &hamiltonian) else {
+            diagnostics.report(span, Mistake::NoFrame);
+            return Err(diagnostics);
+        };
+        let names: Vec<String> =
+            draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
+        frame = Some(found.with_symbols(count, &mut symbols, &names));
+        hamiltonian = hamiltonian.in_variables(count + symbols.len());
     }
     Ok(Problem {
         name: draft.name,
@@ -100,7 +102,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         chart: draft.chart.0,
         truncation,
         solver: draft.solver,
-        spin,
+        comoving: frame,
     })
 }
 
@@ -261,14 +263,14 @@ pub fn solver(name: &str) -> Result<Solver, Mistake> {
     })
 }
 
-/// The choice of this name: `keep` or `split`.
+/// The frame of this name: `fixed` or `comoving`.
 ///
 /// # Errors
-/// [`Mistake::UnknownSpin`].
-pub fn spin_choice(name: &str) -> Result<Spin, Mistake> {
-    Spin::named(name).ok_or_else(|| {
-        let suggestion = crate::diagnostic::nearest(name, Spin::NAMES);
-        Mistake::UnknownSpin(name.to_owned(), suggestion.map(str::to_owned))
+/// [`Mistake::UnknownFrame`].
+pub fn frame(name: &str) -> Result<FrameChoice, Mistake> {
+    FrameChoice::named(name).ok_or_else(|| {
+        let suggestion = crate::diagnostic::nearest(name, FrameChoice::NAMES);
+        Mistake::UnknownFrame(name.to_owned(), suggestion.map(str::to_owned))
     })
 }
 

@@ -6,5 +6,5 @@ mod polynomial;
 
 pub use assemble::{
     DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, PotentialDraft, assemble, assemble_potential, chart,
-    check_chart, check_truncation, linear, solver, spin_choice,
+    check_chart, check_truncation, frame, linear, solver,
 };

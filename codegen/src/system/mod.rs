@@ -23,8 +23,9 @@
 //! then picked too unless it is given. `region = 2.5` (a norm of the momentum, or [low, high] for each
 //! coordinate) says where it is to hold; without it, along the run from the initial state.
 //!
-//! In `[integrator]`, `solver` is `newton` or `fixed_point`, and `spin = "split"` leaves the spin of a
-//! symmetric body out of the series and makes it a turn after each step (see [`crate::spin`]). For a power such as SO3^64, coordinates and
+//! In `[integrator]`, `solver` is `newton` or `fixed_point`, and `frame = "comoving"` leaves what is
+//! uniform in the motion (the spin of a symmetric body, multiples of Casimirs) out of the series and lets
+//! it follow each step (see [`crate::comoving`]). For a power such as SO3^64, coordinates and
 //! momentum may be given for one copy: `x` then stands for `x[0]`, `x[1]`, …, the momentum may be
 //! expressions in the copy's number `i`, and `sum(i, 0..64, x[i]*x[(i + 1) % 64])` is a sum over copies.
 //!
@@ -50,7 +51,7 @@ use crate::pass::{
     self, DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
 };
 use crate::potential::Potential;
-use crate::problem::{Problem, Solver, Spin};
+use crate::problem::{FrameChoice, Problem, Solver};
 use table::Table;
 
 pub use run::Run;
@@ -157,7 +158,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         chart,
         truncation,
         solver: options.solver.or(chosen.solver),
-        spin: chosen.spin,
+        frame: chosen.frame,
     };
     // Mistakes of both energies at once.
     let potential = potential.and_then(|draft| {
@@ -209,7 +210,7 @@ struct Chosen {
     truncation: Option<usize>,
     chart: (Chart, Span),
     solver: Option<Solver>,
-    spin: (Spin, Span),
+    frame: (FrameChoice, Span),
 }
 
 impl Default for Chosen {
@@ -218,14 +219,14 @@ impl Default for Chosen {
             truncation: Some(DEFAULT_TRUNCATION),
             chart: (Chart::default(), Span::Whole),
             solver: None,
-            spin: (Spin::default(), Span::Whole),
+            frame: (FrameChoice::default(), Span::Whole),
         }
     }
 }
 
 fn integrator_table(table: &Table<'_>, options: Options, diagnostics: &mut Diagnostics) -> Chosen {
     let known =
-        ["truncation", "chart", "solver", "spin", "step", "tolerance", "region", "splitting"];
+        ["truncation", "chart", "solver", "frame", "step", "tolerance", "region", "splitting"];
     table.check_keys(&known, diagnostics);
     let mut chosen = Chosen::default();
     if table.has("truncation") && options.truncation.is_none() {
@@ -247,9 +248,9 @@ fn integrator_table(table: &Table<'_>, options: Options, diagnostics: &mut Diagn
             Err(mistake) => diagnostics.report(span, mistake),
         }
     }
-    if let Some((name, span)) = table.string("spin", "spin = \"split\"", diagnostics) {
-        match pass::spin_choice(name) {
-            Ok(spin) => chosen.spin = (spin, span),
+    if let Some((name, span)) = table.string("frame", "frame = \"comoving\"", diagnostics) {
+        match pass::frame(name) {
+            Ok(frame) => chosen.frame = (frame, span),
             Err(mistake) => diagnostics.report(span, mistake),
         }
     }

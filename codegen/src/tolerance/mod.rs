@@ -155,7 +155,7 @@ pub fn choose(
     let terms: Vec<Gradient> =
         orders.iter().map(|&j| Gradient::new(series.order(j), dim, &symbols)).collect();
     let brackets = Brackets::new(&problem.algebra);
-    let energy = Gradient::new(&problem.generated(), dim, &symbols);
+    let energy = Gradient::new(problem.generated(), dim, &symbols);
     let flow = Flow { brackets: &brackets, energy: &energy, terms: &terms };
     let sizes = Sizes::of(&flow, dim, target);
     let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
@@ -211,7 +211,7 @@ fn derive(
         let derived = hamilton_jacobi::derive(
             &problem.algebra,
             problem.chart,
-            &problem.generated(),
+            problem.generated(),
             highest,
             limit,
         );

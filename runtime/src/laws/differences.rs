@@ -133,7 +133,7 @@ where
     Ok(form_defect(group, &point.momentum, &image, &pairs_by_chart(map, &point.momentum)?))
 }
 
-/// x and μ″ of the map of S alone: a turn after it is the exact flow of a function of μ.
+/// x and μ″ of the map of S alone: the frame moves by exact flows of functions of μ.
 fn generated<S>(map: &S, mu: &Vector<S>) -> Result<(Vector<S>, Vector<S>), StepError>
 where
     S: GeneratingFunction,

@@ -70,8 +70,8 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     }
 
     #[inline(always)]
-    fn turn(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        self.0.turn(mu)
+    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.0.frame(part, mu)
     }
 }
 

@@ -21,9 +21,9 @@ pub fn heavy_top(mu: [f64; 6], inertia: [f64; 3], weight: [f64; 3]) -> f64 {
 
 /// Lagrange's top: H = (Π₁² + Π₂²)/(2I₁) + Π₃²/(2I₃) + m g l Γ₃; Π₃ is an integral.
 ///
-/// `transverse` I₁ and `axial` I₃ in kg m² about the tip, `mgl` in N m. The spin is split off, so that
-/// a step may be as long as nutation allows, however fast the top spins.
-#[lie_poisson(group = SE3, truncation = 5, spin = split)]
+/// `transverse` I₁ and `axial` I₃ in kg m² about the tip, `mgl` in N m. In the comoving frame a
+/// step may be as long as nutation allows, however fast the top spins.
+#[lie_poisson(group = SE3, truncation = 5, frame = comoving)]
 pub fn lagrange_top(mu: [f64; 6], transverse: f64, axial: f64, mgl: f64) -> f64 {
     let [x, y, z, _, _, w] = mu;
     (x * x + y * y) / (2.0 * transverse) + z * z / (2.0 * axial) + mgl * w

@@ -25,13 +25,13 @@ fn no_cayley(mu: [f64; 8]) -> f64 {
     mu[0] * mu[0]
 }
 
-#[lie_poisson(group = SO3, spin = split)]
-fn no_spin(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
-    mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2]
+#[lie_poisson(group = SE3, frame = comoving)]
+fn no_frame(mu: [f64; 6], inertia: [f64; 3]) -> f64 {
+    mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2] + mu[3]
 }
 
-#[lie_poisson(group = SO3, spin = spilt)]
-fn unknown_spin(mu: [f64; 3]) -> f64 {
+#[lie_poisson(group = SO3, frame = moving)]
+fn unknown_frame(mu: [f64; 3]) -> f64 {
     mu[0] * mu[0]
 }
 

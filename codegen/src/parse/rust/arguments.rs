@@ -5,10 +5,10 @@ use quote::ToTokens;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::{DEFAULT_TRUNCATION, check_truncation, solver, spin_choice};
-use crate::problem::{Solver, Spin};
+use crate::pass::{DEFAULT_TRUNCATION, check_truncation, frame, solver};
+use crate::problem::{FrameChoice, Solver};
 
-const KEYS: [&str; 5] = ["group", "truncation", "chart", "solver", "spin"];
+const KEYS: [&str; 5] = ["group", "truncation", "chart", "solver", "frame"];
 const OWNER: &str = "#[lie_poisson(…)]";
 
 /// What the arguments say; `None` where it was missing or wrong, which is reported.
@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     pub truncation: Option<usize>,
     pub chart: (Chart, Span),
     pub solver: Option<Solver>,
-    pub spin: (Spin, Span),
+    pub frame: (FrameChoice, Span),
 }
 
 /// Reads `group = SO3, truncation = 7, chart = exp`.
@@ -27,7 +27,7 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
         truncation: None,
         chart: (Chart::default(), Span::Whole),
         solver: None,
-        spin: (Spin::default(), Span::Whole),
+        frame: (FrameChoice::default(), Span::Whole),
     };
     let mut seen: Vec<String> = Vec::new();
     for (key, span, value) in entries(tokens, diagnostics) {
@@ -44,8 +44,8 @@ pub(super) fn read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Argume
                 Ok(solver) => arguments.solver = Some(solver),
                 Err(mistake) => diagnostics.report(place, mistake),
             },
-            "spin" => match spin_choice(&text(&value)) {
-                Ok(spin) => arguments.spin = (spin, place),
+            "frame" => match frame(&text(&value)) {
+                Ok(frame) => arguments.frame = (frame, place),
                 Err(mistake) => diagnostics.report(place, mistake),
             },
             _ => {

@@ -63,7 +63,7 @@ pub fn read(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagno
         chart: arguments.chart,
         truncation: arguments.truncation,
         solver: arguments.solver,
-        spin: arguments.spin,
+        frame: arguments.frame,
     };
     assemble(draft, diagnostics)
 }
