@@ -6,7 +6,10 @@ use super::EnsembleMethod;
 use crate::{
     arithmetic::{Vector, dot},
     method::{RunError, Setting},
-    ours::free_body::{self, eleven, fifteen, nine, thirteen},
+    ours::free_body::{
+        self, comoving_eleven, comoving_fifteen, comoving_nine, comoving_thirteen, eleven, fifteen,
+        nine, thirteen,
+    },
     problem::{FreeBody, Problem, System},
     state::State,
 };
@@ -78,7 +81,7 @@ impl EnsembleMethod for Ours {
     }
 
     fn settings(&self) -> Vec<Setting> {
-        (0..=10).map(|k| Setting::Step(2f64.powf(-f64::from(k) / 4.0))).collect()
+        (-6..=10).map(|k| Setting::Step(2f64.powf(-f64::from(k) / 4.0))).collect()
     }
 
     fn run(
@@ -101,10 +104,18 @@ impl EnsembleMethod for Ours {
 /// Every truncation, tuned to some of the bodies.
 #[must_use]
 pub fn ours() -> Vec<Box<dyn EnsembleMethod>> {
-    let runs: [(u32, Run); 4] =
-        [(9, run!(nine)), (11, run!(eleven)), (13, run!(thirteen)), (15, run!(fifteen))];
-    let row = |(truncation, run)| {
-        let name = format!("coadjoint, K = {truncation}, tuned, 8 lanes");
+    let runs: [(&str, Run); 8] = [
+        ("K = 9", run!(nine)),
+        ("K = 11", run!(eleven)),
+        ("K = 13", run!(thirteen)),
+        ("K = 15", run!(fifteen)),
+        ("comoving, K = 9", run!(comoving_nine)),
+        ("comoving, K = 11", run!(comoving_eleven)),
+        ("comoving, K = 13", run!(comoving_thirteen)),
+        ("comoving, K = 15", run!(comoving_fifteen)),
+    ];
+    let row = |(series, run)| {
+        let name = format!("coadjoint, {series}, tuned, 8 lanes");
         Box::new(Ours { name, run }) as Box<dyn EnsembleMethod>
     };
     runs.into_iter().map(row).collect()

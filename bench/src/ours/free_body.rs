@@ -9,14 +9,14 @@ use crate::{
     state::{Rotation, State},
 };
 
-/// Writes the Hamiltonian at one truncation and its run over an interval.
+/// Writes the Hamiltonian at one truncation in one frame and its run over an interval.
 macro_rules! truncated {
-    ($module:ident, $truncation:literal) => {
+    ($module:ident, $truncation:literal, $frame:ident) => {
         pub(crate) mod $module {
             use super::*;
 
             /// Free rigid body, moments of inertia in kg m².
-            #[lie_poisson(group = SO3, truncation = $truncation)]
+            #[lie_poisson(group = SO3, truncation = $truncation, frame = $frame)]
             pub fn rigid_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
                 0.5 * (mu[0] * mu[0] / inertia[0]
                     + mu[1] * mu[1] / inertia[1]
@@ -51,13 +51,19 @@ macro_rules! truncated {
     };
 }
 
-truncated!(five, 5);
-truncated!(seven, 7);
-truncated!(nine, 9);
-truncated!(eleven, 11);
-truncated!(thirteen, 13);
-truncated!(fifteen, 15);
-truncated!(seventeen, 17);
+truncated!(five, 5, fixed);
+truncated!(seven, 7, fixed);
+truncated!(nine, 9, fixed);
+truncated!(eleven, 11, fixed);
+truncated!(thirteen, 13, fixed);
+truncated!(fifteen, 15, fixed);
+truncated!(seventeen, 17, fixed);
+truncated!(comoving_five, 5, comoving);
+truncated!(comoving_seven, 7, comoving);
+truncated!(comoving_nine, 9, comoving);
+truncated!(comoving_eleven, 11, comoving);
+truncated!(comoving_thirteen, 13, comoving);
+truncated!(comoving_fifteen, 15, comoving);
 
 /// A phase point as the comparison has it.
 pub(crate) fn state(phase: &Phase<SO3>) -> State {
@@ -97,5 +103,16 @@ pub fn all() -> Vec<Box<dyn Method>> {
         (15, fifteen::run),
         (17, seventeen::run),
     ];
-    runs.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3)", run)).collect()
+    let comoving: [(u32, FreeBodyRun); 6] = [
+        (5, comoving_five::run),
+        (7, comoving_seven::run),
+        (9, comoving_nine::run),
+        (11, comoving_eleven::run),
+        (13, comoving_thirteen::run),
+        (15, comoving_fifteen::run),
+    ];
+    let fixed = runs.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3)", run));
+    let comoving =
+        comoving.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3), comoving", run));
+    fixed.chain(comoving).collect()
 }

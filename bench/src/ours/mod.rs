@@ -23,7 +23,8 @@ trait Run {
     fn applies(&self, system: &System) -> bool;
 
     /// By what factor its steps are longer than those of other methods.
-    fn pace(&self) -> f64 {
+    fn pace(&self, system: &System) -> f64 {
+        let _ = system;
         1.0
     }
 
@@ -57,8 +58,9 @@ struct Fitting {
     followed: f64,
 }
 
-const FITTINGS: [Fitting; 2] = [
+const FITTINGS: [Fitting; 3] = [
     Fitting { group: "SO(3)", highest: 11, followed: 8.0 },
+    Fitting { group: "SO(3), comoving", highest: 9, followed: 16.0 },
     Fitting { group: "SE(3)", highest: 7, followed: 64.0 },
 ];
 
@@ -115,7 +117,7 @@ impl<R: Run> Method for Ours<R> {
     }
 
     fn settings(&self, problem: &Problem) -> Vec<Setting> {
-        step_sweep_about(self.runs.pace() * problem.time_scale)
+        step_sweep_about(self.runs.pace(&problem.system) * problem.time_scale)
     }
 
     fn run(&self, problem: &Problem, setting: Setting) -> Result<State, RunError> {

@@ -90,14 +90,14 @@ macro_rules! symmetric_top {
     };
 }
 
-/// Writes Kirchhoff's body at one truncation.
+/// Writes Kirchhoff's body at one truncation in one frame.
 macro_rules! kirchhoff {
-    ($module:ident, $truncation:literal) => {
+    ($module:ident, $truncation:literal, $frame:ident) => {
         mod $module {
             use super::*;
 
             /// Body in a fluid: inverse moments of inertia and masses, added ones included.
-            #[lie_poisson(group = SE3, truncation = $truncation)]
+            #[lie_poisson(group = SE3, truncation = $truncation, frame = $frame)]
             pub fn kirchhoff(mu: [f64; 6], inertia: [f64; 3], mass: [f64; 3]) -> f64 {
                 0.5 * (inertia[0] * mu[0] * mu[0]
                     + inertia[1] * mu[1] * mu[1]
@@ -130,8 +130,10 @@ top!(second_axis_nine, 9, 1);
 symmetric_top!(symmetric_five, 5);
 symmetric_top!(symmetric_seven, 7);
 symmetric_top!(symmetric_nine, 9);
-kirchhoff!(kirchhoff_five, 5);
-kirchhoff!(kirchhoff_seven, 7);
+kirchhoff!(kirchhoff_five, 5, fixed);
+kirchhoff!(kirchhoff_seven, 7, fixed);
+kirchhoff!(comoving_kirchhoff_five, 5, comoving);
+kirchhoff!(comoving_kirchhoff_seven, 7, comoving);
 
 type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<State, RunError>;
 
@@ -172,19 +174,25 @@ impl super::Run for Runs {
     }
 }
 
-/// One truncation of symmetric tops in the comoving frame.
+/// One truncation in the comoving frame, where it is another than the fixed one.
 #[derive(Clone, Copy)]
-struct SymmetricTop(BodyRun<Gravity<1>>);
+struct Comoving {
+    symmetric_top: BodyRun<Gravity<1>>,
+    kirchhoff: Option<BodyRun<Mass>>,
+}
 
-impl super::Run for SymmetricTop {
+impl super::Run for Comoving {
     fn applies(&self, system: &System) -> bool {
-        let symmetric = |inverse: &[f64; 3]| inverse[0] == inverse[2];
-        matches!(system, System::HeavyTop(body) if symmetric(&body.inverse_inertia))
+        match system {
+            System::HeavyTop(body) => body.inverse_inertia[0] == body.inverse_inertia[2],
+            System::Kirchhoff(_) => self.kirchhoff.is_some(),
+            System::FreeBody(_) | System::Kovalevskaya(_) => false,
+        }
     }
 
-    /// Steps follow the nutation, which is slower than the spin.
-    fn pace(&self) -> f64 {
-        16.0
+    /// A top's steps follow the nutation, which is slower than the spin.
+    fn pace(&self, system: &System) -> f64 {
+        if matches!(system, System::HeavyTop(_)) { 16.0 } else { 1.0 }
     }
 
     fn run(
@@ -194,10 +202,12 @@ impl super::Run for SymmetricTop {
         coefficients: Coefficients,
     ) -> Option<Result<State, RunError>> {
         match &problem.system {
-            System::HeavyTop(body) if self.applies(&problem.system) => {
-                Some((self.0)(body, problem, step, coefficients))
+            _ if !self.applies(&problem.system) => None,
+            System::HeavyTop(body) => Some((self.symmetric_top)(body, problem, step, coefficients)),
+            System::Kirchhoff(body) => {
+                self.kirchhoff.map(|run| run(body, problem, step, coefficients))
             }
-            _ => None,
+            System::FreeBody(_) | System::Kovalevskaya(_) => None,
         }
     }
 }
@@ -231,16 +241,28 @@ pub fn all() -> Vec<Box<dyn Method>> {
             },
         ),
     ];
-    let symmetric = [
-        (5, symmetric_five::run as BodyRun<_>),
-        (7, symmetric_seven::run),
-        (9, symmetric_nine::run),
+    let comoving = [
+        (
+            5,
+            Comoving {
+                symmetric_top: symmetric_five::run,
+                kirchhoff: Some(comoving_kirchhoff_five::run),
+            },
+        ),
+        (
+            7,
+            Comoving {
+                symmetric_top: symmetric_seven::run,
+                kirchhoff: Some(comoving_kirchhoff_seven::run),
+            },
+        ),
+        (9, Comoving { symmetric_top: symmetric_nine::run, kirchhoff: None }),
     ];
-    let symmetric = symmetric
+    let fixed = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
+    let comoving = comoving
         .into_iter()
-        .flat_map(|(truncation, run)| rows(truncation, "SE(3), comoving", SymmetricTop(run)));
-    let whole = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
-    whole.chain(symmetric).collect()
+        .flat_map(|(truncation, runs)| rows(truncation, "SE(3), comoving", runs));
+    fixed.chain(comoving).collect()
 }
 
 fn state(phase: &Phase<SE3>) -> State {
