@@ -72,6 +72,8 @@ macro_rules! run {
 /// A truncation as a row.
 struct Ours {
     name: String,
+    /// The longest step tried.
+    longest: f64,
     run: Run,
 }
 
@@ -81,7 +83,7 @@ impl EnsembleMethod for Ours {
     }
 
     fn settings(&self) -> Vec<Setting> {
-        (-6..=10).map(|k| Setting::Step(2f64.powf(-f64::from(k) / 4.0))).collect()
+        (0..=10).map(|k| Setting::Step(self.longest * 2f64.powf(-f64::from(k) / 4.0))).collect()
     }
 
     fn run(
@@ -104,19 +106,19 @@ impl EnsembleMethod for Ours {
 /// Every truncation, tuned to some of the bodies.
 #[must_use]
 pub fn ours() -> Vec<Box<dyn EnsembleMethod>> {
-    let runs: [(&str, Run); 8] = [
-        ("K = 9", run!(nine)),
-        ("K = 11", run!(eleven)),
-        ("K = 13", run!(thirteen)),
-        ("K = 15", run!(fifteen)),
-        ("comoving, K = 9", run!(comoving_nine)),
-        ("comoving, K = 11", run!(comoving_eleven)),
-        ("comoving, K = 13", run!(comoving_thirteen)),
-        ("comoving, K = 15", run!(comoving_fifteen)),
+    let runs: [(&str, f64, Run); 8] = [
+        ("K = 9", 1.0, run!(nine)),
+        ("K = 11", 1.0, run!(eleven)),
+        ("K = 13", 1.0, run!(thirteen)),
+        ("K = 15", 1.0, run!(fifteen)),
+        ("comoving, K = 9", 2.0, run!(comoving_nine)),
+        ("comoving, K = 11", 2.0, run!(comoving_eleven)),
+        ("comoving, K = 13", 2.0, run!(comoving_thirteen)),
+        ("comoving, K = 15", 2.0, run!(comoving_fifteen)),
     ];
-    let row = |(series, run)| {
+    let row = |(series, longest, run)| {
         let name = format!("coadjoint, {series}, tuned, 8 lanes");
-        Box::new(Ours { name, run }) as Box<dyn EnsembleMethod>
+        Box::new(Ours { name, longest, run }) as Box<dyn EnsembleMethod>
     };
     runs.into_iter().map(row).collect()
 }
