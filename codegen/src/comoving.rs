@@ -7,16 +7,16 @@
 //! that of f is exp of something known, and only H₀ is left to the series: it has fewer terms, and they
 //! are smaller by powers of the ratio of the speeds.
 
-use crate::expr::ParameterExpr;
+use std::collections::BTreeSet;
+
+use num_traits::{One, ToPrimitive};
+
 use crate::hamilton_jacobi::{TermLimit, derive};
 use crate::lie::{Chart, LieAlgebra, casimirs};
 use crate::number::Rational;
 use crate::poly::Polynomial;
-use crate::problem::Symbol;
-use num_traits::{One, Signed, ToPrimitive};
-use std::collections::{BTreeMap, BTreeSet};
 
-/// The truncation at which series are compared: what S₃ vanishes from vanishes from all.
+/// The truncation at which series are compared: brackets that vanish from S₃ are missing from all terms.
 const COMPARED: usize = 3;
 
 /// The part f of H that moves the frame.
@@ -32,51 +32,6 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Makes every sum of symbols in the rest, 1/I₁ − 1/I₂ say, a symbol of its own: the series would
-    /// expand its powers. The new ones are appended to `symbols`; `names` are those of the parameters.
-    #[must_use]
-    pub fn with_symbols(self, dim: usize, symbols: &mut Vec<Symbol>, names: &[String]) -> Self {
-        let mut grouped: BTreeMap<Vec<(u32, u32)>, Vec<(Vec<(u32, u32)>, Rational)>> =
-            BTreeMap::new();
-        for (factors, value) in self.rest.factors() {
-            let (momenta, own) = split(&factors, dim);
-            grouped.entry(momenta.to_vec()).or_default().push((own.to_vec(), value));
-        }
-        let mut terms = Vec::with_capacity(grouped.len());
-        // Sums with leading coefficient one, and the symbols they have become.
-        let mut known: Vec<(Vec<(Vec<(u32, u32)>, Rational)>, usize)> = Vec::new();
-        for (mut factors, mut sum) in grouped {
-            let (Some((first, leading)), 1..) = (sum.first().cloned(), sum.len()) else { continue };
-            if sum.len() == 1 {
-                factors.extend(first);
-                terms.push((factors, leading));
-                continue;
-            }
-            for (_, value) in &mut sum {
-                *value = &*value / &leading;
-            }
-            let place = match known.iter().find(|(other, _)| *other == sum) {
-                Some(&(_, place)) => place,
-                None => {
-                    let expr = expression(&sum, dim, symbols);
-                    let text = expr.text(names);
-                    symbols.push(Symbol { expr, text });
-                    known.push((sum, symbols.len() - 1));
-                    symbols.len() - 1
-                }
-            };
-            factors.push(((dim + place) as u32, 1));
-            terms.push((factors, leading));
-        }
-        let variables = dim + symbols.len();
-        let wider = |polynomial: &Polynomial| polynomial.in_variables(variables);
-        Self {
-            spin: wider(&self.spin),
-            casimirs: wider(&self.casimirs),
-            rest: Polynomial::from_factors(variables, terms),
-        }
-    }
-
     /// f.
     #[must_use]
     pub fn energy(&self) -> Polynomial {
@@ -115,24 +70,28 @@ impl Frame {
 /// ```
 #[must_use]
 pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<Frame> {
+    let dim = algebra.dim();
     let length = |h: &Polynomial| length(algebra, chart, h);
     let mut rest = hamiltonian.clone();
     let mut fewest = length(&rest)?;
-    let mut spin = Polynomial::zero(hamiltonian.variables());
-    for axis in axes(algebra, hamiltonian) {
-        let found = best(&rest, spins(&rest, axis, algebra.dim()), &length);
-        if let Some((terms, part)) = found.filter(|&(terms, _)| terms < fewest) {
-            (fewest, rest, spin) = (terms, &rest - &part, &spin + &part);
+    // Takes the best candidate off the rest, if the rest becomes shorter by it.
+    let mut take = |candidates: &dyn Fn(&Polynomial) -> Vec<Polynomial>| {
+        let (monomials, part) = best(&rest, candidates(&rest), &length)?;
+        if monomials >= fewest {
+            return None;
         }
-    }
-    let mut moved = Polynomial::zero(hamiltonian.variables());
-    for casimir in casimirs(algebra, 2).unwrap_or_default() {
-        let found = best(&rest, multiples(&rest, &casimir, algebra.dim()), &length);
-        if let Some((terms, part)) = found.filter(|&(terms, _)| terms < fewest) {
-            (fewest, rest, moved) = (terms, &rest - &part, &moved + &part);
-        }
-    }
-    (rest != *hamiltonian).then_some(Frame { spin, casimirs: moved, rest })
+        (fewest, rest) = (monomials, &rest - &part);
+        Some(part)
+    };
+    let sum = |parts: Vec<Polynomial>| {
+        let zero = Polynomial::zero(hamiltonian.variables());
+        parts.iter().fold(zero, |sum, part| &sum + part)
+    };
+    let axes = axes(algebra, hamiltonian);
+    let spin = sum(axes.iter().filter_map(|&axis| take(&|h| spins(h, axis, dim))).collect());
+    let known = casimirs(algebra, 2).unwrap_or_default();
+    let casimirs = sum(known.iter().filter_map(|c| take(&|h| multiples(h, c, dim))).collect());
+    (rest != *hamiltonian).then_some(Frame { spin, casimirs, rest })
 }
 
 /// The coordinates that are integrals and commute with those before them.
@@ -164,74 +123,23 @@ fn length(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Optio
     Some((1..=COMPARED).map(monomials).sum())
 }
 
-/// The candidate that leaves fewest terms, and their number. Of equals the one that leaves the smallest
-/// coefficients where they are numbers, otherwise the middle one: of the three of a body, the axis of
-/// middle inertia in the usual order.
+/// The candidate that leaves fewest monomials, and their number. Of equals the one that leaves the
+/// smallest coefficients, and of these (as where all are symbols) the one nearest to the middle: of the
+/// three of a body, the axis of middle inertia in the usual order.
 fn best(
     rest: &Polynomial,
     candidates: Vec<Polynomial>,
     length: &impl Fn(&Polynomial) -> Option<usize>,
 ) -> Option<(usize, Polynomial)> {
-    let lengths = candidates.iter().map(|part| length(&(rest - part))).collect::<Vec<_>>();
-    let fewest = lengths.iter().flatten().min().copied()?;
-    let equals: Vec<Polynomial> = candidates
-        .into_iter()
-        .zip(lengths)
-        .filter(|(_, length)| *length == Some(fewest))
-        .map(|(part, _)| part)
-        .collect();
-    let middle = equals.len() / 2;
-    let size = |(at, part): (usize, &Polynomial)| {
-        let left = rest - part;
-        let numbers = left.factors().map(|(_, value)| value.to_f64().map_or(0.0, f64::abs));
-        (numbers.fold(0.0, f64::max), at.abs_diff(middle))
-    };
-    let smallest = equals
-        .iter()
-        .enumerate()
-        .map(size)
-        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-    let at = equals.iter().enumerate().position(|candidate| size(candidate) == smallest)?;
-    Some((fewest, equals.into_iter().nth(at)?))
-}
-
-/// A sum of products of symbols as an expression.
-fn expression(
-    sum: &[(Vec<(u32, u32)>, Rational)],
-    dim: usize,
-    symbols: &[Symbol],
-) -> ParameterExpr {
-    let boxed = |a: ParameterExpr, b: ParameterExpr| (Box::new(a), Box::new(b));
-    let mut total: Option<ParameterExpr> = None;
-    for (factors, value) in sum {
-        let size = value.abs();
-        let mut product =
-            (!size.is_one() || factors.is_empty()).then_some(ParameterExpr::Rational(size));
-        for &(variable, power) in factors {
-            let Some(symbol) = symbols.get(variable as usize - dim) else { continue };
-            let mut own = symbol.expr.clone();
-            if power > 1 {
-                own = ParameterExpr::Powi(Box::new(own), i32::try_from(power).unwrap_or(i32::MAX));
-            }
-            product = Some(match product {
-                None => own,
-                Some(product) => {
-                    let (a, b) = boxed(product, own);
-                    ParameterExpr::Mul(a, b)
-                }
-            });
-        }
-        let Some(product) = product else { continue };
-        total = Some(match (total, value.is_negative()) {
-            (None, false) => product,
-            (None, true) => ParameterExpr::Neg(Box::new(product)),
-            (Some(total), negative) => {
-                let (a, b) = boxed(total, product);
-                if negative { ParameterExpr::Sub(a, b) } else { ParameterExpr::Add(a, b) }
-            }
-        });
-    }
-    total.unwrap_or_else(|| ParameterExpr::Rational(Rational::one()))
+    let middle = candidates.len() / 2;
+    let measured = candidates.into_iter().enumerate().filter_map(|(at, part)| {
+        let left = rest - &part;
+        let sizes = left.factors().map(|(_, value)| value.to_f64().map_or(0.0, f64::abs));
+        let largest = sizes.fold(0.0, f64::max);
+        Some((length(&left)?, largest, at.abs_diff(middle), part))
+    });
+    let least = measured.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    least.map(|(length, _, _, part)| (length, part))
 }
 
 /// Functions of one coordinate: all its powers but the square, and of the square what it has more than

@@ -27,6 +27,15 @@ pub const HEAVY_TOP: (&str, &str) = (
     }",
 );
 
+/// A symmetric body in a fluid: a spin and a Casimir move the frame.
+pub const COMOVING_BODY: (&str, &str) = (
+    "group = SE3, truncation = 3, frame = comoving",
+    "fn comoving_body(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
+        let [a, b, c, u, v, w] = mu;
+        0.5 * ((a * a + b * b) / inertia[0] + c * c / inertia[1] + (u * u + v * v) / mass[0] + w * w / mass[1])
+    }",
+);
+
 /// The resonant three-wave interaction on SL(2,R), a group the runtime has no type for.
 pub const THREE_WAVE: (&str, &str) = (
     "group = SL2, truncation = 5",

@@ -28,7 +28,14 @@ fn check_golden(build: impl Fn() -> Integrator) {
 
 #[test]
 fn emitted_files_are_the_committed_ones() {
-    for source in [golden::RIGID_BODY, golden::CAYLEY_BODY, golden::HEAVY_TOP, golden::THREE_WAVE] {
+    let sources = [
+        golden::RIGID_BODY,
+        golden::CAYLEY_BODY,
+        golden::HEAVY_TOP,
+        golden::COMOVING_BODY,
+        golden::THREE_WAVE,
+    ];
+    for source in sources {
         check_golden(|| from_function(source.0, source.1).unwrap());
     }
 }

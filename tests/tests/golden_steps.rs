@@ -16,6 +16,9 @@ mod cayley_body {
 mod heavy_top {
     include!("../golden/heavy_top.rs");
 }
+mod comoving_body {
+    include!("../golden/comoving_body.rs");
+}
 mod three_wave {
     include!("../golden/three_wave.rs");
 }
@@ -64,6 +67,11 @@ fn against_interpreter<const N: usize, S>(
         let (by_hessian, full) = compiled.gradient_and_hessian(&p);
         let (by_newton, truncated) = compiled.newton_model(&p);
         let guess = compiled.predict(&p);
+        for (part, program) in integrator.frame.iter().enumerate() {
+            let (own, interpreted) = (compiled.frame(part, &p).unwrap(), run(program, &p));
+            (0..N).for_each(|i| close(own[i], interpreted[i]));
+        }
+        assert!(compiled.frame(integrator.frame.len(), &p).is_none());
         let mut entry = N;
         for i in 0..N {
             close(gradient[i], hessian[i]);
@@ -92,6 +100,11 @@ fn compiled_steps_equal_the_interpreter() -> Result<(), StepError> {
     let step = heavy_top::HeavyTop::new(h, [1.5, 2.0, 2.5], 0.3, 9.81, 0.7)?;
     let parameters = [1.5, 2.0, 2.5, 0.3, 9.81, 0.7];
     against_interpreter(&built(golden::HEAVY_TOP), &step, |mu| step.energy(mu), h, &parameters);
+
+    let step = comoving_body::ComovingBody::new(h, [1.5, 0.8], [0.9, 1.4])?;
+    let (integrator, parameters) = (built(golden::COMOVING_BODY), [1.5, 0.8, 0.9, 1.4]);
+    assert_eq!(integrator.frame.len(), 2);
+    against_interpreter(&integrator, &step, |mu| step.energy(mu), h, &parameters);
 
     let step = three_wave::ThreeWave::new(h, 0.7)?;
     against_interpreter(&built(golden::THREE_WAVE), &step, |mu| step.energy(mu), h, &[0.7]);

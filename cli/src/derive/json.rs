@@ -1,4 +1,5 @@
-//! The series as JSON: `{system, group, H, chart, S: [{k, terms: [{exponents, coefficient}]}]}`.
+//! The series as JSON: `{system, group, H, chart, S: [{k, terms: [{exponents, coefficient}]}]}`, and
+//! `comoving`, the part of H that moves the frame and is left out of S, where there is one.
 
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
@@ -13,6 +14,8 @@ struct Series {
     group: String,
     #[serde(rename = "H")]
     hamiltonian: Vec<Term>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    comoving: Option<Vec<Term>>,
     chart: String,
     #[serde(rename = "S")]
     orders: Vec<Order>,
@@ -37,6 +40,7 @@ pub fn series(derived: &Derived) -> String {
         system: problem.name.clone(),
         group: problem.algebra.name().to_owned(),
         hamiltonian: list(problem, &problem.hamiltonian),
+        comoving: problem.comoving.as_ref().map(|frame| list(problem, &frame.energy())),
         chart: problem.chart.to_string(),
         orders: (1..=problem.truncation)
             .map(|k| Order { k, terms: list(problem, series.order(k)) })

@@ -10,10 +10,14 @@ use num_traits::{One, Signed};
 use super::Derived;
 use super::coefficient::terms;
 
-/// An `align` environment with one row per order that does not vanish.
+/// An `align` environment with one row per order that does not vanish; in a comoving frame S generates
+/// the flow of H₀.
 pub fn series(derived: &Derived) -> String {
     let Derived { problem, series } = derived;
     let mut rows = vec![format!("H &= {}", polynomial(problem, &problem.hamiltonian))];
+    if let Some(frame) = &problem.comoving {
+        rows.push(format!("H - H_0 &= {}", polynomial(problem, &frame.energy())));
+    }
     for k in (1..=problem.truncation).step_by(2) {
         rows.push(format!("S_{{{k}}} &= {}", polynomial(problem, series.order(k))));
     }

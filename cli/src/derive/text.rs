@@ -22,6 +22,13 @@ pub fn series(derived: &Derived) -> String {
         problem.truncation + 1
     );
     let _ = writeln!(out, "H = {}", polynomial(problem, &problem.hamiltonian));
+    if let Some(frame) = &problem.comoving {
+        let _ = writeln!(
+            out,
+            "comoving frame: f = {}; S generates the flow of H - f",
+            polynomial(problem, &frame.energy())
+        );
+    }
     let _ = writeln!(out, "S(h, p) = sum over k of h^k S_k(p); even k vanish");
     for k in (1..=problem.truncation).step_by(2) {
         let order = series.order(k);

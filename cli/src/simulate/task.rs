@@ -79,6 +79,9 @@ impl<'a> Task<'a> {
         let mut phase = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
         let problem = &self.integrator.problem;
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
+        if problem.comoving.is_some() {
+            label.push_str(", comoving");
+        }
         if setup.tuned {
             label.push_str(", tuned");
         }

@@ -4,6 +4,7 @@ use num_integer::Integer;
 
 use super::coefficient::{ONE, Table};
 use super::polynomial::{Sum, polynomial};
+use super::sums::name_sums;
 use crate::comoving::comoving;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
@@ -88,7 +89,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         };
         let names: Vec<String> =
             draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
-        frame = Some(found.with_symbols(count, &mut symbols, &names));
+        frame = Some(name_sums(&found, count, &mut symbols, &names));
         hamiltonian = hamiltonian.in_variables(count + symbols.len());
     }
     Ok(Problem {

@@ -322,7 +322,7 @@ impl Table {
 }
 
 /// Joins expressions pairwise, so that depth grows with the logarithm of their number.
-fn balanced(
+pub(super) fn balanced(
     mut list: Vec<ParameterExpr>,
     join: fn(Box<ParameterExpr>, Box<ParameterExpr>) -> ParameterExpr,
 ) -> Option<ParameterExpr> {

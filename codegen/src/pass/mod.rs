@@ -3,6 +3,7 @@
 mod assemble;
 mod coefficient;
 mod polynomial;
+mod sums;
 
 pub use assemble::{
     DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, PotentialDraft, assemble, assemble_potential, chart,

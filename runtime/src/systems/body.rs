@@ -5,7 +5,7 @@ use crate::lie_poisson;
 /// The free rigid body in principal axes: H = ½ Σ Πᵢ²/Iᵢ, Π̇ = Π × Ω, Ω = I⁻¹Π (Euler).
 ///
 /// Π: angular momentum in body axes, kg m²/s; `inertia`: principal moments, kg m².
-#[lie_poisson(group = SO3, truncation = 7)]
+#[lie_poisson(group = SO3, truncation = 7, frame = comoving)]
 pub fn free_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     let [x, y, z] = mu;
     let [i1, i2, i3] = inertia;
@@ -35,7 +35,7 @@ pub fn free_body_full_inertia(mu: [f64; 3], moments: [f64; 3], products: [f64; 3
 /// Π: total angular momentum in platform axes, kg m²/s; `inertia`: principal moments without the
 /// rotor's axial one, kg m²; `rotor`: the rotor's momentum k relative to the platform, kg m²/s.
 /// V. Volterra, Acta Math. 22 (1899) 201; P. C. Hughes, *Spacecraft Attitude Dynamics* (1986), § 6.4.
-#[lie_poisson(group = SO3, truncation = 7)]
+#[lie_poisson(group = SO3, truncation = 7, frame = comoving)]
 pub fn gyrostat(mu: [f64; 3], inertia: [f64; 3], rotor: [f64; 3]) -> f64 {
     let mut twice = 0.0;
     for i in 0..3 {

@@ -9,7 +9,7 @@ use crate::lie_poisson;
 ///
 /// `inertia` J in kg m² and `mass` M in kg, both with what the fluid adds.
 /// G. Kirchhoff, J. reine angew. Math. 71 (1870) 237; H. Lamb, *Hydrodynamics*, §§ 124–126.
-#[lie_poisson(group = SE3, truncation = 5)]
+#[lie_poisson(group = SE3, truncation = 5, frame = comoving)]
 pub fn kirchhoff_body(mu: [f64; 6], inertia: [f64; 3], mass: [f64; 3]) -> f64 {
     let mut twice = 0.0;
     for i in 0..3 {

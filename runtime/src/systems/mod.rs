@@ -2,7 +2,8 @@
 //!
 //! Each is the plain function of its Hamiltonian and, beside it, the integrator that
 //! [`lie_poisson`](crate::lie_poisson) makes of it. The files of `examples/` hold the same systems
-//! with numbers, and say what is known about them in closed form.
+//! with numbers, and say what is known about them in closed form. Free and symmetric bodies are
+//! integrated in the comoving frame.
 //!
 //! ```
 //! use coadjoint::systems::LagrangeTop;

@@ -1,0 +1,92 @@
+//! Sums of symbols as symbols of their own.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::coefficient::balanced;
+use crate::comoving::Frame;
+use crate::expr::ParameterExpr;
+use crate::number::Rational;
+use crate::poly::Polynomial;
+use crate::problem::Symbol;
+
+/// Factors (variable, power).
+type Monomial = Vec<(u32, u32)>;
+/// A sum of products of symbols.
+type Sum = Vec<(Monomial, Rational)>;
+
+/// Makes every sum of symbols in the frame's rest, 1/I₁ − 1/I₂ say, a symbol of its own, of which the
+/// series would expand the powers. New symbols are appended to `symbols`; `names` are those of the
+/// parameters. Proportional sums share a symbol.
+pub fn name_sums(frame: &Frame, dim: usize, symbols: &mut Vec<Symbol>, names: &[String]) -> Frame {
+    let mut grouped: BTreeMap<Monomial, Sum> = BTreeMap::new();
+    for (factors, value) in frame.rest.factors() {
+        let momenta = factors.partition_point(|&(variable, _)| (variable as usize) < dim);
+        let (momenta, own) = factors.split_at(momenta);
+        grouped.entry(momenta.to_vec()).or_default().push((own.to_vec(), value));
+    }
+    let mut terms = Sum::new();
+    // Sums whose first coefficient is one, and the symbols they have become.
+    let mut known: Vec<(Sum, usize)> = Vec::new();
+    for (mut factors, mut sum) in grouped {
+        let Some((first, leading)) = sum.first().cloned() else { continue };
+        if sum.len() == 1 {
+            factors.extend(first);
+        } else {
+            sum.iter_mut().for_each(|(_, value)| *value = &*value / &leading);
+            let place = match known.iter().find(|(other, _)| *other == sum) {
+                Some(&(_, place)) => place,
+                None => {
+                    let expr = expression(&sum, dim, symbols);
+                    let text = expr.text(names);
+                    symbols.push(Symbol { expr, text });
+                    known.push((sum, symbols.len() - 1));
+                    symbols.len() - 1
+                }
+            };
+            factors.push(((dim + place) as u32, 1));
+        }
+        terms.push((factors, leading));
+    }
+    let variables = dim + symbols.len();
+    Frame {
+        spin: frame.spin.in_variables(variables),
+        casimirs: frame.casimirs.in_variables(variables),
+        rest: Polynomial::from_factors(variables, terms),
+    }
+}
+
+/// A sum of products of symbols as an expression.
+fn expression(sum: &Sum, dim: usize, symbols: &[Symbol]) -> ParameterExpr {
+    let of_sign = |negative: bool| {
+        let terms = sum.iter().filter(|(_, value)| value.is_negative() == negative);
+        let terms = terms.map(|(factors, value)| product(factors, &value.abs(), dim, symbols));
+        balanced(terms.collect(), ParameterExpr::Add)
+    };
+    match (of_sign(false), of_sign(true)) {
+        (Some(plus), Some(minus)) => ParameterExpr::Sub(Box::new(plus), Box::new(minus)),
+        (Some(plus), None) => plus,
+        (None, minus) => ParameterExpr::Neg(Box::new(
+            minus.unwrap_or_else(|| ParameterExpr::Rational(Rational::default())),
+        )),
+    }
+}
+
+/// value · Π symbolᵢ^powerᵢ.
+fn product(
+    factors: &[(u32, u32)],
+    value: &Rational,
+    dim: usize,
+    symbols: &[Symbol],
+) -> ParameterExpr {
+    let number = (*value != Rational::from_integer(1.into()) || factors.is_empty())
+        .then(|| ParameterExpr::Rational(value.clone()));
+    let powers = factors.iter().filter_map(|&(variable, power)| {
+        let base = symbols.get((variable as usize).checked_sub(dim)?)?.expr.clone();
+        let power = i32::try_from(power).ok()?;
+        Some(if power == 1 { base } else { ParameterExpr::Powi(Box::new(base), power) })
+    });
+    balanced(number.into_iter().chain(powers).collect(), ParameterExpr::Mul)
+        .unwrap_or_else(|| ParameterExpr::Rational(value.clone()))
+}
