@@ -331,10 +331,12 @@ impl<T: Scalar> CompensatedGroup for SO3<T> {
         remainder: &mut Quaternion<T>,
         k: &Self::Element,
     ) {
-        // g·k − g = g·(k − 1), where w − 1 = −|u|²/(1 + w) without cancellation.
+        // g·k − g = g·(k − 1), where w − 1 = −|u|²/(1 + w) without cancellation for w near one.
         let small = k.as_ref();
         let u = V::new(small.i, small.j, small.k);
-        let below_one = -dot(&u, &u) / (T::of(1.0) + small.w);
+        let one = T::of(1.0);
+        let near = small.w.simd_gt(T::of(0.0));
+        let below_one = (-dot(&u, &u) / (one + small.w)).select(near, small.w - one);
         let q = *g.as_ref();
         let change = q * Quaternion::new(below_one, u.x, u.y, u.z);
         // Half of what is missing to norm one, along q: the rounding of many products.

@@ -147,6 +147,18 @@ fn a_tumbling_body_takes_steps_of_its_wobble() -> Result<(), StepError> {
     Ok(())
 }
 
+/// Parameters may make the rest vanish: a ball only moves with the frame.
+#[test]
+fn a_ball_is_exact() -> Result<(), StepError> {
+    let start = Vector3::new(2.0, 0.5, 1.0);
+    let mut ball = Phase::<SO3>::at_identity(start);
+    Wobble::new(3.0, [0.7; 3])?.advance_by(&mut ball, 4)?;
+    let exact = SO3::new().exp(&(start * (12.0 * 0.7)));
+    assert!(ball.group_element.angle_to(&exact) < 1e-13);
+    assert!((ball.momentum - start).amax() < 1e-14);
+    Ok(())
+}
+
 #[test]
 fn a_spin_and_a_casimir_move_one_frame() -> Result<(), StepError> {
     let (inertia, mass) = ([0.7, 0.4], [2.0, 1.1]);

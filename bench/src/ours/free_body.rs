@@ -1,6 +1,6 @@
 //! The free body by the attribute, as a user writes it, at several truncations.
 
-use coadjoint::{Phase, SO3, fit, lie_poisson};
+use coadjoint::{Phase, SO3, lie_poisson};
 
 use super::{Coefficients, rows};
 use crate::{
@@ -31,20 +31,10 @@ macro_rules! truncated {
                 coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, end);
-                let failed = |_| RunError::NotConverged;
-                let series = |h| RigidBody::new(h, body.inertia);
-                let step = match coefficients {
-                    Coefficients::Series => series(h).map_err(failed)?,
-                    Coefficients::Tuned => {
-                        RigidBody::tuned(h, body.inertia, [momentum]).map_err(failed)?
-                    }
-                    Coefficients::Fitted(duration) => {
-                        let fitted = fit(h, series, [momentum], duration);
-                        fitted.map_err(|_| RunError::NotConverged)?.integrator
-                    }
-                };
+                let step = integrator!(RigidBody(h, body.inertia), coefficients, momentum);
                 let mut phase = Phase::<SO3>::at_identity(momentum);
-                step.advance_by(&mut phase, count as u64).map_err(failed)?;
+                let made = step.advance_by(&mut phase, count as u64);
+                made.map_err(|_| RunError::NotConverged)?;
                 Ok(state(&phase))
             }
         }
@@ -91,6 +81,30 @@ impl super::Run for FreeBodyRun {
     }
 }
 
+/// In the comoving frame.
+#[derive(Clone, Copy)]
+struct Comoving(FreeBodyRun);
+
+impl super::Run for Comoving {
+    fn applies(&self, system: &System) -> bool {
+        self.0.applies(system)
+    }
+
+    /// Steps follow the wobble.
+    fn pace(&self, _: &System) -> f64 {
+        2.0
+    }
+
+    fn run(
+        &self,
+        problem: &Problem,
+        step: f64,
+        coefficients: Coefficients,
+    ) -> Option<Result<State, RunError>> {
+        super::Run::run(&self.0, problem, step, coefficients)
+    }
+}
+
 /// Every truncation.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Method>> {
@@ -112,7 +126,8 @@ pub fn all() -> Vec<Box<dyn Method>> {
         (15, comoving_fifteen::run),
     ];
     let fixed = runs.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3)", run));
-    let comoving =
-        comoving.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3), comoving", run));
+    let comoving = comoving
+        .into_iter()
+        .flat_map(|(truncation, run)| rows(truncation, "SO(3), comoving", Comoving(run)));
     fixed.chain(comoving).collect()
 }

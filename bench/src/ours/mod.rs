@@ -1,5 +1,23 @@
 //! Our methods, as users write them.
 
+/// The integrator of a step size and parameters, with the coefficients asked for.
+macro_rules! integrator {
+    ($body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $momentum:expr) => {{
+        let failed = |_| RunError::NotConverged;
+        let series = |h| $body::new(h, $($argument),*);
+        match $coefficients {
+            Coefficients::Series => series($h).map_err(failed)?,
+            Coefficients::Tuned => {
+                $body::tuned($h, $($argument,)* [$momentum]).map_err(failed)?
+            }
+            Coefficients::Fitted(duration) => {
+                let fitted = coadjoint::fit($h, series, [$momentum], duration);
+                fitted.map_err(|_| RunError::NotConverged)?.integrator
+            }
+        }
+    }};
+}
+
 pub(crate) mod free_body;
 mod moving_body;
 

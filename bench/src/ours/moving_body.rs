@@ -1,6 +1,6 @@
 //! Tops and bodies in a fluid by the attribute, as a user writes them, at several truncations.
 
-use coadjoint::{Phase, SE3, fit, lie_poisson};
+use coadjoint::{Phase, SE3, lie_poisson};
 use nalgebra::Vector6;
 
 use super::{Coefficients, rows};
@@ -13,22 +13,12 @@ use crate::{
 /// Runs a generated integrator from the problem's initial state to its end.
 macro_rules! run {
     ($body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $problem:expr, $count:expr) => {{
-        let failed = |_| RunError::NotConverged;
         let (m, f) = ($problem.initial.momentum, $problem.initial.force);
         let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
-        let series = |h| $body::new(h, $($argument),*);
-        let integrator = match $coefficients {
-            Coefficients::Series => series($h).map_err(failed)?,
-            Coefficients::Tuned => {
-                $body::tuned($h, $($argument,)* [momentum]).map_err(failed)?
-            }
-            Coefficients::Fitted(duration) => {
-                let fitted = fit($h, series, [momentum], duration);
-                fitted.map_err(|_| RunError::NotConverged)?.integrator
-            }
-        };
+        let step = integrator!($body($h, $($argument),*), $coefficients, momentum);
         let mut phase = Phase::<SE3>::at_identity(momentum);
-        integrator.advance_by(&mut phase, $count as u64).map_err(failed)?;
+        let made = step.advance_by(&mut phase, $count as u64);
+        made.map_err(|_| RunError::NotConverged)?;
         Ok(state(&phase))
     }};
 }
