@@ -186,7 +186,7 @@ fn distinct(candidates: impl Iterator<Item = Polynomial>) -> Vec<Polynomial> {
 }
 
 /// The coefficient of a monomial in the momenta, a polynomial in the symbols.
-fn coefficient(hamiltonian: &Polynomial, momenta: &[(u32, u32)], dim: usize) -> Polynomial {
+fn coefficient(hamiltonian: &Polynomial, momenta: &Monomial, dim: usize) -> Polynomial {
     let terms = hamiltonian.factors().filter_map(|(factors, value)| {
         let (own, symbols) = split(&factors, dim);
         (own == momenta).then(|| (symbols.to_vec(), value))
@@ -194,7 +194,10 @@ fn coefficient(hamiltonian: &Polynomial, momenta: &[(u32, u32)], dim: usize) -> 
     Polynomial::from_factors(hamiltonian.variables(), terms.collect::<Vec<_>>())
 }
 
+/// Factors (variable, exponent), ascending.
+type Monomial = [(u32, u32)];
+
 /// The factors that are momenta, and those that are symbols.
-fn split(factors: &[(u32, u32)], dim: usize) -> (&[(u32, u32)], &[(u32, u32)]) {
+fn split(factors: &Monomial, dim: usize) -> (&Monomial, &Monomial) {
     factors.split_at(factors.partition_point(|&(variable, _)| (variable as usize) < dim))
 }
