@@ -79,7 +79,8 @@ pub fn advance_by<S: GeneratingFunction + ?Sized>(
 
 /// How far [`march`] came, and why no farther.
 pub(crate) struct Stopped {
-    /// Steps made.
+    /// Steps made; ensembles report it.
+    #[cfg_attr(not(feature = "ensemble"), allow(dead_code))]
     pub(crate) done: u64,
     /// Why the next one was not.
     pub(crate) error: StepError,
