@@ -14,7 +14,7 @@ use num_traits::{One, ToPrimitive};
 use crate::hamilton_jacobi::{TermLimit, derive};
 use crate::lie::{Chart, LieAlgebra, casimirs};
 use crate::number::Rational;
-use crate::poly::Polynomial;
+use crate::poly::{Polynomial, split_at};
 
 /// The truncation at which series are compared: brackets that vanish from S₃ are missing from all terms.
 const COMPARED: usize = 3;
@@ -76,11 +76,11 @@ pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) ->
     let mut fewest = length(&rest)?;
     // Takes the best candidate off the rest, if the rest becomes shorter by it.
     let mut take = |candidates: &dyn Fn(&Polynomial) -> Vec<Polynomial>| {
-        let (monomials, part) = best(&rest, candidates(&rest), &length)?;
+        let (monomials, left, part) = best(&rest, candidates(&rest), &length)?;
         if monomials >= fewest {
             return None;
         }
-        (fewest, rest) = (monomials, &rest - &part);
+        (fewest, rest) = (monomials, left);
         Some(part)
     };
     let sum = |parts: Vec<Polynomial>| {
@@ -110,36 +110,36 @@ fn axes(algebra: &LieAlgebra, hamiltonian: &Polynomial) -> Vec<usize> {
 /// How many monomials in the momenta S₁ and S₃ of a Hamiltonian have, or `None` where it has none.
 fn length(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<usize> {
     let dim = algebra.dim();
-    if hamiltonian.factors().all(|(factors, _)| split(&factors, dim).0.is_empty()) {
+    if hamiltonian.factors().all(|(factors, _)| split_at(&factors, dim).0.is_empty()) {
         return None;
     }
     let series = derive(algebra, chart, hamiltonian, COMPARED, TermLimit::default()).ok()?;
     let monomials = |k: usize| {
         let factors = series.order(k).factors();
         let monomials: BTreeSet<_> =
-            factors.map(|(factors, _)| split(&factors, dim).0.to_vec()).collect();
+            factors.map(|(factors, _)| split_at(&factors, dim).0.to_vec()).collect();
         monomials.len()
     };
     Some((1..=COMPARED).map(monomials).sum())
 }
 
-/// The candidate that leaves fewest monomials, and their number. Of equals the one that leaves the
+/// The candidate that leaves fewest monomials, after their number and what is left. Of equals the one that leaves the
 /// smallest coefficients, and of these (as where all are symbols) the one nearest to the middle: of the
 /// three of a body, the axis of middle inertia in the usual order.
 fn best(
     rest: &Polynomial,
     candidates: Vec<Polynomial>,
     length: &impl Fn(&Polynomial) -> Option<usize>,
-) -> Option<(usize, Polynomial)> {
+) -> Option<(usize, Polynomial, Polynomial)> {
     let middle = candidates.len() / 2;
     let measured = candidates.into_iter().enumerate().filter_map(|(at, part)| {
         let left = rest - &part;
         let sizes = left.factors().map(|(_, value)| value.to_f64().map_or(0.0, f64::abs));
         let largest = sizes.fold(0.0, f64::max);
-        Some((length(&left)?, largest, at.abs_diff(middle), part))
+        Some((length(&left)?, largest, at.abs_diff(middle), left, part))
     });
     let least = measured.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-    least.map(|(length, _, _, part)| (length, part))
+    least.map(|(length, _, _, left, part)| (length, left, part))
 }
 
 /// Functions of one coordinate: all its powers but the square, and of the square what it has more than
@@ -148,7 +148,7 @@ fn spins(hamiltonian: &Polynomial, axis: usize, dim: usize) -> Vec<Polynomial> {
     let variables = hamiltonian.variables();
     let square = |i: usize| coefficient(hamiltonian, &[(i as u32, 2)], dim);
     let others = hamiltonian.factors().filter(|(factors, _)| {
-        matches!(split(factors, dim).0, [(variable, power)] if *variable as usize == axis && *power != 2)
+        matches!(split_at(factors, dim).0, [(variable, power)] if *variable as usize == axis && *power != 2)
     });
     let others = Polynomial::from_factors(variables, others);
     let own = square(axis);
@@ -186,18 +186,10 @@ fn distinct(candidates: impl Iterator<Item = Polynomial>) -> Vec<Polynomial> {
 }
 
 /// The coefficient of a monomial in the momenta, a polynomial in the symbols.
-fn coefficient(hamiltonian: &Polynomial, momenta: &Monomial, dim: usize) -> Polynomial {
+fn coefficient(hamiltonian: &Polynomial, momenta: &[(u32, u32)], dim: usize) -> Polynomial {
     let terms = hamiltonian.factors().filter_map(|(factors, value)| {
-        let (own, symbols) = split(&factors, dim);
+        let (own, symbols) = split_at(&factors, dim);
         (own == momenta).then(|| (symbols.to_vec(), value))
     });
     Polynomial::from_factors(hamiltonian.variables(), terms.collect::<Vec<_>>())
-}
-
-/// Factors (variable, exponent), ascending.
-type Monomial = [(u32, u32)];
-
-/// The factors that are momenta, and those that are symbols.
-fn split(factors: &Monomial, dim: usize) -> (&Monomial, &Monomial) {
-    factors.split_at(factors.partition_point(|&(variable, _)| (variable as usize) < dim))
 }

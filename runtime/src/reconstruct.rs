@@ -35,8 +35,8 @@ pub fn poisson_map<S: GeneratingFunction + ?Sized>(
 ) -> Result<VectorOf<S>, StepError> {
     let group = generating.group();
     let solution = solve(generating, mu)?;
-    let moved = generating.chart().transport(group, &solution.x, mu).1;
-    let (mut moved, mut part) = (moved, 0);
+    let mut moved = generating.chart().transport(group, &solution.x, mu).1;
+    let mut part = 0;
     while let Some(y) = generating.frame(part, &moved) {
         moved = group.exp_transport(&y, &moved).1;
         part += 1;
@@ -61,9 +61,9 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`GeneratingFunction::predict_after`]), a comoving frame moves on for many
-/// at once, and what steps read of `generating` is prepared once. The report holds the largest number of iterations and the largest
-/// residual of a step; no step, none.
+/// one before ([`GeneratingFunction::predict_after`]), a comoving frame moves on for many at once,
+/// and what steps read of `generating` is prepared once. The report holds the largest number of
+/// iterations and the largest residual of a step; no step, none.
 ///
 /// # Errors
 /// As [`solve`]; `phase` is then left before the step that failed.

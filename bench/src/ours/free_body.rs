@@ -63,9 +63,21 @@ pub(crate) fn state(phase: &Phase<SO3>) -> State {
 
 type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, Coefficients) -> Result<State, RunError>;
 
-impl super::Run for FreeBodyRun {
+/// One truncation in one frame.
+#[derive(Clone, Copy)]
+struct Runs {
+    run: FreeBodyRun,
+    /// By what factor steps are longer in this frame.
+    pace: f64,
+}
+
+impl super::Run for Runs {
     fn applies(&self, system: &System) -> bool {
         matches!(system, System::FreeBody(_))
+    }
+
+    fn pace(&self, _: &System) -> f64 {
+        self.pace
     }
 
     fn run(
@@ -77,31 +89,7 @@ impl super::Run for FreeBodyRun {
         let System::FreeBody(body) = &problem.system else {
             return None;
         };
-        Some(self(body, problem.initial.momentum, problem.end, step, coefficients))
-    }
-}
-
-/// In the comoving frame.
-#[derive(Clone, Copy)]
-struct Comoving(FreeBodyRun);
-
-impl super::Run for Comoving {
-    fn applies(&self, system: &System) -> bool {
-        self.0.applies(system)
-    }
-
-    /// Steps follow the wobble.
-    fn pace(&self, _: &System) -> f64 {
-        2.0
-    }
-
-    fn run(
-        &self,
-        problem: &Problem,
-        step: f64,
-        coefficients: Coefficients,
-    ) -> Option<Result<State, RunError>> {
-        super::Run::run(&self.0, problem, step, coefficients)
+        Some((self.run)(body, problem.initial.momentum, problem.end, step, coefficients))
     }
 }
 
@@ -125,9 +113,12 @@ pub fn all() -> Vec<Box<dyn Method>> {
         (13, comoving_thirteen::run),
         (15, comoving_fifteen::run),
     ];
-    let fixed = runs.into_iter().flat_map(|(truncation, run)| rows(truncation, "SO(3)", run));
+    let fixed = runs
+        .into_iter()
+        .flat_map(|(truncation, run)| rows(truncation, "SO(3)", Runs { run, pace: 1.0 }));
+    // Steps follow the wobble.
     let comoving = comoving
         .into_iter()
-        .flat_map(|(truncation, run)| rows(truncation, "SO(3), comoving", Comoving(run)));
+        .flat_map(|(truncation, run)| rows(truncation, "SO(3), comoving", Runs { run, pace: 2.0 }));
     fixed.chain(comoving).collect()
 }

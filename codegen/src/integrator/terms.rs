@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coefficients::{Coefficients, Contribution};
 use crate::graph::{SlotPolynomial, SlotTerm};
-use crate::poly::{Factors, Polynomial};
+use crate::poly::{Factors, Polynomial, split_at};
 
 /// A polynomial in the momenta whose coefficients are bases of a [`Coefficients`] table: S_h(p),
 /// one component of the predictor, or the energy.
@@ -38,8 +38,7 @@ pub fn collect<'a>(
     for (step_power, polynomial) in orders {
         let symbols = polynomial.variables().saturating_sub(dim);
         for (factors, factor) in polynomial.factors() {
-            let momenta = factors.partition_point(|&(variable, _)| (variable as usize) < dim);
-            let (momenta, powers) = factors.split_at(momenta);
+            let (momenta, powers) = split_at(&factors, dim);
             let mut symbol_powers = vec![0; symbols];
             for &(variable, power) in powers {
                 symbol_powers[variable as usize - dim] = power;

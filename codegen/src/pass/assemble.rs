@@ -90,7 +90,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         let names: Vec<String> =
             draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
         frame = Some(name_sums(&found, count, &mut symbols, &names));
-        hamiltonian = hamiltonian.in_variables(count + symbols.len());
+        hamiltonian = hamiltonian.widened(count + symbols.len()).into_owned();
     }
     Ok(Problem {
         name: draft.name,

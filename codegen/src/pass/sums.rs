@@ -8,7 +8,7 @@ use super::coefficient::balanced;
 use crate::comoving::Frame;
 use crate::expr::ParameterExpr;
 use crate::number::Rational;
-use crate::poly::Polynomial;
+use crate::poly::{Polynomial, split_at};
 use crate::problem::Symbol;
 
 /// Factors (variable, power).
@@ -22,8 +22,7 @@ type Sum = Vec<(Monomial, Rational)>;
 pub fn name_sums(frame: &Frame, dim: usize, symbols: &mut Vec<Symbol>, names: &[String]) -> Frame {
     let mut grouped: BTreeMap<Monomial, Sum> = BTreeMap::new();
     for (factors, value) in frame.rest.factors() {
-        let momenta = factors.partition_point(|&(variable, _)| (variable as usize) < dim);
-        let (momenta, own) = factors.split_at(momenta);
+        let (momenta, own) = split_at(&factors, dim);
         grouped.entry(momenta.to_vec()).or_default().push((own.to_vec(), value));
     }
     let mut terms = Sum::new();
@@ -51,8 +50,8 @@ pub fn name_sums(frame: &Frame, dim: usize, symbols: &mut Vec<Symbol>, names: &[
     }
     let variables = dim + symbols.len();
     Frame {
-        spin: frame.spin.in_variables(variables),
-        casimirs: frame.casimirs.in_variables(variables),
+        spin: frame.spin.widened(variables).into_owned(),
+        casimirs: frame.casimirs.widened(variables).into_owned(),
         rest: Polynomial::from_factors(variables, terms),
     }
 }

@@ -158,17 +158,8 @@ impl Polynomial {
         }
     }
 
-    /// The same polynomial among so many variables; terms with others are left out.
-    #[must_use]
-    pub fn in_variables(&self, variables: usize) -> Self {
-        let kept = self.factors().filter(|(factors, _)| {
-            factors.last().is_none_or(|&(variable, _)| (variable as usize) < variables)
-        });
-        Self::from_factors(variables, kept)
-    }
-
     /// The same polynomial in more variables.
-    pub(super) fn widened(&self, variables: usize) -> Cow<'_, Self> {
+    pub(crate) fn widened(&self, variables: usize) -> Cow<'_, Self> {
         if variables <= self.variables {
             return Cow::Borrowed(self);
         }
