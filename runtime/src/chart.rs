@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::coordinates::Coordinates;
 use crate::group::{CayleyGroup, LieGroup};
+use crate::scalar::Scalar;
 
 type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Matrix;
 
@@ -11,6 +12,9 @@ type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar
 pub trait Chart<G: LieGroup>: Copy + Debug + Default {
     /// The name users write: `exp` or `cayley`.
     const NAME: &'static str;
+
+    /// What [`Chart::turn`] leaves out is about (|x|/2)^TURN_ORDER of it; one or two.
+    const TURN_ORDER: u32 = 1;
 
     /// τ(x) and Ad\*_{τ(x)⁻¹} μ: the group increment of a step and the momentum after it.
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector);
@@ -28,6 +32,22 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         x: &G::Vector,
         mu: &G::Vector,
     ) -> (G::Vector, Matrix<G>);
+
+    /// About ∂p/∂x·v, the change of p = (d^R τ_x)ᵀ μ where x moves by v; ½ ad\*_v p if not more.
+    #[inline(always)]
+    fn turn(
+        self,
+        group: &G,
+        x: &G::Vector,
+        mu: &G::Vector,
+        p: &G::Vector,
+        v: &G::Vector,
+    ) -> G::Vector {
+        let _ = (x, mu);
+        let half = G::Scalar::of(0.5);
+        let turned = group.ad_star(v, p);
+        G::Vector::from_entries(v.dim(), |i| turned[i] * half)
+    }
 
     /// J_L(x, p) = (d^R τ_x)^{−T} p, the momentum on the left: the body momentum before the step.
     fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector;
@@ -49,6 +69,7 @@ pub struct Cayley;
 
 impl<G: LieGroup> Chart<G> for Exponential {
     const NAME: &'static str = "exp";
+    const TURN_ORDER: u32 = 2;
 
     #[inline(always)]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
@@ -73,6 +94,24 @@ impl<G: LieGroup> Chart<G> for Exponential {
         mu: &G::Vector,
     ) -> (G::Vector, Matrix<G>) {
         group.dexp_transpose_with_derivative(x, mu)
+    }
+
+    // ½ ad*_v μ + (ad*_v ad*_x + ad*_x ad*_v) μ/6 = (1 + ad*_x/3) ½ ad*_v (μ + ad*_x μ/3), where
+    // ad*_x μ is 2 (p − μ) to second order.
+    #[inline(always)]
+    fn turn(
+        self,
+        group: &G,
+        x: &G::Vector,
+        mu: &G::Vector,
+        p: &G::Vector,
+        v: &G::Vector,
+    ) -> G::Vector {
+        let (sixth, third) = (G::Scalar::of(1.0 / 6.0), G::Scalar::of(1.0 / 3.0));
+        let mean = G::Vector::from_entries(v.dim(), |i| (mu[i] + (p[i] + p[i])) * sixth);
+        let turned = group.ad_star(v, &mean);
+        let again = group.ad_star(x, &turned);
+        G::Vector::from_entries(v.dim(), |i| again[i].times_plus(third, turned[i]))
     }
 
     #[inline(always)]

@@ -93,6 +93,26 @@ pub trait GeneratingFunction {
         self.gradient_and_hessian(p)
     }
 
+    /// Whether steps in more than three dimensions go by [`GeneratingFunction::hessian_product`], without
+    /// matrices: where that is there, and cheaper than the whole Hessian.
+    #[inline(always)]
+    fn by_products(&self) -> bool {
+        false
+    }
+
+    /// The product of a Hessian as that of [`GeneratingFunction::newton_model`] with `direction`.
+    /// [`GeneratingFunction::hessian_defect`] bounds what this one leaves out as well.
+    #[inline(always)]
+    fn hessian_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+        direction.left_multiply(&self.newton_model(p).1)
+    }
+
+    /// The same to leading order, the Hessian of S₁.
+    #[inline(always)]
+    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+        self.hessian_product(p, direction)
+    }
+
     /// How strongly ∂S/∂p bends: about ‖S‴‖ |p| / (4 ‖Hess S‖), given the largest coordinate of
     /// x = ∂S/∂p. The solver weighs with it what Newton's method leaves; 1 is safe for polynomials
     /// of moderate degree. For the flow of a quadratic Hamiltonian S is quadratic up to terms

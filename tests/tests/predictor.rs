@@ -41,7 +41,7 @@ where
     let problem = read(&text, options).unwrap().problem;
     let limit = TermLimit::default();
     let series = Integrator::build(problem.clone(), limit).unwrap().series;
-    for degree in [4, 6] {
+    for degree in [4, 6, 8] {
         let plan = Plan {
             solver: Solver::Newton,
             predictor: Predictor::Flow(degree),

@@ -116,6 +116,17 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
         self.run(program, p, |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
     }
 
+    /// A program of a point and a direction.
+    #[inline(always)]
+    fn product(&self, program: &Program, p: &G::Vector, direction: &G::Vector) -> G::Vector {
+        let n = p.dim();
+        let both = |i: usize| if i < n { p[i] } else { direction[i - n] };
+        let mut scratch = Vec::new();
+        program.evaluate(both, |i| G::Scalar::of(self.slots[i]), &mut scratch);
+        let output = Outputs { nodes: &scratch, ids: program.outputs() };
+        G::Vector::from_entries(n, |i| output.get(i))
+    }
+
     #[inline(always)]
     fn gradient_and_matrix(
         &self,
@@ -182,6 +193,27 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
         match &self.integrator.hessian {
             Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),
             None => self.gradient_and_hessian(p),
+        }
+    }
+
+    #[inline(always)]
+    fn by_products(&self) -> bool {
+        self.integrator.product.is_some()
+    }
+
+    #[inline(always)]
+    fn hessian_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+        match &self.integrator.product {
+            Some(program) => self.product(program, p, direction),
+            None => direction.left_multiply(&self.newton_model(p).1),
+        }
+    }
+
+    #[inline(always)]
+    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+        match &self.integrator.leading {
+            Some(program) => self.product(program, p, direction),
+            None => self.hessian_product(p, direction),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The implementation of `coadjoint::GeneratingFunction`.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::body::{Body, body};
@@ -60,6 +60,20 @@ pub fn generating_function(
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
                 let c = &self.coefficients;
                 #function
+            }
+        }
+    });
+    let product = integrator.product.as_ref().map(|program| {
+        product_function(&format_ident!("hessian_product"), program, *dim, vector, scope)
+    });
+    let leading = integrator.leading.as_ref().map(|program| {
+        product_function(&format_ident!("leading_product"), program, *dim, vector, scope)
+    });
+    let by_products = product.is_some().then(|| {
+        quote! {
+            #[inline(always)]
+            fn by_products(&self) -> bool {
+                true
             }
         }
     });
@@ -130,11 +144,42 @@ pub fn generating_function(
 
             #newton
 
+            #by_products
+
+            #product
+
+            #leading
+
             #bend
 
             #defect
 
             #frame
+        }
+    }
+}
+
+/// A method of a point and a direction.
+fn product_function(
+    name: &Ident,
+    program: &Program,
+    dim: usize,
+    vector: &TokenStream,
+    scope: &Scope,
+) -> TokenStream {
+    let both = Literal::usize_unsuffixed(2 * dim);
+    let Scope { krate, slots, .. } = scope;
+    let scope = Scope { krate: krate.clone(), input: quote!([T; #both]), slots: *slots };
+    let function = vector_function(program, vector, &scope);
+    let dim = Literal::usize_unsuffixed(dim);
+    quote! {
+        #[inline(always)]
+        fn #name(&self, p: &#vector, direction: &#vector) -> #vector {
+            let c = &self.coefficients;
+            let input: [T; #both] =
+                ::core::array::from_fn(|i| if i < #dim { p[i] } else { direction[i - #dim] });
+            let input = &input;
+            #function
         }
     }
 }

@@ -3,8 +3,8 @@
 //! Written out as polynomials of μ′, the predictor grows fast with the dimension. Here the momentum's
 //! Taylor coefficients along μ̇ = ad*_ω μ, ω = ∂H/∂μ, come from one another by their recurrence, as in
 //! a Taylor integrator, and x = log of the increment from the moments of ω about the middle of the
-//! step, by Magnus' series of order four or six (Blanes, Casas and Ros, BIT 40, 2000, 434). The work
-//! grows with the square of the degree and with the number of terms of H.
+//! step, by Magnus' series of order four, six or eight (Blanes, Casas and Ros, BIT 40, 2000, 434, and
+//! BIT 42, 2002, 262). The work grows with the square of the degree and with the number of terms of H.
 
 use std::collections::HashMap;
 
@@ -18,9 +18,9 @@ use crate::poly::Polynomial;
 use crate::problem::Problem;
 
 /// The degrees in h to which x can be had.
-pub const DEGREES: [usize; 2] = [4, 6];
+pub const DEGREES: [usize; 3] = [4, 6, 8];
 
-/// μ′ ↦ x up to h^degree, degree four or six.
+/// μ′ ↦ x up to h^degree, degree four, six or eight.
 pub fn increment_program(
     coefficients: &mut Coefficients,
     problem: &Problem,
@@ -49,7 +49,11 @@ pub fn increment_program(
             jet.push(flow.evaluate(terms, order));
         }
     }
-    let outputs = if degree < 6 { flow.fourth_order(&jets) } else { flow.sixth_order(&jets) };
+    let outputs = match degree {
+        ..6 => flow.fourth_order(&jets),
+        6..8 => flow.sixth_order(&jets),
+        8.. => flow.eighth_order(&jets),
+    };
     flow.graph.finish(dim, &outputs)
 }
 
@@ -212,8 +216,6 @@ impl<'a> Flow<'a> {
     /// x = a₁ + a₃/12 + \[20a₁ + a₃ + c, a₂ + \[a₁, 2a₃ − c\]/60\]/240, c = \[a₁, a₂\], with
     /// a₁ = 9/4 B₀ − 15 B₂, a₂ = 12 B₁, a₃ = 180 B₂ − 15 B₀.
     fn sixth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
-        let a1 = |k| ratio(9, 4) * moment(0, k) - ratio(15, 1) * moment(2, k);
-        let a3 = |k| ratio(180, 1) * moment(2, k) - ratio(15, 1) * moment(0, k);
         let straight = self.combine(jets, |k| moment(0, k));
         let outer = self.combine(jets, |k| ratio(20, 1) * a1(k) + a3(k));
         let a1 = self.combine(jets, a1);
@@ -227,13 +229,57 @@ impl<'a> Flow<'a> {
         let turn = self.bracket(&ratio(1, 240), &outer, &inner);
         self.add(&straight, &[(ratio(1, 1), &turn)])
     }
+
+    /// With a₁, a₃ as above, a₂ = 75 B₁ − 420 B₃ and a₄ = 2800 B₃ − 420 B₁, and {a, b} = −\[a, b\]:
+    /// s₁ = −{u, v}/28, u = a₁ + a₃/28, v = a₂ + 3a₄/28; r₁ = {a₁, s₁ − a₃/14}/3;
+    /// s₂ = {u + s₁, v + r₁}; r₂ = {a₁ + 5s₁/4, 2a₃ + s₂ + {a₂, s₁}/2};
+    /// s₃ = {B₀ − 7s₁/3 − s₂/6, 63r₁ + r₂ − 9a₂ − 9a₄/4}; x = B₀ − 7s₂/120 + s₃/360.
+    fn eighth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
+        let one = || ratio(1, 1);
+        let a2 = |k| ratio(75, 1) * moment(1, k) - ratio(420, 1) * moment(3, k);
+        let a4 = |k| ratio(2800, 1) * moment(3, k) - ratio(420, 1) * moment(1, k);
+        let straight = self.combine(jets, |k| moment(0, k));
+        let u = self.combine(jets, |k| a1(k) + a3(k) / ratio(28, 1));
+        let v = self.combine(jets, |k| a2(k) + ratio(3, 28) * a4(k));
+        let last = self.combine(jets, |k| ratio(-9, 1) * a2(k) - ratio(9, 4) * a4(k));
+        let first = self.combine(jets, a1);
+        let second = self.combine(jets, a2);
+        let third = self.combine(jets, a3);
+
+        let s1 = self.bracket(&ratio(1, 28), &u, &v);
+        let r1 = self.add(&s1, &[(ratio(-1, 14), &third)]);
+        let r1 = self.bracket(&ratio(-1, 3), &first, &r1);
+        let (left, right) = (self.add(&u, &[(one(), &s1)]), self.add(&v, &[(one(), &r1)]));
+        let s2 = self.bracket(&ratio(-1, 1), &left, &right);
+        let inner = self.bracket(&ratio(-1, 2), &second, &s1);
+        let left = self.add(&first, &[(ratio(5, 4), &s1)]);
+        let right = self.add(&s2, &[(ratio(2, 1), &third), (one(), &inner)]);
+        let r2 = self.bracket(&ratio(-1, 1), &left, &right);
+        let left = self.add(&straight, &[(ratio(-7, 3), &s1), (ratio(-1, 6), &s2)]);
+        let right = self.add(&last, &[(ratio(63, 1), &r1), (one(), &r2)]);
+        let s3 = self.bracket(&ratio(-1, 360), &left, &right);
+        self.add(&straight, &[(ratio(-7, 120), &s2), (one(), &s3)])
+    }
 }
 
-/// ∫₀¹ (s − ½)ⁱ sᵏ ds for i = 0, 1, 2.
+/// ∫₀¹ (s − ½)ⁱ sᵏ ds.
 fn moment(i: u32, k: i64) -> Rational {
-    match i {
-        0 => ratio(1, k + 1),
-        1 => ratio(1, k + 2) - ratio(1, 2 * (k + 1)),
-        _ => ratio(1, k + 3) - ratio(1, k + 2) + ratio(1, 4 * (k + 1)),
+    let mut sum = ratio(0, 1);
+    // (s − ½)ⁱ term by term: the coefficients of sʲ from that of sⁱ down.
+    let mut binomial = ratio(1, 1);
+    for j in (0..=i64::from(i)).rev() {
+        sum += &binomial * ratio(1, k + j + 1);
+        binomial = binomial * ratio(-j, 2 * (i64::from(i) - j + 1));
     }
+    sum
+}
+
+/// The share of sᵏ in a₁ = 9/4 B₀ − 15 B₂, the value of ω in the middle of the step.
+fn a1(k: i64) -> Rational {
+    ratio(9, 4) * moment(0, k) - ratio(15, 1) * moment(2, k)
+}
+
+/// The share of sᵏ in a₃ = 180 B₂ − 15 B₀, half the second derivative there.
+fn a3(k: i64) -> Rational {
+    ratio(180, 1) * moment(2, k) - ratio(15, 1) * moment(0, k)
 }

@@ -102,6 +102,41 @@ pub fn hessian_program(
     graph.finish(dim, &outputs)
 }
 
+/// (p, v) ↦ ∂²S/∂p²·v, the inputs of v after those of p; only terms S_k with
+/// k ≤ `hessian_truncation`.
+pub fn product_program(
+    coefficients: &mut Coefficients,
+    dim: usize,
+    terms: &[BaseTerm],
+    hessian_truncation: u32,
+) -> Program {
+    let mut graph = Graph::new();
+    let mut outputs = Vec::with_capacity(dim);
+    for (i, terms) in by_coordinate(terms, dim).iter().enumerate() {
+        let kept = || terms.iter().copied().filter(|term| term.order <= hessian_truncation);
+        let mut sum = graph.zero();
+        for j in 0..dim {
+            let entry = if i == j {
+                weighted(coefficients, kept(), &[(i, 2)], |term| {
+                    let m = term.exponent(i);
+                    m * m.saturating_sub(1)
+                })
+            } else {
+                weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
+                    term.exponent(i) * term.exponent(j)
+                })
+            };
+            let entry = lower(&mut graph, &entry);
+            if entry != graph.zero() {
+                let direction = graph.input(dim + j);
+                sum = graph.times_plus(entry, direction, sum);
+            }
+        }
+        outputs.push(sum);
+    }
+    graph.finish(2 * dim, &outputs)
+}
+
 /// One coordinate of ∂S/∂p in the form pᵢ·G + B.
 struct GradientEntry {
     gradient: Id,

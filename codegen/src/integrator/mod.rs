@@ -43,7 +43,11 @@ pub struct Integrator {
     /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
     /// nothing.
     pub newton: Option<Program>,
-    /// Bounds what `newton` leaves out of the Hessian.
+    /// (p, v) ↦ the Hessian, truncated as the plan says, times v; where steps go by products with it.
+    pub product: Option<Program>,
+    /// The same for S₁ alone.
+    pub leading: Option<Program>,
+    /// Bounds what `newton` and `product` leave out of the Hessian.
     pub defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
@@ -114,6 +118,9 @@ impl Integrator {
             .as_ref()
             .map(|whole| (lower::hessian_program(table, dim, &s, kept), whole))
             .and_then(|(program, whole)| (program != *whole).then_some(program));
+        let product = (hessian.is_some() && plan::by_products(&problem))
+            .then(|| lower::product_program(table, dim, &s, kept));
+        let leading = product.is_some().then(|| lower::product_program(table, dim, &s, 1));
         let defect = lower::defect(table, &s, kept);
         let mut continuation = None;
         let predictor = match plan.predictor {
@@ -155,6 +162,8 @@ impl Integrator {
             gradient,
             hessian,
             newton,
+            product,
+            leading,
             defect,
             predictor,
             continuation,

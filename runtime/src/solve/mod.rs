@@ -1,6 +1,7 @@
 //! Solving J_L(∂S/∂p(p), p) = μ for p.
 
 mod fixed_point;
+mod linearised;
 mod matrix_free;
 mod newton;
 
@@ -21,7 +22,8 @@ pub const MAX_EVALUATIONS: u32 = 60;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
     /// Newton's method: one to three iterations, each with the Hessian of S and a dense linear
-    /// system. For groups of few dimensions.
+    /// system, or with products of that Hessian ([`GeneratingFunction::by_products`]). For groups of
+    /// few dimensions.
     #[default]
     Newton,
     /// The fixed point p ↦ (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), with Anderson acceleration: more iterations,
@@ -86,6 +88,9 @@ pub fn solve_from<S: GeneratingFunction + ?Sized>(
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
     match S::SOLVER {
+        Solver::Newton if mu.dim() > linearised::SMALL && generating.by_products() => {
+            linearised::linearised(generating, mu, guess)
+        }
         Solver::Newton => newton::newton(generating, mu, guess),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
     }

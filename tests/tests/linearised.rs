@@ -1,0 +1,173 @@
+//! Newton's method without matrices: the same solutions as with them, in every lane.
+
+use coadjoint::nalgebra::{SMatrix, SVector, SimdValue, Vector6};
+use coadjoint::{
+    Chart, F64x4, GeneratingFunction, LaneGroup, Lanes, LieGroup, Phase, SE3, StepError, VectorOf,
+    lie_poisson, solve,
+};
+
+#[lie_poisson(group = SE3, truncation = 7)]
+fn fluid(mu: [f64; 6]) -> f64 {
+    let [a, b, c, u, v, w] = mu;
+    (a * a + b * b / 2.0 + c * c / 3.0 + u * u + v * v / 2.0 + w * w / 4.0) / 2.0
+}
+
+#[lie_poisson(group = SE3, truncation = 7, chart = cayley)]
+fn top(mu: [f64; 6]) -> f64 {
+    (mu[0] * mu[0] + mu[1] * mu[1]) / 4.0 + mu[2] * mu[2] / 2.0 + mu[3]
+}
+
+#[lie_poisson(group = SO3^2, truncation = 7)]
+fn spins(mu: [f64; 6]) -> f64 {
+    let [a, b, c, d, e, f] = mu;
+    a * d + b * e + c * f / 2.0
+}
+
+#[lie_poisson(group = Heisenberg^2, truncation = 7)]
+fn coupled(mu: [f64; 6]) -> f64 {
+    let [a, b, c, d, e, f] = mu;
+    (a * a + b * b) / 2.0 + (d * d + e * e) / 3.0 + a * a * d / 5.0 + c * f
+}
+
+/// The same function without its products: steps take the whole Hessian.
+struct WithMatrices<'a, S>(&'a S);
+
+impl<S, const N: usize> GeneratingFunction for WithMatrices<'_, S>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+    type Group = S::Group;
+    type Chart = S::Chart;
+
+    fn group(&self) -> &S::Group {
+        self.0.group()
+    }
+
+    fn value(&self, p: &VectorOf<S>) -> f64 {
+        self.0.value(p)
+    }
+
+    fn gradient(&self, p: &VectorOf<S>) -> VectorOf<S> {
+        self.0.gradient(p)
+    }
+
+    fn gradient_and_hessian(&self, p: &VectorOf<S>) -> (VectorOf<S>, SMatrix<f64, N, N>) {
+        self.0.gradient_and_hessian(p)
+    }
+
+    fn predict(&self, mu: &VectorOf<S>) -> VectorOf<S> {
+        self.0.predict(mu)
+    }
+}
+
+/// Momenta in many directions, of this size.
+fn momenta<const N: usize>(size: f64) -> impl Iterator<Item = SVector<f64, N>> {
+    (0..20)
+        .map(move |k| SVector::from_fn(|i, _| size * (1.3 * f64::from(k) + 2.1 * i as f64).sin()))
+}
+
+/// The largest error of p = (d^R τ_x)ᵀ μ and of x = ∂S/∂p(p), as fractions, and of x against the way
+/// with matrices.
+fn errors<S, const N: usize>(step: &S, size: f64) -> Result<[f64; 3], StepError>
+where
+    S: GeneratingFunction,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+    assert!(step.by_products());
+    let mut worst = [0.0; 3];
+    for mu in momenta::<N>(size) {
+        let found = solve(step, &mu)?;
+        let known = solve(&WithMatrices(step), &mu)?;
+        let pulled = step.chart().pull_back(step.group(), &found.x, &mu);
+        let errors = [
+            (found.p - pulled).amax() / mu.amax(),
+            (found.x - step.gradient(&found.p)).amax() / found.x.amax(),
+            (found.x - known.x).amax(),
+        ];
+        for (worst, error) in worst.iter_mut().zip(errors) {
+            *worst = error.max(*worst);
+        }
+    }
+    Ok(worst)
+}
+
+fn assert_small(errors: [f64; 3], case: &str) {
+    assert!(errors.iter().all(|&e| e < 2e-14), "{case}: {errors:?}");
+}
+
+#[test]
+fn solves_to_rounding_like_newton_with_matrices() -> Result<(), StepError> {
+    for h in [1e-3, 0.05, 0.2, 0.5] {
+        assert_small(errors(&Fluid::new(h)?, 1.0)?, &format!("fluid {h}"));
+        assert_small(errors(&Top::new(h)?, 1.5)?, &format!("top {h}"));
+        assert_small(errors(&Spins::new(h)?, 0.7)?, &format!("spins {h}"));
+        assert_small(errors(&Coupled::new(h)?, 0.7)?, &format!("coupled {h}"));
+    }
+    Ok(())
+}
+
+#[test]
+fn the_products_are_those_of_the_leading_hessians() -> Result<(), StepError> {
+    // S₃ and beyond vanish with h: there the products are the Hessian's, times the direction.
+    let step = Coupled::new(1e-4)?;
+    let p = Vector6::new(1.0, 0.3, -0.4, 0.2, 0.8, -0.6);
+    let v = Vector6::new(0.1, -0.7, 0.4, 0.9, 0.2, 0.5);
+    let exact = step.gradient_and_hessian(&p).1 * v;
+    let off = |product: Vector6<f64>| (product - exact).amax() / exact.amax();
+    let (whole, leading) = (off(step.hessian_product(&p, &v)), off(step.leading_product(&p, &v)));
+    assert!(whole < 1e-14 && leading > 1e-12 && leading < 1e-7, "{whole:e} {leading:e}");
+    Ok(())
+}
+
+#[test]
+fn where_corrections_gain_little_newton_takes_over() -> Result<(), StepError> {
+    let step = Fluid::new(1.6)?;
+    assert_small(errors(&step, 1.0)?, "fluid 1.6");
+    Ok(())
+}
+
+#[test]
+fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
+    let mut mu = Vector6::repeat(1.0);
+    mu[4] = f64::NAN;
+    assert_eq!(solve(&Fluid::new(0.1)?, &mu).err(), Some(StepError::NonFiniteState));
+    assert!(solve(&Fluid::new(0.1)?, &Vector6::zeros())?.x.amax() == 0.0);
+    Ok(())
+}
+
+/// Lanes of very different speed: some need one gradient, some more, some Newton's method.
+fn lanes_are_scalars<S>(step: &S) -> Result<(), StepError>
+where
+    S: GeneratingFunction<Group = SE3> + Lanes,
+{
+    let sizes = [0.05, 0.3, 1.0, 2.6, 0.0, 0.7, 1.7, 0.2];
+    let states: Vec<_> = momenta::<6>(1.0)
+        .zip(sizes)
+        .map(|(mu, size)| Phase::<SE3>::at_identity(mu * size))
+        .collect();
+    let packed = step.splat::<F64x4>();
+    for states in states.chunks(F64x4::LANES) {
+        let mut lanes = <SE3 as LaneGroup>::splat::<F64x4>(&states[0]);
+        for (lane, state) in states.iter().enumerate() {
+            <SE3 as LaneGroup>::insert(&mut lanes, lane, state);
+        }
+        coadjoint::advance_by(&packed, &mut lanes, 10)?;
+        for (lane, state) in states.iter().enumerate() {
+            let mut alone = state.clone();
+            coadjoint::advance_by(step, &mut alone, 10)?;
+            let together = <SE3 as LaneGroup>::extract(&lanes, lane);
+            assert_eq!(together.momentum, alone.momentum, "lane {lane}");
+            assert_eq!(together.group_element, alone.group_element, "lane {lane}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
+    for h in [0.05, 0.3, 0.8] {
+        lanes_are_scalars(&Fluid::new(h)?)?;
+    }
+    Ok(())
+}
