@@ -269,7 +269,7 @@ fn moment(i: u32, k: i64) -> Rational {
     let mut binomial = ratio(1, 1);
     for j in (0..=i64::from(i)).rev() {
         sum += &binomial * ratio(1, k + j + 1);
-        binomial = binomial * ratio(-j, 2 * (i64::from(i) - j + 1));
+        binomial *= ratio(-j, 2 * (i64::from(i) - j + 1));
     }
     sum
 }
