@@ -44,9 +44,7 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         v: &G::Vector,
     ) -> G::Vector {
         let _ = (x, mu);
-        let half = G::Scalar::of(0.5);
-        let turned = group.ad_star(v, p);
-        G::Vector::from_entries(v.dim(), |i| turned[i] * half)
+        half_turn(group, p, v)
     }
 
     /// J_L(x, p) = (d^R τ_x)^{−T} p, the momentum on the left: the body momentum before the step.
@@ -57,6 +55,14 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         let negative = G::Vector::from_entries(x.dim(), |i| -x[i]);
         self.left_momentum(group, &negative, p)
     }
+}
+
+/// ½ ad\*_v p, to leading order the change of p where x moves by v, whatever the chart.
+#[inline(always)]
+pub(crate) fn half_turn<G: LieGroup>(group: &G, p: &G::Vector, v: &G::Vector) -> G::Vector {
+    let half = G::Scalar::of(0.5);
+    let turned = group.ad_star(v, p);
+    G::Vector::from_entries(v.dim(), |i| turned[i] * half)
 }
 
 /// τ = exp, the default chart: at equal truncation far more accurate than Cayley.

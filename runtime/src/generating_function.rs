@@ -93,8 +93,8 @@ pub trait GeneratingFunction {
         self.gradient_and_hessian(p)
     }
 
-    /// Whether steps in more than three dimensions go by [`GeneratingFunction::hessian_product`], without
-    /// matrices: where that is there, and cheaper than the whole Hessian.
+    /// Whether steps go by [`GeneratingFunction::hessian_product`], without matrices: where that is there,
+    /// and cheaper than the whole Hessian, as in more than three dimensions.
     #[inline(always)]
     fn by_products(&self) -> bool {
         false

@@ -99,21 +99,21 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
     fn run<R>(
         &self,
         program: &Program,
-        p: &G::Vector,
+        input: impl Fn(usize) -> G::Scalar,
         read: impl FnOnce(Outputs<'_, G::Scalar>) -> R,
     ) -> R {
         let mut scratch = Vec::new();
-        program.evaluate(|i| p[i], |i| G::Scalar::of(self.slots[i]), &mut scratch);
+        program.evaluate(input, |i| G::Scalar::of(self.slots[i]), &mut scratch);
         read(Outputs { nodes: &scratch, ids: program.outputs() })
     }
 
     fn scalar(&self, program: &Program, p: &G::Vector) -> G::Scalar {
-        self.run(program, p, |output| output.get(0))
+        self.run(program, |i| p[i], |output| output.get(0))
     }
 
     #[inline(always)]
     fn vector(&self, program: &Program, p: &G::Vector) -> G::Vector {
-        self.run(program, p, |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
+        self.run(program, |i| p[i], |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
     }
 
     /// A program of a point and a direction.
@@ -121,10 +121,7 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
     fn product(&self, program: &Program, p: &G::Vector, direction: &G::Vector) -> G::Vector {
         let n = p.dim();
         let both = |i: usize| if i < n { p[i] } else { direction[i - n] };
-        let mut scratch = Vec::new();
-        program.evaluate(both, |i| G::Scalar::of(self.slots[i]), &mut scratch);
-        let output = Outputs { nodes: &scratch, ids: program.outputs() };
-        G::Vector::from_entries(n, |i| output.get(i))
+        self.run(program, both, |output| G::Vector::from_entries(n, |i| output.get(i)))
     }
 
     #[inline(always)]
@@ -134,17 +131,21 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
         p: &G::Vector,
     ) -> (G::Vector, <G::Vector as Coordinates<G::Scalar>>::Matrix) {
         let n = p.dim();
-        self.run(program, p, |output| {
-            let mut matrix = G::Vector::zero_matrix(n);
-            // The upper triangle, row by row.
-            let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-            for (number, (i, j)) in places.enumerate() {
-                let value = output.get(n + number);
-                matrix[(i, j)] = value;
-                matrix[(j, i)] = value;
-            }
-            (G::Vector::from_entries(n, |i| output.get(i)), matrix)
-        })
+        self.run(
+            program,
+            |i| p[i],
+            |output| {
+                let mut matrix = G::Vector::zero_matrix(n);
+                // The upper triangle, row by row.
+                let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+                for (number, (i, j)) in places.enumerate() {
+                    let value = output.get(n + number);
+                    matrix[(i, j)] = value;
+                    matrix[(j, i)] = value;
+                }
+                (G::Vector::from_entries(n, |i| output.get(i)), matrix)
+            },
+        )
     }
 }
 

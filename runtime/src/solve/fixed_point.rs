@@ -2,7 +2,7 @@
 
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::{MAX_EVALUATIONS, Solution, Solver, failure};
+use super::{MAX_EVALUATIONS, Solution, Solver, Yardstick, failure};
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
@@ -31,10 +31,7 @@ pub fn fixed_point<S: GeneratingFunction + ?Sized>(
     let dim = mu.dim();
     let (zero, one) = (ScalarOf::<S>::of(0.0), ScalarOf::<S>::of(1.0));
 
-    // The smallest positive scale keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
-    let scale = mu.largest_entry() + ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
-    let inverse_scale = one / scale;
-    let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
+    let Yardstick { inverse_scale, tolerance, .. } = Yardstick::of(mu);
     // Rounding of many coordinates may stay above that: then it no longer halves.
     let rounding = ScalarOf::<S>::of(32.0) * ScalarOf::<S>::epsilon();
     let half = ScalarOf::<S>::of(0.5);

@@ -2,16 +2,12 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use super::{Solution, newton};
-use crate::chart::Chart;
+use super::{Solution, Yardstick, newton};
+use crate::chart::{Chart, half_turn};
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
-use crate::group::LieGroup;
 use crate::scalar::Scalar;
-
-/// Up to this dimension a Jacobian is inverted with one division and a few products.
-pub const SMALL: usize = 3;
 
 /// Gradients of S taken, and corrections with the same gradient, before Newton's method takes over.
 const GRADIENTS: u32 = 4;
@@ -36,11 +32,8 @@ pub fn linearised<S: GeneratingFunction + ?Sized>(
     let dim = mu.dim();
     let (zero, half) = (ScalarOf::<S>::of(0.0), ScalarOf::<S>::of(0.5));
 
-    // The smallest positive scale keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
-    let smallest = ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
-    let scale = mu.largest_entry() + smallest;
-    let inverse_scale = ScalarOf::<S>::of(1.0) / scale;
-    let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
+    let yardstick = Yardstick::of(mu);
+    let Yardstick { smallest, scale, inverse_scale, tolerance } = yardstick;
     // Corrections are cheap: they leave less than rounding does.
     let least = half * ScalarOf::<S>::epsilon();
     let half_defect = half * scale * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
@@ -57,10 +50,7 @@ pub fn linearised<S: GeneratingFunction + ?Sized>(
         let gradient = generating.gradient(&base);
         // H·v and, about, H·∂P/∂x·v.
         let leading = |v: &VectorOf<S>| generating.leading_product(&base, v);
-        let turn = |v: &VectorOf<S>| {
-            let turned = group.ad_star(v, &base);
-            VectorOf::<S>::from_entries(dim, |i| turned[i] * half)
-        };
+        let turn = |v: &VectorOf<S>| half_turn(group, &base, v);
         // From the second gradient on p₀ is P(x) for the x of the first.
         let mut x = if iteration == 1 { gradient.clone() } else { solved.clone() };
         let mut p = base.clone();
@@ -118,11 +108,7 @@ pub fn linearised<S: GeneratingFunction + ?Sized>(
         let relative = p.clone().minus(&base).largest_entry() * inverse_scale;
         let bend = generating.bend(x.largest_entry()) * relative;
         let bound = stretch * bend + half * half * half_defect * relative;
-        // The bound knows no more of S than the size of its coefficients. From the second gradient on
-        // the steps themselves tell by what they shrink.
-        let shrunk = ScalarOf::<S>::of(2.0) * relative * relative / previous;
-        let left = if iteration > 1 { bound.simd_min(shrunk) } else { bound };
-        let left = left.simd_min(relative).select(relative.simd_le(tolerance), left);
+        let left = yardstick.left(bound, relative, (iteration > 1).then_some(previous));
         previous = relative + smallest;
         solved = x.select(open, &solved);
         remaining = left.select(open, remaining);

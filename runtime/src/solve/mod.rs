@@ -88,11 +88,45 @@ pub fn solve_from<S: GeneratingFunction + ?Sized>(
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
     match S::SOLVER {
-        Solver::Newton if mu.dim() > linearised::SMALL && generating.by_products() => {
-            linearised::linearised(generating, mu, guess)
-        }
+        Solver::Newton if generating.by_products() => linearised::linearised(generating, mu, guess),
         Solver::Newton => newton::newton(generating, mu, guess),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
+    }
+}
+
+/// What sizes are measured by.
+#[derive(Clone, Copy)]
+struct Yardstick<T> {
+    /// Keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
+    smallest: T,
+    /// The largest coordinate of μ.
+    scale: T,
+    inverse_scale: T,
+    /// What is left, relative to the scale, of a system that is solved.
+    tolerance: T,
+}
+
+impl<T: Scalar> Yardstick<T> {
+    #[inline(always)]
+    fn of<V: Coordinates<T>>(mu: &V) -> Self {
+        let smallest = T::of(f64::from(f32::MIN_POSITIVE));
+        let scale = mu.largest_entry() + smallest;
+        let tolerance = T::of(4.0) * T::epsilon();
+        Self { smallest, scale, inverse_scale: T::of(1.0) / scale, tolerance }
+    }
+
+    /// An estimate of what a step of Newton's method leaves, relative to the scale, given a bound on
+    /// it, the step's size, and the size of the step before it, if it has one with which to compare.
+    ///
+    /// The bound knows no more of S than the size of its coefficients. From the second step on the
+    /// steps themselves tell by what they shrink, and one of rounding's size is the last.
+    #[inline(always)]
+    fn left(&self, bound: T, relative: T, previous: Option<T>) -> T {
+        let left = match previous {
+            Some(previous) => bound.simd_min(T::of(2.0) * relative * relative / previous),
+            None => bound,
+        };
+        left.simd_min(relative).select(relative.simd_le(self.tolerance), left)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use super::{MAX_ITERATIONS, Solution, Solver, failure};
+use super::{MAX_ITERATIONS, Solution, Solver, Yardstick, failure};
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
@@ -28,11 +28,8 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
     let dim = group.dim();
     let one = ScalarOf::<S>::of(1.0);
 
-    // The smallest positive scale keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
-    let smallest = ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
-    let scale = mu.largest_entry() + smallest;
-    let inverse_scale = one / scale;
-    let tolerance = ScalarOf::<S>::of(4.0) * ScalarOf::<S>::epsilon();
+    let yardstick = Yardstick::of(mu);
+    let Yardstick { smallest, scale, inverse_scale, tolerance } = yardstick;
 
     let half = ScalarOf::<S>::of(0.5);
     let half_defect = half * scale * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
@@ -68,11 +65,7 @@ pub fn newton<S: GeneratingFunction + ?Sized>(
             // whole one, D·(Hess S − H)·δp.
             let curved = stretched + half * stretch + bent + bend;
             let bound = stretch * curved + half_defect * relative;
-            // The bound knows no more of S than the size of its coefficients. From the second step on
-            // the steps themselves tell by what they shrink, and one of rounding's size is the last.
-            let shrunk = ScalarOf::<S>::of(2.0) * relative * relative / previous;
-            let left = if chord > 0 { bound.simd_min(shrunk) } else { bound };
-            let left = left.simd_min(relative).select(relative.simd_le(tolerance), left);
+            let left = yardstick.left(bound, relative, (chord > 0).then_some(previous));
             previous = relative + smallest;
             let was_open = remaining.simd_gt(tolerance);
             solved = (next.clone().select(was_open, &solved.0), moved.select(was_open, &solved.1));
