@@ -15,6 +15,10 @@ pub type VectorOf<S> = <<S as GeneratingFunction>::Group as LieGroup>::Vector;
 /// Square matrices of a generating function's group.
 pub type MatrixOf<S> = <VectorOf<S> as Coordinates<ScalarOf<S>>>::Matrix;
 
+/// Steps of which the fine parts of the gradient are taken at once
+/// ([`GeneratingFunction::fine_gradients`]).
+pub const AHEAD: usize = 4;
+
 /// A function S on 𝔤\*, read as the Lagrangian submanifold {x = ∂S/∂p(p)} of T\*G in canonical
 /// coordinates (x, p) of a chart.
 ///
@@ -93,24 +97,44 @@ pub trait GeneratingFunction {
         self.gradient_and_hessian(p)
     }
 
-    /// Whether steps go by [`GeneratingFunction::hessian_product`], without matrices: where that is there,
-    /// and cheaper than the whole Hessian, as in more than three dimensions.
+    /// Whether steps go by the gradient in two parts, without matrices, as is better in more than three
+    /// dimensions: ∂S/∂p = coarse + fine, where the fine part matters little and takes most of the work.
     #[inline(always)]
-    fn by_products(&self) -> bool {
+    fn in_parts(&self) -> bool {
         false
     }
 
-    /// The product of a Hessian as that of [`GeneratingFunction::newton_model`] with `direction`.
-    /// [`GeneratingFunction::hessian_defect`] bounds what this one leaves out as well.
+    /// The coarse part of ∂S/∂p(p).
     #[inline(always)]
-    fn hessian_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+    fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        self.gradient(p)
+    }
+
+    /// The fine part of ∂S/∂p(p), the gradient less its coarse part. Where there are parts,
+    /// [`GeneratingFunction::hessian_defect`] bounds its derivative.
+    #[inline(always)]
+    fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        VectorOf::<Self>::zeros(p.dim())
+    }
+
+    /// The fine part at several points, those of steps to come.
+    #[inline(always)]
+    fn fine_gradients(&self, p: &[VectorOf<Self>; AHEAD]) -> [VectorOf<Self>; AHEAD] {
+        core::array::from_fn(|k| self.fine_gradient(&p[k]))
+    }
+
+    /// The product of the Hessian of S₁ (the leading order in the step size) with `direction`.
+    #[inline(always)]
+    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
         direction.left_multiply(&self.newton_model(p).1)
     }
 
-    /// The same to leading order, the Hessian of S₁.
+    /// A first guess of the x of a step from μ, where [`GeneratingFunction::predict`] is (d^R τ_x)ᵀ μ with
+    /// this x.
     #[inline(always)]
-    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
-        self.hessian_product(p, direction)
+    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let _ = mu;
+        None
     }
 
     /// How strongly ∂S/∂p bends: about ‖S‴‖ |p| / (4 ‖Hess S‖), given the largest coordinate of

@@ -199,7 +199,7 @@ pub use error::StepError;
 #[cfg(feature = "alloc")]
 pub use fit::{Fit, FitError, MAX_FITTED_TERMS, fit};
 pub use generating_function::{
-    GeneratingFunction, MatrixOf, ScalarOf, VectorOf, hessian_by_differences,
+    AHEAD, GeneratingFunction, MatrixOf, ScalarOf, VectorOf, hessian_by_differences,
 };
 pub use group::{CayleyGroup, FixedDimension, LieGroup};
 pub use heisenberg::Heisenberg;

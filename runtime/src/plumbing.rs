@@ -1,8 +1,13 @@
 //! What generated code calls. Not part of the public interface; it may change at any time.
 
+use core::any::Any;
+
 use crate::adjustable::{Part, Term};
 use crate::error::StepError;
+use crate::generating_function::AHEAD;
 use crate::scalar::Scalar;
+use nalgebra::SimdValue;
+use simba::simd::WideF64x4;
 
 /// A monomial, as pairs of a coordinate and its exponent.
 pub type Monomial = &'static [(u32, u32)];
@@ -175,4 +180,61 @@ pub fn polynomial<T: Scalar, const DEGREES: usize>(coefficients: &[T; DEGREES], 
         sum = sum.times_plus(size, coefficient);
     }
     sum
+}
+
+/// Numbers into which coefficients of type `C` can be put.
+pub trait Lift<C> {
+    /// The coefficient, in every lane.
+    fn lift(coefficient: C) -> Self;
+}
+
+impl<T: Scalar> Lift<T> for T {
+    #[inline(always)]
+    fn lift(coefficient: T) -> T {
+        coefficient
+    }
+}
+
+impl Lift<f64> for WideF64x4 {
+    #[inline(always)]
+    fn lift(coefficient: f64) -> Self {
+        Self::splat(coefficient)
+    }
+}
+
+/// The fine part of the gradient, over numbers that may be wider than the coefficients.
+pub trait FinePart<C, const SLOTS: usize, const N: usize> {
+    /// The fine part at `input`.
+    fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], input: &[T; N]) -> [T; N];
+}
+
+/// [`FinePart::fine`] at several points: in the lanes of one number if coefficients are `f64`.
+#[inline(always)]
+pub fn fine_parts<C, P, P64, const SLOTS: usize, const N: usize>(
+    c: &[C; SLOTS],
+    points: &[[C; N]; AHEAD],
+) -> [[C; N]; AHEAD]
+where
+    C: Scalar,
+    P: FinePart<C, SLOTS, N>,
+    P64: FinePart<f64, SLOTS, N>,
+{
+    // Decided when compiled: `Any` only tells the compiler what `C` is.
+    let numbers = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
+    let places = (points as &dyn Any).downcast_ref::<[[f64; N]; AHEAD]>();
+    if let (Some(c), Some(points)) = (numbers, places) {
+        let mut found = [[0.0; N]; AHEAD];
+        for (found, points) in found.chunks_exact_mut(4).zip(points.chunks_exact(4)) {
+            let lanes: [WideF64x4; N] =
+                core::array::from_fn(|i| WideF64x4::from(core::array::from_fn(|k| points[k][i])));
+            let fine = P64::fine(c, &lanes);
+            for (k, found) in found.iter_mut().enumerate() {
+                *found = core::array::from_fn(|i| fine[i].extract(k));
+            }
+        }
+        if let Some(found) = (&found as &dyn Any).downcast_ref::<[[C; N]; AHEAD]>() {
+            return *found;
+        }
+    }
+    points.map(|point| P::fine(c, &point))
 }

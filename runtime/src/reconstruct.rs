@@ -9,7 +9,7 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
-use crate::solve::{Solution, solve, solve_after};
+use crate::solve::{Ahead, Solution, solve, solve_after};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,8 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`GeneratingFunction::predict_after`]), a comoving frame moves on for many at once,
+/// one before ([`GeneratingFunction::predict_after`]), or [`AHEAD`](crate::AHEAD) steps are guessed at once
+/// ([`GeneratingFunction::fine_gradients`]), a comoving frame moves on for many at once,
 /// and what steps read of `generating` is prepared once. The report holds the largest number of
 /// iterations and the largest residual of a step; no step, none.
 ///
@@ -99,23 +100,30 @@ pub(crate) fn march<S: GeneratingFunction + ?Sized>(
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     let mut last = None;
+    let mut ahead = Ahead::new(generating);
     // Steps that the frame has not made yet.
     let mut behind = 0;
     for done in 0..steps {
-        let Solution { p, x, iterations, residual } =
-            match solve_after(generating, &phase.momentum, last.as_ref()) {
-                Ok(solution) => solution,
-                Err(error) => {
-                    move_frame(generating, phase, behind);
-                    return Err(Stopped { done, error });
-                }
-            };
+        let found = match &mut ahead {
+            Some(ahead) => ahead.solve(generating, &phase.momentum, steps - done),
+            None => solve_after(generating, &phase.momentum, last.as_ref()),
+        };
+        let Solution { p, x, iterations, residual } = match found {
+            Ok(solution) => solution,
+            Err(error) => {
+                move_frame(generating, phase, behind);
+                return Err(Stopped { done, error });
+            }
+        };
         displace(generating, phase, &x);
         last = Some(p);
         behind += 1;
         if behind == STEPS_PER_FRAME {
             if move_frame(generating, phase, behind) {
                 last = None;
+                if let Some(ahead) = &mut ahead {
+                    ahead.forget();
+                }
             }
             behind = 0;
         }

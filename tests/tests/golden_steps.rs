@@ -72,6 +72,15 @@ fn against_interpreter<const N: usize, S>(
             (0..N).for_each(|i| close(own[i], interpreted[i]));
         }
         assert!(compiled.frame(integrator.frame.len(), &p).is_none());
+        assert_eq!(compiled.in_parts(), integrator.parts.is_some());
+        if let Some(parts) = &integrator.parts {
+            let (coarse, fine) = (compiled.coarse_gradient(&p), compiled.fine_gradient(&p));
+            let interpreted = (run(&parts.coarse, &p), run(&parts.fine, &p));
+            for i in 0..N {
+                close(coarse[i], interpreted.0[i]);
+                close(fine[i], interpreted.1[i]);
+            }
+        }
         let mut entry = N;
         for i in 0..N {
             close(gradient[i], hessian[i]);

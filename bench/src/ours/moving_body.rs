@@ -124,6 +124,7 @@ kirchhoff!(kirchhoff_five, 5, fixed);
 kirchhoff!(kirchhoff_seven, 7, fixed);
 kirchhoff!(comoving_kirchhoff_five, 5, comoving);
 kirchhoff!(comoving_kirchhoff_seven, 7, comoving);
+kirchhoff!(comoving_kirchhoff_nine, 9, comoving);
 
 type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<State, RunError>;
 
@@ -168,14 +169,14 @@ impl super::Run for Runs {
 #[derive(Clone, Copy)]
 struct Comoving {
     symmetric_top: BodyRun<Gravity<1>>,
-    kirchhoff: Option<BodyRun<Mass>>,
+    kirchhoff: BodyRun<Mass>,
 }
 
 impl super::Run for Comoving {
     fn applies(&self, system: &System) -> bool {
         match system {
             System::HeavyTop(body) => body.inverse_inertia[0] == body.inverse_inertia[2],
-            System::Kirchhoff(_) => self.kirchhoff.is_some(),
+            System::Kirchhoff(_) => true,
             System::FreeBody(_) | System::Kovalevskaya(_) => false,
         }
     }
@@ -194,9 +195,7 @@ impl super::Run for Comoving {
         match &problem.system {
             _ if !self.applies(&problem.system) => None,
             System::HeavyTop(body) => Some((self.symmetric_top)(body, problem, step, coefficients)),
-            System::Kirchhoff(body) => {
-                self.kirchhoff.map(|run| run(body, problem, step, coefficients))
-            }
+            System::Kirchhoff(body) => Some((self.kirchhoff)(body, problem, step, coefficients)),
             System::FreeBody(_) | System::Kovalevskaya(_) => None,
         }
     }
@@ -236,17 +235,23 @@ pub fn all() -> Vec<Box<dyn Method>> {
             5,
             Comoving {
                 symmetric_top: symmetric_five::run,
-                kirchhoff: Some(comoving_kirchhoff_five::run),
+                kirchhoff: comoving_kirchhoff_five::run,
             },
         ),
         (
             7,
             Comoving {
                 symmetric_top: symmetric_seven::run,
-                kirchhoff: Some(comoving_kirchhoff_seven::run),
+                kirchhoff: comoving_kirchhoff_seven::run,
             },
         ),
-        (9, Comoving { symmetric_top: symmetric_nine::run, kirchhoff: None }),
+        (
+            9,
+            Comoving {
+                symmetric_top: symmetric_nine::run,
+                kirchhoff: comoving_kirchhoff_nine::run,
+            },
+        ),
     ];
     let fixed = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
     let comoving = comoving

@@ -198,24 +198,38 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     }
 
     #[inline(always)]
-    fn by_products(&self) -> bool {
-        self.integrator.product.is_some()
+    fn in_parts(&self) -> bool {
+        self.integrator.parts.is_some()
     }
 
     #[inline(always)]
-    fn hessian_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.product {
-            Some(program) => self.product(program, p, direction),
-            None => direction.left_multiply(&self.newton_model(p).1),
+    fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        self.vector(
+            self.integrator.parts.as_ref().map_or(&self.integrator.gradient, |parts| &parts.coarse),
+            p,
+        )
+    }
+
+    #[inline(always)]
+    fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        match &self.integrator.parts {
+            Some(parts) => self.vector(&parts.fine, p),
+            None => VectorOf::<Self>::zeros(p.dim()),
         }
     }
 
     #[inline(always)]
     fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.leading {
-            Some(program) => self.product(program, p, direction),
-            None => self.hessian_product(p, direction),
+        match &self.integrator.parts {
+            Some(parts) => self.product(&parts.leading, p, direction),
+            None => direction.left_multiply(&self.newton_model(p).1),
         }
+    }
+
+    #[inline(always)]
+    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let flows = matches!(self.integrator.plan.predictor, Predictor::Flow(_));
+        flows.then(|| self.vector(&self.integrator.predictor, mu))
     }
 
     #[inline(always)]

@@ -25,7 +25,7 @@ pub fn body(program: &Program, scope: &Scope) -> Body {
     if let Some(body) = parts(program, scope) {
         return body;
     }
-    let mut writer = Writer::new(program);
+    let mut writer = Writer::new(program, scope.lifted);
     for index in 0..program.nodes().len() {
         writer.write(index);
     }
@@ -36,23 +36,27 @@ pub fn body(program: &Program, scope: &Scope) -> Body {
 /// Turns the nodes of a program into statements, one after the other.
 pub(super) struct Writer<'a> {
     program: &'a Program,
+    lifted: bool,
     uses: Vec<usize>,
     written: Vec<Written>,
     statements: TokenStream,
 }
 
 impl<'a> Writer<'a> {
-    /// A writer that has written nothing.
-    pub fn new(program: &'a Program) -> Self {
+    /// A writer that has written nothing; it lifts slots if so told.
+    pub fn new(program: &'a Program, lifted: bool) -> Self {
         let nothing = Written { tokens: TokenStream::new(), depth: 0, atomic: true };
         let written = vec![nothing; program.nodes().len()];
-        Self { program, uses: program.uses(), written, statements: TokenStream::new() }
+        Self { program, lifted, uses: program.uses(), written, statements: TokenStream::new() }
     }
 
     /// Writes a node whose operands are written.
     pub fn write(&mut self, index: usize) {
         let node = &self.program.nodes()[index];
-        self.written[index] = write(node, &self.written);
+        self.written[index] = match node {
+            Node::Slot(i) => slot(*i, self.lifted),
+            _ => write(node, &self.written),
+        };
         let is_input = matches!(node, Node::Input(_));
         let shared = self.uses[index] > 1 && !matches!(node, Node::Zero | Node::Slot(_));
         if is_input || shared || self.written[index].depth >= DEPTH {
@@ -96,6 +100,12 @@ struct Written {
     atomic: bool,
 }
 
+fn slot(i: u32, lifted: bool) -> Written {
+    let i = Literal::u32_unsuffixed(i);
+    let tokens = if lifted { quote!(T::lift(c[#i])) } else { quote!(c[#i]) };
+    Written { tokens, depth: 0, atomic: true }
+}
+
 fn write(node: &Node, written: &[Written]) -> Written {
     let get = |id: Id| &written[id.index()];
     let depth = |ids: &[Id]| 1 + ids.iter().map(|&id| get(id).depth).max().unwrap_or(0);
@@ -109,10 +119,7 @@ fn write(node: &Node, written: &[Written]) -> Written {
             let i = Literal::u32_unsuffixed(i);
             Written { tokens: quote!(input[#i]), depth: 0, atomic: true }
         }
-        Node::Slot(i) => {
-            let i = Literal::u32_unsuffixed(i);
-            Written { tokens: quote!(c[#i]), depth: 0, atomic: true }
-        }
+        Node::Slot(i) => slot(i, false),
         Node::Add(a, b) => {
             let (x, y) = (operand(a), operand(b));
             Written { tokens: quote!(#x + #y), depth: depth(&[a, b]), atomic: false }

@@ -7,7 +7,7 @@ use super::body::{Body, body};
 use super::item::Parts;
 use super::parts::Scope;
 use crate::graph::Program;
-use crate::integrator::{Integrator, Predictor};
+use crate::integrator::{GradientParts, Integrator, Predictor};
 use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`.
@@ -63,17 +63,17 @@ pub fn generating_function(
             }
         }
     });
-    let product = integrator.product.as_ref().map(|program| {
-        product_function(&format_ident!("hessian_product"), program, *dim, vector, scope)
-    });
-    let leading = integrator.leading.as_ref().map(|program| {
-        product_function(&format_ident!("leading_product"), program, *dim, vector, scope)
-    });
-    let by_products = product.is_some().then(|| {
+    let in_parts =
+        integrator.parts.as_ref().map(|parts| gradient_parts(parts, name, *dim, vector, scope));
+    let fine_part =
+        integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
+    let increment = matches!(integrator.plan.predictor, Predictor::Flow(_)).then(|| {
+        let function = vector_function(&integrator.predictor, vector, scope);
         quote! {
             #[inline(always)]
-            fn by_products(&self) -> bool {
-                true
+            fn predict_increment(&self, input: &#vector) -> ::core::option::Option<#vector> {
+                let c = &self.coefficients;
+                ::core::option::Option::Some({ #function })
             }
         }
     });
@@ -110,6 +110,8 @@ pub fn generating_function(
         }
     });
     quote! {
+        #fine_part
+
         impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
             type Group = #group;
             type Chart = #chart;
@@ -144,11 +146,9 @@ pub fn generating_function(
 
             #newton
 
-            #by_products
+            #increment
 
-            #product
-
-            #leading
+            #in_parts
 
             #bend
 
@@ -159,27 +159,73 @@ pub fn generating_function(
     }
 }
 
-/// A method of a point and a direction.
-fn product_function(
+/// The methods of a gradient in two parts.
+fn gradient_parts(
+    parts: &GradientParts,
     name: &Ident,
-    program: &Program,
     dim: usize,
     vector: &TokenStream,
     scope: &Scope,
 ) -> TokenStream {
-    let both = Literal::usize_unsuffixed(2 * dim);
     let Scope { krate, slots, .. } = scope;
-    let scope = Scope { krate: krate.clone(), input: quote!([T; #both]), slots: *slots };
-    let function = vector_function(program, vector, &scope);
+    let coarse = vector_function(&parts.coarse, vector, scope);
+    let both = Literal::usize_unsuffixed(2 * dim);
+    let pair = Scope { krate: krate.clone(), input: quote!([T; #both]), ..*scope };
+    let leading = vector_function(&parts.leading, vector, &pair);
     let dim = Literal::usize_unsuffixed(dim);
+    let slots = Literal::usize_unsuffixed(*slots);
     quote! {
         #[inline(always)]
-        fn #name(&self, p: &#vector, direction: &#vector) -> #vector {
+        fn in_parts(&self) -> bool {
+            true
+        }
+
+        #[inline(always)]
+        fn coarse_gradient(&self, input: &#vector) -> #vector {
+            let c = &self.coefficients;
+            #coarse
+        }
+
+        #[inline(always)]
+        fn fine_gradient(&self, p: &#vector) -> #vector {
+            <Self as #krate::plumbing::FinePart<T, #slots, #dim>>::fine(&self.coefficients, &(*p).into()).into()
+        }
+
+        #[inline(always)]
+        fn fine_gradients(&self, p: &[#vector; #krate::AHEAD]) -> [#vector; #krate::AHEAD] {
+            let p = p.map(::core::convert::Into::into);
+            #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #dim>(&self.coefficients, &p)
+                .map(::core::convert::Into::into)
+        }
+
+        #[inline(always)]
+        fn leading_product(&self, p: &#vector, direction: &#vector) -> #vector {
             let c = &self.coefficients;
             let input: [T; #both] =
                 ::core::array::from_fn(|i| if i < #dim { p[i] } else { direction[i - #dim] });
             let input = &input;
-            #function
+            #leading
+        }
+    }
+}
+
+/// The fine part of the gradient, over numbers that may be wider than the coefficients.
+fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> TokenStream {
+    let Scope { krate, slots, .. } = scope;
+    let dim = Literal::usize_unsuffixed(dim);
+    let wide = Scope { krate: krate.clone(), input: quote!([T; #dim]), lifted: true, ..*scope };
+    let Body { statements, outputs } = body(program, &wide);
+    let slots = Literal::usize_unsuffixed(*slots);
+    quote! {
+        impl<C: #krate::Scalar> #krate::plumbing::FinePart<C, #slots, #dim> for #name<C> {
+            #[inline(always)]
+            fn fine<T: #krate::Scalar + #krate::plumbing::Lift<C>>(
+                c: &[C; #slots],
+                input: &[T; #dim],
+            ) -> [T; #dim] {
+                #statements
+                [#(#outputs),*]
+            }
         }
     }
 }

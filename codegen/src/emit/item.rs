@@ -67,6 +67,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         krate: krate.clone(),
         input: vector.clone(),
         slots: integrator.coefficients.slots().len(),
+        lifted: false,
     };
     let generating = generating_function(integrator, krate, name, &parts, &scope);
     let adjustable = adjustable(krate, name);

@@ -36,6 +36,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
         krate: krate.clone(),
         input: quote!([T; #entries]),
         slots: kick.coefficients.slots().len(),
+        lifted: false,
     };
     let energy = scalar_function(&kick.energy, &scope);
     let torque = vector_function(&kick.torque, &vector, &scope);

@@ -19,11 +19,13 @@ pub struct Scope {
     pub input: TokenStream,
     /// The length of `c`, an array of `T`.
     pub slots: usize,
+    /// Whether `c` is an array of `C` instead, to be lifted to `T`.
+    pub lifted: bool,
 }
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride,
 /// and inlines into a step for lanes, which makes use of wider registers.
-const LARGE: usize = 3000;
+const LARGE: usize = 1500;
 
 /// The most operations of one function of a program that is cut.
 const MOST_OPERATIONS: usize = 1000;
@@ -36,7 +38,7 @@ pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
     let handed = handed_on(program, &part_of);
     let places = Literal::usize_unsuffixed(handed.len());
 
-    let Scope { krate, input, slots } = scope;
+    let Scope { krate, input, slots, lifted } = scope;
     let slots = Literal::usize_unsuffixed(*slots);
     let place = |k: usize| {
         let k = Literal::usize_unsuffixed(k);
@@ -45,7 +47,13 @@ pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
     let mut places_taken = handed.iter().enumerate().map(|(k, &index)| (index, k)).peekable();
     let mut functions = TokenStream::new();
     let mut calls = TokenStream::new();
-    let mut writer = Writer::new(program);
+    let (generics, coefficient) = match lifted {
+        false => (quote!(T: #krate::Scalar), quote!(T)),
+        true => {
+            (quote!(C: #krate::Scalar, T: #krate::Scalar + #krate::plumbing::Lift<C>), quote!(C))
+        }
+    };
+    let mut writer = Writer::new(program, *lifted);
     let mut start = 0;
     for part in 0..count {
         let end = start + part_of[start..].iter().take_while(|&&p| p == part).count();
@@ -66,7 +74,7 @@ pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
         let statements = writer.take_statements();
         functions.extend(quote! {
             #[inline(never)]
-            fn #name<T: #krate::Scalar>(input: &#input, c: &[T; #slots], shared: &mut [T; #places]) {
+            fn #name<#generics>(input: &#input, c: &[#coefficient; #slots], shared: &mut [T; #places]) {
                 #statements
             }
         });

@@ -102,18 +102,12 @@ pub fn hessian_program(
     graph.finish(dim, &outputs)
 }
 
-/// (p, v) ↦ ∂²S/∂p²·v, the inputs of v after those of p; only terms S_k with
-/// k ≤ `hessian_truncation`.
-pub fn product_program(
-    coefficients: &mut Coefficients,
-    dim: usize,
-    terms: &[BaseTerm],
-    hessian_truncation: u32,
-) -> Program {
+/// (p, v) ↦ ∂²S₁/∂p²·v, the inputs of v after those of p.
+pub fn leading_program(coefficients: &mut Coefficients, dim: usize, terms: &[BaseTerm]) -> Program {
     let mut graph = Graph::new();
     let mut outputs = Vec::with_capacity(dim);
     for (i, terms) in by_coordinate(terms, dim).iter().enumerate() {
-        let kept = || terms.iter().copied().filter(|term| term.order <= hessian_truncation);
+        let kept = || terms.iter().copied().filter(|term| term.order <= 1);
         let mut sum = graph.zero();
         for j in 0..dim {
             let entry = if i == j {

@@ -19,6 +19,17 @@ use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
 use crate::problem::{Problem, Solver};
 
+/// ∂S/∂p in two parts.
+#[derive(Clone, Debug)]
+pub struct GradientParts {
+    /// p ↦ ∂(S₁ + … + S_k)/∂p, with the k up to which the plan keeps the Hessian.
+    pub coarse: Program,
+    /// p ↦ ∂(S_{k+2} + … + S_K)/∂p.
+    pub fine: Program,
+    /// (p, v) ↦ the Hessian of S₁ times v.
+    pub leading: Program,
+}
+
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
 /// programs over them.
 ///
@@ -43,11 +54,9 @@ pub struct Integrator {
     /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
     /// nothing.
     pub newton: Option<Program>,
-    /// (p, v) ↦ the Hessian, truncated as the plan says, times v; where steps go by products with it.
-    pub product: Option<Program>,
-    /// The same for S₁ alone.
-    pub leading: Option<Program>,
-    /// Bounds what `newton` and `product` leave out of the Hessian.
+    /// What steps go by where the gradient comes in two parts.
+    pub parts: Option<GradientParts>,
+    /// Bounds what `newton` leaves out of the Hessian, or the Hessian of the fine part.
     pub defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
@@ -118,9 +127,15 @@ impl Integrator {
             .as_ref()
             .map(|whole| (lower::hessian_program(table, dim, &s, kept), whole))
             .and_then(|(program, whole)| (program != *whole).then_some(program));
-        let product = (hessian.is_some() && plan::by_products(&problem))
-            .then(|| lower::product_program(table, dim, &s, kept));
-        let leading = product.is_some().then(|| lower::product_program(table, dim, &s, 1));
+        let parts = (hessian.is_some() && plan::in_parts(&problem)).then(|| {
+            let (coarse, fine): (Vec<_>, Vec<_>) =
+                s.iter().cloned().partition(|term| term.order <= kept);
+            GradientParts {
+                coarse: lower::gradient_program(table, dim, &coarse),
+                fine: lower::gradient_program(table, dim, &fine),
+                leading: lower::leading_program(table, dim, &s),
+            }
+        });
         let defect = lower::defect(table, &s, kept);
         let mut continuation = None;
         let predictor = match plan.predictor {
@@ -162,8 +177,7 @@ impl Integrator {
             gradient,
             hessian,
             newton,
-            product,
-            leading,
+            parts,
             defect,
             predictor,
             continuation,

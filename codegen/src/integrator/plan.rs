@@ -102,7 +102,13 @@ impl Plan {
         }
         let costs = Costs::new(problem, terms);
         let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
-        for degree in (0..=Self::single_step_degree(problem.truncation)).step_by(2) {
+        let highest = Self::single_step_degree(problem.truncation);
+        let flows = problem.chart == Chart::Exponential;
+        // Where guesses are made for several steps at once they lead from one to the next, and with four
+        // times the error of one the fine part at the guess must do: the best there is pays.
+        let ahead = flows && in_parts(problem);
+        let explicit = if ahead { 0..0 } else { 0..highest + 1 };
+        for degree in explicit.step_by(2) {
             let Some(polynomials) = affordable(problem, degree, limit, best.is_some())? else {
                 break;
             };
@@ -116,9 +122,10 @@ impl Plan {
                 _ => best = Some((cost, plan, polynomials)),
             }
         }
-        if problem.chart == Chart::Exponential {
-            let highest = Self::single_step_degree(problem.truncation);
-            for degree in flow::DEGREES.into_iter().filter(|&degree| degree <= highest) {
+        if flows {
+            let degrees = flow::DEGREES.into_iter().filter(|&degree| degree <= highest);
+            let last = degrees.clone().last();
+            for degree in degrees.filter(|&degree| !ahead || Some(degree) == last) {
                 let program =
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
@@ -178,18 +185,16 @@ impl Plan {
 /// waits for its own results (measured on SO(3)).
 const WAIT: usize = 300;
 
-/// Whether steps go by products with the Hessian, without matrices: in more than three dimensions, where
-/// matrices take longer than polynomials, and for long series, whose users take steps short enough for
-/// the Hessian of S₁ + S₃ (of shorter ones the whole Hessian is better: Kirchhoff's body, K = 5, h = 0.4,
-/// 703 ns in place of 984).
-pub fn by_products(problem: &Problem) -> bool {
+/// Whether steps go by the gradient in two parts, without matrices: in more than three dimensions, where
+/// matrices take longer than polynomials, and for long series, most of whose terms matter little.
+pub fn in_parts(problem: &Problem) -> bool {
     problem.solver() == Solver::Newton && problem.algebra.dim() > 3 && problem.truncation >= 7
 }
 
-/// The Hessian in those products.
-const PRODUCT_TRUNCATION: usize = 3;
+/// The coarse part: S₁ + S₃ + S₅.
+const COARSE: usize = 5;
 /// Corrections of x for one gradient, measured on SE(3).
-const CORRECTIONS: usize = 2;
+const CORRECTIONS: usize = 3;
 
 /// What steps cost, in operations.
 struct Costs {
@@ -208,10 +213,12 @@ impl Costs {
         let n = problem.algebra.dim();
         let truncation = problem.truncation;
         let degree = Plan::single_step_degree(truncation);
-        if by_products(problem) {
-            let products = CORRECTIONS * hessian_operations(terms, PRODUCT_TRUNCATION);
-            let step = CORRECTIONS * WAIT + products + gradient_operations(terms);
-            let newton = vec![(PRODUCT_TRUNCATION, step)];
+        if in_parts(problem) {
+            let coarse: Vec<_> =
+                terms.iter().filter(|term| term.order as usize <= COARSE).cloned().collect();
+            let corrections = CORRECTIONS * (WAIT + gradient_operations(&coarse));
+            let step = corrections + gradient_operations(terms);
+            let newton = vec![(COARSE, step)];
             return Self { truncation, goal: degree + 5, chord: step, newton };
         }
         let goal = 2 * degree + 2;

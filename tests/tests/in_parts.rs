@@ -1,9 +1,9 @@
-//! Newton's method without matrices: the same solutions as with them, in every lane.
+//! The gradient in two parts: the same solutions as by Newton's method with matrices, in every lane.
 
 use coadjoint::nalgebra::{SMatrix, SVector, SimdValue, Vector6};
 use coadjoint::{
-    Chart, F64x4, GeneratingFunction, LaneGroup, Lanes, LieGroup, Phase, SE3, StepError, VectorOf,
-    lie_poisson, solve,
+    AHEAD, Chart, F64x4, GeneratingFunction, LaneGroup, Lanes, LieGroup, Phase, SE3, StepError,
+    VectorOf, advance, advance_by, lie_poisson, solve,
 };
 
 #[lie_poisson(group = SE3, truncation = 7)]
@@ -29,7 +29,7 @@ fn coupled(mu: [f64; 6]) -> f64 {
     (a * a + b * b) / 2.0 + (d * d + e * e) / 3.0 + a * a * d / 5.0 + c * f
 }
 
-/// The same function without its products: steps take the whole Hessian.
+/// The same function without its parts: steps take the whole Hessian.
 struct WithMatrices<'a, S>(&'a S);
 
 impl<S, const N: usize> GeneratingFunction for WithMatrices<'_, S>
@@ -74,7 +74,7 @@ where
     S: GeneratingFunction,
     S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
 {
-    assert!(step.by_products());
+    assert!(step.in_parts());
     let mut worst = [0.0; 3];
     for mu in momenta::<N>(size) {
         let found = solve(step, &mu)?;
@@ -108,15 +108,52 @@ fn solves_to_rounding_like_newton_with_matrices() -> Result<(), StepError> {
 }
 
 #[test]
-fn the_products_are_those_of_the_leading_hessians() -> Result<(), StepError> {
-    // S₃ and beyond vanish with h: there the products are the Hessian's, times the direction.
-    let step = Coupled::new(1e-4)?;
+fn the_parts_make_up_the_gradient() -> Result<(), StepError> {
     let p = Vector6::new(1.0, 0.3, -0.4, 0.2, 0.8, -0.6);
+    let parts = |h: f64| -> Result<[f64; 3], StepError> {
+        let step = Fluid::new(h)?;
+        let (coarse, fine) = (step.coarse_gradient(&p), step.fine_gradient(&p));
+        let whole = step.gradient(&p);
+        let several: [_; AHEAD] = core::array::from_fn(|k| p * (1.0 + 0.1 * k as f64));
+        for (at, fine) in several.iter().zip(step.fine_gradients(&several)) {
+            assert_eq!(fine, step.fine_gradient(at), "in lanes as alone");
+        }
+        Ok([(coarse + fine - whole).amax(), fine.amax(), whole.amax()])
+    };
+    let (long, short) = (parts(0.4)?, parts(0.2)?);
+    assert!(long[0] < 1e-15 * long[2] && short[0] < 1e-15 * short[2]);
+    // What is fine is S₇.
+    assert!((long[1] / short[1] - 128.0).abs() < 1e-9, "{}", long[1] / short[1]);
+
+    // S₃ and beyond vanish with h: there the Hessian is that of S₁.
+    let step = Coupled::new(1e-4)?;
     let v = Vector6::new(0.1, -0.7, 0.4, 0.9, 0.2, 0.5);
     let exact = step.gradient_and_hessian(&p).1 * v;
-    let off = |product: Vector6<f64>| (product - exact).amax() / exact.amax();
-    let (whole, leading) = (off(step.hessian_product(&p, &v)), off(step.leading_product(&p, &v)));
-    assert!(whole < 1e-14 && leading > 1e-12 && leading < 1e-7, "{whole:e} {leading:e}");
+    let off = (step.leading_product(&p, &v) - exact).amax() / exact.amax();
+    assert!(off > 1e-12 && off < 1e-7, "{off:e}");
+    Ok(())
+}
+
+/// Guesses that lead from one to the next, and fine parts taken at them, leave no trace.
+#[test]
+fn steps_at_once_are_steps_one_by_one() -> Result<(), StepError> {
+    let start = Phase::<SE3>::at_identity(Vector6::new(1.0, 0.3, -0.4, 0.2, 0.8, -0.6));
+    for h in [0.02, 0.1, 0.3, 0.5, 0.8] {
+        let step = Fluid::new(h)?;
+        for steps in [1, 2, 3, 4, 9, 30] {
+            let (mut one, mut many) = (start.clone(), start.clone());
+            for _ in 0..steps {
+                advance(&step, &mut one)?;
+            }
+            let report = advance_by(&step, &mut many, steps)?;
+            let apart = (one.momentum - many.momentum).amax()
+                + one.group_element.rotation.angle_to(&many.group_element.rotation)
+                + (one.group_element.translation.vector - many.group_element.translation.vector)
+                    .amax();
+            assert!(apart < 1e-14 * (1.0 + steps as f64), "{h} {steps}: {apart:e}");
+            assert!(report.residual < 1e-15, "{report:?}");
+        }
+    }
     Ok(())
 }
 
@@ -136,7 +173,7 @@ fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
     Ok(())
 }
 
-/// Lanes of very different speed: some need one gradient, some more, some Newton's method.
+/// Lanes of very different speed: some need one fine part, some more, some Newton's method.
 fn lanes_are_scalars<S>(step: &S) -> Result<(), StepError>
 where
     S: GeneratingFunction<Group = SE3> + Lanes,
@@ -152,10 +189,10 @@ where
         for (lane, state) in states.iter().enumerate() {
             <SE3 as LaneGroup>::insert(&mut lanes, lane, state);
         }
-        coadjoint::advance_by(&packed, &mut lanes, 10)?;
+        advance_by(&packed, &mut lanes, 10)?;
         for (lane, state) in states.iter().enumerate() {
             let mut alone = state.clone();
-            coadjoint::advance_by(step, &mut alone, 10)?;
+            advance_by(step, &mut alone, 10)?;
             let together = <SE3 as LaneGroup>::extract(&lanes, lane);
             assert_eq!(together.momentum, alone.momentum, "lane {lane}");
             assert_eq!(together.group_element, alone.group_element, "lane {lane}");

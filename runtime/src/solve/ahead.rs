@@ -1,0 +1,105 @@
+//! Several steps to come at once, as far as that goes.
+
+use super::in_parts::{Start, in_parts};
+use super::{Solution, start};
+use crate::chart::Chart;
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::{AHEAD, GeneratingFunction};
+use crate::group::LieGroup;
+use crate::scalar::Scalar;
+
+/// First guesses for the next steps, each made at the end to which the one before leads, and the fine parts
+/// of the gradient there, which are taken at once: in the lanes of one number they cost little more than
+/// one.
+pub struct Ahead<V, T> {
+    /// x and p of each step.
+    guesses: [(V, V); AHEAD],
+    fine: [V; AHEAD],
+    /// [`Start::slope`].
+    slope: Option<T>,
+    /// The next guess; all are used up where there is none.
+    next: usize,
+}
+
+impl<V: Coordinates<T>, T: Scalar> Ahead<V, T> {
+    /// No guesses yet; `None` where steps do not go by such.
+    #[inline(always)]
+    pub fn new<S>(generating: &S) -> Option<Self>
+    where
+        S: GeneratingFunction + ?Sized,
+        S::Group: LieGroup<Vector = V, Scalar = T>,
+    {
+        let zero = V::zeros(generating.group().dim());
+        let ahead = generating.in_parts() && generating.predict_increment(&zero).is_some();
+        ahead.then(|| Self {
+            guesses: core::array::from_fn(|_| (zero.clone(), zero.clone())),
+            fine: core::array::from_fn(|_| zero.clone()),
+            slope: None,
+            next: AHEAD,
+        })
+    }
+
+    /// As [`solve`](super::solve) for the next step, from `mu`, with so many steps to go.
+    ///
+    /// # Errors
+    /// As [`solve`](super::solve).
+    #[inline(always)]
+    pub fn solve<S>(
+        &mut self,
+        generating: &S,
+        mu: &V,
+        steps: u64,
+    ) -> Result<Solution<V, T>, StepError>
+    where
+        S: GeneratingFunction + ?Sized,
+        S::Group: LieGroup<Vector = V, Scalar = T>,
+    {
+        if self.next == AHEAD {
+            self.look(generating, mu, steps.min(AHEAD as u64) as usize);
+            self.next = 0;
+        }
+        // Where the guess was made is known to be `mu` for the first only; the others were made beside it.
+        let settled = self.next == 0;
+        let (x, p) = self.guesses[self.next].clone();
+        let fine = self.fine[self.next].clone();
+        self.next += 1;
+        in_parts(generating, mu, Start { p, x: Some(x), settled, fine, slope: self.slope })
+    }
+
+    /// Forgets the guesses: what comes next does not follow from the steps so far.
+    pub fn forget(&mut self) {
+        self.next = AHEAD;
+    }
+
+    /// Guesses for so many steps from `mu`.
+    #[inline(always)]
+    fn look<S>(&mut self, generating: &S, mu: &V, steps: usize)
+    where
+        S: GeneratingFunction + ?Sized,
+        S::Group: LieGroup<Vector = V, Scalar = T>,
+    {
+        let (group, chart) = (generating.group(), generating.chart());
+        let mut mu = mu.clone();
+        for k in 0..AHEAD {
+            if k < steps {
+                let (x, p) = start(generating, &mu);
+                let x = x.unwrap_or_else(|| V::zeros(mu.dim()));
+                mu = chart.transport(group, &x, &mu).1;
+                self.guesses[k] = (x, p);
+            } else {
+                self.guesses[k] = self.guesses[k - 1].clone();
+            }
+        }
+        let points: [V; AHEAD] = core::array::from_fn(|k| self.guesses[k].1.clone());
+        self.fine = generating.fine_gradients(&points);
+        let least = T::of(f64::from(f32::MIN_POSITIVE));
+        let slopes = (1..steps).map(|k| {
+            let moved = points[k].clone().minus(&points[k - 1]).largest_entry();
+            let change = self.fine[k].clone().minus(&self.fine[k - 1]).largest_entry();
+            change / (moved + least)
+        });
+        // One step alone tells nothing; then it is what it was before.
+        self.slope = slopes.reduce(T::simd_max).or(self.slope);
+    }
+}

@@ -1,0 +1,180 @@
+//! Newton's method without matrices and with few gradients, for more than a few dimensions.
+
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
+
+use super::{Solution, Yardstick, newton};
+use crate::chart::{Chart, half_turn};
+use crate::coordinates::Coordinates;
+use crate::error::StepError;
+use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::scalar::Scalar;
+
+/// Fine parts taken, and corrections with the same one, before Newton's method takes over.
+const FINE_PARTS: u32 = 4;
+const CORRECTIONS: usize = 8;
+
+/// Where the solve starts.
+#[derive(Clone, Debug)]
+pub struct Start<V, T> {
+    /// A first guess of p.
+    pub p: V,
+    /// A first guess of x, where there is one.
+    pub x: Option<V>,
+    /// Whether that p is (d^R τ_x)ᵀ μ.
+    pub settled: bool,
+    /// The fine part of ∂S/∂p at p.
+    pub fine: V,
+    /// How much the fine part changes with p: |δ fine| / |δp| between the places of some steps, where
+    /// they are known.
+    pub slope: Option<T>,
+}
+
+/// [`solve`](super::solve) by [`Solver::Newton`](super::Solver) where [`GeneratingFunction::in_parts`]
+/// says so.
+///
+/// The fine part of ∂S/∂p, which is most of its terms, changes so little that its value at the first guess
+/// p₀ will do: x = coarse(P(x)) + fine(p₀), P(x) = (d^R τ_x)ᵀ μ, is solved by corrections of x by its
+/// residual in this equation and the first terms of Neumann's series in H·∂P/∂x, about h|Ω|/2, with H the
+/// Hessian of S₁; ∂P/∂x by [`Chart::turn`] in the first, ½ ad\*_v p₀ in the smaller ones. A correction gains
+/// two to three digits at h|Ω| = 0.4. Elimination would wait for divisions and for itself, and matrices
+/// go through memory: on SE(3) that takes longer than polynomials do. Where corrections gain little, it is
+/// left to Newton's method.
+#[inline(always)]
+pub fn in_parts<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    start: Start<VectorOf<S>, ScalarOf<S>>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    let (group, chart) = (generating.group(), generating.chart());
+    let dim = mu.dim();
+    let (zero, half) = (ScalarOf::<S>::of(0.0), ScalarOf::<S>::of(0.5));
+
+    let yardstick = Yardstick::of(mu);
+    let Yardstick { smallest, scale, inverse_scale, tolerance } = yardstick;
+    // Corrections are cheap: they leave less than rounding does.
+    let rounding = half * ScalarOf::<S>::epsilon();
+
+    let Start { p: guess, x: known, mut settled, mut fine, slope } = start;
+    // D times the derivative of the fine part, |D| ≈ |μ|/2. Of the bound on it, which adds up the monomials'
+    // largest values, a quarter: it was found 2 to 60 times too large (tops, bodies in a fluid). Of what it
+    // was from step to step four times as much, for it may be larger in other directions.
+    let bound = half * half * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
+    let derivative = slope.map_or(bound, |slope| bound.simd_min(ScalarOf::<S>::of(4.0) * slope));
+    let defect = half * scale * derivative;
+    let mut base = guess.clone();
+    let mut solved = known.unwrap_or_else(|| {
+        let coarse = generating.coarse_gradient(&base);
+        VectorOf::<S>::from_entries(dim, |i| coarse[i] + fine[i])
+    });
+    let mut remaining = ScalarOf::<S>::of(1.0);
+    let mut previous = remaining;
+    // The lanes that go on, and those in which corrections gain little. Masks, so that one lane alone
+    // waits for none.
+    let mut open = zero.simd_le(zero);
+    let mut failed = zero.simd_gt(zero);
+    for iteration in 1..=FINE_PARTS {
+        // H·v and, about, ∂P/∂x·v.
+        let leading = |v: &VectorOf<S>| generating.leading_product(&base, v);
+        let turn = |v: &VectorOf<S>| half_turn(group, &base, v);
+        let gradient = |p: &VectorOf<S>| {
+            let coarse = generating.coarse_gradient(p);
+            VectorOf::<S>::from_entries(dim, |i| coarse[i] + fine[i])
+        };
+        let mut x = solved.clone();
+        let mut p = base.clone();
+        let mut relative = zero;
+        let mut before = zero;
+        let mut correcting = open;
+        for number in 0..CORRECTIONS {
+            let pulled = match settled && number == 0 {
+                true => base.clone(),
+                false => chart.pull_back(group, &x, mu),
+            };
+            let wanted = gradient(&pulled);
+            let residual = VectorOf::<S>::from_entries(dim, |i| wanted[i] - x[i]);
+            let turned = chart.turn(group, &x, mu, &pulled, &residual);
+            let first = leading(&turned);
+            let second = leading(&turn(&first));
+            let third = leading(&turn(&second));
+            let next = VectorOf::<S>::from_entries(dim, |i| {
+                x[i] + (residual[i] + (first[i] + (second[i] + third[i])))
+            });
+            x = next.select(correcting, &x);
+            let next = VectorOf::<S>::from_entries(dim, |i| pulled[i] + turned[i]);
+            p = next.select(correcting, &p);
+            relative = p.clone().minus(&base).largest_entry() * inverse_scale;
+
+            let size = turned.largest_entry() * inverse_scale;
+            // What another fine part will mend need not be mended here.
+            let left = defect * relative;
+            let mended = left * ScalarOf::<S>::of(0.01);
+            let least = mended.simd_max(rounding).select(left.simd_gt(tolerance), rounding);
+            // What the corrections leave shrinks as they do; not a number is not smaller either.
+            let enough = if number == 0 {
+                // What `turn` leaves out, Neumann's fourth term, and the Hessian of S₃.
+                let half_angle = half * x.pairing(&x).simd_sqrt();
+                let order = <S::Chart as Chart<S::Group>>::TURN_ORDER;
+                let gain = (1..order).fold(half_angle, |gain, _| gain * half_angle) * half_angle;
+                (size * gain).simd_le(least)
+            } else {
+                let slow = !(ScalarOf::<S>::of(3.0) * size).simd_le(before);
+                let done = size.simd_le(tolerance.simd_max(least));
+                failed = failed | (correcting & slow & !done);
+                done | (size * size).simd_le(least * before)
+            };
+            correcting = correcting & !enough & !failed;
+            if correcting.none() {
+                break;
+            }
+            before = size;
+        }
+        failed = failed | correcting;
+
+        let left = yardstick.left(defect * relative, relative, (iteration > 1).then_some(previous));
+        previous = relative + smallest;
+        solved = x.select(open, &solved);
+        remaining = left.select(open, remaining);
+        open = open & !remaining.simd_le(tolerance) & !failed;
+        if open.none() {
+            if failed.none() {
+                return Ok(Solution {
+                    p: chart.pull_back(group, &solved, mu),
+                    x: solved,
+                    iterations: iteration,
+                    residual: remaining,
+                });
+            }
+            break;
+        }
+        base = chart.pull_back(group, &solved, mu);
+        fine = once_more(generating, &base);
+        settled = true;
+    }
+    failed = failed | open;
+    let slow = slowly(generating, mu, guess)?;
+    let x = slow.x.select(failed, &solved);
+    Ok(Solution {
+        p: slow.p.select(failed, &chart.pull_back(group, &x, mu)),
+        x,
+        iterations: slow.iterations,
+        residual: slow.residual.select(failed, remaining),
+    })
+}
+
+/// The fine part of the gradient, out of the way of what is fast.
+#[cold]
+#[inline(never)]
+fn once_more<S: GeneratingFunction + ?Sized>(generating: &S, p: &VectorOf<S>) -> VectorOf<S> {
+    generating.fine_gradient(p)
+}
+
+/// Newton's method with matrices, out of the way of what is fast.
+#[cold]
+#[inline(never)]
+fn slowly<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    guess: VectorOf<S>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
+    newton::newton(generating, mu, guess)
+}
