@@ -59,10 +59,21 @@ pub trait GeneratingFunction {
         (self.gradient(p), hessian_by_differences(self, p))
     }
 
-    /// A first guess of the p with J_L(∂S/∂p(p), p) = μ; better guesses save Newton steps.
+    /// A first guess of the x of a step from μ; `None` where there is no better one than zero.
+    #[inline(always)]
+    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let _ = mu;
+        None
+    }
+
+    /// A first guess of the p with J_L(∂S/∂p(p), p) = μ, (d^R τ_x)ᵀ μ with the x of
+    /// [`GeneratingFunction::predict_increment`] if not given; better guesses save Newton steps.
     #[inline(always)]
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
-        mu.clone()
+        match self.predict_increment(mu) {
+            Some(x) => self.chart().pull_back(self.group(), &x, mu),
+            None => mu.clone(),
+        }
     }
 
     /// The same where `last` is the p of the step that has led to μ.
@@ -127,14 +138,6 @@ pub trait GeneratingFunction {
     #[inline(always)]
     fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
         direction.left_multiply(&self.newton_model(p).1)
-    }
-
-    /// A first guess of the x of a step from μ, where [`GeneratingFunction::predict`] is (d^R τ_x)ᵀ μ with
-    /// this x.
-    #[inline(always)]
-    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        let _ = mu;
-        None
     }
 
     /// How strongly ∂S/∂p bends: about ‖S‴‖ |p| / (4 ‖Hess S‖), given the largest coordinate of

@@ -604,12 +604,12 @@ const _: () = {
             )
         }
         #[inline(always)]
-        fn predict(
+        fn predict_increment(
             &self,
             input: &::coadjoint::nalgebra::SVector<T, 6>,
-        ) -> ::coadjoint::nalgebra::SVector<T, 6> {
+        ) -> ::core::option::Option<::coadjoint::nalgebra::SVector<T, 6>> {
             let c = &self.coefficients;
-            let x = {
+            ::core::option::Option::Some({
                 let p0 = input[0];
                 let p1 = input[1];
                 let p2 = input[2];
@@ -717,13 +717,7 @@ const _: () = {
                     t125,
                     t130.times_plus(t125 * c[52], t146),
                 ])
-            };
-            ::coadjoint::Chart::pull_back(
-                <::coadjoint::Exponential as ::core::default::Default>::default(),
-                self.group(),
-                &x,
-                input,
-            )
+            })
         }
         #[inline(always)]
         fn bend(&self, x: T) -> T {

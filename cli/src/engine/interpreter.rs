@@ -177,10 +177,9 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
 
     #[inline(always)]
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
-        let guess = self.vector(&self.integrator.predictor, mu);
-        match self.integrator.plan.predictor {
-            Predictor::Explicit(_) => guess,
-            Predictor::Flow(_) => self.chart().pull_back(&self.group, &guess, mu),
+        match self.predict_increment(mu) {
+            Some(x) => self.chart().pull_back(&self.group, &x, mu),
+            None => self.vector(&self.integrator.predictor, mu),
         }
     }
 

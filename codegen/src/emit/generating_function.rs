@@ -36,10 +36,19 @@ pub fn generating_function(
         .then(|| quote!(const SOLVER: #krate::Solver = #krate::Solver::FixedPoint;));
     let predictor = vector_function(&integrator.predictor, vector, scope);
     let predictor = match integrator.plan.predictor {
-        Predictor::Explicit(_) => predictor,
+        Predictor::Explicit(_) => quote! {
+            #[inline(always)]
+            fn predict(&self, input: &#vector) -> #vector {
+                let c = &self.coefficients;
+                #predictor
+            }
+        },
         Predictor::Flow(_) => quote! {
-            let x = { #predictor };
-            #krate::Chart::pull_back(<#chart as ::core::default::Default>::default(), self.group(), &x, input)
+            #[inline(always)]
+            fn predict_increment(&self, input: &#vector) -> ::core::option::Option<#vector> {
+                let c = &self.coefficients;
+                ::core::option::Option::Some({ #predictor })
+            }
         },
     };
     let continuation = integrator.continuation.as_ref().map(|program| {
@@ -67,16 +76,6 @@ pub fn generating_function(
         integrator.parts.as_ref().map(|parts| gradient_parts(parts, name, *dim, vector, scope));
     let fine_part =
         integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
-    let increment = matches!(integrator.plan.predictor, Predictor::Flow(_)).then(|| {
-        let function = vector_function(&integrator.predictor, vector, scope);
-        quote! {
-            #[inline(always)]
-            fn predict_increment(&self, input: &#vector) -> ::core::option::Option<#vector> {
-                let c = &self.coefficients;
-                ::core::option::Option::Some({ #function })
-            }
-        }
-    });
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
             let function = vector_function(program, vector, scope);
@@ -136,17 +135,11 @@ pub fn generating_function(
 
             #hessian
 
-            #[inline(always)]
-            fn predict(&self, input: &#vector) -> #vector {
-                let c = &self.coefficients;
-                #predictor
-            }
+            #predictor
 
             #continuation
 
             #newton
-
-            #increment
 
             #in_parts
 

@@ -1,7 +1,7 @@
 //! Several steps to come at once, as far as that goes.
 
+use super::Solution;
 use super::in_parts::{Start, in_parts};
-use super::{Solution, start};
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
@@ -83,8 +83,9 @@ impl<V: Coordinates<T>, T: Scalar> Ahead<V, T> {
         let mut mu = mu.clone();
         for k in 0..AHEAD {
             if k < steps {
-                let (x, p) = start(generating, &mu);
-                let x = x.unwrap_or_else(|| V::zeros(mu.dim()));
+                // There is one, or there would be no looking ahead.
+                let x = generating.predict_increment(&mu).unwrap_or_else(|| V::zeros(mu.dim()));
+                let p = chart.pull_back(group, &x, &mu);
                 mu = chart.transport(group, &x, &mu).1;
                 self.guesses[k] = (x, p);
             } else {

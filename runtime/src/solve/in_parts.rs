@@ -7,6 +7,7 @@ use crate::chart::{Chart, half_turn};
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::group::LieGroup;
 use crate::scalar::Scalar;
 
 /// Fine parts taken, and corrections with the same one, before Newton's method takes over.
@@ -27,6 +28,34 @@ pub struct Start<V, T> {
     /// How much the fine part changes with p: |δ fine| / |δp| between the places of some steps, where
     /// they are known.
     pub slope: Option<T>,
+}
+
+impl<V: Coordinates<T>, T: Scalar> Start<V, T> {
+    /// A guess of p, with the x from which it was had, and the fine part there.
+    #[inline(always)]
+    pub fn new<S>(generating: &S, x: Option<V>, p: V) -> Self
+    where
+        S: GeneratingFunction + ?Sized,
+        S::Group: LieGroup<Vector = V, Scalar = T>,
+    {
+        let fine = generating.fine_gradient(&p);
+        Self { p, settled: x.is_some(), x, fine, slope: None }
+    }
+
+    /// The guess that `generating` makes from μ.
+    #[inline(always)]
+    pub fn predicted<S>(generating: &S, mu: &V) -> Self
+    where
+        S: GeneratingFunction + ?Sized,
+        S::Group: LieGroup<Vector = V, Scalar = T>,
+    {
+        let x = generating.predict_increment(mu);
+        let p = match &x {
+            Some(x) => generating.chart().pull_back(generating.group(), x, mu),
+            None => generating.predict(mu),
+        };
+        Self::new(generating, x, p)
+    }
 }
 
 /// [`solve`](super::solve) by [`Solver::Newton`](super::Solver) where [`GeneratingFunction::in_parts`]

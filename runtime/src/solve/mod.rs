@@ -11,7 +11,6 @@ pub use matrix_free::MatrixFree;
 pub(crate) use ahead::Ahead;
 use in_parts::{Start, in_parts};
 
-use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
@@ -63,35 +62,12 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    if generating.in_parts() && matches!(S::SOLVER, Solver::Newton) {
-        return solve_in_parts(generating, mu, start(generating, mu));
+    match S::SOLVER {
+        Solver::Newton if generating.in_parts() => {
+            in_parts(generating, mu, Start::predicted(generating, mu))
+        }
+        _ => solve_from(generating, mu, generating.predict(mu)),
     }
-    solve_from(generating, mu, generating.predict(mu))
-}
-
-/// The guess of [`GeneratingFunction::predict`], its fine part not yet taken.
-#[inline(always)]
-fn start<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-) -> (Option<VectorOf<S>>, VectorOf<S>) {
-    let x = generating.predict_increment(mu);
-    let p = match &x {
-        Some(x) => generating.chart().pull_back(generating.group(), x, mu),
-        None => generating.predict(mu),
-    };
-    (x, p)
-}
-
-#[inline(always)]
-fn solve_in_parts<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-    (x, p): (Option<VectorOf<S>>, VectorOf<S>),
-) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    let fine = generating.fine_gradient(&p);
-    let settled = x.is_some();
-    in_parts(generating, mu, Start { p, x, settled, fine, slope: None })
 }
 
 /// As [`solve`], where `last` is the p of the step that has led to μ, if there was one.
@@ -120,7 +96,9 @@ pub fn solve_from<S: GeneratingFunction + ?Sized>(
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
     match S::SOLVER {
-        Solver::Newton if generating.in_parts() => solve_in_parts(generating, mu, (None, guess)),
+        Solver::Newton if generating.in_parts() => {
+            in_parts(generating, mu, Start::new(generating, None, guess))
+        }
         Solver::Newton => newton::newton(generating, mu, guess),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
     }
