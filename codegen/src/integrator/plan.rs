@@ -123,9 +123,9 @@ impl Plan {
             }
         }
         if flows {
-            let degrees = flow::DEGREES.into_iter().filter(|&degree| degree <= highest);
-            let last = degrees.clone().last();
-            for degree in degrees.filter(|&degree| !ahead || Some(degree) == last) {
+            let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
+            let degrees = &flow::DEGREES[..possible];
+            for &degree in if ahead { &degrees[possible.saturating_sub(1)..] } else { degrees } {
                 let program =
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
