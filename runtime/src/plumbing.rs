@@ -223,15 +223,12 @@ where
     let numbers = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
     let places = (points as &dyn Any).downcast_ref::<[[f64; N]; AHEAD]>();
     if let (Some(c), Some(points)) = (numbers, places) {
-        let mut found = [[0.0; N]; AHEAD];
-        for (found, points) in found.chunks_exact_mut(4).zip(points.chunks_exact(4)) {
-            let lanes: [WideF64x4; N] =
-                core::array::from_fn(|i| WideF64x4::from(core::array::from_fn(|k| points[k][i])));
-            let fine = P64::fine(c, &lanes);
-            for (k, found) in found.iter_mut().enumerate() {
-                *found = core::array::from_fn(|i| fine[i].extract(k));
-            }
-        }
+        // As many steps as lanes, or this does not compile.
+        let lanes: [WideF64x4; N] =
+            core::array::from_fn(|i| WideF64x4::from(points.map(|point| point[i])));
+        let fine = P64::fine(c, &lanes);
+        let found: [[f64; N]; AHEAD] =
+            core::array::from_fn(|k| core::array::from_fn(|i| fine[i].extract(k)));
         if let Some(found) = (&found as &dyn Any).downcast_ref::<[[C; N]; AHEAD]>() {
             return *found;
         }

@@ -53,10 +53,7 @@ impl<'a> Writer<'a> {
     /// Writes a node whose operands are written.
     pub fn write(&mut self, index: usize) {
         let node = &self.program.nodes()[index];
-        self.written[index] = match node {
-            Node::Slot(i) => slot(*i, self.lifted),
-            _ => write(node, &self.written),
-        };
+        self.written[index] = write(node, self.lifted, &self.written);
         let is_input = matches!(node, Node::Input(_));
         let shared = self.uses[index] > 1 && !matches!(node, Node::Zero | Node::Slot(_));
         if is_input || shared || self.written[index].depth >= DEPTH {
@@ -100,13 +97,7 @@ struct Written {
     atomic: bool,
 }
 
-fn slot(i: u32, lifted: bool) -> Written {
-    let i = Literal::u32_unsuffixed(i);
-    let tokens = if lifted { quote!(T::lift(c[#i])) } else { quote!(c[#i]) };
-    Written { tokens, depth: 0, atomic: true }
-}
-
-fn write(node: &Node, written: &[Written]) -> Written {
+fn write(node: &Node, lifted: bool, written: &[Written]) -> Written {
     let get = |id: Id| &written[id.index()];
     let depth = |ids: &[Id]| 1 + ids.iter().map(|&id| get(id).depth).max().unwrap_or(0);
     let operand = |id: Id| {
@@ -119,7 +110,11 @@ fn write(node: &Node, written: &[Written]) -> Written {
             let i = Literal::u32_unsuffixed(i);
             Written { tokens: quote!(input[#i]), depth: 0, atomic: true }
         }
-        Node::Slot(i) => slot(i, false),
+        Node::Slot(i) => {
+            let i = Literal::u32_unsuffixed(i);
+            let tokens = if lifted { quote!(T::lift(c[#i])) } else { quote!(c[#i]) };
+            Written { tokens, depth: 0, atomic: true }
+        }
         Node::Add(a, b) => {
             let (x, y) = (operand(a), operand(b));
             Written { tokens: quote!(#x + #y), depth: depth(&[a, b]), atomic: false }
