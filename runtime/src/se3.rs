@@ -11,7 +11,8 @@ use crate::element_error::{ElementError, finite, fixed};
 use crate::group::{FixedDimension, LieGroup};
 use crate::scalar::Scalar;
 use crate::so3::{
-    SO3, cross, dexp_with_derivative, dot, kernel, quaternion, rotate_back, rotation_from,
+    SO3, cross, dexp_with_derivative, difference, dot, kernel, plus, quaternion, rotate_back,
+    rotation_from, scaled, sum,
 };
 
 /// The Euclidean group SE(3), elements as a rotation (unit quaternion) and a translation.
@@ -68,6 +69,13 @@ fn blocks<T: Scalar>(a: &Matrix3<T>, b: &Matrix3<T>, c: &Matrix3<T>) -> Matrix6<
     result
 }
 
+/// a·v
+#[inline(always)]
+fn applied<T: Scalar>(a: &Matrix3<T>, v: &V<T>) -> V<T> {
+    let entry = |i: usize| a[(i, 2)].times_plus(v.z, a[(i, 1)].times_plus(v.y, a[(i, 0)] * v.x));
+    V::new(entry(0), entry(1), entry(2))
+}
+
 /// R(q) v
 #[inline(always)]
 fn rotate<T: Scalar>(g: &Isometry3<T>, v: &V<T>) -> V<T> {
@@ -87,13 +95,14 @@ fn isometry<T: Scalar>(rotation: nalgebra::UnitQuaternion<T>, t: V<T>) -> Isomet
     Isometry3 { rotation, translation: Translation3 { vector: t } }
 }
 
-/// The derivative in ω of D(ω, Γ)v, where D(ω, Γ) is that of f(ω) = (d^R exp_ω)ᵀ Γ: the second
+/// `to` and the derivative in ω of D(ω, Γ)v, where D(ω, Γ) is that of f(ω) = (d^R exp_ω)ᵀ Γ: the second
 /// derivative of f, once applied to v.
 ///
 /// With f = Γ + b g + c g×ω, g = Γ×ω, and b, c functions of t = |ω|²; collected by how the second
 /// direction u enters: through ω·u, through v·u, in a cross product, and as itself.
 #[inline(always)]
 fn bend<T: Scalar>(
+    to: &Matrix3<T>,
     k: &kernel::Dexp<T>,
     k2: &kernel::DexpCurvature<T>,
     omega: &V<T>,
@@ -104,25 +113,29 @@ fn bend<T: Scalar>(
     let g = cross(gamma, omega);
     let gg = cross(&g, omega);
     let gv = cross(gamma, v);
-    let m = cross(&gv, omega) + cross(&g, v);
+    let m = sum(&cross(&gv, omega), &cross(&g, v));
     let s2 = two * dot(omega, v);
-    let along = g * k.b_slope + gg * k.c_slope;
-    let along2 = g * k2.b + gg * k2.c;
-    let by_omega = (gv * k.b_slope + m * k.c_slope + along2 * s2) * two - gamma * (s2 * k.c_slope);
-    let by_v = along * two - gamma * k.c;
-    let turn = gv * k.c + (gamma * k.b_slope + g * k.c_slope) * s2;
+    let along = plus(&scaled(k.b_slope, &g), k.c_slope, &gg);
+    let along2 = plus(&scaled(k2.b, &g), k2.c, &gg);
+    let by_omega = plus(&plus(&scaled(k.b_slope, &gv), k.c_slope, &m), s2, &along2);
+    let by_omega = plus(&scaled(two, &by_omega), -(s2 * k.c_slope), gamma);
+    let by_v = plus(&scaled(two, &along), -k.c, gamma);
+    let turn = plus(&scaled(k.c, &gv), s2, &plus(&scaled(k.b_slope, gamma), k.c_slope, &g));
     let diagonal = k.c * dot(gamma, v) + s2 * k.c_slope * dot(gamma, omega);
-    let zero = T::of(0.0);
-    let turn = Matrix3::new(zero, -turn.z, turn.y, turn.z, zero, -turn.x, -turn.y, turn.x, zero);
-    let mut result = turn;
-    for i in 0..3 {
-        for j in 0..3 {
-            let sum = by_omega[i].times_plus(omega[j], result[(i, j)]);
-            result[(i, j)] = by_v[i].times_plus(v[j], sum);
-        }
-        result[(i, i)] += diagonal;
-    }
-    result
+    let entry = |i: usize, j: usize, turned: T| {
+        by_v[i].times_plus(v[j], by_omega[i].times_plus(omega[j], to[(i, j)] + turned))
+    };
+    Matrix3::new(
+        entry(0, 0, diagonal),
+        entry(0, 1, -turn.z),
+        entry(0, 2, turn.y),
+        entry(1, 0, turn.z),
+        entry(1, 1, diagonal),
+        entry(1, 2, -turn.x),
+        entry(2, 0, -turn.y),
+        entry(2, 1, turn.x),
+        entry(2, 2, diagonal),
+    )
 }
 
 impl<T: Scalar> LieGroup for SE3<T> {
@@ -143,7 +156,7 @@ impl<T: Scalar> LieGroup for SE3<T> {
     /// The product; its rotation is kept on the unit sphere as SO(3)'s is.
     #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        let t = rotate(g, &h.translation.vector) + g.translation.vector;
+        let t = sum(&rotate(g, &h.translation.vector), &g.translation.vector);
         isometry(SO3::new().compose(&g.rotation, &h.rotation), t)
     }
 
@@ -159,8 +172,8 @@ impl<T: Scalar> LieGroup for SE3<T> {
         let half = kernel::half_angle(t);
         let k = kernel::dexp(t);
         let once = cross(&omega, &v);
-        let translation = v + once * k.b + cross(&omega, &once) * k.c;
-        isometry(quaternion(half.cosine, &(omega * half.sine_over_angle)), translation)
+        let translation = plus(&plus(&v, k.b, &once), k.c, &cross(&omega, &once));
+        isometry(quaternion(half.cosine, &scaled(half.sine_over_angle, &omega)), translation)
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -180,7 +193,7 @@ impl<T: Scalar> LieGroup for SE3<T> {
     #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         let ((omega, v), (pi, gamma)) = (split(x), split(mu));
-        join(&(cross(&pi, &omega) + cross(&gamma, &v)), &cross(&gamma, &omega))
+        join(&sum(&cross(&pi, &omega), &cross(&gamma, &v)), &cross(&gamma, &omega))
     }
 
     #[inline(always)]
@@ -201,7 +214,7 @@ impl<T: Scalar> LieGroup for SE3<T> {
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
         let g = self.exp(x);
         let (pi, gamma) = split(mu);
-        let lifted = pi - cross(&g.translation.vector, &gamma);
+        let lifted = difference(&pi, &cross(&g.translation.vector, &gamma));
         let moved = join(&unrotate(&g, &lifted), &unrotate(&g, &gamma));
         (g, moved)
     }
@@ -211,9 +224,9 @@ impl<T: Scalar> LieGroup for SE3<T> {
         let ((omega, v), (pi, gamma)) = (split(x), split(mu));
         let k = kernel::dexp(dot(&omega, &omega));
         let once = cross(&pi, &omega);
-        let angular = pi + once * k.b + cross(&once, &omega) * k.c;
+        let angular = plus(&plus(&pi, k.b, &once), k.c, &cross(&once, &omega));
         let (linear, slope) = dexp_with_derivative(&k, &omega, &gamma);
-        join(&(angular + slope * v), &linear)
+        join(&sum(&angular, &applied(&slope, &v)), &linear)
     }
 
     /// (d^R exp)ᵀ (Π, Γ) = (f_Π + D_Γ v, f_Γ) with so(3)'s f_Π = (d^R exp_ω)ᵀ Π and its
@@ -230,8 +243,8 @@ impl<T: Scalar> LieGroup for SE3<T> {
         let k2 = kernel::dexp_curvature(t);
         let (angular, angular_slope) = dexp_with_derivative(&k, &omega, &pi);
         let (linear, slope) = dexp_with_derivative(&k, &omega, &gamma);
-        let value = join(&(angular + slope * v), &linear);
-        let corner = angular_slope + bend(&k, &k2, &omega, &gamma, &v);
+        let value = join(&sum(&angular, &applied(&slope, &v)), &linear);
+        let corner = bend(&angular_slope, &k, &k2, &omega, &gamma, &v);
         (value, blocks(&corner, &slope, &slope))
     }
 

@@ -41,19 +41,47 @@ type V<T> = Vector3<T>;
 
 #[inline(always)]
 pub(crate) fn cross<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
-    V::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+    let entry = |i: usize, j: usize| (-a[j]).times_plus(b[i], a[i] * b[j]);
+    V::new(entry(1, 2), entry(2, 0), entry(0, 1))
 }
 
 #[inline(always)]
 pub(crate) fn dot<T: Scalar>(a: &V<T>, b: &V<T>) -> T {
-    a.x * b.x + a.y * b.y + a.z * b.z
+    a.z.times_plus(b.z, a.y.times_plus(b.y, a.x * b.x))
 }
 
 /// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
 #[inline(always)]
 pub(crate) fn rotate_back<T: Scalar>(w: T, u: &V<T>, v: &V<T>) -> V<T> {
-    let twice = cross(v, u) * T::of(2.0);
-    v + twice * w + cross(&twice, u)
+    let twice = scaled(T::of(2.0), &cross(v, u));
+    sum(&plus(v, w, &twice), &cross(&twice, u))
+}
+
+// Written out, and not by the vectors' operators: those are loops of iterators, which the compiler does
+// not always see through, and then wide lanes go through memory piece by piece.
+
+/// a + s·b
+#[inline(always)]
+pub(crate) fn plus<T: Scalar>(a: &V<T>, s: T, b: &V<T>) -> V<T> {
+    V::new(b.x.times_plus(s, a.x), b.y.times_plus(s, a.y), b.z.times_plus(s, a.z))
+}
+
+/// a + b
+#[inline(always)]
+pub(crate) fn sum<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    V::new(a.x + b.x, a.y + b.y, a.z + b.z)
+}
+
+/// a − b
+#[inline(always)]
+pub(crate) fn difference<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    V::new(a.x - b.x, a.y - b.y, a.z - b.z)
+}
+
+/// s·a
+#[inline(always)]
+pub(crate) fn scaled<T: Scalar>(s: T, a: &V<T>) -> V<T> {
+    V::new(a.x * s, a.y * s, a.z * s)
 }
 
 #[inline(always)]
@@ -70,12 +98,13 @@ pub(crate) fn dexp_with_derivative<T: Scalar>(
 ) -> (V<T>, Matrix3<T>) {
     let once = cross(mu, x);
     let twice = cross(&once, x);
-    let value = mu + once * k.b + twice * k.c;
+    let value = plus(&plus(mu, k.b, &once), k.c, &twice);
     // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
     // with (μ×v)×x = v (μ·x) − μ (v·x).
     let two = T::of(2.0);
-    let along = (once * k.b_slope + twice * k.c_slope) * two - mu * k.c;
-    let turn = mu * k.b + once * k.c;
+    let along = plus(&scaled(k.b_slope, &once), k.c_slope, &twice);
+    let along = plus(&scaled(two, &along), -k.c, mu);
+    let turn = plus(&scaled(k.b, mu), k.c, &once);
     let diagonal = k.c * dot(mu, x);
     let derivative = Matrix3::new(
         along.x.times_plus(x.x, diagonal),
@@ -206,7 +235,7 @@ impl<T: Scalar> LieGroup for SO3<T> {
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         let k = kernel::dexp(dot(x, x));
         let once = cross(mu, x);
-        mu + once * k.b + cross(&once, x) * k.c
+        plus(&plus(mu, k.b, &once), k.c, &cross(&once, x))
     }
 
     #[inline(always)]
