@@ -36,8 +36,10 @@ pub struct Failure {
 /// processor has, spread over rayon's threads.
 ///
 /// The result does not depend on the number of threads, on the grouping into packs, or on the
-/// processor's vector width: each trajectory gets the bits that [`advance_by`](crate::advance_by) gives. A trajectory
-/// that fails keeps its last good state and is reported (sorted by index); the others go on.
+/// processor's vector width: each trajectory gets the bits that [`advance_by`](crate::advance_by)
+/// gives, but where that solves several steps at once ([`GeneratingFunction::LINEARISES`]), which
+/// rounds otherwise. A trajectory that fails keeps its last good state and is reported (sorted by
+/// index); the others go on.
 pub fn advance_all<S>(step: &S, states: &mut [Phase<S::Group>], steps: u64) -> Vec<Failure>
 where
     S: Lanes + Sync,
@@ -79,7 +81,7 @@ fn advance_pack<S: Lanes>(
         return;
     }
     for (lane, state) in states.iter_mut().enumerate() {
-        if let Err(Stopped { done, error }) = march(step, state, steps) {
+        if let Err(Stopped { done, error }) = march(step, state, steps, false) {
             failures.push(Failure { index: first + lane, step: done, error });
         }
     }
@@ -97,6 +99,6 @@ impl<S: GeneratingFunction> WithSimd for Run<'_, S> {
 
     #[inline(always)]
     fn with_simd<I: Simd>(self, _simd: I) -> Self::Output {
-        march(self.step, self.phase, self.steps).map(drop).map_err(|stopped| stopped.error)
+        march(self.step, self.phase, self.steps, false).map(drop).map_err(|stopped| stopped.error)
     }
 }

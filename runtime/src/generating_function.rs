@@ -19,6 +19,49 @@ pub type MatrixOf<S> = <VectorOf<S> as Coordinates<ScalarOf<S>>>::Matrix;
 /// ([`GeneratingFunction::fine_gradients`]).
 pub const AHEAD: usize = 4;
 
+/// What [`GeneratingFunction::linearise`] finds.
+pub type LinearisedOf<S> = Linearised<VectorOf<S>, MatrixOf<S>, ScalarOf<S>>;
+
+/// Steps that are linearised at once ([`GeneratingFunction::linearise`]).
+pub const AT_ONCE: usize = 8;
+
+/// The equations x = ∂S/∂p(P(x, μ)), P(x, μ) = (d^R τ_x)ᵀ μ, of several steps, linearised about guesses of
+/// their x and μ: the solution for another μ is x + J·P(x, μ − start), up to second order.
+///
+/// The vectors' and the matrices' type, and that of their numbers.
+#[derive(Clone, Debug)]
+pub struct Linearised<V, M, T> {
+    /// The guessed momentum before each step.
+    pub start: [V; AT_ONCE],
+    /// The solution for it, up to second order.
+    pub x: [V; AT_ONCE],
+    /// How far that is from the guess: the largest difference of an entry.
+    pub correction: [T; AT_ONCE],
+    /// J = (1 − H·∂P/∂x)⁻¹ H with H the Hessian of the coarse part.
+    pub response: [M; AT_ONCE],
+    /// The guessed momentum after the last step.
+    pub end: V,
+    /// How much the fine part of the gradient changes with p: the largest |δ fine| / |δp| from one step
+    /// to the next.
+    pub slope: T,
+}
+
+impl<V: Coordinates<T>, T: Scalar> Linearised<V, V::Matrix, T> {
+    /// Zeros throughout, to be filled.
+    #[must_use]
+    pub fn zeros(dim: usize) -> Self {
+        let zero = T::of(0.0);
+        Self {
+            start: core::array::from_fn(|_| V::zeros(dim)),
+            x: core::array::from_fn(|_| V::zeros(dim)),
+            correction: [zero; AT_ONCE],
+            response: core::array::from_fn(|_| V::zero_matrix(dim)),
+            end: V::zeros(dim),
+            slope: zero,
+        }
+    }
+}
+
 /// A function S on 𝔤\*, read as the Lagrangian submanifold {x = ∂S/∂p(p)} of T\*G in canonical
 /// coordinates (x, p) of a chart.
 ///
@@ -35,6 +78,9 @@ pub trait GeneratingFunction {
     /// How steps solve for p. [`MatrixFree`](crate::MatrixFree) chooses
     /// [`Solver::FixedPoint`] for any function.
     const SOLVER: Solver = Solver::Newton;
+
+    /// Whether [`GeneratingFunction::linearise`] may find anything.
+    const LINEARISES: bool = false;
 
     /// The group.
     fn group(&self) -> &Self::Group;
@@ -138,6 +184,29 @@ pub trait GeneratingFunction {
     #[inline(always)]
     fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
         direction.left_multiply(&self.newton_model(p).1)
+    }
+
+    /// A guess of the momentum in the middle of the next step from that in the middle of a step, and from
+    /// h·μ̇ and ½h²·μ̈ in the middle of the step before; and these of this step.
+    #[inline(always)]
+    fn next_middle(
+        &self,
+        before: &[VectorOf<Self>; 2],
+        middle: &VectorOf<Self>,
+    ) -> (VectorOf<Self>, [VectorOf<Self>; 2]) {
+        (middle.clone(), before.clone())
+    }
+
+    /// Linearises several steps at once, whose momenta in the middle are about `middles`: in the lanes of
+    /// one number that costs little more than one step. `false` where that cannot be, or does not pay.
+    #[inline(always)]
+    fn linearise(
+        &self,
+        middles: &[VectorOf<Self>; AT_ONCE],
+        found: &mut LinearisedOf<Self>,
+    ) -> bool {
+        let _ = (middles, found);
+        false
     }
 
     /// How strongly ∂S/∂p bends: about ‖S‴‖ |p| / (4 ‖Hess S‖), given the largest coordinate of

@@ -79,6 +79,7 @@ pub mod plumbing;
 mod polynomial_function;
 mod product;
 mod reconstruct;
+mod response;
 mod reversed;
 mod scalar;
 mod se2;
@@ -92,6 +93,8 @@ mod su2;
 pub mod systems;
 mod table;
 mod tail;
+mod wide;
+mod wide_step;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
 ///
@@ -199,7 +202,8 @@ pub use error::StepError;
 #[cfg(feature = "alloc")]
 pub use fit::{Fit, FitError, MAX_FITTED_TERMS, fit};
 pub use generating_function::{
-    AHEAD, GeneratingFunction, MatrixOf, ScalarOf, VectorOf, hessian_by_differences,
+    AHEAD, AT_ONCE, GeneratingFunction, Linearised, LinearisedOf, MatrixOf, ScalarOf, VectorOf,
+    hessian_by_differences,
 };
 pub use group::{CayleyGroup, FixedDimension, LieGroup};
 pub use heisenberg::Heisenberg;

@@ -6,6 +6,8 @@ use crate::adjustable::{Part, Term};
 use crate::error::StepError;
 use crate::generating_function::AHEAD;
 use crate::scalar::Scalar;
+use crate::wide::WideF64x8;
+pub use crate::wide_step::{LINEARISES, WideStep, linearise, linearise_in_lanes};
 use nalgebra::SimdValue;
 use simba::simd::WideF64x4;
 
@@ -196,6 +198,13 @@ impl<T: Scalar> Lift<T> for T {
 }
 
 impl Lift<f64> for WideF64x4 {
+    #[inline(always)]
+    fn lift(coefficient: f64) -> Self {
+        Self::splat(coefficient)
+    }
+}
+
+impl Lift<f64> for WideF64x8 {
     #[inline(always)]
     fn lift(coefficient: f64) -> Self {
         Self::splat(coefficient)

@@ -9,7 +9,7 @@ use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::phase::Phase;
 use crate::scalar::Scalar;
-use crate::solve::{Ahead, Solution, solve, solve_after};
+use crate::solve::{Ahead, AtOnce, Increment, Solution, solve, solve_after};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,8 +61,8 @@ pub fn advance<S: GeneratingFunction + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`GeneratingFunction::predict_after`]), or [`AHEAD`](crate::AHEAD) steps are guessed at once
-/// ([`GeneratingFunction::fine_gradients`]), a comoving frame moves on for many at once,
+/// one before ([`GeneratingFunction::predict_after`]), or [`AT_ONCE`](crate::AT_ONCE) steps are solved at once
+/// ([`GeneratingFunction::linearise`]), a comoving frame moves on for many at once,
 /// and what steps read of `generating` is prepared once. The report holds the largest number of
 /// iterations and the largest residual of a step; no step, none.
 ///
@@ -75,7 +75,7 @@ pub fn advance_by<S: GeneratingFunction + ?Sized>(
     phase: &mut Phase<S::Group>,
     steps: u64,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    march(generating, phase, steps).map_err(|stopped| stopped.error)
+    march(generating, phase, steps, true).map_err(|stopped| stopped.error)
 }
 
 /// How far [`march`] came, and why no farther.
@@ -91,38 +91,49 @@ pub(crate) struct Stopped {
 /// by rounding, to be the same in all of them.
 const STEPS_PER_FRAME: u64 = 256;
 
-/// The steps of [`advance_by`].
+/// The steps of [`advance_by`]; not several at once, lanes and scalars have the same bits.
 #[inline(always)]
 pub(crate) fn march<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     steps: u64,
+    at_once: bool,
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     let mut last = None;
     let mut ahead = Ahead::new(generating);
+    let mut at_once = (S::LINEARISES && at_once).then(|| AtOnce::new(generating));
     // Steps that the frame has not made yet.
     let mut behind = 0;
     for done in 0..steps {
         let found = match &mut ahead {
-            Some(ahead) => ahead.solve(generating, &phase.momentum, steps - done),
-            None => solve_after(generating, &phase.momentum, last.as_ref()),
+            Some(ahead) => match &mut at_once {
+                Some(several) => several.solve(generating, &phase.momentum, steps - done, ahead),
+                None => ahead.solve(generating, &phase.momentum, steps - done).map(Increment::from),
+            },
+            None => solve_after(generating, &phase.momentum, last.as_ref()).map(|solution| {
+                let Solution { p, x, iterations, residual } = solution;
+                last = Some(p);
+                Increment { x, iterations, residual }
+            }),
         };
-        let Solution { p, x, iterations, residual } = match found {
-            Ok(solution) => solution,
+        let Increment { x, iterations, residual } = match found {
+            Ok(found) => found,
             Err(error) => {
                 move_frame(generating, phase, behind);
                 return Err(Stopped { done, error });
             }
         };
         displace(generating, phase, &x);
-        last = Some(p);
         behind += 1;
         if behind == STEPS_PER_FRAME {
             if move_frame(generating, phase, behind) {
                 last = None;
                 if let Some(ahead) = &mut ahead {
                     ahead.forget();
+                }
+                if let Some(several) = &mut at_once {
+                    several.forget();
                 }
             }
             behind = 0;

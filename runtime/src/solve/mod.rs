@@ -1,6 +1,7 @@
 //! Solving J_L(∂S/∂p(p), p) = μ for p.
 
 mod ahead;
+mod at_once;
 mod fixed_point;
 mod in_parts;
 mod matrix_free;
@@ -9,6 +10,7 @@ mod newton;
 pub use matrix_free::MatrixFree;
 
 pub(crate) use ahead::Ahead;
+pub(crate) use at_once::{AtOnce, Increment};
 use in_parts::{Start, in_parts};
 
 use crate::coordinates::Coordinates;

@@ -1,0 +1,186 @@
+//! Eight steps linearised at once, in the lanes of one number.
+
+use core::any::Any;
+use core::array::from_fn;
+
+use nalgebra::{SMatrix, SVector, SimdPartialOrd, SimdValue};
+
+use crate::coordinates::Coordinates;
+use crate::generating_function::{AT_ONCE, Linearised};
+use crate::plumbing::Lift;
+use crate::response::response;
+use crate::scalar::Scalar;
+use crate::wide::WideF64x8;
+
+/// Whether registers are wide enough for several steps at once to be faster: in registers of two numbers
+/// they take one and a half times as long as one by one.
+pub const LINEARISES: bool = cfg!(target_feature = "avx");
+
+type V<T, const N: usize> = SVector<T, N>;
+type M<T, const N: usize> = SMatrix<T, N, N>;
+
+/// What a step evaluates, over numbers that may be wider than the coefficients.
+pub trait WideStep<C, const SLOTS: usize, const N: usize> {
+    /// x of a step, and the momenta at its beginning and end, from that in its middle; about.
+    fn around<T: Scalar + Lift<C>>(c: &[C; SLOTS], middle: &V<T, N>) -> [V<T, N>; 3];
+
+    /// (d^R τ_x)ᵀ μ and its derivative in x.
+    fn pulled_back<T: Scalar>(x: &V<T, N>, mu: &V<T, N>) -> (V<T, N>, M<T, N>);
+
+    /// The coarse part of the gradient, and its derivative.
+    fn coarse<T: Scalar + Lift<C>>(c: &[C; SLOTS], p: &V<T, N>) -> (V<T, N>, M<T, N>);
+
+    /// The fine part of the gradient.
+    fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], p: &V<T, N>) -> V<T, N>;
+}
+
+type Wide<const N: usize> = V<WideF64x8, N>;
+type WideMatrix<const N: usize> = M<WideF64x8, N>;
+
+/// [`GeneratingFunction::linearise`](crate::GeneratingFunction::linearise) where numbers are `f64`.
+#[inline(always)]
+pub fn linearise<C, P, const SLOTS: usize, const N: usize>(
+    c: &[C; SLOTS],
+    middles: &[V<C, N>; AT_ONCE],
+    found: &mut Linearised<V<C, N>, M<C, N>, C>,
+) -> bool
+where
+    C: Scalar,
+    P: WideStep<f64, SLOTS, N>,
+{
+    // Decided when compiled: `Any` only tells the compiler what `C` is.
+    let c = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
+    let middles = (middles as &dyn Any).downcast_ref::<[V<f64, N>; AT_ONCE]>();
+    let found = (found as &mut dyn Any).downcast_mut::<Linearised<V<f64, N>, M<f64, N>, f64>>();
+    let (Some(c), Some(middles), Some(found)) = (c, middles, found) else { return false };
+    linearise_in_lanes::<P, SLOTS, N>(c, middles, found);
+    true
+}
+
+/// The steps in the lanes of one number, however wide registers are.
+#[inline(always)]
+pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    middles: &[V<f64, N>; AT_ONCE],
+    found: &mut Linearised<V<f64, N>, M<f64, N>, f64>,
+) where
+    P: WideStep<f64, SLOTS, N>,
+{
+    let middle = entries(|i| WideF64x8::from(from_fn(|k| middles[k][i])));
+    let zero = Wide::<N>::repeat(WideF64x8::splat(0.0));
+    let zeros = WideMatrix::<N>::repeat(WideF64x8::splat(0.0));
+    let mut guess = [zero, zero, zero];
+    around::<P, SLOTS, N>(c, &middle, &mut guess);
+    let [x, start, end] = &guess;
+    let (mut pulled, mut coarse, mut fine) = ((zero, zeros), (zero, zeros), zero);
+    pulled_back::<P, SLOTS, N>(x, start, &mut pulled);
+    let (p, derivative) = &pulled;
+    coarse_part::<P, SLOTS, N>(c, p, &mut coarse);
+    fine_part::<P, SLOTS, N>(c, p, &mut fine);
+    let residual = entries(|i| coarse.0[i] + (fine[i] - x[i]));
+    let mut answer = (zeros, zero);
+    respond(&coarse.1, derivative, &residual, &mut answer);
+    let (response, correction) = &answer;
+
+    for i in 0..N {
+        found.end[i] = end[i].extract(AT_ONCE - 1);
+    }
+    found.slope = steepest(p, &fine);
+    found.correction = correction.largest_entry().into();
+    take(&entries(|i| x[i] + correction[i]), &mut found.x);
+    take(start, &mut found.start);
+    for j in 0..N {
+        let column: [[f64; AT_ONCE]; N] = from_fn(|i| response[(i, j)].into());
+        for k in 0..AT_ONCE {
+            for i in 0..N {
+                found.response[k][(i, j)] = column[i][k];
+            }
+        }
+    }
+}
+
+// Each a function of its own, for the compiler's sake, and without large values to return.
+
+#[inline(never)]
+fn around<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    middle: &Wide<N>,
+    found: &mut [Wide<N>; 3],
+) {
+    *found = P::around(c, middle);
+}
+
+#[inline(never)]
+fn pulled_back<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    x: &Wide<N>,
+    mu: &Wide<N>,
+    found: &mut (Wide<N>, WideMatrix<N>),
+) {
+    *found = P::pulled_back(x, mu);
+}
+
+#[inline(never)]
+fn coarse_part<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    p: &Wide<N>,
+    found: &mut (Wide<N>, WideMatrix<N>),
+) {
+    *found = P::coarse(c, p);
+}
+
+#[inline(never)]
+fn fine_part<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    p: &Wide<N>,
+    found: &mut Wide<N>,
+) {
+    *found = P::fine(c, p);
+}
+
+#[inline(never)]
+fn respond<const N: usize>(
+    hessian: &WideMatrix<N>,
+    derivative: &WideMatrix<N>,
+    residual: &Wide<N>,
+    found: &mut (WideMatrix<N>, Wide<N>),
+) {
+    *found = response(hessian, derivative, residual);
+}
+
+/// The vector with these entries; vectors' own operators go through memory piece by piece.
+#[inline(always)]
+fn entries<const N: usize>(entry: impl Fn(usize) -> WideF64x8) -> Wide<N> {
+    let mut vector = Wide::<N>::repeat(WideF64x8::splat(0.0));
+    for i in 0..N {
+        vector[i] = entry(i);
+    }
+    vector
+}
+
+/// The vectors of the steps.
+#[inline(always)]
+fn take<const N: usize>(lanes: &Wide<N>, steps: &mut [V<f64, N>; AT_ONCE]) {
+    let lanes: [[f64; AT_ONCE]; N] = from_fn(|i| lanes[i].into());
+    for k in 0..AT_ONCE {
+        for i in 0..N {
+            steps[k][i] = lanes[i][k];
+        }
+    }
+}
+
+/// The largest |δ fine| / |δp| between one step and the next.
+#[inline(always)]
+fn steepest<const N: usize>(p: &Wide<N>, fine: &Wide<N>) -> f64 {
+    let least = WideF64x8::splat(f64::from(f32::MIN_POSITIVE));
+    let ratio = changes(fine).largest_entry() / (changes(p).largest_entry() + least);
+    ratio.simd_horizontal_max()
+}
+
+/// From each step to the next, and from the last to the first.
+#[inline(always)]
+fn changes<const N: usize>(steps: &Wide<N>) -> Wide<N> {
+    entries(|i| {
+        let lanes: [f64; AT_ONCE] = steps[i].into();
+        WideF64x8::from(from_fn(|k| lanes[(k + 1) % AT_ONCE])) - steps[i]
+    })
+}
