@@ -25,7 +25,8 @@ pub struct Learned<T = f64> {
     clippy::nursery,
     dead_code,
     non_snake_case,
-    unused_variables
+    unused_variables,
+    unexpected_cfgs
 )]
 const _: () = {
     impl<T: ::coadjoint::Scalar> Learned<T> {

@@ -76,6 +76,14 @@ pub fn generating_function(
         integrator.parts.as_ref().map(|parts| gradient_parts(parts, name, *dim, vector, scope));
     let fine_part =
         integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
+    let wide_step = integrator.parts.as_ref().and_then(|step| wide_step(step, name, parts, scope));
+    let wide_registers = wide_registers();
+    let linearises = wide_step.is_some().then(|| {
+        quote! {
+            #wide_registers
+            const LINEARISES: bool = #krate::plumbing::LINEARISES;
+        }
+    });
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
             let function = vector_function(program, vector, scope);
@@ -111,10 +119,13 @@ pub fn generating_function(
     quote! {
         #fine_part
 
+        #wide_step
+
         impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
             type Group = #group;
             type Chart = #chart;
             #solver
+            #linearises
 
             #[inline(always)]
             fn group(&self) -> &#group {
@@ -165,8 +176,40 @@ fn gradient_parts(
     let both = Literal::usize_unsuffixed(2 * dim);
     let pair = Scope { krate: krate.clone(), input: quote!([T; #both]), ..*scope };
     let leading = vector_function(&parts.leading, vector, &pair);
-    let dim = Literal::usize_unsuffixed(dim);
+    let n = Literal::usize_unsuffixed(dim);
     let slots = Literal::usize_unsuffixed(*slots);
+    let wide_registers = wide_registers();
+    let at_once = parts.at_once.as_ref().map(|at_once| {
+        let three = Literal::usize_unsuffixed(3 * dim);
+        let wide = Scope { krate: krate.clone(), input: quote!([T; #three]), ..*scope };
+        let Body { statements, outputs } = body(&at_once.next_middle, &wide);
+        let mut outputs = vectors(&outputs, dim, vector);
+        let next = outputs.next();
+        quote! {
+            #wide_registers
+            #[inline(always)]
+            fn next_middle(&self, before: &[#vector; 2], middle: &#vector) -> (#vector, [#vector; 2]) {
+                let c = &self.coefficients;
+                let input: [T; #three] = ::core::array::from_fn(|i| match i / #n {
+                    0 => middle[i],
+                    k => before[k - 1][i - k * #n],
+                });
+                let input = &input;
+                #statements
+                (#next, [#(#outputs),*])
+            }
+
+            #wide_registers
+            #[inline(always)]
+            fn linearise(
+                &self,
+                middles: &[#vector; #krate::AT_ONCE],
+                found: &mut #krate::LinearisedOf<Self>,
+            ) -> bool {
+                #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(&self.coefficients, middles, found)
+            }
+        }
+    });
     quote! {
         #[inline(always)]
         fn in_parts(&self) -> bool {
@@ -181,21 +224,23 @@ fn gradient_parts(
 
         #[inline(always)]
         fn fine_gradient(&self, p: &#vector) -> #vector {
-            <Self as #krate::plumbing::FinePart<T, #slots, #dim>>::fine(&self.coefficients, &(*p).into()).into()
+            <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(&self.coefficients, &(*p).into()).into()
         }
 
         #[inline(always)]
         fn fine_gradients(&self, p: &[#vector; #krate::AHEAD]) -> [#vector; #krate::AHEAD] {
             let p = p.map(::core::convert::Into::into);
-            #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #dim>(&self.coefficients, &p)
+            #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(&self.coefficients, &p)
                 .map(::core::convert::Into::into)
         }
+
+        #at_once
 
         #[inline(always)]
         fn leading_product(&self, p: &#vector, direction: &#vector) -> #vector {
             let c = &self.coefficients;
             let input: [T; #both] =
-                ::core::array::from_fn(|i| if i < #dim { p[i] } else { direction[i - #dim] });
+                ::core::array::from_fn(|i| if i < #n { p[i] } else { direction[i - #n] });
             let input = &input;
             #leading
         }
@@ -223,6 +268,64 @@ fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> Toke
     }
 }
 
+/// Stands before what only builds for wide registers need, or a test that asks for it: elsewhere the
+/// compiler does not even read it.
+fn wide_registers() -> TokenStream {
+    quote!(#[cfg(any(target_feature = "avx", coadjoint_at_once))])
+}
+
+/// The programs of a step over numbers that may be wider than the coefficients.
+fn wide_step(
+    step: &GradientParts,
+    name: &Ident,
+    parts: &Parts,
+    scope: &Scope,
+) -> Option<TokenStream> {
+    let at_once = step.at_once.as_ref()?;
+    let Parts { dim, group, chart, vector, matrix, .. } = parts;
+    let Scope { krate, slots, .. } = scope;
+    let wide = Scope { krate: krate.clone(), input: vector.clone(), lifted: true, ..*scope };
+    let fine = if at_once.fine == step.fine {
+        let (n, slots) = (Literal::usize_unsuffixed(*dim), Literal::usize_unsuffixed(*slots));
+        quote!(<Self as #krate::plumbing::FinePart<C, #slots, #n>>::fine(c, &(*input).into()).into())
+    } else {
+        vector_function(&at_once.fine, vector, &wide)
+    };
+    let coarse = hessian_function(&at_once.coarse, *dim, vector, matrix, &wide);
+    let Body { statements, outputs } = body(&at_once.around, &wide);
+    let outputs = vectors(&outputs, *dim, vector);
+    let dim = Literal::usize_unsuffixed(*dim);
+    let slots = Literal::usize_unsuffixed(*slots);
+    let number = quote!(#krate::Scalar + #krate::plumbing::Lift<C>);
+    let wide_registers = wide_registers();
+    Some(quote! {
+        #wide_registers
+        impl<C: #krate::Scalar> #krate::plumbing::WideStep<C, #slots, #dim> for #name<C> {
+            #[inline(always)]
+            fn around<T: #number>(c: &[C; #slots], input: &#vector) -> [#vector; 3] {
+                #statements
+                [#(#outputs),*]
+            }
+
+            #[inline(always)]
+            fn pulled_back<T: #krate::Scalar>(x: &#vector, mu: &#vector) -> (#vector, #matrix) {
+                let group = const { &<#group>::new() };
+                <#chart as #krate::Chart<#group>>::pull_back_with_derivative(#chart, group, x, mu)
+            }
+
+            #[inline(always)]
+            fn coarse<T: #number>(c: &[C; #slots], input: &#vector) -> (#vector, #matrix) {
+                #coarse
+            }
+
+            #[inline(always)]
+            fn fine<T: #number>(c: &[C; #slots], input: &#vector) -> #vector {
+                #fine
+            }
+        }
+    })
+}
+
 /// The body of a function with one output.
 #[must_use]
 pub fn scalar_function(program: &Program, scope: &Scope) -> TokenStream {
@@ -235,6 +338,15 @@ pub fn scalar_function(program: &Program, scope: &Scope) -> TokenStream {
 pub fn vector_function(program: &Program, vector: &TokenStream, scope: &Scope) -> TokenStream {
     let Body { statements, outputs } = body(program, scope);
     quote!(#statements <#vector>::from([#(#outputs),*]))
+}
+
+/// Outputs as vectors, one after the other.
+fn vectors(
+    outputs: &[TokenStream],
+    dim: usize,
+    vector: &TokenStream,
+) -> impl Iterator<Item = TokenStream> {
+    outputs.chunks(dim).map(move |entries| quote!(<#vector>::from([#(#entries),*])))
 }
 
 fn hessian_function(

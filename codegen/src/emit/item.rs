@@ -89,7 +89,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
             defect: [T; #defects],
         }
 
-        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables)]
+        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables, unexpected_cfgs)]
         const _: () = {
             impl<T: #krate::Scalar> #name<T> {
                 /// K: the series S₁ … S_K of the generating function is kept.

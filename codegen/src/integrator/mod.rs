@@ -28,6 +28,21 @@ pub struct GradientParts {
     pub fine: Program,
     /// (p, v) ↦ the Hessian of S₁ times v.
     pub leading: Program,
+    /// What several steps go by at once, where they do.
+    pub at_once: Option<AtOnce>,
+}
+
+/// What several steps go by at once.
+#[derive(Clone, Debug)]
+pub struct AtOnce {
+    /// The momentum in the middle of a step ↦ about that in the middle of the next.
+    pub next_middle: Program,
+    /// The momentum in the middle of a step ↦ about x, the momentum before it, and that after it.
+    pub around: Program,
+    /// p ↦ ∂(S₁ + … + S_k)/∂p, then the upper triangle of its derivative.
+    pub coarse: Program,
+    /// p ↦ ∂(S_{k+2} + … + S_K)/∂p.
+    pub fine: Program,
 }
 
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
@@ -134,6 +149,17 @@ impl Integrator {
                 coarse: lower::gradient_program(table, dim, &coarse),
                 fine: lower::gradient_program(table, dim, &fine),
                 leading: lower::leading_program(table, dim, &s),
+                at_once: plan.at_once(&problem, &s).map(|(degree, kept)| {
+                    let kept = kept as u32;
+                    let (coarse, fine): (Vec<_>, Vec<_>) =
+                        s.iter().cloned().partition(|term| term.order <= kept);
+                    AtOnce {
+                        next_middle: flow::advance_program(table, &problem, degree),
+                        around: flow::step_program(table, &problem, degree),
+                        coarse: lower::hessian_program(table, dim, &coarse, kept),
+                        fine: lower::gradient_program(table, dim, &fine),
+                    }
+                }),
             }
         });
         let defect = lower::defect(table, &s, kept);

@@ -50,6 +50,18 @@ impl Plan {
         even.min(truncation + 1)
     }
 
+    /// Whether several steps are solved at once, along the flow and with matrices: the degree of the guesses,
+    /// and the k up to which the Hessian of S₁ … S_k is taken. The more of it, the longer steps can be.
+    pub fn at_once(&self, problem: &Problem, terms: &[BaseTerm]) -> Option<(usize, usize)> {
+        let Predictor::Flow(degree) = self.predictor else { return None };
+        if problem.algebra.dim() > MOST_DIMENSIONS {
+            return None;
+        }
+        let longer = (self.hessian_truncation + 2..problem.truncation).step_by(2);
+        let affordable = longer.take_while(|&k| hessian_operations(terms, k) <= HESSIAN_OPERATIONS);
+        Some((degree, affordable.last().unwrap_or(self.hessian_truncation)))
+    }
+
     /// Chord steps after the first, Newton's, until the error is of the order in h that is `goal`. With
     /// the predictor's error of order e, every step gains e + 1 orders, or k + 2 if the Hessian leaves
     /// out S_{k+2} and higher and that is less.
@@ -190,6 +202,13 @@ const WAIT: usize = 300;
 pub fn in_parts(problem: &Problem) -> bool {
     problem.solver() == Solver::Newton && problem.algebra.dim() > 3 && problem.truncation >= 7
 }
+
+/// Several steps are solved at once up to this dimension, with matrices of two blocks of three a side.
+const MOST_DIMENSIONS: usize = 6;
+
+/// The Hessian that several steps take beyond that of the coarse part has at most so many operations: then
+/// it costs a twentieth of a step, measured on SE(3).
+const HESSIAN_OPERATIONS: usize = 1500;
 
 /// The coarse part: S₁ + S₃ + S₅.
 const COARSE: usize = 5;

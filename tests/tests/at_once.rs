@@ -1,0 +1,181 @@
+//! Several steps solved at once, in the lanes of one number: the same steps as one by one.
+
+use coadjoint::nalgebra::{Matrix6, Vector6};
+use coadjoint::{
+    AT_ONCE, Chart, Exponential, GeneratingFunction, Linearised, LinearisedOf, Phase, SE3,
+    StepError, advance, advance_by, lie_poisson, plumbing, solve,
+};
+
+/// A body with a rotor in a fluid and a field: not homogeneous, no symmetry.
+#[lie_poisson(group = SE3, truncation = 7)]
+fn gyrostat(mu: [f64; 6]) -> f64 {
+    let [a, b, c, u, v, w] = mu;
+    (a * a + b * b / 2.0 + c * c / 3.0) / 2.0 + a / 5.0 + u * v / 3.0 + w / 2.0
+}
+
+/// Solved at once whatever the width of registers.
+struct InLanes(Gyrostat);
+
+impl GeneratingFunction for InLanes {
+    type Group = SE3;
+    type Chart = Exponential;
+    const LINEARISES: bool = true;
+
+    fn group(&self) -> &SE3 {
+        self.0.group()
+    }
+
+    fn value(&self, p: &Vector6<f64>) -> f64 {
+        self.0.value(p)
+    }
+
+    fn gradient(&self, p: &Vector6<f64>) -> Vector6<f64> {
+        self.0.gradient(p)
+    }
+
+    fn gradient_and_hessian(&self, p: &Vector6<f64>) -> (Vector6<f64>, Matrix6<f64>) {
+        self.0.gradient_and_hessian(p)
+    }
+
+    fn predict_increment(&self, mu: &Vector6<f64>) -> Option<Vector6<f64>> {
+        self.0.predict_increment(mu)
+    }
+
+    fn in_parts(&self) -> bool {
+        self.0.in_parts()
+    }
+
+    fn coarse_gradient(&self, p: &Vector6<f64>) -> Vector6<f64> {
+        self.0.coarse_gradient(p)
+    }
+
+    fn fine_gradient(&self, p: &Vector6<f64>) -> Vector6<f64> {
+        self.0.fine_gradient(p)
+    }
+
+    fn leading_product(&self, p: &Vector6<f64>, direction: &Vector6<f64>) -> Vector6<f64> {
+        self.0.leading_product(p, direction)
+    }
+
+    fn bend(&self, x: f64) -> f64 {
+        self.0.bend(x)
+    }
+
+    fn hessian_defect(&self, size: f64) -> f64 {
+        self.0.hessian_defect(size)
+    }
+
+    fn next_middle(
+        &self,
+        before: &[Vector6<f64>; 2],
+        middle: &Vector6<f64>,
+    ) -> (Vector6<f64>, [Vector6<f64>; 2]) {
+        self.0.next_middle(before, middle)
+    }
+
+    fn linearise(&self, middles: &[Vector6<f64>; AT_ONCE], found: &mut LinearisedOf<Self>) -> bool {
+        plumbing::linearise_in_lanes::<Gyrostat, _, 6>(&self.0.coefficients, middles, found);
+        true
+    }
+}
+
+/// |Δ(μ, g)|
+fn apart(a: &Phase<SE3>, b: &Phase<SE3>) -> f64 {
+    (a.momentum - b.momentum).amax()
+        + a.group_element.rotation.angle_to(&b.group_element.rotation)
+        + (a.group_element.translation.vector - b.group_element.translation.vector).amax()
+}
+
+fn start() -> Phase<SE3> {
+    Phase::at_identity(Vector6::new(1.0, 0.3, -0.4, 0.2, 0.8, -0.6))
+}
+
+/// Short steps, where one matrix is all; longer ones, mended; and such as are too long for it. Blocks of
+/// eight, and what is left of them.
+#[test]
+fn steps_at_once_are_steps_one_by_one() -> Result<(), StepError> {
+    for h in [0.02, 0.1, 0.3, 0.45, 0.6, 1.0] {
+        let step = InLanes(Gyrostat::new(h)?);
+        let mut phase = start();
+        for steps in [1, 2, 3, 4, 8, 9, 30, 30, 30, 30] {
+            let (mut one, mut many) = (phase.clone(), phase.clone());
+            for _ in 0..steps {
+                advance(&step, &mut one)?;
+            }
+            let report = advance_by(&step, &mut many, steps)?;
+            let apart = apart(&one, &many);
+            assert!(apart < 3e-14 * (1.0 + steps as f64), "{h} {steps}: {apart:e}");
+            assert!(report.residual < 1e-15, "{h}: {report:?}");
+            phase = one;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
+    let step = InLanes(Gyrostat::new(0.1)?);
+    let mut phase = start();
+    phase.momentum[4] = f64::NAN;
+    assert_eq!(advance_by(&step, &mut phase, 20).err(), Some(StepError::NonFiniteState));
+    let mut at_rest = Phase::<SE3>::at_identity(Vector6::zeros());
+    advance_by(&step, &mut at_rest, 20)?;
+    assert_eq!(at_rest.momentum, Vector6::zeros());
+    Ok(())
+}
+
+/// Where momenta are guessed as they are, one linear equation is the whole solve.
+#[test]
+fn steps_are_solved_to_second_order() -> Result<(), StepError> {
+    let solved = |h: f64| -> Result<[f64; 3], StepError> {
+        let step = InLanes(Gyrostat::new(h)?);
+        let (group, chart) = (step.group(), step.chart());
+        let mut found = Linearised::zeros(6);
+        let middles: [_; AT_ONCE] = core::array::from_fn(|k| {
+            Vector6::from_fn(|i, _| (1.3 * k as f64 + 2.1 * i as f64).sin())
+        });
+        assert!(step.linearise(&middles, &mut found));
+        let mut worst = [0.0_f64; 3];
+        for k in 0..AT_ONCE {
+            let mu = found.start[k];
+            let exact = solve(&step, &mu)?.x;
+            let moved = mu + Vector6::repeat(1e-6);
+            let shift = chart.pull_back(group, &found.x[k], &(moved - mu));
+            let error = found.x[k] + found.response[k] * shift - solve(&step, &moved)?.x;
+            let errors = [(found.x[k] - exact).amax(), found.correction[k], error.amax()];
+            for (worst, error) in worst.iter_mut().zip(errors) {
+                *worst = error.max(*worst);
+            }
+        }
+        // x leads from the guessed beginning to the guessed end.
+        let last = AT_ONCE - 1;
+        let end = chart.transport(group, &found.x[last], &found.start[last]).1;
+        assert!((end - found.end).amax() < 9.0 * worst[1] + 1e-14, "{:e}", worst[1]);
+        Ok(worst)
+    };
+    let (long, short) = (solved(0.4)?, solved(0.2)?);
+    assert!(long[0] < 1e-12 && short[0] < 2e-15, "{long:?} {short:?}");
+    assert!(long[2] < 1e-11 && short[2] < 1e-11, "{long:?} {short:?}");
+    // The guess of x has order eight.
+    let gain = (long[1] / short[1]).log2();
+    assert!((8.3..9.7).contains(&gain), "{gain}");
+    Ok(())
+}
+
+/// With the rates of the step before, a guess from middle to middle has order ten.
+#[test]
+fn the_middle_of_the_next_step_is_guessed_to_order_ten() -> Result<(), StepError> {
+    let error = |h: f64| -> Result<f64, StepError> {
+        let (step, fine) = (Gyrostat::new(h)?, Gyrostat::new(h / 32.0)?);
+        let mut phase = start();
+        let nothing = [Vector6::zeros(), Vector6::zeros()];
+        let rates = step.next_middle(&nothing, &phase.momentum).1;
+        advance_by(&fine, &mut phase, 32)?;
+        let next = step.next_middle(&rates, &phase.momentum).0;
+        advance_by(&fine, &mut phase, 32)?;
+        Ok((next - phase.momentum).amax())
+    };
+    let order = (error(0.8)? / error(0.4)?).log2();
+    assert!((10.3..11.7).contains(&order), "{order}");
+    Ok(())
+}
