@@ -14,6 +14,7 @@
 //! This is the summation of Shanks, J. Math. Phys. 34 (1955) 1–42, with one recurrence for all
 //! coordinates and momenta.
 
+use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating_function::{GeneratingFunction, VectorOf};
@@ -22,6 +23,8 @@ use crate::scalar::Scalar;
 
 /// Steps along the motion from each momentum given.
 const STEPS: usize = 24;
+/// Of so many steps one is looked at.
+const SPACING: usize = 3;
 
 /// The factors of the terms S_k that sum the tail of a series: what `tuned` of a generated
 /// integrator uses. Far from the motions it was made for the map is of the same order, and as
@@ -100,11 +103,15 @@ impl<T: Scalar> Tail<T> {
         let whole = series(&|_| T::of(1.0));
         let (first, before, last) = (only(first), only(before), only(truncation));
         let mut products = Products::default();
-        for mut mu in momenta {
-            for _ in 0..STEPS {
-                // p differs from μ by O(h), where the recurrence is the same.
-                products.add(first.gradient(&mu), before.gradient(&mu), last.gradient(&mu));
-                mu = poisson_map(&whole, &mu)?;
+        for start in momenta {
+            // Tells whether steps can be made from there.
+            let mut mu = poisson_map(&whole, &start)?;
+            for step in 0..STEPS {
+                if step % SPACING == 0 {
+                    // p differs from μ by O(h), where the recurrence is the same.
+                    products.add(first.gradient(&mu), before.gradient(&mu), last.gradient(&mu));
+                }
+                mu = onwards(&whole, mu)?;
             }
         }
         let (a, b) = products.recurrence(truncation > 5);
@@ -115,6 +122,15 @@ impl<T: Scalar> Tail<T> {
             last_but_one: b.times_plus(share, T::of(1.0)),
             ..none
         })
+    }
+}
+
+/// The momentum about one step later, a comoving frame's own motion left out: near enough to the motion
+/// for its recurrence.
+fn onwards<S: GeneratingFunction>(series: &S, mu: VectorOf<S>) -> Result<VectorOf<S>, StepError> {
+    match series.predict_increment(&mu) {
+        Some(x) => Ok(series.chart().transport(series.group(), &x, &mu).1),
+        None => poisson_map(series, &mu),
     }
 }
 
