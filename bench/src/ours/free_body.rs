@@ -9,9 +9,9 @@ use crate::{
     state::{Rotation, State},
 };
 
-/// Writes the Hamiltonian at one truncation in one frame and its run over an interval.
+/// Writes the Hamiltonian at one truncation in one frame and its run over an interval, `fitted` or `plain`.
 macro_rules! truncated {
-    ($module:ident, $truncation:literal, $frame:ident) => {
+    ($module:ident, $truncation:literal, $frame:ident, $fits:ident) => {
         pub(crate) mod $module {
             use super::*;
 
@@ -31,7 +31,7 @@ macro_rules! truncated {
                 coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, end);
-                let step = integrator!(RigidBody(h, body.inertia), coefficients, momentum);
+                let step = integrator!($fits, RigidBody(h, body.inertia), coefficients, momentum);
                 let mut phase = Phase::<SO3>::at_identity(momentum);
                 let made = step.advance_by(&mut phase, count as u64);
                 made.map_err(|_| RunError::NotConverged)?;
@@ -41,19 +41,19 @@ macro_rules! truncated {
     };
 }
 
-truncated!(five, 5, fixed);
-truncated!(seven, 7, fixed);
-truncated!(nine, 9, fixed);
-truncated!(eleven, 11, fixed);
-truncated!(thirteen, 13, fixed);
-truncated!(fifteen, 15, fixed);
-truncated!(seventeen, 17, fixed);
-truncated!(comoving_five, 5, comoving);
-truncated!(comoving_seven, 7, comoving);
-truncated!(comoving_nine, 9, comoving);
-truncated!(comoving_eleven, 11, comoving);
-truncated!(comoving_thirteen, 13, comoving);
-truncated!(comoving_fifteen, 15, comoving);
+truncated!(five, 5, fixed, fitted);
+truncated!(seven, 7, fixed, fitted);
+truncated!(nine, 9, fixed, fitted);
+truncated!(eleven, 11, fixed, fitted);
+truncated!(thirteen, 13, fixed, plain);
+truncated!(fifteen, 15, fixed, plain);
+truncated!(seventeen, 17, fixed, plain);
+truncated!(comoving_five, 5, comoving, fitted);
+truncated!(comoving_seven, 7, comoving, fitted);
+truncated!(comoving_nine, 9, comoving, fitted);
+truncated!(comoving_eleven, 11, comoving, plain);
+truncated!(comoving_thirteen, 13, comoving, plain);
+truncated!(comoving_fifteen, 15, comoving, plain);
 
 /// A phase point as the comparison has it.
 pub(crate) fn state(phase: &Phase<SO3>) -> State {

@@ -1,8 +1,9 @@
 //! Our methods, as users write them.
 
-/// The integrator of a step size and parameters, with the coefficients asked for.
+/// The integrator of a step size and parameters, with the coefficients asked for. The code that fits them
+/// is there only where rows want it: see [`FITTINGS`].
 macro_rules! integrator {
-    ($body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $momentum:expr) => {{
+    ($fits:ident, $body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $momentum:expr) => {{
         let failed = |_| RunError::NotConverged;
         let series = |h| $body::new(h, $($argument),*);
         match $coefficients {
@@ -10,12 +11,16 @@ macro_rules! integrator {
             Coefficients::Tuned => {
                 $body::tuned($h, $($argument,)* [$momentum]).map_err(failed)?
             }
-            Coefficients::Fitted(duration) => {
-                let fitted = coadjoint::fit($h, series, [$momentum], duration);
-                fitted.map_err(|_| RunError::NotConverged)?.integrator
-            }
+            Coefficients::Fitted(duration) => integrator!($fits, $h, series, $momentum, duration),
         }
     }};
+    (fitted, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {{
+        let fitted = coadjoint::fit($h, $series, [$momentum], $duration);
+        fitted.map_err(|_| RunError::NotConverged)?.integrator
+    }};
+    (plain, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {
+        return Err(RunError::NotFitted)
+    };
 }
 
 pub(crate) mod free_body;

@@ -12,10 +12,10 @@ use crate::{
 
 /// Runs a generated integrator from the problem's initial state to its end.
 macro_rules! run {
-    ($body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $problem:expr, $count:expr) => {{
+    ($fits:ident, $body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $problem:expr, $count:expr) => {{
         let (m, f) = ($problem.initial.momentum, $problem.initial.force);
         let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
-        let step = integrator!($body($h, $($argument),*), $coefficients, momentum);
+        let step = integrator!($fits, $body($h, $($argument),*), $coefficients, momentum);
         let mut phase = Phase::<SE3>::at_identity(momentum);
         let made = step.advance_by(&mut phase, $count as u64);
         made.map_err(|_| RunError::NotConverged)?;
@@ -25,7 +25,7 @@ macro_rules! run {
 
 /// Writes a top with its centre of mass on one principal axis, at one truncation.
 macro_rules! top {
-    ($module:ident, $truncation:literal, $axis:literal) => {
+    ($module:ident, $truncation:literal, $axis:literal, $fits:ident) => {
         mod $module {
             use super::*;
 
@@ -46,7 +46,7 @@ macro_rules! top {
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let weight = body.translation.weight;
-                run!(HeavyTop(h, body.inverse_inertia, weight), coefficients, problem, count)
+                run!($fits, HeavyTop(h, body.inverse_inertia, weight), coefficients, problem, count)
             }
         }
     };
@@ -74,7 +74,7 @@ macro_rules! symmetric_top {
                 let (count, h) = Setting::steps(step, problem.end);
                 let [transverse, axial, _] = body.inverse_inertia;
                 let weight = body.translation.weight;
-                run!(LagrangeTop(h, transverse, axial, weight), coefficients, problem, count)
+                run!(plain, LagrangeTop(h, transverse, axial, weight), coefficients, problem, count)
             }
         }
     };
@@ -82,7 +82,7 @@ macro_rules! symmetric_top {
 
 /// Writes Kirchhoff's body at one truncation in one frame.
 macro_rules! kirchhoff {
-    ($module:ident, $truncation:literal, $frame:ident) => {
+    ($module:ident, $truncation:literal, $frame:ident, $fits:ident) => {
         mod $module {
             use super::*;
 
@@ -104,26 +104,27 @@ macro_rules! kirchhoff {
                 coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
-                let inverse = body.translation.inverse;
-                run!(Kirchhoff(h, body.inverse_inertia, inverse), coefficients, problem, count)
+                let (inertia, mass) = (body.inverse_inertia, body.translation.inverse);
+                run!($fits, Kirchhoff(h, inertia, mass), coefficients, problem, count)
             }
         }
     };
 }
 
-top!(first_axis_five, 5, 0);
-top!(first_axis_seven, 7, 0);
-top!(first_axis_nine, 9, 0);
-top!(second_axis_five, 5, 1);
-top!(second_axis_seven, 7, 1);
-top!(second_axis_nine, 9, 1);
+top!(first_axis_five, 5, 0, fitted);
+top!(first_axis_seven, 7, 0, fitted);
+top!(first_axis_nine, 9, 0, plain);
+top!(second_axis_five, 5, 1, fitted);
+top!(second_axis_seven, 7, 1, fitted);
+top!(second_axis_nine, 9, 1, plain);
 symmetric_top!(symmetric_five, 5);
 symmetric_top!(symmetric_seven, 7);
 symmetric_top!(symmetric_nine, 9);
-kirchhoff!(kirchhoff_five, 5, fixed);
-kirchhoff!(kirchhoff_seven, 7, fixed);
-kirchhoff!(comoving_kirchhoff_five, 5, comoving);
-kirchhoff!(comoving_kirchhoff_seven, 7, comoving);
+kirchhoff!(kirchhoff_five, 5, fixed, fitted);
+kirchhoff!(kirchhoff_seven, 7, fixed, fitted);
+kirchhoff!(comoving_kirchhoff_five, 5, comoving, plain);
+kirchhoff!(comoving_kirchhoff_seven, 7, comoving, plain);
+kirchhoff!(comoving_kirchhoff_nine, 9, comoving, plain);
 
 type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<State, RunError>;
 
@@ -168,15 +169,14 @@ impl super::Run for Runs {
 #[derive(Clone, Copy)]
 struct Comoving {
     symmetric_top: BodyRun<Gravity<1>>,
-    /// Left out where its code would take minutes to compile.
-    kirchhoff: Option<BodyRun<Mass>>,
+    kirchhoff: BodyRun<Mass>,
 }
 
 impl super::Run for Comoving {
     fn applies(&self, system: &System) -> bool {
         match system {
             System::HeavyTop(body) => body.inverse_inertia[0] == body.inverse_inertia[2],
-            System::Kirchhoff(_) => self.kirchhoff.is_some(),
+            System::Kirchhoff(_) => true,
             System::FreeBody(_) | System::Kovalevskaya(_) => false,
         }
     }
@@ -195,9 +195,7 @@ impl super::Run for Comoving {
         match &problem.system {
             _ if !self.applies(&problem.system) => None,
             System::HeavyTop(body) => Some((self.symmetric_top)(body, problem, step, coefficients)),
-            System::Kirchhoff(body) => {
-                self.kirchhoff.map(|run| run(body, problem, step, coefficients))
-            }
+            System::Kirchhoff(body) => Some((self.kirchhoff)(body, problem, step, coefficients)),
             System::FreeBody(_) | System::Kovalevskaya(_) => None,
         }
     }
@@ -237,17 +235,23 @@ pub fn all() -> Vec<Box<dyn Method>> {
             5,
             Comoving {
                 symmetric_top: symmetric_five::run,
-                kirchhoff: Some(comoving_kirchhoff_five::run),
+                kirchhoff: comoving_kirchhoff_five::run,
             },
         ),
         (
             7,
             Comoving {
                 symmetric_top: symmetric_seven::run,
-                kirchhoff: Some(comoving_kirchhoff_seven::run),
+                kirchhoff: comoving_kirchhoff_seven::run,
             },
         ),
-        (9, Comoving { symmetric_top: symmetric_nine::run, kirchhoff: None }),
+        (
+            9,
+            Comoving {
+                symmetric_top: symmetric_nine::run,
+                kirchhoff: comoving_kirchhoff_nine::run,
+            },
+        ),
     ];
     let fixed = runs.into_iter().flat_map(|(truncation, runs)| rows(truncation, "SE(3)", runs));
     let comoving = comoving
