@@ -6,11 +6,12 @@ use coadjoint::{
     StepError, advance, advance_by, lie_poisson, plumbing, solve,
 };
 
-/// A body with a rotor in a fluid and a field: not homogeneous, no symmetry.
+/// A heavy body with a rotor: not homogeneous, no symmetry, and few terms, for code in eight lanes of narrow
+/// registers is slow to compile.
 #[lie_poisson(group = SE3, truncation = 7)]
 fn gyrostat(mu: [f64; 6]) -> f64 {
-    let [a, b, c, u, v, w] = mu;
-    (a * a + b * b / 2.0 + c * c / 3.0) / 2.0 + a / 5.0 + u * v / 3.0 + w / 2.0
+    let [a, b, c, _, _, w] = mu;
+    (a * a + b * b / 2.0 + c * c / 3.0) / 2.0 + a / 5.0 + w / 2.0
 }
 
 /// Solved at once whatever the width of registers.
@@ -103,6 +104,8 @@ fn steps_at_once_are_steps_one_by_one() -> Result<(), StepError> {
                 advance(&step, &mut one)?;
             }
             let report = advance_by(&step, &mut many, steps)?;
+            let mended = report.iterations > 1;
+            assert!(if h < 0.2 { !mended } else { mended || h < 0.4 }, "{h} {steps}: {report:?}");
             let apart = apart(&one, &many);
             assert!(apart < 3e-14 * (1.0 + steps as f64), "{h} {steps}: {apart:e}");
             assert!(report.residual < 1e-15, "{h}: {report:?}");

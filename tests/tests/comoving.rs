@@ -24,8 +24,15 @@ fn top(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f6
 }
 
 /// The same, all of it in the series.
-#[lie_poisson(group = SE3, truncation = 9)]
+#[lie_poisson(group = SE3, truncation = 7)]
 fn whole(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
+    let [x, y, z, _, v, _] = mu;
+    (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
+}
+
+/// The same with a short series, which takes less to compile in lanes and for the laws.
+#[lie_poisson(group = SE3, truncation = 3, frame = comoving)]
+fn short(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
     let [x, y, z, _, v, _] = mu;
     (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
 }
@@ -43,7 +50,7 @@ fn tumbling(mu: [f64; 3], inverse: [f64; 3]) -> f64 {
 }
 
 /// A body in a fluid that is symmetric: both a spin and a Casimir move the frame.
-#[lie_poisson(group = SE3, truncation = 5, frame = comoving)]
+#[lie_poisson(group = SE3, truncation = 3, frame = comoving)]
 fn torpedo(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
     let [x, y, z, u, v, w] = mu;
     (x * x + y * y) / (2.0 * inertia[0])
@@ -52,7 +59,8 @@ fn torpedo(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
         + w * w / (2.0 * mass[1])
 }
 
-#[lie_poisson(group = SE3, truncation = 7)]
+/// The same, all of it in the series.
+#[lie_poisson(group = SE3, truncation = 5)]
 fn torpedo_at_rest(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
     let [x, y, z, u, v, w] = mu;
     (x * x + y * y) / (2.0 * inertia[0])
@@ -62,7 +70,7 @@ fn torpedo_at_rest(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
 }
 
 /// Two symmetric bodies with their axes coupled: both spins are integrals.
-#[lie_poisson(group = SO3 * SO3, truncation = 5, frame = comoving)]
+#[lie_poisson(group = SO3 * SO3, truncation = 1, frame = comoving)]
 fn pair(mu: [f64; 6], transverse: f64, axial: [f64; 2]) -> f64 {
     let [a, b, c, d, e, f] = mu;
     (a * a + b * b + d * d + e * e) / (2.0 * transverse)
@@ -73,8 +81,12 @@ fn pair(mu: [f64; 6], transverse: f64, axial: [f64; 2]) -> f64 {
 
 const MU: [f64; 6] = [0.3, -1.7, 0.8, 0.2, 0.9, -0.4];
 
-fn slow(step: f64) -> Result<Top, StepError> {
-    Top::new(step, 0.9, 0.7, 0.6, 0.4)
+/// A top that spins slowly: the moments of inertia, the weight, and the rate of the frame.
+const SLOW: [f64; 4] = [0.9, 0.7, 0.6, 0.4];
+
+fn slow(step: f64) -> Result<Short, StepError> {
+    let [transverse, axial, weight, frame] = SLOW;
+    Short::new(step, transverse, axial, weight, frame)
 }
 
 #[test]
@@ -179,8 +191,8 @@ fn a_spin_and_a_casimir_move_one_frame() -> Result<(), StepError> {
     };
     let (coarse, fine) = (error(200)?, error(400)?);
     println!("{coarse:e} {fine:e}");
-    // Order 6, and attitude and place are right, too.
-    assert!(fine < 1e-7 && (coarse / fine).log2() > 5.5, "{coarse:e} {fine:e}");
+    // Order 4, and attitude and place are right, too.
+    assert!(fine < 1e-6 && (coarse / fine).log2() > 3.5, "{coarse:e} {fine:e}");
     let points = [Phase::at_identity(MU), Phase::at_identity(MU.map(|m| 0.7 - m))];
     for law in laws::check(&step, Some(&Torpedo::new(-0.05, inertia, mass)?), &points)? {
         assert!(law.pass(), "{law:?}");
@@ -191,15 +203,17 @@ fn a_spin_and_a_casimir_move_one_frame() -> Result<(), StepError> {
 #[test]
 fn it_is_the_same_flow_as_without() -> Result<(), StepError> {
     let (mut split, mut straight) = (Phase::<SE3>::at_identity(MU), Phase::at_identity(MU));
-    slow(0.01)?.advance_by(&mut split, 300)?;
-    Whole::new(0.01, 0.9, 0.7, 0.6, 0.4)?.advance_by(&mut straight, 300)?;
+    let [transverse, axial, weight, frame] = SLOW;
+    let step = Top::new(0.01, transverse, axial, weight, frame)?;
+    step.advance_by(&mut split, 300)?;
+    Whole::new(0.01, transverse, axial, weight, frame)?.advance_by(&mut straight, 300)?;
     assert!((split.momentum - straight.momentum).amax() < 1e-12);
     let (a, b) = (split.group_element, straight.group_element);
     assert!(a.rotation.angle_to(&b.rotation) < 1e-12);
     assert!((a.translation.vector - b.translation.vector).amax() < 1e-12);
     // The energy is that of the whole Hamiltonian.
-    let step = slow(0.01)?;
-    assert!((step.energy(&MU.into()) - whole(MU, 0.9, 0.7, 0.6, 0.4)).abs() < 1e-15);
+    let energy = whole(MU, transverse, axial, weight, frame);
+    assert!((step.energy(&MU.into()) - energy).abs() < 1e-15);
     Ok(())
 }
 
