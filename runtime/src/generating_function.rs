@@ -79,6 +79,9 @@ pub trait GeneratingFunction {
     /// [`Solver::FixedPoint`] for any function.
     const SOLVER: Solver = Solver::Newton;
 
+    /// Whether [`GeneratingFunction::in_parts`] may hold; where it may not, nothing of such steps is compiled.
+    const IN_PARTS: bool = false;
+
     /// Whether [`GeneratingFunction::linearise`] may find anything.
     const LINEARISES: bool = false;
 
@@ -158,7 +161,7 @@ pub trait GeneratingFunction {
     /// dimensions: ∂S/∂p = coarse + fine, where the fine part matters little and takes most of the work.
     #[inline(always)]
     fn in_parts(&self) -> bool {
-        false
+        Self::IN_PARTS
     }
 
     /// The coarse part of ∂S/∂p(p).

@@ -101,21 +101,29 @@ pub(crate) fn march<S: GeneratingFunction + ?Sized>(
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     let mut last = None;
-    let mut ahead = Ahead::new(generating);
-    let mut at_once = (S::LINEARISES && at_once).then(|| AtOnce::new(generating));
+    // By branches on constants alone: where they are false nothing of this is compiled.
+    let mut ahead = if S::IN_PARTS { Ahead::new(generating) } else { None };
+    let mut at_once = if S::LINEARISES { at_once.then(|| AtOnce::new(generating)) } else { None };
     // Steps that the frame has not made yet.
     let mut behind = 0;
     for done in 0..steps {
-        let found = match &mut ahead {
-            Some(ahead) => match &mut at_once {
-                Some(several) => several.solve(generating, &phase.momentum, steps - done, ahead),
-                None => ahead.solve(generating, &phase.momentum, steps - done).map(Increment::from),
-            },
-            None => solve_after(generating, &phase.momentum, last.as_ref()).map(|solution| {
+        let (mu, left) = (&phase.momentum, steps - done);
+        let found = if S::IN_PARTS
+            && let Some(ahead) = &mut ahead
+        {
+            if S::LINEARISES
+                && let Some(several) = &mut at_once
+            {
+                several.solve(generating, mu, left, ahead)
+            } else {
+                ahead.solve(generating, mu, left).map(Increment::from)
+            }
+        } else {
+            solve_after(generating, mu, last.as_ref()).map(|solution| {
                 let Solution { p, x, iterations, residual } = solution;
                 last = Some(p);
                 Increment { x, iterations, residual }
-            }),
+            })
         };
         let Increment { x, iterations, residual } = match found {
             Ok(found) => found,

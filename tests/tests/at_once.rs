@@ -20,6 +20,7 @@ struct InLanes(Gyrostat);
 impl GeneratingFunction for InLanes {
     type Group = SE3;
     type Chart = Exponential;
+    const IN_PARTS: bool = true;
     const LINEARISES: bool = true;
 
     fn group(&self) -> &SE3 {
@@ -40,10 +41,6 @@ impl GeneratingFunction for InLanes {
 
     fn predict_increment(&self, mu: &Vector6<f64>) -> Option<Vector6<f64>> {
         self.0.predict_increment(mu)
-    }
-
-    fn in_parts(&self) -> bool {
-        self.0.in_parts()
     }
 
     fn coarse_gradient(&self, p: &Vector6<f64>) -> Vector6<f64> {

@@ -18,9 +18,10 @@ macro_rules! integrator {
         let fitted = coadjoint::fit($h, $series, [$momentum], $duration);
         fitted.map_err(|_| RunError::NotConverged)?.integrator
     }};
-    (plain, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {
-        return Err(RunError::NotFitted)
-    };
+    (plain, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {{
+        let _: f64 = $duration;
+        return Err(RunError::NotFitted);
+    }};
 }
 
 pub(crate) mod free_body;

@@ -155,6 +155,7 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     type Group = G;
     type Chart = C;
     const SOLVER: Solver = if FIXED_POINT { Solver::FixedPoint } else { Solver::Newton };
+    const IN_PARTS: bool = !FIXED_POINT;
 
     fn group(&self) -> &G {
         &self.group

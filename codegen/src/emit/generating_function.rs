@@ -78,6 +78,11 @@ pub fn generating_function(
         integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
     let wide_step = integrator.parts.as_ref().and_then(|step| wide_step(step, name, parts, scope));
     let wide_registers = wide_registers();
+    let goes_in_parts = integrator.parts.is_some().then(|| {
+        quote!(
+            const IN_PARTS: bool = true;
+        )
+    });
     let linearises = wide_step.is_some().then(|| {
         quote! {
             #wide_registers
@@ -125,6 +130,7 @@ pub fn generating_function(
             type Group = #group;
             type Chart = #chart;
             #solver
+            #goes_in_parts
             #linearises
 
             #[inline(always)]
@@ -211,11 +217,6 @@ fn gradient_parts(
         }
     });
     quote! {
-        #[inline(always)]
-        fn in_parts(&self) -> bool {
-            true
-        }
-
         #[inline(always)]
         fn coarse_gradient(&self, input: &#vector) -> #vector {
             let c = &self.coefficients;

@@ -64,12 +64,10 @@ pub fn solve<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    match S::SOLVER {
-        Solver::Newton if generating.in_parts() => {
-            in_parts(generating, mu, Start::predicted(generating, mu))
-        }
-        _ => solve_from(generating, mu, generating.predict(mu)),
+    if S::IN_PARTS && goes_in_parts(generating) {
+        return in_parts(generating, mu, Start::predicted(generating, mu));
     }
+    solve_from(generating, mu, generating.predict(mu))
 }
 
 /// As [`solve`], where `last` is the p of the step that has led to μ, if there was one.
@@ -96,14 +94,20 @@ pub fn solve_from<S: GeneratingFunction + ?Sized>(
     mu: &VectorOf<S>,
     guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    // A constant: where there is no Hessian, Newton's method with its matrices is not even built.
+    // Constants: solvers that are not asked for, Newton's method with its matrices above all, are not even built.
+    if S::IN_PARTS && goes_in_parts(generating) {
+        return in_parts(generating, mu, Start::new(generating, None, guess));
+    }
     match S::SOLVER {
-        Solver::Newton if generating.in_parts() => {
-            in_parts(generating, mu, Start::new(generating, None, guess))
-        }
         Solver::Newton => newton::newton(generating, mu, guess),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
     }
+}
+
+/// Whether [`Solver::Newton`] is meant, and its steps go by parts of the gradient.
+#[inline(always)]
+fn goes_in_parts<S: GeneratingFunction + ?Sized>(generating: &S) -> bool {
+    matches!(S::SOLVER, Solver::Newton) && generating.in_parts()
 }
 
 /// What sizes are measured by.
