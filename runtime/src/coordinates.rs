@@ -51,6 +51,16 @@ pub trait Coordinates<T: Scalar>:
 
     // Loops, not closures, from here on: in wide lanes the compiler leaves closures as calls.
 
+    /// self + other.
+    #[inline(always)]
+    #[must_use]
+    fn plus(mut self, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] += other[i];
+        }
+        self
+    }
+
     /// self − other.
     #[inline(always)]
     #[must_use]

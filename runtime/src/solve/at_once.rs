@@ -137,7 +137,7 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         self.apart = mu.clone().minus(&self.found.start[self.next]);
         let shift = chart.pull_back(group, guess, &self.apart);
         let moved = shift.left_multiply(&self.found.response[self.next]);
-        let x = VectorOf::<S>::from_entries(mu.dim(), |i| guess[i] + moved[i]);
+        let x = guess.clone().plus(&moved);
 
         // As in Newton's method one by one. The fine part may change more in other directions than it did
         // from step to step.
@@ -166,7 +166,7 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         let gradient = generating.gradient(&p);
         let shift = chart.pull_back(group, &gradient, mu).minus(&p);
         let moved = shift.left_multiply(&self.found.response[self.next]);
-        let x = VectorOf::<S>::from_entries(mu.dim(), |i| gradient[i] + moved[i]);
+        let x = gradient.plus(&moved);
 
         let yardstick = self.yardstick;
         let relative = shift.largest_entry() * yardstick.inverse_scale + moved.largest_entry();
@@ -183,12 +183,9 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
             self.pause = self.pause.saturating_sub(1);
             return false;
         }
-        let sum = |a: &VectorOf<S>, b: &VectorOf<S>| {
-            VectorOf::<S>::from_entries(a.dim(), |i| a[i] + b[i])
-        };
         let (half, before) = match self.onward.take() {
             // With the rates along the guesses, and not along the motion, errors would grow.
-            Some(half) => (half, sum(&self.middles[AT_ONCE - 1], &self.apart)),
+            Some(half) => (half, self.middles[AT_ONCE - 1].clone().plus(&self.apart)),
             None => {
                 // About μ as the middle of a step, half of it leads to its end, where the next has its middle.
                 self.middles = core::array::from_fn(|_| mu.clone());
@@ -201,7 +198,7 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         };
         let mut before = rates(generating, &before);
         let count = AT_ONCE.min(steps as usize);
-        let mut middle = sum(mu, &half);
+        let mut middle = mu.clone().plus(&half);
         for k in 0..AT_ONCE {
             if k < count {
                 self.middles[k] = middle.clone();

@@ -71,7 +71,7 @@ pub fn fixed_point<S: GeneratingFunction + ?Sized>(
             let both = VectorOf::<S>::from_entries(dim, |i| p[i] - last.0[i] + df[i]);
             differences[0] = (df, both);
         }
-        let next = VectorOf::<S>::from_entries(dim, |i| p[i] + f[i]);
+        let next = p.clone().plus(&f);
         let next = accelerate(dim, &f, next, &differences[..known]);
         last = (p, f);
         p = next;

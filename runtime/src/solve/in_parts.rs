@@ -91,10 +91,7 @@ pub fn in_parts<S: GeneratingFunction + ?Sized>(
     let derivative = slope.map_or(bound, |slope| bound.simd_min(ScalarOf::<S>::of(4.0) * slope));
     let defect = half * scale * derivative;
     let mut base = guess.clone();
-    let mut solved = known.unwrap_or_else(|| {
-        let coarse = generating.coarse_gradient(&base);
-        VectorOf::<S>::from_entries(dim, |i| coarse[i] + fine[i])
-    });
+    let mut solved = known.unwrap_or_else(|| generating.coarse_gradient(&base).plus(&fine));
     let mut remaining = ScalarOf::<S>::of(1.0);
     let mut previous = remaining;
     // The lanes that go on, and those in which corrections gain little. Masks, so that one lane alone
@@ -105,10 +102,7 @@ pub fn in_parts<S: GeneratingFunction + ?Sized>(
         // H·v and, about, ∂P/∂x·v.
         let leading = |v: &VectorOf<S>| generating.leading_product(&base, v);
         let turn = |v: &VectorOf<S>| half_turn(group, &base, v);
-        let gradient = |p: &VectorOf<S>| {
-            let coarse = generating.coarse_gradient(p);
-            VectorOf::<S>::from_entries(dim, |i| coarse[i] + fine[i])
-        };
+        let gradient = |p: &VectorOf<S>| generating.coarse_gradient(p).plus(&fine);
         let mut x = solved.clone();
         let mut p = base.clone();
         let mut relative = zero;
@@ -119,8 +113,7 @@ pub fn in_parts<S: GeneratingFunction + ?Sized>(
                 true => base.clone(),
                 false => chart.pull_back(group, &x, mu),
             };
-            let wanted = gradient(&pulled);
-            let residual = VectorOf::<S>::from_entries(dim, |i| wanted[i] - x[i]);
+            let residual = gradient(&pulled).minus(&x);
             let turned = chart.turn(group, &x, mu, &pulled, &residual);
             let first = leading(&turned);
             let second = leading(&turn(&first));
@@ -129,7 +122,7 @@ pub fn in_parts<S: GeneratingFunction + ?Sized>(
                 x[i] + (residual[i] + (first[i] + (second[i] + third[i])))
             });
             x = next.select(correcting, &x);
-            let next = VectorOf::<S>::from_entries(dim, |i| pulled[i] + turned[i]);
+            let next = pulled.plus(&turned);
             p = next.select(correcting, &p);
             relative = p.clone().minus(&base).largest_entry() * inverse_scale;
 
