@@ -21,9 +21,9 @@ use crate::generating_function::{GeneratingFunction, VectorOf};
 use crate::reconstruct::poisson_map;
 use crate::scalar::Scalar;
 
-/// Steps along the motion from each momentum given.
-const STEPS: usize = 24;
-/// Of so many steps one is looked at.
+/// Momenta along the motion from each one given, a step apart; the last of them is looked at.
+const STEPS: usize = 22;
+/// Of so many momenta one is looked at.
 const SPACING: usize = 3;
 
 /// The factors of the terms S_k that sum the tail of a series: what `tuned` of a generated
@@ -79,7 +79,7 @@ impl<T: Scalar> Tail<T> {
         }
     }
 
-    /// The tail for motions that start with `momenta`, twenty-four steps of each. `series` makes the
+    /// The tail for motions that start with `momenta`, twenty-two steps of each. `series` makes the
     /// generating function Σ factor(k) S_k for given factors. Where the terms do not fall fast
     /// enough to tell, and for K < 5, all factors are one.
     ///
