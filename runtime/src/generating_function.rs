@@ -1,12 +1,13 @@
 //! The one interface everything meets at: a generating function S(p) on 𝔤\*.
 
-use nalgebra::SimdComplexField;
+use nalgebra::{SimdComplexField, SimdValue};
 
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::group::LieGroup;
 use crate::scalar::Scalar;
 use crate::solve::Solver;
+use crate::wide::Steps;
 
 /// The number type of a generating function's group.
 pub type ScalarOf<S> = <<S as GeneratingFunction>::Group as LieGroup>::Scalar;
@@ -22,19 +23,22 @@ pub const AHEAD: usize = 4;
 /// What [`GeneratingFunction::linearise`] finds.
 pub type LinearisedOf<S> = Linearised<VectorOf<S>, MatrixOf<S>, ScalarOf<S>>;
 
-/// Steps that are linearised at once ([`GeneratingFunction::linearise`]).
-pub const AT_ONCE: usize = 8;
+/// Steps that are linearised at once ([`GeneratingFunction::linearise`]): as many as a register of the build
+/// target has lanes.
+pub const AT_ONCE: usize = <Steps as SimdValue>::LANES;
 
 /// The equations x = ∂S/∂p(P(x, μ)), P(x, μ) = (d^R τ_x)ᵀ μ, of several steps, linearised about guesses of
-/// their x and μ: the solution for another μ is x + J·P(x, μ − start), up to second order.
+/// their x and μ: the solution for another μ is x + J·(P(x, μ − start) + shift), up to second order.
 ///
 /// The vectors' and the matrices' type, and that of their numbers.
 #[derive(Clone, Debug)]
 pub struct Linearised<V, M, T> {
     /// The guessed momentum before each step.
     pub start: [V; AT_ONCE],
-    /// The solution for it, up to second order.
+    /// The solution for it, up to second order and to what `shift` brings.
     pub x: [V; AT_ONCE],
+    /// How far p = P(x, start) is from where the gradient of S was taken; zero if `x` counts that already.
+    pub shift: [V; AT_ONCE],
     /// How far that is from the guess: the largest difference of an entry.
     pub correction: [T; AT_ONCE],
     /// J = (1 − H·∂P/∂x)⁻¹ H with H the Hessian of the coarse part.
@@ -54,6 +58,7 @@ impl<V: Coordinates<T>, T: Scalar> Linearised<V, V::Matrix, T> {
         Self {
             start: core::array::from_fn(|_| V::zeros(dim)),
             x: core::array::from_fn(|_| V::zeros(dim)),
+            shift: core::array::from_fn(|_| V::zeros(dim)),
             correction: [zero; AT_ONCE],
             response: core::array::from_fn(|_| V::zero_matrix(dim)),
             end: V::zeros(dim),
@@ -189,15 +194,10 @@ pub trait GeneratingFunction {
         direction.left_multiply(&self.newton_model(p).1)
     }
 
-    /// A guess of the momentum in the middle of the next step from that in the middle of a step, and from
-    /// h·μ̇ and ½h²·μ̈ in the middle of the step before; and these of this step.
+    /// A guess of the momentum in the middle of the next step from that in the middle of a step.
     #[inline(always)]
-    fn next_middle(
-        &self,
-        before: &[VectorOf<Self>; 2],
-        middle: &VectorOf<Self>,
-    ) -> (VectorOf<Self>, [VectorOf<Self>; 2]) {
-        (middle.clone(), before.clone())
+    fn next_middle(&self, middle: &VectorOf<Self>) -> VectorOf<Self> {
+        middle.clone()
     }
 
     /// Linearises several steps at once, whose momenta in the middle are about `middles`: in the lanes of
@@ -209,6 +209,15 @@ pub trait GeneratingFunction {
         found: &mut LinearisedOf<Self>,
     ) -> bool {
         let _ = (middles, found);
+        false
+    }
+
+    /// Once more, with the same J: takes the gradient of S at P(x, start), given `found` with an x for each
+    /// `start`, and leaves that gradient in `x` and the `shift` that it brings. `false` where
+    /// [`GeneratingFunction::linearise`] says so.
+    #[inline(always)]
+    fn refine(&self, found: &mut LinearisedOf<Self>) -> bool {
+        let _ = found;
         false
     }
 

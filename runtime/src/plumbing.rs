@@ -7,7 +7,9 @@ use crate::error::StepError;
 use crate::generating_function::AHEAD;
 use crate::scalar::Scalar;
 use crate::wide::WideF64x8;
-pub use crate::wide_step::{LINEARISES, WideStep, linearise, linearise_in_lanes};
+pub use crate::wide_step::{
+    LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
+};
 use nalgebra::SimdValue;
 use simba::simd::WideF64x4;
 

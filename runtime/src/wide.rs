@@ -15,6 +15,14 @@ use simba::scalar::{SubsetOf, SupersetOf};
 use simba::simd::{PrimitiveSimdValue, SimdSigned};
 use wide::f64x8;
 
+/// As many numbers as a register holds, for steps that are solved at once: eight where the build target has
+/// such registers, or else four.
+#[cfg(target_feature = "avx512f")]
+pub type Steps = WideF64x8;
+/// As many numbers as a register holds, for steps that are solved at once.
+#[cfg(not(target_feature = "avx512f"))]
+pub type Steps = simba::simd::WideF64x4;
+
 /// The number of lanes.
 pub const LANES: usize = 8;
 

@@ -1,4 +1,4 @@
-//! Eight steps linearised at once, in the lanes of one number.
+//! Several steps linearised at once, in the lanes of one number.
 
 use core::any::Any;
 use core::array::from_fn;
@@ -10,11 +10,11 @@ use crate::generating_function::{AT_ONCE, Linearised};
 use crate::plumbing::Lift;
 use crate::response::response;
 use crate::scalar::Scalar;
-use crate::wide::WideF64x8;
+use crate::wide::Steps;
 
-/// Whether registers are wide enough, and enough of them, for several steps at once to be faster: in sixteen
-/// registers of four numbers they take a sixth longer than one by one, in registers of two half as long again.
-pub const LINEARISES: bool = cfg!(target_feature = "avx512f");
+/// Whether registers are wide enough for several steps at once to be faster: by two numbers they would take
+/// half as long again.
+pub const LINEARISES: bool = cfg!(any(target_feature = "avx2", target_feature = "avx512f"));
 
 type V<T, const N: usize> = SVector<T, N>;
 type M<T, const N: usize> = SMatrix<T, N, N>;
@@ -34,8 +34,8 @@ pub trait WideStep<C, const SLOTS: usize, const N: usize> {
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], p: &V<T, N>) -> V<T, N>;
 }
 
-type Wide<const N: usize> = V<WideF64x8, N>;
-type WideMatrix<const N: usize> = M<WideF64x8, N>;
+type Wide<const N: usize> = V<Steps, N>;
+type WideMatrix<const N: usize> = M<Steps, N>;
 
 /// [`GeneratingFunction::linearise`](crate::GeneratingFunction::linearise) where numbers are `f64`.
 #[inline(always)]
@@ -66,9 +66,9 @@ pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
 ) where
     P: WideStep<f64, SLOTS, N>,
 {
-    let middle = entries(|i| WideF64x8::from(from_fn(|k| middles[k][i])));
-    let zero = Wide::<N>::repeat(WideF64x8::splat(0.0));
-    let zeros = WideMatrix::<N>::repeat(WideF64x8::splat(0.0));
+    let middle = side_by_side(middles);
+    let zero = Wide::<N>::repeat(Steps::splat(0.0));
+    let zeros = WideMatrix::<N>::repeat(Steps::splat(0.0));
     let mut guess = [zero, zero, zero];
     around::<P, SLOTS, N>(c, &middle, &mut guess);
     let [x, start, end] = &guess;
@@ -88,6 +88,7 @@ pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
     found.slope = steepest(p, &fine);
     found.correction = correction.largest_entry().into();
     take(&entries(|i| x[i] + correction[i]), &mut found.x);
+    found.shift = from_fn(|_| V::zeros());
     take(start, &mut found.start);
     for j in 0..N {
         let column: [[f64; AT_ONCE]; N] = from_fn(|i| response[(i, j)].into());
@@ -97,6 +98,41 @@ pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
             }
         }
     }
+}
+
+/// [`GeneratingFunction::refine`](crate::GeneratingFunction::refine) where numbers are `f64`.
+#[inline(always)]
+pub fn refine<C, P, const SLOTS: usize, const N: usize>(
+    c: &[C; SLOTS],
+    found: &mut Linearised<V<C, N>, M<C, N>, C>,
+) -> bool
+where
+    C: Scalar,
+    P: WideStep<f64, SLOTS, N>,
+{
+    let c = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
+    let found = (found as &mut dyn Any).downcast_mut::<Linearised<V<f64, N>, M<f64, N>, f64>>();
+    let (Some(c), Some(found)) = (c, found) else { return false };
+    refine_in_lanes::<P, SLOTS, N>(c, found);
+    true
+}
+
+/// The steps in the lanes of one number, however wide registers are.
+#[inline(always)]
+pub fn refine_in_lanes<P, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    found: &mut Linearised<V<f64, N>, M<f64, N>, f64>,
+) where
+    P: WideStep<f64, SLOTS, N>,
+{
+    let zero = Wide::<N>::repeat(Steps::splat(0.0));
+    let (x, mu) = (side_by_side(&found.x), side_by_side(&found.start));
+    let (mut before, mut after, mut gradient) = (zero, zero, zero);
+    pulled::<P, SLOTS, N>(&x, &mu, &mut before);
+    gradients::<P, SLOTS, N>(c, &before, &mut gradient);
+    pulled::<P, SLOTS, N>(&gradient, &mu, &mut after);
+    take(&gradient, &mut found.x);
+    take(&entries(|i| after[i] - before[i]), &mut found.shift);
 }
 
 // Each a function of its own, for the compiler's sake, and without large values to return.
@@ -138,6 +174,25 @@ fn fine_part<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
 }
 
 #[inline(never)]
+fn pulled<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    x: &Wide<N>,
+    mu: &Wide<N>,
+    found: &mut Wide<N>,
+) {
+    *found = P::pulled_back(x, mu).0;
+}
+
+#[inline(never)]
+fn gradients<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    p: &Wide<N>,
+    found: &mut Wide<N>,
+) {
+    let (coarse, fine) = (P::coarse(c, p).0, P::fine(c, p));
+    *found = entries(|i| coarse[i] + fine[i]);
+}
+
+#[inline(never)]
 fn respond<const N: usize>(
     hessian: &WideMatrix<N>,
     derivative: &WideMatrix<N>,
@@ -149,12 +204,18 @@ fn respond<const N: usize>(
 
 /// The vector with these entries; vectors' own operators go through memory piece by piece.
 #[inline(always)]
-fn entries<const N: usize>(entry: impl Fn(usize) -> WideF64x8) -> Wide<N> {
-    let mut vector = Wide::<N>::repeat(WideF64x8::splat(0.0));
+fn entries<const N: usize>(entry: impl Fn(usize) -> Steps) -> Wide<N> {
+    let mut vector = Wide::<N>::repeat(Steps::splat(0.0));
     for i in 0..N {
         vector[i] = entry(i);
     }
     vector
+}
+
+/// The steps' vectors in lanes.
+#[inline(always)]
+fn side_by_side<const N: usize>(steps: &[V<f64, N>; AT_ONCE]) -> Wide<N> {
+    entries(|i| Steps::from(from_fn(|k| steps[k][i])))
 }
 
 /// The vectors of the steps.
@@ -171,7 +232,7 @@ fn take<const N: usize>(lanes: &Wide<N>, steps: &mut [V<f64, N>; AT_ONCE]) {
 /// The largest |δ fine| / |δp| between one step and the next.
 #[inline(always)]
 fn steepest<const N: usize>(p: &Wide<N>, fine: &Wide<N>) -> f64 {
-    let least = WideF64x8::splat(f64::from(f32::MIN_POSITIVE));
+    let least = Steps::splat(f64::from(f32::MIN_POSITIVE));
     let ratio = changes(fine).largest_entry() / (changes(p).largest_entry() + least);
     ratio.simd_horizontal_max()
 }
@@ -181,6 +242,6 @@ fn steepest<const N: usize>(p: &Wide<N>, fine: &Wide<N>) -> f64 {
 fn changes<const N: usize>(steps: &Wide<N>) -> Wide<N> {
     entries(|i| {
         let lanes: [f64; AT_ONCE] = steps[i].into();
-        WideF64x8::from(from_fn(|k| lanes[(k + 1) % AT_ONCE])) - steps[i]
+        Steps::from(from_fn(|k| lanes[(k + 1) % AT_ONCE])) - steps[i]
     })
 }

@@ -186,23 +186,13 @@ fn gradient_parts(
     let slots = Literal::usize_unsuffixed(*slots);
     let wide_registers = wide_registers();
     let at_once = parts.at_once.as_ref().map(|at_once| {
-        let three = Literal::usize_unsuffixed(3 * dim);
-        let wide = Scope { krate: krate.clone(), input: quote!([T; #three]), ..*scope };
-        let Body { statements, outputs } = body(&at_once.next_middle, &wide);
-        let mut outputs = vectors(&outputs, dim, vector);
-        let next = outputs.next();
+        let next = vector_function(&at_once.next_middle, vector, scope);
         quote! {
             #wide_registers
             #[inline(always)]
-            fn next_middle(&self, before: &[#vector; 2], middle: &#vector) -> (#vector, [#vector; 2]) {
+            fn next_middle(&self, input: &#vector) -> #vector {
                 let c = &self.coefficients;
-                let input: [T; #three] = ::core::array::from_fn(|i| match i / #n {
-                    0 => middle[i],
-                    k => before[k - 1][i - k * #n],
-                });
-                let input = &input;
-                #statements
-                (#next, [#(#outputs),*])
+                #next
             }
 
             #wide_registers
@@ -213,6 +203,12 @@ fn gradient_parts(
                 found: &mut #krate::LinearisedOf<Self>,
             ) -> bool {
                 #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(&self.coefficients, middles, found)
+            }
+
+            #wide_registers
+            #[inline(always)]
+            fn refine(&self, found: &mut #krate::LinearisedOf<Self>) -> bool {
+                #krate::plumbing::refine::<T, #name<f64>, #slots, #n>(&self.coefficients, found)
             }
         }
     });
@@ -272,7 +268,7 @@ fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> Toke
 /// Stands before what only builds for wide registers need, or a test that asks for it: elsewhere the
 /// compiler does not even read it.
 fn wide_registers() -> TokenStream {
-    quote!(#[cfg(any(target_feature = "avx512f", coadjoint_at_once))])
+    quote!(#[cfg(any(target_feature = "avx2", target_feature = "avx512f", coadjoint_at_once))])
 }
 
 /// The programs of a step over numbers that may be wider than the coefficients.

@@ -32,38 +32,22 @@ pub fn increment_program(
     flow.graph.finish(problem.algebra.dim(), &x)
 }
 
-/// (μ in the middle of a step, μ̇ and ½ μ̈ in the middle of the step before, times h and h²) ↦ (μ in the middle
-/// of the next step, then μ̇ and ½ μ̈ as above of this step).
-///
-/// μ̇ = f(s) = Σ fⱼ sʲ up to s^{n−1}, n the degree, + sⁿ (A + B s), where A and B make f and its derivative
-/// right in the middle of the step before as well: nearly free, and worth one and a half orders in h.
+/// μ in the middle of a step ↦ μ in the middle of the next one, by two of Taylor's steps, to its end and on,
+/// of that degree: as much work as one of a degree higher by two fifths, and better for long steps.
 pub fn advance_program(
     coefficients: &mut Coefficients,
     problem: &Problem,
     degree: usize,
 ) -> Program {
-    let dim = problem.algebra.dim();
     let mut flow = Flow::new(coefficients, problem, Origin::Middle);
-    let before: Vec<Vec<Id>> =
-        (1..=2).map(|k| (0..dim).map(|i| flow.graph.input(k * dim + i)).collect()).collect();
-    flow.extend(degree);
-    // With r = f(−1) − Σ fⱼ(−1)ʲ and r' likewise, n even: B = r' + n r, A = B + r, and what ∫₀¹ sⁿ(A + B s) ds
-    // takes of r and of r' is
-    let n = degree as i64;
-    let by_value = ratio(2 * n + 2, n + 2);
-    let by_slope = ratio(1, n + 1) + ratio(1, n + 2);
-    let weight = |k: i64| {
-        let taken = (&by_value - &by_slope * ratio(k - 1, 1)) * ratio(k, 1);
-        if k % 2 == 0 { ratio(1, 1) + taken } else { ratio(1, 1) - taken }
-    };
     let all: Vec<usize> = (0..=degree).collect();
-    let next = flow.momentum(&all, |k| weight(k as i64));
-    let twice = by_slope * ratio(2, 1);
-    let mut outputs = flow.add(&next, &[(by_value, &before[0]), (twice, &before[1])]);
-    for k in 1..=2 {
-        outputs.extend_from_slice(&flow.momenta[k]);
+    for _ in 0..2 {
+        flow.extend(degree);
+        let reached = flow.momentum(&all, |k| ratio(1, 1 << k));
+        flow.restart(reached);
     }
-    flow.graph.finish(3 * dim, &outputs)
+    let next = flow.momenta[0].clone();
+    flow.graph.finish(problem.algebra.dim(), &next)
 }
 
 /// The momentum in the middle of a step ↦ x, then the momentum where it begins, then where it ends, up to
@@ -137,6 +121,12 @@ impl<'a> Flow<'a> {
         let inputs = (0..problem.algebra.dim()).map(|i| graph.input(i)).collect();
         let (products, numbers) = (HashMap::new(), HashMap::new());
         Self { coefficients, problem, origin, graph, momenta: vec![inputs], products, numbers }
+    }
+
+    /// Forgets the powers: what follows is the flow from another momentum.
+    fn restart(&mut self, momentum: Vec<Id>) {
+        self.momenta = vec![momentum];
+        self.products.clear();
     }
 
     /// The momentum's coefficients up to s^highest.

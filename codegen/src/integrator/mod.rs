@@ -154,7 +154,7 @@ impl Integrator {
                     let (coarse, fine): (Vec<_>, Vec<_>) =
                         s.iter().cloned().partition(|term| term.order <= kept);
                     AtOnce {
-                        next_middle: flow::advance_program(table, &problem, degree),
+                        next_middle: flow::advance_program(table, &problem, degree - 1),
                         around: flow::step_program(table, &problem, degree),
                         coarse: lower::hessian_program(table, dim, &coarse, kept),
                         fine: lower::gradient_program(table, dim, &fine),

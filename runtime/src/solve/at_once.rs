@@ -13,6 +13,8 @@ use crate::generating_function::{
 use crate::group::LieGroup;
 use crate::scalar::Scalar;
 
+/// Steps are refined so often at most.
+const REFINEMENTS: u32 = 3;
 /// Fewer steps at once do not pay.
 const LEAST: usize = 3;
 /// Steps made one by one where they are too long to be made at once.
@@ -41,15 +43,17 @@ impl<V, T> From<Solution<V, T>> for Increment<V, T> {
 /// all steps are linearised together ([`GeneratingFunction::linearise`]). What is left to do one after
 /// the other is little: each step starts where the one before has ended, not quite where it was guessed,
 /// and its x moves by a matrix times that difference. What is of second order in the difference is
-/// rounding, or else mended with one more gradient. Where that is not enough, steps go as without this.
+/// rounding, or else all steps are refined together ([`GeneratingFunction::refine`]). Where that is not
+/// enough, steps go as without this.
 pub struct AtOnce<S: GeneratingFunction + ?Sized> {
     found: LinearisedOf<S>,
-    /// The guessed momenta in the middle of these steps.
-    middles: [VectorOf<S>; AT_ONCE],
+    /// How often these steps are refined, and how far they were before the last time.
+    refined: u32,
+    before: [Distance<ScalarOf<S>>; AT_ONCE],
+    /// How often that was needed.
+    needed: u32,
     /// From the end of the last of them to the middle of the step after it, where that is known.
     onward: Option<VectorOf<S>>,
-    /// How far the momentum before the step made last was from its guess.
-    apart: VectorOf<S>,
     /// The next step, and how many there are.
     next: usize,
     count: usize,
@@ -59,24 +63,27 @@ pub struct AtOnce<S: GeneratingFunction + ?Sized> {
     yardstick: Yardstick<ScalarOf<S>>,
 }
 
-/// An x that is not good enough.
-struct Poor<V, T> {
-    x: V,
-    /// What it leaves, as a fraction of the way to it.
-    gain: T,
+/// Relative to the scale.
+#[derive(Clone, Copy)]
+struct Distance<T> {
+    /// How far x is from where the gradient was taken.
+    gone: T,
+    /// An estimate of how far it is from the solution.
+    left: T,
 }
 
 impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
     /// No guesses yet.
     pub fn new(generating: &S) -> Self {
         let dim = generating.group().dim();
-        let zero = VectorOf::<S>::zeros(dim);
+        let (zero, nothing) = (VectorOf::<S>::zeros(dim), ScalarOf::<S>::of(0.0));
         Self {
             found: Linearised::zeros(dim),
-            middles: core::array::from_fn(|_| zero.clone()),
+            refined: 0,
+            before: [Distance { gone: nothing, left: nothing }; AT_ONCE],
+            needed: 0,
             onward: None,
             yardstick: Yardstick::of(&zero),
-            apart: zero,
             next: 0,
             count: 0,
             pause: 0,
@@ -101,20 +108,24 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
                 return without(generating, mu, steps, otherwise);
             }
             otherwise.forget();
-        }
-        let found = match self.follow(generating, mu) {
-            Ok(found) => Some(found),
-            Err(poor) => self.mend(generating, mu, &poor),
-        };
-        self.next += 1;
-        match found {
-            Some(found) => Ok(found),
-            None => {
-                self.pause = PAUSE;
-                self.forget();
-                without(generating, mu, steps, otherwise)
+            for _ in 0..core::mem::take(&mut self.needed) {
+                self.refine(generating, mu);
             }
         }
+        loop {
+            let (x, Distance { left, .. }) = self.follow(generating, self.next, mu);
+            if left.simd_le(self.yardstick.tolerance).all() {
+                self.next += 1;
+                return Ok(Increment { x, iterations: 1 + self.refined, residual: left });
+            }
+            if self.refined == REFINEMENTS {
+                break;
+            }
+            self.refine(generating, mu);
+        }
+        self.pause = PAUSE;
+        self.forget();
+        without(generating, mu, steps, otherwise)
     }
 
     /// Forgets the guesses: what comes next does not follow from the steps so far.
@@ -123,91 +134,93 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         (self.next, self.count) = (0, 0);
     }
 
-    /// The next step as linearised, for `mu`; as an error where what that leaves is more than rounding.
+    /// A step as linearised, for `mu`.
     #[inline(always)]
     fn follow(
-        &mut self,
-        generating: &S,
-        mu: &VectorOf<S>,
-    ) -> Result<IncrementOf<S>, Poor<VectorOf<S>, ScalarOf<S>>> {
-        let (group, chart) = (generating.group(), generating.chart());
-        let half = ScalarOf::<S>::of(0.5);
-        let guess = &self.found.x[self.next];
-
-        self.apart = mu.clone().minus(&self.found.start[self.next]);
-        let shift = chart.pull_back(group, guess, &self.apart);
-        let moved = shift.left_multiply(&self.found.response[self.next]);
-        let x = guess.clone().plus(&moved);
-
-        // As in Newton's method one by one. The fine part may change more in other directions than it did
-        // from step to step.
-        let yardstick = self.yardstick;
-        let stretch = self.found.correction[self.next] + moved.pairing(&moved).simd_sqrt();
-        let relative = shift.pairing(&shift).simd_sqrt() * yardstick.inverse_scale + stretch;
-        let curved = half * stretch + generating.bend(x.pairing(&x).simd_sqrt()) * relative;
-        let defect = (yardstick.scale + yardstick.scale) * self.found.slope;
-        let left = yardstick.left(stretch * curved + defect * relative, relative, None);
-        if left.simd_le(yardstick.tolerance).all() {
-            return Ok(Increment { x, iterations: 1, residual: left });
-        }
-        Err(Poor { x, gain: left / relative })
-    }
-
-    /// Once more with the same matrix, now from the gradient at `poor`.
-    #[inline(never)]
-    fn mend(
         &self,
         generating: &S,
+        number: usize,
         mu: &VectorOf<S>,
-        poor: &Poor<VectorOf<S>, ScalarOf<S>>,
-    ) -> Option<IncrementOf<S>> {
+    ) -> (VectorOf<S>, Distance<ScalarOf<S>>) {
         let (group, chart) = (generating.group(), generating.chart());
-        let p = chart.pull_back(group, &poor.x, mu);
-        let gradient = generating.gradient(&p);
-        let shift = chart.pull_back(group, &gradient, mu).minus(&p);
-        let moved = shift.left_multiply(&self.found.response[self.next]);
-        let x = gradient.plus(&moved);
+        let half = ScalarOf::<S>::of(0.5);
+        let guess = &self.found.x[number];
+
+        let apart = mu.clone().minus(&self.found.start[number]);
+        let shift = chart.pull_back(group, guess, &apart).plus(&self.found.shift[number]);
+        let moved = shift.left_multiply(&self.found.response[number]);
+        let x = guess.clone().plus(&moved);
 
         let yardstick = self.yardstick;
-        let relative = shift.largest_entry() * yardstick.inverse_scale + moved.largest_entry();
-        let left = yardstick.left(poor.gain * relative, relative, None);
-        let enough = left.simd_le(yardstick.tolerance).all();
-        enough.then_some(Increment { x, iterations: 2, residual: left })
+        let moved = moved.pairing(&moved).simd_sqrt();
+        let shifted = shift.pairing(&shift).simd_sqrt() * yardstick.inverse_scale;
+        if self.refined > 0 {
+            let before = &self.before[number];
+            let gone = shifted + moved;
+            let bound = before.left * gone / before.gone;
+            let left = yardstick.left(bound, gone, Some(before.gone));
+            return (x, Distance { gone, left });
+        }
+        // As in Newton's method one by one. The fine part may change more in other directions than it did
+        // from step to step.
+        let stretch = self.found.correction[number] + moved;
+        let gone = shifted + stretch;
+        let curved = half * stretch + generating.bend(x.pairing(&x).simd_sqrt()) * gone;
+        let defect = (yardstick.scale + yardstick.scale) * self.found.slope;
+        let left = yardstick.left(stretch * curved + defect * gone, gone, None);
+        (x, Distance { gone, left })
+    }
+
+    /// Takes the steps that are left, from `mu`, as far as they are found, and the gradient there.
+    #[inline(never)]
+    fn refine(&mut self, generating: &S, mu: &VectorOf<S>) {
+        let (group, chart) = (generating.group(), generating.chart());
+        let mut before = self.before;
+        let mut mu = mu.clone();
+        let mut needed = false;
+        for k in self.next..self.count {
+            let (x, Distance { gone, left }) = self.follow(generating, k, &mu);
+            needed |= !left.simd_le(self.yardstick.tolerance).all();
+            before[k] = Distance { gone: gone + self.yardstick.smallest, left };
+            let end = chart.transport(group, &x, &mu).1;
+            self.found.x[k] = x;
+            self.found.start[k] = core::mem::replace(&mut mu, end);
+        }
+        self.before = before;
+        self.refined += 1;
+        if needed {
+            self.needed = self.refined;
+        }
+        generating.refine(&mut self.found);
     }
 
     /// Guesses for the next steps, the first from `mu`; whether there are any.
     #[inline(always)]
     fn look(&mut self, generating: &S, mu: &VectorOf<S>, steps: u64) -> bool {
-        (self.next, self.count) = (0, 0);
+        (self.next, self.count, self.refined) = (0, 0, 0);
         if self.pause > 0 || steps < LEAST as u64 {
             self.pause = self.pause.saturating_sub(1);
             return false;
         }
-        let (half, before) = match self.onward.take() {
-            // With the rates along the guesses, and not along the motion, errors would grow.
-            Some(half) => (half, self.middles[AT_ONCE - 1].clone().plus(&self.apart)),
+        let half = match self.onward.take() {
+            Some(half) => half,
             None => {
                 // About μ as the middle of a step, half of it leads to its end, where the next has its middle.
-                self.middles = core::array::from_fn(|_| mu.clone());
-                if !generating.linearise(&self.middles, &mut self.found) {
+                let middles = core::array::from_fn(|_| mu.clone());
+                if !generating.linearise(&middles, &mut self.found) {
                     self.pause = u64::MAX;
                     return false;
                 }
-                (self.found.end.clone().minus(mu), self.found.start[0].clone())
+                self.found.end.clone().minus(mu)
             }
         };
-        let mut before = rates(generating, &before);
         let count = AT_ONCE.min(steps as usize);
         let mut middle = mu.clone().plus(&half);
-        for k in 0..AT_ONCE {
-            if k < count {
-                self.middles[k] = middle.clone();
-                (middle, before) = generating.next_middle(&before, &middle);
-            } else {
-                self.middles[k] = self.middles[k - 1].clone();
-            }
-        }
-        if !generating.linearise(&self.middles, &mut self.found) {
+        let middles = core::array::from_fn(|k| {
+            let next = if k < count { generating.next_middle(&middle) } else { middle.clone() };
+            core::mem::replace(&mut middle, next)
+        });
+        if !generating.linearise(&middles, &mut self.found) {
             return false;
         }
         self.onward = Some(middle.minus(&self.found.end));
@@ -215,13 +228,6 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         self.yardstick = Yardstick::of(mu);
         true
     }
-}
-
-/// The rates of a step, given the momentum in its middle.
-#[inline(never)]
-fn rates<S: GeneratingFunction + ?Sized>(generating: &S, middle: &VectorOf<S>) -> [VectorOf<S>; 2] {
-    let none = core::array::from_fn(|_| VectorOf::<S>::zeros(middle.dim()));
-    generating.next_middle(&none, middle).1
 }
 
 /// A step without this, out of the way of what is fast.
