@@ -23,15 +23,21 @@ gmpy2.get_context().precision = 256
 ORDER = 40
 DIGITS = 25
 
+KIRCHHOFF = dict(inverse_inertia=("1", "1/2", "1/3"), inverse_mass=("1", "1/2", "1/4"),
+                 momentum=("1", "1/2", "1/5"), force=("3/10", "2/5", "1/2"), step="1/4")
+KOVALEVSKAYA = dict(inverse_inertia=("1/2", "1/2", "1"), linear=("1", "0", "0"),
+                    momentum=("2", "3", "4"), force=("1", "0", "0"), step="1/20")
+
 PROBLEMS = [
     dict(name="free-body-a", inverse_inertia=("2/3", "1/2", "2/5"), momentum=("2", "1/2", "1"), end="1000", step="1/4"),
     dict(name="free-body-b", inverse_inertia=("2/3", "1/2", "2/5"), momentum=("6/5", "5/2", "3/5"), end="1000", step="1/4"),
     dict(name="heavy-top", inverse_inertia=("64/975", "32/15", "64/975"), linear=("0", "2943/20", "0"),
          momentum=("0", "703125/10000", "-703124296875/10000000000"), force=("0", "0", "1"), end="10", step="1/200", check="1"),
-    dict(name="kirchhoff", inverse_inertia=("1", "1/2", "1/3"), inverse_mass=("1", "1/2", "1/4"),
-         momentum=("1", "1/2", "1/5"), force=("3/10", "2/5", "1/2"), end="100", step="1/4", check="10"),
-    dict(name="kovalevskaya", inverse_inertia=("1/2", "1/2", "1"), linear=("1", "0", "0"),
-         momentum=("2", "3", "4"), force=("1", "0", "0"), end="100", step="1/20", check="10"),
+    dict(KIRCHHOFF, name="kirchhoff", end="100", check="10"),
+    dict(KOVALEVSKAYA, name="kovalevskaya", end="100", check="10"),
+    # A quarter of an hour.
+    dict(KIRCHHOFF, name="kirchhoff-long", end="1000"),
+    dict(KOVALEVSKAYA, name="kovalevskaya-long", end="1000"),
 ]
 
 

@@ -47,6 +47,9 @@ impl Effort {
     }
 }
 
+/// Runs more for the rough time of a setting.
+const ROUGH: usize = 6;
+
 /// A setting worth timing.
 struct Candidate<'a> {
     method: &'a dyn Method,
@@ -77,7 +80,7 @@ pub fn work_precision(
     Ok(time(problem, &candidates, effort))
 }
 
-/// Runs each setting once, or as often as a rough time needs, from coarse to fine until finer brings nothing.
+/// Runs each setting as often as a rough time needs, from coarse to fine until finer brings nothing.
 fn try_settings<'a>(
     problem: &Problem,
     method: &'a dyn Method,
@@ -101,7 +104,8 @@ fn try_settings<'a>(
         };
         let mut rough = start.elapsed();
         let error = end.error(&problem.reference, &problem.scale);
-        for _ in 0..2 {
+        // The least of some: two settings close to each other are not to be told apart by a busy moment.
+        for _ in 0..ROUGH {
             let start = Instant::now();
             std::hint::black_box(method.run(problem, setting).ok());
             rough = rough.min(start.elapsed());
@@ -112,7 +116,7 @@ fn try_settings<'a>(
         } else if error < 1e-6 {
             since += 1;
         }
-        if rough > effort.longest || since > 8 {
+        if rough > effort.longest || since > 16 {
             break;
         }
     }

@@ -104,14 +104,15 @@ pub fn step_sweep(problem: &Problem) -> Vec<Setting> {
     step_sweep_about(problem.time_scale)
 }
 
-/// Steps from four times a scale of time down, by factors 2^(−1/4).
+/// Steps from four times a scale of time down, by factors 2^(−1/8): finer than the differences that count, or
+/// luck would decide them.
 #[must_use]
 pub fn step_sweep_about(time_scale: f64) -> Vec<Setting> {
-    (-8..44).map(|k| Setting::Step(time_scale * 2f64.powf(-f64::from(k) / 4.0))).collect()
+    (-16..88).map(|k| Setting::Step(time_scale * 2f64.powf(-f64::from(k) / 8.0))).collect()
 }
 
-/// Tolerances from 1e−3 down to 1e−16, four to a decade.
+/// Tolerances from 1e−3 down to 1e−16, eight to a decade.
 #[must_use]
 pub fn tolerance_sweep() -> Vec<Setting> {
-    (12..=64).map(|k| Setting::Tolerance(10f64.powf(-f64::from(k) / 4.0))).collect()
+    (24..=128).map(|k| Setting::Tolerance(10f64.powf(-f64::from(k) / 8.0))).collect()
 }

@@ -16,7 +16,8 @@ struct Arguments {
     /// Few rounds: a look, not figures to keep.
     #[arg(long)]
     quick: bool,
-    /// Only this problem (free-body-a, free-body-b, heavy-top, kirchhoff, kovalevskaya); may be repeated.
+    /// Only this problem (free-body-a, free-body-b, heavy-top, kirchhoff, kovalevskaya, kirchhoff-long,
+    /// kovalevskaya-long); may be repeated.
     #[arg(long, value_name = "NAME")]
     problem: Vec<String>,
     /// Only methods whose name contains this; may be repeated.

@@ -114,6 +114,7 @@ macro_rules! kirchhoff {
 top!(first_axis_five, 5, 0, fitted);
 top!(first_axis_seven, 7, 0, fitted);
 top!(first_axis_nine, 9, 0, plain);
+top!(first_axis_eleven, 11, 0, plain);
 top!(second_axis_five, 5, 1, fitted);
 top!(second_axis_seven, 7, 1, fitted);
 top!(second_axis_nine, 9, 1, plain);
@@ -132,8 +133,8 @@ type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<Stat
 #[derive(Clone, Copy)]
 struct Runs {
     first_axis: BodyRun<Gravity<0>>,
-    second_axis: BodyRun<Gravity<1>>,
-    /// Left out where its code would take minutes to compile.
+    // These are left out where their code would take minutes to compile.
+    second_axis: Option<BodyRun<Gravity<1>>>,
     kirchhoff: Option<BodyRun<Mass>>,
 }
 
@@ -142,7 +143,8 @@ impl super::Run for Runs {
         match system {
             System::FreeBody(_) => false,
             System::Kirchhoff(_) => self.kirchhoff.is_some(),
-            System::HeavyTop(_) | System::Kovalevskaya(_) => true,
+            System::HeavyTop(_) => self.second_axis.is_some(),
+            System::Kovalevskaya(_) => true,
         }
     }
 
@@ -154,7 +156,9 @@ impl super::Run for Runs {
     ) -> Option<Result<State, RunError>> {
         match &problem.system {
             System::FreeBody(_) => None,
-            System::HeavyTop(body) => Some((self.second_axis)(body, problem, step, coefficients)),
+            System::HeavyTop(body) => {
+                self.second_axis.map(|run| run(body, problem, step, coefficients))
+            }
             System::Kovalevskaya(body) => {
                 Some((self.first_axis)(body, problem, step, coefficients))
             }
@@ -209,7 +213,7 @@ pub fn all() -> Vec<Box<dyn Method>> {
             5,
             Runs {
                 first_axis: first_axis_five::run,
-                second_axis: second_axis_five::run,
+                second_axis: Some(second_axis_five::run),
                 kirchhoff: Some(kirchhoff_five::run),
             },
         ),
@@ -217,7 +221,7 @@ pub fn all() -> Vec<Box<dyn Method>> {
             7,
             Runs {
                 first_axis: first_axis_seven::run,
-                second_axis: second_axis_seven::run,
+                second_axis: Some(second_axis_seven::run),
                 kirchhoff: Some(kirchhoff_seven::run),
             },
         ),
@@ -225,10 +229,11 @@ pub fn all() -> Vec<Box<dyn Method>> {
             9,
             Runs {
                 first_axis: first_axis_nine::run,
-                second_axis: second_axis_nine::run,
+                second_axis: Some(second_axis_nine::run),
                 kirchhoff: None,
             },
         ),
+        (11, Runs { first_axis: first_axis_eleven::run, second_axis: None, kirchhoff: None }),
     ];
     let comoving = [
         (

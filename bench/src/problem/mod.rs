@@ -51,7 +51,15 @@ pub struct Problem {
     pub time_scale: f64,
 }
 
-const NAMES: [&str; 5] = ["free-body-a", "free-body-b", "heavy-top", "kirchhoff", "kovalevskaya"];
+const NAMES: [&str; 7] = [
+    "free-body-a",
+    "free-body-b",
+    "heavy-top",
+    "kirchhoff",
+    "kovalevskaya",
+    "kirchhoff-long",
+    "kovalevskaya-long",
+];
 const INERTIA: Vector = [1.5, 2.0, 2.5];
 
 /// Every problem.
@@ -68,15 +76,12 @@ pub fn all() -> Result<Vec<Problem>, ReferenceError> {
 /// When there is none.
 pub fn named(name: &str) -> Result<Problem, ReferenceError> {
     let unit = Scale { momentum: 1.0, position: 1.0 };
-    let (name, title, system, momentum, force, scale, time_scale) = match name {
-        "free-body-a" => {
-            (NAMES[0], "free body A", free_body(), [2.0, 0.5, 1.0], [0.0; 3], unit, 0.8)
-        }
-        "free-body-b" => {
-            (NAMES[1], "free body B", free_body(), [1.2, 2.5, 0.6], [0.0; 3], unit, 0.8)
-        }
+    let missing = || ReferenceError::Missing(name.to_owned());
+    let name = *NAMES.iter().find(|&&known| known == name).ok_or_else(missing)?;
+    let (title, system, momentum, force, scale, time_scale) = match name {
+        "free-body-a" => ("free body A", free_body(), [2.0, 0.5, 1.0], [0.0; 3], unit, 0.8),
+        "free-body-b" => ("free body B", free_body(), [1.2, 2.5, 0.6], [0.0; 3], unit, 0.8),
         "heavy-top" => (
-            NAMES[2],
             "heavy top (Brüls, Cardona, Arnold 2012)",
             System::HeavyTop(MovingBody {
                 inverse_inertia: [64.0 / 975.0, 32.0 / 15.0, 64.0 / 975.0],
@@ -88,8 +93,7 @@ pub fn named(name: &str) -> Result<Problem, ReferenceError> {
             Scale { momentum: 100.0, position: 100.0 },
             0.008,
         ),
-        "kirchhoff" => (
-            NAMES[3],
+        "kirchhoff" | "kirchhoff-long" => (
             "Kirchhoff's body in a fluid",
             System::Kirchhoff(MovingBody {
                 inverse_inertia: [1.0, 0.5, 1.0 / 3.0],
@@ -100,8 +104,7 @@ pub fn named(name: &str) -> Result<Problem, ReferenceError> {
             unit,
             0.8,
         ),
-        "kovalevskaya" => (
-            NAMES[4],
+        "kovalevskaya" | "kovalevskaya-long" => (
             "Kovalevskaya's top",
             System::Kovalevskaya(MovingBody {
                 inverse_inertia: [0.5, 0.5, 1.0],
@@ -112,7 +115,7 @@ pub fn named(name: &str) -> Result<Problem, ReferenceError> {
             unit,
             0.25,
         ),
-        unknown => return Err(ReferenceError::Missing(unknown.to_owned())),
+        _ => return Err(missing()),
     };
     let (end, reference) = end_state(name)?;
     let initial = State {

@@ -57,7 +57,8 @@ impl Plan {
         if problem.algebra.dim() > MOST_DIMENSIONS {
             return None;
         }
-        let longer = (self.hessian_truncation + 2..=problem.truncation).step_by(2);
+        let highest = problem.truncation.min(HIGHEST_OF_HESSIAN);
+        let longer = (self.hessian_truncation + 2..=highest).step_by(2);
         let affordable = longer.take_while(|&k| hessian_operations(terms, k) <= HESSIAN_OPERATIONS);
         Some((degree, affordable.last().unwrap_or(self.hessian_truncation)))
     }
@@ -206,8 +207,11 @@ pub fn in_parts(problem: &Problem) -> bool {
 /// Several steps are solved at once up to this dimension, with matrices of two blocks of three a side.
 const MOST_DIMENSIONS: usize = 6;
 
-/// The Hessian that several steps take beyond that of the coarse part has at most so many operations: then
-/// it costs a tenth of a step, measured on SE(3), and long steps as little as short ones.
+/// The Hessian that several steps take is that of S₁ … S_k for k up to this: it makes long steps cost as little
+/// as short ones, and S₉ no more than that, but for a tenth of a step.
+const HIGHEST_OF_HESSIAN: usize = 7;
+
+/// What it has beyond that of the coarse part is at most so many operations.
 const HESSIAN_OPERATIONS: usize = 2000;
 
 /// The coarse part: S₁ + S₃ + S₅.
