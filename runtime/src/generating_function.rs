@@ -214,7 +214,7 @@ pub trait GeneratingFunction {
 
     /// Once more, with the same J: takes the gradient of S at P(x, start), given `found` with an x for each
     /// `start`, and leaves that gradient in `x` and the `shift` that it brings. `false` where
-    /// [`GeneratingFunction::linearise`] says so.
+    /// that cannot be: steps for which one J is not enough then go one by one.
     #[inline(always)]
     fn refine(&self, found: &mut LinearisedOf<Self>) -> bool {
         let _ = found;

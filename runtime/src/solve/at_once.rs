@@ -112,16 +112,16 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
                 self.refine(generating, mu);
             }
         }
+        // The next of them, refined as often as it takes.
         loop {
             let (x, Distance { left, .. }) = self.follow(generating, self.next, mu);
             if left.simd_le(self.yardstick.tolerance).all() {
                 self.next += 1;
                 return Ok(Increment { x, iterations: 1 + self.refined, residual: left });
             }
-            if self.refined == REFINEMENTS {
+            if self.refined == REFINEMENTS || !self.refine(generating, mu) {
                 break;
             }
-            self.refine(generating, mu);
         }
         self.pause = PAUSE;
         self.forget();
@@ -171,9 +171,10 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         (x, Distance { gone, left })
     }
 
-    /// Takes the steps that are left, from `mu`, as far as they are found, and the gradient there.
+    /// Takes the steps that are left, from `mu`, as far as they are found, and the gradient there; whether that
+    /// can be. If not, they are of no more use.
     #[inline(never)]
-    fn refine(&mut self, generating: &S, mu: &VectorOf<S>) {
+    fn refine(&mut self, generating: &S, mu: &VectorOf<S>) -> bool {
         let (group, chart) = (generating.group(), generating.chart());
         let mut before = self.before;
         let mut mu = mu.clone();
@@ -187,11 +188,14 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
             self.found.start[k] = core::mem::replace(&mut mu, end);
         }
         self.before = before;
+        if !generating.refine(&mut self.found) {
+            return false;
+        }
         self.refined += 1;
         if needed {
             self.needed = self.refined;
         }
-        generating.refine(&mut self.found);
+        true
     }
 
     /// Guesses for the next steps, the first from `mu`; whether there are any.
