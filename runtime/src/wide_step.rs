@@ -14,7 +14,7 @@ use crate::wide::Steps;
 
 /// Whether registers are wide enough for several steps at once to be faster: by two numbers they would take
 /// half as long again.
-pub const LINEARISES: bool = cfg!(any(target_feature = "avx2", target_feature = "avx512f"));
+pub const LINEARISES: bool = cfg!(target_feature = "avx2");
 
 type V<T, const N: usize> = SVector<T, N>;
 type M<T, const N: usize> = SMatrix<T, N, N>;
@@ -37,6 +37,18 @@ pub trait WideStep<C, const SLOTS: usize, const N: usize> {
 type Wide<const N: usize> = V<Steps, N>;
 type WideMatrix<const N: usize> = M<Steps, N>;
 
+/// What is found for numbers that are `f64`.
+type Found<const N: usize> = Linearised<V<f64, N>, M<f64, N>, f64>;
+
+/// Coefficients and what is found, where `C` is `f64`: decided when compiled, `Any` only tells the compiler so.
+#[inline(always)]
+fn numbers<'a, C: Scalar, const SLOTS: usize, const N: usize>(
+    c: &'a [C; SLOTS],
+    found: &'a mut Linearised<V<C, N>, M<C, N>, C>,
+) -> Option<(&'a [f64; SLOTS], &'a mut Found<N>)> {
+    Some(((c as &dyn Any).downcast_ref()?, (found as &mut dyn Any).downcast_mut()?))
+}
+
 /// [`GeneratingFunction::linearise`](crate::GeneratingFunction::linearise) where numbers are `f64`.
 #[inline(always)]
 pub fn linearise<C, P, const SLOTS: usize, const N: usize>(
@@ -48,11 +60,8 @@ where
     C: Scalar,
     P: WideStep<f64, SLOTS, N>,
 {
-    // Decided when compiled: `Any` only tells the compiler what `C` is.
-    let c = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
     let middles = (middles as &dyn Any).downcast_ref::<[V<f64, N>; AT_ONCE]>();
-    let found = (found as &mut dyn Any).downcast_mut::<Linearised<V<f64, N>, M<f64, N>, f64>>();
-    let (Some(c), Some(middles), Some(found)) = (c, middles, found) else { return false };
+    let (Some(middles), Some((c, found))) = (middles, numbers(c, found)) else { return false };
     linearise_in_lanes::<P, SLOTS, N>(c, middles, found);
     true
 }
@@ -62,7 +71,7 @@ where
 pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
     middles: &[V<f64, N>; AT_ONCE],
-    found: &mut Linearised<V<f64, N>, M<f64, N>, f64>,
+    found: &mut Found<N>,
 ) where
     P: WideStep<f64, SLOTS, N>,
 {
@@ -110,18 +119,16 @@ where
     C: Scalar,
     P: WideStep<f64, SLOTS, N>,
 {
-    let c = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
-    let found = (found as &mut dyn Any).downcast_mut::<Linearised<V<f64, N>, M<f64, N>, f64>>();
-    let (Some(c), Some(found)) = (c, found) else { return false };
+    let Some((c, found)) = numbers(c, found) else { return false };
     refine_in_lanes::<P, SLOTS, N>(c, found);
     true
 }
 
-/// The steps in the lanes of one number, however wide registers are.
+/// The same in lanes, however wide registers are.
 #[inline(always)]
 pub fn refine_in_lanes<P, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
-    found: &mut Linearised<V<f64, N>, M<f64, N>, f64>,
+    found: &mut Found<N>,
 ) where
     P: WideStep<f64, SLOTS, N>,
 {
@@ -188,6 +195,7 @@ fn gradients<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
     p: &Wide<N>,
     found: &mut Wide<N>,
 ) {
+    // The Hessian is not asked for, and the compiler leaves it out.
     let (coarse, fine) = (P::coarse(c, p).0, P::fine(c, p));
     *found = entries(|i| coarse[i] + fine[i]);
 }

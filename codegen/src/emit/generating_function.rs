@@ -268,7 +268,7 @@ fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> Toke
 /// Stands before what only builds for wide registers need, or a test that asks for it: elsewhere the
 /// compiler does not even read it.
 fn wide_registers() -> TokenStream {
-    quote!(#[cfg(any(target_feature = "avx2", target_feature = "avx512f", coadjoint_at_once))])
+    quote!(#[cfg(any(target_feature = "avx2", coadjoint_at_once))])
 }
 
 /// The programs of a step over numbers that may be wider than the coefficients.

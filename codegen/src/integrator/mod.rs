@@ -154,6 +154,7 @@ impl Integrator {
                     let (coarse, fine): (Vec<_>, Vec<_>) =
                         s.iter().cloned().partition(|term| term.order <= kept);
                     AtOnce {
+                        // Over half a step a degree less will do.
                         next_middle: flow::advance_program(table, &problem, degree - 1),
                         around: flow::step_program(table, &problem, degree),
                         coarse: lower::hessian_program(table, dim, &coarse, kept),

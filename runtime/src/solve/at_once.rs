@@ -103,21 +103,22 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         steps: u64,
         otherwise: &mut Ahead<VectorOf<S>, ScalarOf<S>>,
     ) -> Result<IncrementOf<S>, StepError> {
+        // As often as the steps before were refined, there is no asking whether it takes that.
+        let mut refinements = 0;
         if self.next == self.count {
             if !self.look(generating, mu, steps) {
                 return without(generating, mu, steps, otherwise);
             }
             otherwise.forget();
-            for _ in 0..core::mem::take(&mut self.needed) {
-                self.refine(generating, mu);
-            }
+            refinements = core::mem::take(&mut self.needed);
         }
-        // The next of them, refined as often as it takes.
         loop {
-            let (x, Distance { left, .. }) = self.follow(generating, self.next, mu);
-            if left.simd_le(self.yardstick.tolerance).all() {
-                self.next += 1;
-                return Ok(Increment { x, iterations: 1 + self.refined, residual: left });
+            if self.refined >= refinements {
+                let (x, Distance { left, .. }) = self.follow(generating, self.next, mu);
+                if left.simd_le(self.yardstick.tolerance).all() {
+                    self.next += 1;
+                    return Ok(Increment { x, iterations: 1 + self.refined, residual: left });
+                }
             }
             if self.refined == REFINEMENTS || !self.refine(generating, mu) {
                 break;
@@ -176,18 +177,16 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
     #[inline(never)]
     fn refine(&mut self, generating: &S, mu: &VectorOf<S>) -> bool {
         let (group, chart) = (generating.group(), generating.chart());
-        let mut before = self.before;
         let mut mu = mu.clone();
         let mut needed = false;
         for k in self.next..self.count {
             let (x, Distance { gone, left }) = self.follow(generating, k, &mu);
             needed |= !left.simd_le(self.yardstick.tolerance).all();
-            before[k] = Distance { gone: gone + self.yardstick.smallest, left };
+            self.before[k] = Distance { gone: gone + self.yardstick.smallest, left };
             let end = chart.transport(group, &x, &mu).1;
             self.found.x[k] = x;
             self.found.start[k] = core::mem::replace(&mut mu, end);
         }
-        self.before = before;
         if !generating.refine(&mut self.found) {
             return false;
         }
