@@ -194,9 +194,11 @@ pub trait GeneratingFunction {
         direction.left_multiply(&self.newton_model(p).1)
     }
 
-    /// A guess of the momentum in the middle of the next step from that in the middle of a step.
+    /// A guess of the momentum in the middle of the next step from that in the middle of a step; a better one,
+    /// which takes more work, where steps are `long`.
     #[inline(always)]
-    fn next_middle(&self, middle: &VectorOf<Self>) -> VectorOf<Self> {
+    fn next_middle(&self, middle: &VectorOf<Self>, long: bool) -> VectorOf<Self> {
+        let _ = long;
         middle.clone()
     }
 

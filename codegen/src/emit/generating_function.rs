@@ -187,12 +187,13 @@ fn gradient_parts(
     let wide_registers = wide_registers();
     let at_once = parts.at_once.as_ref().map(|at_once| {
         let next = vector_function(&at_once.next_middle, vector, scope);
+        let next_of_long = vector_function(&at_once.next_middle_of_long, vector, scope);
         quote! {
             #wide_registers
             #[inline(always)]
-            fn next_middle(&self, input: &#vector) -> #vector {
+            fn next_middle(&self, input: &#vector, long: bool) -> #vector {
                 let c = &self.coefficients;
-                #next
+                if long { #next_of_long } else { #next }
             }
 
             #wide_registers

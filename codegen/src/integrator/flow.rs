@@ -11,6 +11,7 @@ use std::collections::HashMap;
 use num_traits::One;
 
 use super::coefficients::{Coefficients, Contribution};
+use super::runge_kutta::Method;
 use super::terms::{self, BaseTerm};
 use crate::graph::{Graph, Id, Program};
 use crate::number::{Rational, ratio};
@@ -32,21 +33,22 @@ pub fn increment_program(
     flow.graph.finish(problem.algebra.dim(), &x)
 }
 
-/// μ in the middle of a step ↦ μ in the middle of the next one, by two of Taylor's steps, to its end and on,
-/// of that degree: as much work as one of a degree higher by two fifths, and better for long steps.
+/// μ in the middle of a step ↦ μ in the middle of the next one, by a method of Runge and Kutta.
 pub fn advance_program(
     coefficients: &mut Coefficients,
     problem: &Problem,
-    degree: usize,
+    method: &Method,
 ) -> Program {
     let mut flow = Flow::new(coefficients, problem, Origin::Middle);
-    let all: Vec<usize> = (0..=degree).collect();
-    for _ in 0..2 {
-        flow.extend(degree);
-        let reached = flow.momentum(&all, |k| ratio(1, 1 << k));
-        flow.restart(reached);
+    let field = flow.field();
+    let start = flow.momenta[0].clone();
+    let mut rates = vec![flow.rates(&field)];
+    for weights in method.stages {
+        let stage = flow.weigh(&start, &rates, weights);
+        flow.restart(stage);
+        rates.push(flow.rates(&field));
     }
-    let next = flow.momenta[0].clone();
+    let next = flow.weigh(&start, &rates, method.last);
     flow.graph.finish(problem.algebra.dim(), &next)
 }
 
@@ -127,6 +129,32 @@ impl<'a> Flow<'a> {
     fn restart(&mut self, momentum: Vec<Id>) {
         self.momenta = vec![momentum];
         self.products.clear();
+    }
+
+    /// The terms of h μ̇.
+    fn field(&mut self) -> Vec<Vec<BaseTerm>> {
+        let field = self.problem.algebra.hamiltonian_field(self.problem.generated());
+        field.iter().map(|rate| self.collect(1, rate)).collect()
+    }
+
+    /// h μ̇ where the powers begin.
+    fn rates(&mut self, field: &[Vec<BaseTerm>]) -> Vec<Id> {
+        field.iter().map(|terms| self.evaluate(terms, 0)).collect()
+    }
+
+    /// start + Σ weight · rate, over the stages named; the newest last, for which the sum would have to wait.
+    fn weigh(&mut self, start: &[Id], rates: &[Vec<Id>], weights: &[(usize, f64)]) -> Vec<Id> {
+        let zero = self.graph.zero();
+        let mut sums = start.to_vec();
+        for &(stage, weight) in weights {
+            let weight = self.number(Rational::from_float(weight).unwrap_or_default());
+            for (sum, &rate) in sums.iter_mut().zip(&rates[stage]) {
+                if rate != zero {
+                    *sum = self.graph.times_plus(weight, rate, *sum);
+                }
+            }
+        }
+        sums
     }
 
     /// The momentum's coefficients up to s^highest.

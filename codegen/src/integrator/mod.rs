@@ -6,6 +6,7 @@ mod kick;
 mod lower;
 mod plan;
 mod products;
+mod runge_kutta;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution, GuessTerm};
@@ -37,6 +38,8 @@ pub struct GradientParts {
 pub struct AtOnce {
     /// The momentum in the middle of a step ↦ about that in the middle of the next.
     pub next_middle: Program,
+    /// The same, better and with more work.
+    pub next_middle_of_long: Program,
     /// The momentum in the middle of a step ↦ about x, the momentum before it, and that after it.
     pub around: Program,
     /// p ↦ ∂(S₁ + … + S_k)/∂p, then the upper triangle of its derivative.
@@ -154,8 +157,12 @@ impl Integrator {
                     let (coarse, fine): (Vec<_>, Vec<_>) =
                         s.iter().cloned().partition(|term| term.order <= kept);
                     AtOnce {
-                        // Over half a step a degree less will do.
-                        next_middle: flow::advance_program(table, &problem, degree - 1),
+                        next_middle: flow::advance_program(table, &problem, &runge_kutta::SIXTH),
+                        next_middle_of_long: flow::advance_program(
+                            table,
+                            &problem,
+                            &runge_kutta::EIGHTH,
+                        ),
                         around: flow::step_program(table, &problem, degree),
                         coarse: lower::hessian_program(table, dim, &coarse, kept),
                         fine: lower::gradient_program(table, dim, &fine),

@@ -19,6 +19,12 @@ const REFINEMENTS: u32 = 3;
 const LEAST: usize = 3;
 /// Steps made one by one where they are too long to be made at once.
 const PAUSE: u64 = 64;
+/// The other way of guessing is tried where refining is needed more often than one time in so many, …
+const SELDOM: u32 = 5;
+/// … seen over about so many times, …
+const MEMORY: u32 = 20;
+/// … and kept for so many at least.
+const CONSTANCY: u32 = 256;
 
 /// The x of a step, and how it was found: see [`Solution`](super::Solution).
 pub struct Increment<V, T> {
@@ -52,6 +58,11 @@ pub struct AtOnce<S: GeneratingFunction + ?Sized> {
     before: [Distance<ScalarOf<S>>; AT_ONCE],
     /// How often that was needed.
     needed: u32,
+    /// Whether steps count as long, and middles are guessed with more care.
+    long: bool,
+    /// How much of late there was to refine, and how often the way of guessing is kept.
+    trouble: u32,
+    kept: u32,
     /// From the end of the last of them to the middle of the step after it, where that is known.
     onward: Option<VectorOf<S>>,
     /// The next step, and how many there are.
@@ -82,6 +93,9 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
             refined: 0,
             before: [Distance { gone: nothing, left: nothing }; AT_ONCE],
             needed: 0,
+            long: false,
+            trouble: 0,
+            kept: 0,
             onward: None,
             yardstick: Yardstick::of(&zero),
             next: 0,
@@ -197,6 +211,22 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         true
     }
 
+    /// Guesses with more care where that spares refining; where it does not, it is not worth its work.
+    #[inline(always)]
+    fn choose_guess(&mut self) {
+        self.kept = self.kept.saturating_sub(1);
+        self.trouble = match self.needed {
+            0 => self.trouble.saturating_sub(1),
+            _ => (self.trouble + SELDOM).min(2 * MEMORY),
+        };
+        // Long steps go back at once where they were not helped, and now and then to see.
+        let enough = self.trouble > MEMORY;
+        if enough && self.long || self.kept == 0 && (enough || self.long) {
+            self.long = !self.long;
+            (self.trouble, self.needed, self.kept) = (0, 0, CONSTANCY);
+        }
+    }
+
     /// Guesses for the next steps, the first from `mu`; whether there are any.
     #[inline(always)]
     fn look(&mut self, generating: &S, mu: &VectorOf<S>, steps: u64) -> bool {
@@ -217,10 +247,13 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
                 self.found.end.clone().minus(mu)
             }
         };
+        self.choose_guess();
+        let long = self.long;
         let count = AT_ONCE.min(steps as usize);
         let mut middle = mu.clone().plus(&half);
         let middles = core::array::from_fn(|k| {
-            let next = if k < count { generating.next_middle(&middle) } else { middle.clone() };
+            let next =
+                if k < count { generating.next_middle(&middle, long) } else { middle.clone() };
             core::mem::replace(&mut middle, next)
         });
         if !generating.linearise(&middles, &mut self.found) {
