@@ -153,6 +153,18 @@ pub(crate) fn march<S: GeneratingFunction + ?Sized>(
     Ok(worst)
 }
 
+/// The momentum about one step later, by the first guess of x where there is one; a comoving frame's own motion
+/// left out. Near enough to the motion to look at it there.
+pub(crate) fn about_onwards<S: GeneratingFunction>(
+    generating: &S,
+    mu: &VectorOf<S>,
+) -> Result<VectorOf<S>, StepError> {
+    match generating.predict_increment(mu) {
+        Some(x) => Ok(generating.chart().transport(generating.group(), &x, mu).1),
+        None => poisson_map(generating, mu),
+    }
+}
+
 /// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that
 /// [`solve`] has found for μ′, and moves a comoving frame on.
 #[inline(always)]

@@ -14,11 +14,10 @@
 //! This is the summation of Shanks, J. Math. Phys. 34 (1955) 1–42, with one recurrence for all
 //! coordinates and momenta.
 
-use crate::chart::Chart;
 use crate::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating_function::{GeneratingFunction, VectorOf};
-use crate::reconstruct::poisson_map;
+use crate::reconstruct::{about_onwards, poisson_map};
 use crate::scalar::Scalar;
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
@@ -111,7 +110,7 @@ impl<T: Scalar> Tail<T> {
                     // p differs from μ by O(h), where the recurrence is the same.
                     products.add(first.gradient(&mu), before.gradient(&mu), last.gradient(&mu));
                 }
-                mu = onwards(&whole, mu)?;
+                mu = about_onwards(&whole, &mu)?;
             }
         }
         let (a, b) = products.recurrence(truncation > 5);
@@ -122,15 +121,6 @@ impl<T: Scalar> Tail<T> {
             last_but_one: b.times_plus(share, T::of(1.0)),
             ..none
         })
-    }
-}
-
-/// The momentum about one step later, a comoving frame's own motion left out: near enough to the motion
-/// for its recurrence.
-fn onwards<S: GeneratingFunction>(series: &S, mu: VectorOf<S>) -> Result<VectorOf<S>, StepError> {
-    match series.predict_increment(&mu) {
-        Some(x) => Ok(series.chart().transport(series.group(), &x, &mu).1),
-        None => poisson_map(series, &mu),
     }
 }
 

@@ -65,18 +65,21 @@ where
     for (n, step) in steps.iter().enumerate() {
         let powers = Powers::of(&step.p, dim, highest);
         for (column, monomial) in monomials.iter().enumerate() {
-            for &(i, exponent) in *monomial {
-                let derivative = monomial.iter().fold(f64::from(exponent), |product, &(j, e)| {
-                    product * powers.get(j, if i == j { e - 1 } else { e })
-                });
-                matrix[(n * dim + i as usize, column)] = derivative * weights[i as usize];
+            // Each derivative is the product of what stands before its factor, and of what stands after.
+            let mut before = 1.0;
+            for (factor, &(i, exponent)) in monomial.iter().enumerate() {
+                let rest = &monomial[factor + 1..];
+                let after = rest.iter().fold(1.0, |product, &(j, e)| product * powers.get(j, e));
+                let derivative = f64::from(exponent) * powers.get(i, exponent - 1);
+                matrix[(n * dim + i as usize, column)] =
+                    before * derivative * after * weights[i as usize];
+                before *= powers.get(i, exponent);
             }
         }
     }
+    let found = least_squares(matrix, &right, RIDGE, REFINEMENT);
     let mut corrections = alloc::vec![0.0; generating.terms()];
-    for (&number, &value) in
-        free.iter().zip(least_squares(matrix, &right, RIDGE, REFINEMENT).iter())
-    {
+    for (&number, &value) in free.iter().zip(found.iter()) {
         corrections[number] = value;
     }
     corrections

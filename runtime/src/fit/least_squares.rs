@@ -7,6 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// The refinement ends where so many steps do not make a fifth of what is left go away.
 const PATIENCE: usize = 3;
 
+/// Columns multiplied at once.
+const BLOCK: usize = 32;
+
 /// The y with |A y − b|² + ridge² |y|² least, where columns count as of length one; then refined in
 /// at most so many steps, so that the ridge holds back only what hardly changes A y.
 ///
@@ -25,7 +28,7 @@ pub fn least_squares(
     let mut solution = DVector::zeros(matrix.ncols());
     let transpose = matrix.transpose();
     let wide = matrix.nrows() < matrix.ncols();
-    let mut gram = if wide { &matrix * &transpose } else { &transpose * &matrix };
+    let mut gram = if wide { gram(&matrix, &transpose) } else { gram(&transpose, &matrix) };
     for i in 0..gram.nrows() {
         gram[(i, i)] += ridge * ridge;
     }
@@ -65,6 +68,18 @@ pub fn least_squares(
         *value *= scale;
     }
     solution
+}
+
+/// The lower triangle of A Aᵀ, by blocks of columns: half the work of all of it.
+fn gram(a: &DMatrix<f64>, transpose: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = a.nrows();
+    let mut gram = DMatrix::zeros(n, n);
+    for start in (0..n).step_by(BLOCK) {
+        let (below, width) = (n - start, BLOCK.min(n - start));
+        let mut block = gram.view_mut((start, start), (below, width));
+        block.gemm(1.0, &a.rows(start, below), &transpose.columns(start, width), 0.0);
+    }
+    gram
 }
 
 /// Makes every column of length one that is not zero; returns the factors.

@@ -7,6 +7,7 @@ use super::FitError;
 use crate::chart::Chart;
 use crate::generating_function::{GeneratingFunction, VectorOf};
 use crate::group::LieGroup;
+use crate::reconstruct::about_onwards;
 use crate::solve::solve_after;
 
 /// A point of the Lagrangian submanifold of the exact flow over a step.
@@ -34,8 +35,8 @@ struct Window<V, E> {
 }
 
 /// The points of the motion from `mu` that lie `length` and `places` steps of `fine` later; a step from
-/// point to point is made of `length` of these. From one place to another far away it goes by steps
-/// of `coarse`, as long as `length` of `fine`: their error leads to a motion beside the one meant,
+/// point to point is made of `length` of these. From one place to another far away it goes by guesses of
+/// steps of `coarse`, as long as `length` of `fine`: their error leads to a motion beside the one meant,
 /// and the points are those of an exact motion still. The error is `None` where a step has no
 /// coordinate.
 pub fn follow<S: GeneratingFunction>(
@@ -51,15 +52,13 @@ pub fn follow<S: GeneratingFunction>(
     let mut starts = starts.into_iter().peekable();
     let mut open: Vec<Window<VectorOf<S>, _>> = Vec::new();
     let mut done: Vec<(u64, VectorOf<S>, Step<VectorOf<S>>)> = Vec::new();
-    let (mut now, mut last, mut last_coarse) = (0, None, None);
+    let (mut now, mut last) = (0, None);
     while starts.peek().is_some() || !open.is_empty() {
         let far = open.is_empty() && starts.peek().is_some_and(|&start| start >= now + length);
-        if far && let Ok(solution) = solve_after(coarse, &mu, last_coarse.as_ref()) {
-            mu = chart.transport(group, &solution.x, &mu).1;
-            (last_coarse, last, now) = (Some(solution.p), None, now + length);
+        if far && let Ok(next) = about_onwards(coarse, &mu) {
+            (mu, last, now) = (next, None, now + length);
             continue;
         }
-        last_coarse = None;
         if starts.next_if_eq(&now).is_some() {
             open.push(Window { start: now, mu: mu.clone(), increment: group.identity() });
         }
