@@ -72,6 +72,7 @@ mod lanes;
 #[cfg(feature = "alloc")]
 pub mod laws;
 mod monitor;
+mod normal_equations;
 mod phase;
 #[doc(hidden)]
 pub mod plumbing;
