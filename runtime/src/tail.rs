@@ -5,7 +5,8 @@
 //! chart folds), so that along a motion ∂S_{k+2}/∂p ≈ a ∂S_k/∂p + b ∂S_{k−2}/∂p, with a and b that
 //! hardly change with k or p. So the sum of all that is left out is about a combination of the last
 //! terms: S_{K−4}, S_{K−2} and S_K are multiplied by numbers close to one, a step costs what it did, and
-//! its error falls by a factor of 10 to 100.
+//! errors mostly fall by a factor of 10 to 100 (measured on free, heavy and submerged bodies; by less near a
+//! separatrix, and for K = 7 not at all there).
 //!
 //! The numbers are found by least squares from exact steps along the motion, each made of three short
 //! ones, which the same coefficients make: S_k goes with h^k.

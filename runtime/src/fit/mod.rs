@@ -38,8 +38,6 @@ const EQUATIONS: usize = 2;
 const MIN_SAMPLES: usize = 5;
 /// One in so many samples is left out of the fit, to judge it.
 const UNSEEN: usize = 5;
-/// The golden ratio less one, whose multiples are spread most evenly over whole numbers.
-const GOLDEN: f64 = 0.618_033_988_749_894_8;
 /// Steps over which a motion is followed at most: some seconds of work.
 const MAX_STEPS: f64 = 1e6;
 
@@ -206,13 +204,7 @@ where
     let wanted = (EQUATIONS * terms / (dim * momenta.len())).max(MIN_SAMPLES * dim);
     let count = wanted.div_ceil(2) * UNSEEN / (UNSEEN - 1);
     let spacing = steps * substeps as f64 / count as f64;
-    // All along; where motions fill tori, not at equal distances, at which they might return.
-    let curves = dim <= 3;
-    let place = |n: usize| {
-        let shift = if curves { 0.0 } else { GOLDEN * n as f64 };
-        ((n as f64 + (shift - ComplexField::floor(shift))) * spacing) as u64
-    };
-    let places: Vec<u64> = (0..count).map(place).collect();
+    let places: Vec<u64> = (0..count).map(|n| (n as f64 * spacing) as u64).collect();
     let mut points = Vec::with_capacity(count * momenta.len());
     for momentum in momenta {
         follow(whole, &fine, momentum, &places, substeps, &mut points)
