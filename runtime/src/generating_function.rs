@@ -43,8 +43,6 @@ pub struct Linearised<V, M, T> {
     pub correction: [T; AT_ONCE],
     /// J = (1 − H·∂P/∂x)⁻¹ H with H the Hessian of the coarse part.
     pub response: [M; AT_ONCE],
-    /// The guessed momentum after the last step.
-    pub end: V,
     /// How much the fine part of the gradient changes with p: the largest |δ fine| / |δp| from one step
     /// to the next.
     pub slope: T,
@@ -61,7 +59,6 @@ impl<V: Coordinates<T>, T: Scalar> Linearised<V, V::Matrix, T> {
             shift: core::array::from_fn(|_| V::zeros(dim)),
             correction: [zero; AT_ONCE],
             response: core::array::from_fn(|_| V::zero_matrix(dim)),
-            end: V::zeros(dim),
             slope: zero,
         }
     }
@@ -194,23 +191,12 @@ pub trait GeneratingFunction {
         direction.left_multiply(&self.newton_model(p).1)
     }
 
-    /// A guess of the momentum in the middle of the next step from that in the middle of a step; a better one,
-    /// which takes more work, where steps are `long`.
+    /// Linearises the next steps from `mu` at once: in the lanes of one number that costs little more than one
+    /// step. They are guessed by following the flow in so many pieces (for every four of them): the more, the
+    /// better, and the more work. `false` where this cannot be, or does not pay.
     #[inline(always)]
-    fn next_middle(&self, middle: &VectorOf<Self>, long: bool) -> VectorOf<Self> {
-        let _ = long;
-        middle.clone()
-    }
-
-    /// Linearises several steps at once, whose momenta in the middle are about `middles`: in the lanes of
-    /// one number that costs little more than one step. `false` where that cannot be, or does not pay.
-    #[inline(always)]
-    fn linearise(
-        &self,
-        middles: &[VectorOf<Self>; AT_ONCE],
-        found: &mut LinearisedOf<Self>,
-    ) -> bool {
-        let _ = (middles, found);
+    fn linearise(&self, mu: &VectorOf<Self>, pieces: u32, found: &mut LinearisedOf<Self>) -> bool {
+        let _ = (mu, pieces, found);
         false
     }
 

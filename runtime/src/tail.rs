@@ -8,7 +8,7 @@
 //! errors mostly fall by a factor of 10 to 100 (measured on free, heavy and submerged bodies; by less near a
 //! separatrix, and for K = 7 not at all there).
 //!
-//! The numbers are found by least squares from exact steps along the motion, each made of three short
+//! The numbers are found by least squares from exact steps along the motion, each made of two short
 //! ones, which the same coefficients make: S_k goes with h^k.
 //!
 //! The factors differ from one by O(h²), O(h⁴) and O(h⁶) and multiply terms of order h^K, h^{K−2} and
@@ -31,13 +31,13 @@ use crate::scalar::Scalar;
 use crate::solve::solve_from;
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
-const STEPS: usize = 22;
+const STEPS: usize = 16;
 /// Of so many momenta one is looked at.
 const SPACING: usize = 3;
 /// Terms with a factor: the last of them.
 const TERMS: usize = 3;
-/// Short steps in an exact one: what they leave out is 3^{K+1} times less.
-const SHORT_STEPS: usize = 3;
+/// Short steps in an exact one: what they leave out is 2^{K+1} times less.
+const SHORT_STEPS: usize = 2;
 /// Factors that differ from one by more than this together tell of terms that do not fall.
 const FAR: f64 = 0.5;
 
@@ -89,7 +89,7 @@ impl<T: Scalar> Tail<T> {
         before.and_then(|n| self.factors.get(n)).copied().unwrap_or(T::of(1.0))
     }
 
-    /// The tail for motions that start with `momenta`, at eight of the first twenty-two steps of each.
+    /// The tail for motions that start with `momenta`, at six of the first sixteen steps of each.
     /// `series` makes the generating function Σ factor(k) S_k for given factors. Where the terms do not
     /// fall fast enough to tell, and for K < 5, all factors are one.
     ///
@@ -121,12 +121,14 @@ impl<T: Scalar> Tail<T> {
             let mut mu = poisson_map(&whole, &start)?;
             for step in 0..STEPS {
                 if step % SPACING == 0
-                    && let Some((x, p)) = exact_step(&short, &mu)
+                    && let Some(ExactStep { x, p, end }) = exact_step(&short, &mu)
                 {
                     let left_out = x.clone().minus(&whole.gradient(&p));
                     equations.add(&terms.each_ref().map(|term| term.gradient(&p)), &left_out, &x);
+                    mu = end;
+                } else {
+                    mu = about_onwards(&whole, &mu)?;
                 }
-                mu = about_onwards(&whole, &mu)?;
             }
         }
         let shares = equations.solution();
@@ -142,12 +144,18 @@ fn share_of_step<T: Scalar>() -> T {
     T::of(1.0 / SHORT_STEPS as f64)
 }
 
-/// The x and p of a step of the exact flow from `mu`, by steps of `short`; none where they fail or their product
-/// has no coordinate.
+/// A step of the exact flow: its x and p, and the momentum after it.
+struct ExactStep<V> {
+    x: V,
+    p: V,
+    end: V,
+}
+
+/// That from `mu`, by steps of `short`; none where they fail or their product has no coordinate.
 fn exact_step<S: GeneratingFunction>(
     short: &S,
     mu: &VectorOf<S>,
-) -> Option<(VectorOf<S>, VectorOf<S>)> {
+) -> Option<ExactStep<VectorOf<S>>> {
     let (group, chart) = (short.group(), short.chart());
     let mut increment = group.identity();
     let mut start = mu.clone();
@@ -164,5 +172,5 @@ fn exact_step<S: GeneratingFunction>(
     }
     let x = chart.coordinate(group, &increment)?;
     let p = chart.pull_back(group, &x, mu);
-    Some((x, p))
+    Some(ExactStep { x, p, end: start })
 }

@@ -21,8 +21,11 @@ type M<T, const N: usize> = SMatrix<T, N, N>;
 
 /// What a step evaluates, over numbers that may be wider than the coefficients.
 pub trait WideStep<C, const SLOTS: usize, const N: usize> {
-    /// x of a step, and the momenta at its beginning and end, from that in its middle; about.
-    fn around<T: Scalar + Lift<C>>(c: &[C; SLOTS], middle: &V<T, N>) -> [V<T, N>; 3];
+    /// The momentum so many steps later, about: by a method of order six.
+    fn onwards<T: Scalar + Lift<C>>(c: &[C; SLOTS], mu: &V<T, N>, steps: T) -> V<T, N>;
+
+    /// x of a step, and the momentum at its beginning, from that in its middle; about.
+    fn around<T: Scalar + Lift<C>>(c: &[C; SLOTS], middle: &V<T, N>) -> [V<T, N>; 2];
 
     /// (d^R τ_x)ᵀ μ and its derivative in x.
     fn pulled_back<T: Scalar>(x: &V<T, N>, mu: &V<T, N>) -> (V<T, N>, M<T, N>);
@@ -33,6 +36,9 @@ pub trait WideStep<C, const SLOTS: usize, const N: usize> {
     /// The fine part of the gradient.
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], p: &V<T, N>) -> V<T, N>;
 }
+
+/// The way to so many steps is as long as the number of pieces is meant for.
+const GROUP: usize = 4;
 
 type Wide<const N: usize> = V<Steps, N>;
 type WideMatrix<const N: usize> = M<Steps, N>;
@@ -53,16 +59,17 @@ fn numbers<'a, C: Scalar, const SLOTS: usize, const N: usize>(
 #[inline(always)]
 pub fn linearise<C, P, const SLOTS: usize, const N: usize>(
     c: &[C; SLOTS],
-    middles: &[V<C, N>; AT_ONCE],
+    mu: &V<C, N>,
+    pieces: u32,
     found: &mut Linearised<V<C, N>, M<C, N>, C>,
 ) -> bool
 where
     C: Scalar,
     P: WideStep<f64, SLOTS, N>,
 {
-    let middles = (middles as &dyn Any).downcast_ref::<[V<f64, N>; AT_ONCE]>();
-    let (Some(middles), Some((c, found))) = (middles, numbers(c, found)) else { return false };
-    linearise_in_lanes::<P, SLOTS, N>(c, middles, found);
+    let mu = (mu as &dyn Any).downcast_ref();
+    let (Some(mu), Some((c, found))) = (mu, numbers(c, found)) else { return false };
+    linearise_in_lanes::<P, SLOTS, N>(c, mu, pieces, found);
     true
 }
 
@@ -70,17 +77,19 @@ where
 #[inline(always)]
 pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
-    middles: &[V<f64, N>; AT_ONCE],
+    mu: &V<f64, N>,
+    pieces: u32,
     found: &mut Found<N>,
 ) where
     P: WideStep<f64, SLOTS, N>,
 {
-    let middle = side_by_side(middles);
     let zero = Wide::<N>::repeat(Steps::splat(0.0));
     let zeros = WideMatrix::<N>::repeat(Steps::splat(0.0));
-    let mut guess = [zero, zero, zero];
+    let mut middle = zero;
+    middles::<P, SLOTS, N>(c, mu, pieces, &mut middle);
+    let mut guess = [zero, zero];
     around::<P, SLOTS, N>(c, &middle, &mut guess);
-    let [x, start, end] = &guess;
+    let [x, start] = &guess;
     let (mut pulled, mut coarse, mut fine) = ((zero, zeros), (zero, zeros), zero);
     pulled_back::<P, SLOTS, N>(x, start, &mut pulled);
     let (p, derivative) = &pulled;
@@ -91,9 +100,6 @@ pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
     respond(&coarse.1, derivative, &residual, &mut answer);
     let (response, correction) = &answer;
 
-    for i in 0..N {
-        found.end[i] = end[i].extract(AT_ONCE - 1);
-    }
     found.slope = steepest(p, &fine);
     found.correction = correction.largest_entry().into();
     take(&entries(|i| x[i] + correction[i]), &mut found.x);
@@ -145,10 +151,26 @@ pub fn refine_in_lanes<P, const SLOTS: usize, const N: usize>(
 // Each a function of its own, for the compiler's sake, and without large values to return.
 
 #[inline(never)]
+fn middles<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
+    c: &[f64; SLOTS],
+    mu: &V<f64, N>,
+    pieces: u32,
+    found: &mut Wide<N>,
+) {
+    let pieces = pieces * AT_ONCE.div_ceil(GROUP) as u32;
+    let share = 1.0 / f64::from(pieces);
+    let piece = Steps::from(from_fn(|k| share * (k as f64 + 0.5)));
+    *found = entries(|i| Steps::splat(mu[i]));
+    for _ in 0..pieces {
+        *found = P::onwards(c, found, piece);
+    }
+}
+
+#[inline(never)]
 fn around<P: WideStep<f64, SLOTS, N>, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
     middle: &Wide<N>,
-    found: &mut [Wide<N>; 3],
+    found: &mut [Wide<N>; 2],
 ) {
     *found = P::around(c, middle);
 }

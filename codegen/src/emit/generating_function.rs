@@ -185,25 +185,12 @@ fn gradient_parts(
     let n = Literal::usize_unsuffixed(dim);
     let slots = Literal::usize_unsuffixed(*slots);
     let wide_registers = wide_registers();
-    let at_once = parts.at_once.as_ref().map(|at_once| {
-        let next = vector_function(&at_once.next_middle, vector, scope);
-        let next_of_long = vector_function(&at_once.next_middle_of_long, vector, scope);
+    let at_once = parts.at_once.as_ref().map(|_| {
         quote! {
             #wide_registers
             #[inline(always)]
-            fn next_middle(&self, input: &#vector, long: bool) -> #vector {
-                let c = &self.coefficients;
-                if long { #next_of_long } else { #next }
-            }
-
-            #wide_registers
-            #[inline(always)]
-            fn linearise(
-                &self,
-                middles: &[#vector; #krate::AT_ONCE],
-                found: &mut #krate::LinearisedOf<Self>,
-            ) -> bool {
-                #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(&self.coefficients, middles, found)
+            fn linearise(&self, mu: &#vector, pieces: u32, found: &mut #krate::LinearisedOf<Self>) -> bool {
+                #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(&self.coefficients, mu, pieces, found)
             }
 
             #wide_registers
@@ -292,6 +279,9 @@ fn wide_step(
     let coarse = hessian_function(&at_once.coarse, *dim, vector, matrix, &wide);
     let Body { statements, outputs } = body(&at_once.around, &wide);
     let outputs = vectors(&outputs, *dim, vector);
+    let more = Literal::usize_unsuffixed(dim + 1);
+    let with_time = Scope { krate: krate.clone(), input: quote!([T; #more]), ..wide };
+    let onwards = vector_function(&at_once.onwards, vector, &with_time);
     let dim = Literal::usize_unsuffixed(*dim);
     let slots = Literal::usize_unsuffixed(*slots);
     let number = quote!(#krate::Scalar + #krate::plumbing::Lift<C>);
@@ -300,7 +290,14 @@ fn wide_step(
         #wide_registers
         impl<C: #krate::Scalar> #krate::plumbing::WideStep<C, #slots, #dim> for #name<C> {
             #[inline(always)]
-            fn around<T: #number>(c: &[C; #slots], input: &#vector) -> [#vector; 3] {
+            fn onwards<T: #number>(c: &[C; #slots], mu: &#vector, steps: T) -> #vector {
+                let input: &[T; #more] =
+                    &::core::array::from_fn(|i| if i < #dim { mu[i] } else { steps });
+                #onwards
+            }
+
+            #[inline(always)]
+            fn around<T: #number>(c: &[C; #slots], input: &#vector) -> [#vector; 2] {
                 #statements
                 [#(#outputs),*]
             }

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use num_traits::One;
 
 use super::coefficients::{Coefficients, Contribution};
-use super::runge_kutta::Method;
+use super::runge_kutta;
 use super::terms::{self, BaseTerm};
 use crate::graph::{Graph, Id, Program};
 use crate::number::{Rational, ratio};
@@ -33,37 +33,29 @@ pub fn increment_program(
     flow.graph.finish(problem.algebra.dim(), &x)
 }
 
-/// μ in the middle of a step ↦ μ in the middle of the next one, by a method of Runge and Kutta.
-pub fn advance_program(
-    coefficients: &mut Coefficients,
-    problem: &Problem,
-    method: &Method,
-) -> Program {
-    let mut flow = Flow::new(coefficients, problem, Origin::Middle);
+/// μ, and after it a number of steps, which need not be whole ↦ μ so much later, about.
+pub fn advance_program(coefficients: &mut Coefficients, problem: &Problem) -> Program {
+    let mut flow = Flow::new(coefficients, problem, Origin::Start);
+    let dim = problem.algebra.dim();
     let field = flow.field();
     let start = flow.momenta[0].clone();
-    let mut rates = vec![flow.rates(&field)];
-    for weights in method.stages {
+    let steps = flow.graph.input(dim);
+    let mut rates = vec![flow.rates(&field, steps)];
+    for weights in runge_kutta::STAGES {
         let stage = flow.weigh(&start, &rates, weights);
         flow.restart(stage);
-        rates.push(flow.rates(&field));
+        rates.push(flow.rates(&field, steps));
     }
-    let next = flow.weigh(&start, &rates, method.last);
-    flow.graph.finish(problem.algebra.dim(), &next)
+    let end = flow.weigh(&start, &rates, runge_kutta::LAST);
+    flow.graph.finish(dim + 1, &end)
 }
 
-/// The momentum in the middle of a step ↦ x, then the momentum where it begins, then where it ends, up to
-/// h^degree.
+/// The momentum in the middle of a step ↦ x, then the momentum where it begins, up to h^degree.
 pub fn step_program(coefficients: &mut Coefficients, problem: &Problem, degree: usize) -> Program {
     let mut flow = Flow::new(coefficients, problem, Origin::Middle);
     flow.extend(degree);
     let mut outputs = flow.increment(degree);
-    let (even, odd): (Vec<usize>, Vec<usize>) = (0..=degree).partition(|k| k.is_multiple_of(2));
-    let half = |k: usize| ratio(1, 1 << k);
-    let even = flow.momentum(&even, half);
-    let odd = flow.momentum(&odd, half);
-    outputs.extend(flow.add(&even, &[(ratio(-1, 1), &odd)]));
-    outputs.extend(flow.add(&even, &[(ratio(1, 1), &odd)]));
+    outputs.extend(flow.momentum(|k| ratio(1 - 2 * (k as i64 % 2), 1 << k)));
     flow.graph.finish(problem.algebra.dim(), &outputs)
 }
 
@@ -137,9 +129,13 @@ impl<'a> Flow<'a> {
         field.iter().map(|rate| self.collect(1, rate)).collect()
     }
 
-    /// h μ̇ where the powers begin.
-    fn rates(&mut self, field: &[Vec<BaseTerm>]) -> Vec<Id> {
-        field.iter().map(|terms| self.evaluate(terms, 0)).collect()
+    /// h μ̇ where the powers begin, times a number.
+    fn rates(&mut self, field: &[Vec<BaseTerm>], times: Id) -> Vec<Id> {
+        let rate = |terms: &Vec<BaseTerm>| {
+            let rate = self.evaluate(terms, 0);
+            self.graph.mul(times, rate)
+        };
+        field.iter().map(rate).collect()
     }
 
     /// start + Σ weight · rate, over the stages named; the newest last, for which the sum would have to wait.
@@ -174,14 +170,14 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// Σ weight(k) · the momentum's coefficient of sᵏ, over the given powers.
-    fn momentum(&mut self, powers: &[usize], weight: impl Fn(usize) -> Rational) -> Vec<Id> {
+    /// Σ weight(k) · the momentum's coefficient of sᵏ, over all powers.
+    fn momentum(&mut self, weight: impl Fn(usize) -> Rational) -> Vec<Id> {
         let zero = self.graph.zero();
         (0..self.problem.algebra.dim())
             .map(|i| {
                 let mut sum = zero;
                 // Small ones first.
-                for &k in powers.iter().rev() {
+                for k in (0..self.momenta.len()).rev() {
                     let coefficient = self.momenta[k][i];
                     let weight = weight(k);
                     if coefficient == zero {

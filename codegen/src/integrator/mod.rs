@@ -36,11 +36,9 @@ pub struct GradientParts {
 /// What several steps go by at once.
 #[derive(Clone, Debug)]
 pub struct AtOnce {
-    /// The momentum in the middle of a step ↦ about that in the middle of the next.
-    pub next_middle: Program,
-    /// The same, better and with more work.
-    pub next_middle_of_long: Program,
-    /// The momentum in the middle of a step ↦ about x, the momentum before it, and that after it.
+    /// The momentum, then a number of steps ↦ about the momentum so much later.
+    pub onwards: Program,
+    /// The momentum in the middle of a step ↦ about x, and the momentum before it.
     pub around: Program,
     /// p ↦ ∂(S₁ + … + S_k)/∂p, then the upper triangle of its derivative.
     pub coarse: Program,
@@ -157,12 +155,7 @@ impl Integrator {
                     let (coarse, fine): (Vec<_>, Vec<_>) =
                         s.iter().cloned().partition(|term| term.order <= kept);
                     AtOnce {
-                        next_middle: flow::advance_program(table, &problem, &runge_kutta::SIXTH),
-                        next_middle_of_long: flow::advance_program(
-                            table,
-                            &problem,
-                            &runge_kutta::EIGHTH,
-                        ),
+                        onwards: flow::advance_program(table, &problem),
                         around: flow::step_program(table, &problem, degree),
                         coarse: lower::hessian_program(table, dim, &coarse, kept),
                         fine: lower::gradient_program(table, dim, &fine),

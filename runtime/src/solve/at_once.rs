@@ -3,6 +3,7 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use super::ahead::Ahead;
+use super::effort::Effort;
 use super::{Solution, Yardstick};
 use crate::chart::Chart;
 use crate::coordinates::Coordinates;
@@ -19,12 +20,6 @@ const REFINEMENTS: u32 = 3;
 const LEAST: usize = 3;
 /// Steps made one by one where they are too long to be made at once.
 const PAUSE: u64 = 64;
-/// The other way of guessing is tried where refining is needed more often than one time in so many, …
-const SELDOM: u32 = 5;
-/// … seen over about so many times, …
-const MEMORY: u32 = 20;
-/// … and kept for so many at least.
-const CONSTANCY: u32 = 256;
 
 /// The x of a step, and how it was found: see [`Solution`](super::Solution).
 pub struct Increment<V, T> {
@@ -45,10 +40,9 @@ impl<V, T> From<Solution<V, T>> for Increment<V, T> {
 
 /// Newton's method for several steps at once.
 ///
-/// From the middle of one step to the middle of the next the momentum goes along the flow, about; there
-/// all steps are linearised together ([`GeneratingFunction::linearise`]). What is left to do one after
-/// the other is little: each step starts where the one before has ended, not quite where it was guessed,
-/// and its x moves by a matrix times that difference. What is of second order in the difference is
+/// All are linearised together about guesses of where they are ([`GeneratingFunction::linearise`]). What is
+/// left to do one after the other is little: each step starts where the one before has ended, not quite where
+/// it was guessed, and its x moves by a matrix times that difference. What is of second order in the difference is
 /// rounding, or else all steps are refined together ([`GeneratingFunction::refine`]). Where that is not
 /// enough, steps go as without this.
 pub struct AtOnce<S: GeneratingFunction + ?Sized> {
@@ -58,13 +52,8 @@ pub struct AtOnce<S: GeneratingFunction + ?Sized> {
     before: [Distance<ScalarOf<S>>; AT_ONCE],
     /// How often that was needed.
     needed: u32,
-    /// Whether steps count as long, and middles are guessed with more care.
-    long: bool,
-    /// How much of late there was to refine, and how often the way of guessing is kept.
-    trouble: u32,
-    kept: u32,
-    /// From the end of the last of them to the middle of the step after it, where that is known.
-    onward: Option<VectorOf<S>>,
+    /// How they are guessed.
+    effort: Effort,
     /// The next step, and how many there are.
     next: usize,
     count: usize,
@@ -93,10 +82,7 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
             refined: 0,
             before: [Distance { gone: nothing, left: nothing }; AT_ONCE],
             needed: 0,
-            long: false,
-            trouble: 0,
-            kept: 0,
-            onward: None,
+            effort: Effort::new(),
             yardstick: Yardstick::of(&zero),
             next: 0,
             count: 0,
@@ -120,6 +106,9 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         // As often as the steps before were refined, there is no asking whether it takes that.
         let mut refinements = 0;
         if self.next == self.count {
+            if self.count > 0 {
+                self.effort.note(self.needed);
+            }
             if !self.look(generating, mu, steps) {
                 return without(generating, mu, steps, otherwise);
             }
@@ -138,14 +127,14 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
                 break;
             }
         }
-        self.pause = PAUSE;
+        self.effort.note(2 * REFINEMENTS);
+        (self.pause, self.needed) = (PAUSE, 0);
         self.forget();
         without(generating, mu, steps, otherwise)
     }
 
     /// Forgets the guesses: what comes next does not follow from the steps so far.
     pub fn forget(&mut self) {
-        self.onward = None;
         (self.next, self.count) = (0, 0);
     }
 
@@ -211,22 +200,6 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
         true
     }
 
-    /// Guesses with more care where that spares refining; where it does not, it is not worth its work.
-    #[inline(always)]
-    fn choose_guess(&mut self) {
-        self.kept = self.kept.saturating_sub(1);
-        self.trouble = match self.needed {
-            0 => self.trouble.saturating_sub(1),
-            _ => (self.trouble + SELDOM).min(2 * MEMORY),
-        };
-        // Long steps go back at once where they were not helped, and now and then to see.
-        let enough = self.trouble > MEMORY;
-        if enough && self.long || self.kept == 0 && (enough || self.long) {
-            self.long = !self.long;
-            (self.trouble, self.needed, self.kept) = (0, 0, CONSTANCY);
-        }
-    }
-
     /// Guesses for the next steps, the first from `mu`; whether there are any.
     #[inline(always)]
     fn look(&mut self, generating: &S, mu: &VectorOf<S>, steps: u64) -> bool {
@@ -235,32 +208,11 @@ impl<S: GeneratingFunction + ?Sized> AtOnce<S> {
             self.pause = self.pause.saturating_sub(1);
             return false;
         }
-        let half = match self.onward.take() {
-            Some(half) => half,
-            None => {
-                // About μ as the middle of a step, half of it leads to its end, where the next has its middle.
-                let middles = core::array::from_fn(|_| mu.clone());
-                if !generating.linearise(&middles, &mut self.found) {
-                    self.pause = u64::MAX;
-                    return false;
-                }
-                self.found.end.clone().minus(mu)
-            }
-        };
-        self.choose_guess();
-        let long = self.long;
-        let count = AT_ONCE.min(steps as usize);
-        let mut middle = mu.clone().plus(&half);
-        let middles = core::array::from_fn(|k| {
-            let next =
-                if k < count { generating.next_middle(&middle, long) } else { middle.clone() };
-            core::mem::replace(&mut middle, next)
-        });
-        if !generating.linearise(&middles, &mut self.found) {
+        if !generating.linearise(mu, self.effort.pieces(), &mut self.found) {
+            self.pause = u64::MAX;
             return false;
         }
-        self.onward = Some(middle.minus(&self.found.end));
-        self.count = count;
+        self.count = AT_ONCE.min(steps as usize);
         self.yardstick = Yardstick::of(mu);
         true
     }

@@ -2,6 +2,7 @@
 
 mod ahead;
 mod at_once;
+mod effort;
 mod fixed_point;
 mod in_parts;
 mod matrix_free;
