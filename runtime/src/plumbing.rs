@@ -91,6 +91,8 @@ fn powers<T: Scalar, const POWERS: usize>(x: T) -> [T; POWERS] {
 }
 
 /// The slots, S_k being multiplied by `factor(k)`.
+// Inlined, as large arrays that are returned get copied.
+#[inline(always)]
 pub fn slots<
     T: Scalar,
     const POWERS: usize,
@@ -104,18 +106,20 @@ pub fn slots<
 ) -> [T; SLOTS] {
     let factors: [T; POWERS] = core::array::from_fn(factor);
     let mut bases = [T::of(0.0); BASES];
-    let mut parts = table.parts.iter().zip(parts);
     let mut start = 0;
     for (number, (base, &end)) in bases.iter_mut().zip(table.bases).enumerate() {
-        for (&(step_power, _), &part) in parts.by_ref().take((end - start) as usize) {
+        let range = start..end as usize;
+        let powers = table.parts.get(range.clone()).unwrap_or(&[]);
+        for (&(step_power, _), &part) in powers.iter().zip(parts.get(range).unwrap_or(&[])) {
             let factor = factors[usize::from(step_power).min(POWERS - 1)];
             *base += if number < table.monomials.len() { part * factor } else { part };
         }
-        start = end;
+        start = end as usize;
     }
     let mut slots = [T::of(0.0); SLOTS];
     for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
-        *slot = bases.get(base as usize).copied().unwrap_or(T::of(0.0)) * T::of(f64::from(scale));
+        // No index reaches its array's end; the compiler is told.
+        *slot = bases[(base as usize).min(BASES.saturating_sub(1))] * T::of(f64::from(scale));
     }
     slots
 }

@@ -31,9 +31,9 @@ use crate::scalar::Scalar;
 use crate::solve::solve_from;
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
-const STEPS: usize = 16;
+const STEPS: usize = 9;
 /// Of so many momenta one is looked at.
-const SPACING: usize = 3;
+const SPACING: usize = 4;
 /// Terms with a factor: the last of them.
 const TERMS: usize = 3;
 /// Short steps in an exact one: what they leave out is 2^{K+1} times less.
@@ -89,7 +89,7 @@ impl<T: Scalar> Tail<T> {
         before.and_then(|n| self.factors.get(n)).copied().unwrap_or(T::of(1.0))
     }
 
-    /// The tail for motions that start with `momenta`, at six of the first sixteen steps of each.
+    /// The tail for motions that start with `momenta`, at three of the first nine steps of each.
     /// `series` makes the generating function Σ factor(k) S_k for given factors. Where the terms do not
     /// fall fast enough to tell, and for K < 5, all factors are one.
     ///
