@@ -37,7 +37,7 @@ pub trait WideStep<C, const SLOTS: usize, const N: usize> {
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], p: &V<T, N>) -> V<T, N>;
 }
 
-/// The way to so many steps is as long as the number of pieces is meant for.
+/// The number of pieces is meant for so many steps; where there are more, so are the pieces.
 const GROUP: usize = 4;
 
 type Wide<const N: usize> = V<Steps, N>;
