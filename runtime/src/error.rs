@@ -1,34 +1,56 @@
 //! Errors of a step.
 
+use core::fmt;
+
 /// Why a step could not be made. The state it was asked to advance is left as it was.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The equation J_L(∂S/∂p(p), p) = μ was not solved to rounding.
-    #[error(
-        "the step did not converge: relative residual {residual:.1e} after {iterations} Newton \
-         iterations; take a smaller step"
-    )]
+    /// The equation J_L(∂S/∂p(p), p) = μ was not solved to the tolerance.
+    #[error("the step did not converge: relative residual {residual:.1e} after {iterations} iterations; {at}")]
     NotConverged {
-        /// Newton iterations made.
+        /// Newton iterations, or evaluations of the fixed point.
         iterations: u32,
         /// The largest remaining residual, relative to the largest momentum coordinate.
         residual: f64,
+        /// What is known of the step.
+        at: Circumstances,
     },
-    /// The fixed point for J_L(∂S/∂p(p), p) = μ was not reached to rounding.
-    #[error(
-        "the fixed point did not converge: relative residual {residual:.1e} after {iterations} \
-         evaluations; take a smaller step, or the solver `newton`"
-    )]
-    FixedPointNotConverged {
-        /// Evaluations made.
-        iterations: u32,
-        /// The largest remaining residual, relative to the largest momentum coordinate.
-        residual: f64,
+    /// The solution of x = s ∂S/∂p could not be followed from s = 0, the identity, to s = 1.
+    #[error("no step is connected with the identity: the solution of x = s ∂S/∂p was followed up to s = {reached:.3} only; {at}")]
+    NotFollowed {
+        /// How far it was followed.
+        reached: f64,
+        /// What is known of the step.
+        at: Circumstances,
     },
-    /// A coordinate of the momentum or the group element is infinite or not a number.
+    /// The step lies outside the chart.
+    #[error("the step leaves the chart: it is {extent:.2} times as long as the chart reaches; {at}")]
+    OutsideChart {
+        /// The length of x as a multiple of the chart's reach: the square root of
+        /// [`Chart::extent`](crate::chart::Chart::extent).
+        extent: f64,
+        /// What is known of the step.
+        at: Circumstances,
+    },
+    /// The series of the generating function has stopped to converge at this momentum.
+    #[error("the series means nothing for so long a step: its last two terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
+    SeriesDiverges {
+        /// What is known of the step.
+        at: Circumstances,
+    },
+    /// A coordinate of the momentum is infinite or not a number.
     #[error("the state is not finite: a coordinate of the momentum is NaN or infinite")]
     NonFiniteState,
+    /// The group element is not on the group, or not finite, or would be after the step.
+    #[error("the group element is off the group by {defect:.1e} (NaN: not finite): start from one that is on it")]
+    OffGroup {
+        /// [`LieGroup::element_defect`](crate::LieGroup::element_defect).
+        defect: f64,
+    },
+    /// The state after the step is too large for its number type.
+    #[error("the state after the step is not finite: a coordinate of the momentum is too large for its number type")]
+    Overflow,
     /// The step size is zero, infinite or not a number.
     #[error("step size {step} is not usable: give a finite step other than zero")]
     InvalidStep {
@@ -43,4 +65,77 @@ pub enum StepError {
         /// Its value.
         value: f64,
     },
+}
+
+/// What is known of a step that was refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circumstances {
+    /// The largest coordinate of the x that was found; it solves nothing where the step did not converge.
+    pub x: f64,
+    /// The ratio of the last two terms of the series at the momentum; zero where S is no series.
+    pub ratio: f64,
+    /// A step size that was tried here and works, where one was looked for.
+    pub usable_step: Option<f64>,
+}
+
+impl fmt::Display for Circumstances {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "|x| = {:.1e}", self.x)?;
+        if self.ratio > 0.0 {
+            write!(f, ", last terms of the series in the ratio {:.1e}", self.ratio)?;
+        }
+        match self.usable_step {
+            Some(step) => write!(f, "; a step of {step} works here"),
+            None => f.write_str("; take a smaller step"),
+        }
+    }
+}
+
+impl StepError {
+    /// Whether a smaller step may work where this one failed.
+    #[must_use]
+    pub fn asks_for_smaller_step(&self) -> bool {
+        self.circumstances().is_some()
+    }
+
+    /// The same error, with a step size that was tried and works.
+    #[must_use]
+    pub fn with_usable_step(mut self, step: f64) -> Self {
+        match &mut self {
+            Self::NotConverged { at, .. }
+            | Self::NotFollowed { at, .. }
+            | Self::OutsideChart { at, .. }
+            | Self::SeriesDiverges { at } => at.usable_step = Some(step),
+            _ => {}
+        }
+        self
+    }
+
+    /// What is known of the step, where the error is of the step and not of its data.
+    #[must_use]
+    pub fn circumstances(&self) -> Option<&Circumstances> {
+        match self {
+            Self::NotConverged { at, .. }
+            | Self::NotFollowed { at, .. }
+            | Self::OutsideChart { at, .. }
+            | Self::SeriesDiverges { at } => Some(at),
+            _ => None,
+        }
+    }
+}
+
+/// Why a run of several steps stopped early. The state is the one after the last accepted step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("after {steps} steps: {error}")]
+pub struct Stopped {
+    /// Steps made.
+    pub steps: u64,
+    /// Why the next one was not.
+    pub error: StepError,
+}
+
+impl From<Stopped> for StepError {
+    fn from(stopped: Stopped) -> Self {
+        stopped.error
+    }
 }

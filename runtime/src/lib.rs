@@ -52,50 +52,25 @@ extern crate alloc;
 #[cfg(feature = "systems")]
 extern crate self as coadjoint;
 
-mod adjustable;
-mod block_elimination;
-mod catalogue;
 mod chart;
-mod compensated;
-mod coordinates;
-mod element_error;
-#[cfg(feature = "ensemble")]
-pub mod ensemble;
 mod error;
-#[cfg(feature = "alloc")]
-mod fit;
-mod generating_function;
+pub mod generating;
 mod group;
-mod heisenberg;
-mod kicked;
-mod lanes;
+pub mod groups;
+pub mod lanes;
 #[cfg(feature = "alloc")]
 pub mod laws;
-mod monitor;
-mod normal_equations;
-mod phase;
+mod linear;
+mod number;
 #[doc(hidden)]
 pub mod plumbing;
-#[cfg(feature = "alloc")]
-mod polynomial_function;
-mod product;
-mod reconstruct;
-mod response;
-mod reversed;
-mod scalar;
-mod se2;
-mod se3;
-mod so3;
-mod so3_matrix;
-mod solve;
-mod splitting;
-mod su2;
+pub mod solve;
+mod step;
+pub mod steps;
 #[cfg(feature = "systems")]
 pub mod systems;
 mod table;
-mod tail;
-mod wide;
-mod wide_step;
+pub mod tune;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
 ///
@@ -126,7 +101,7 @@ mod wide_step;
 /// - `truncation = K`, odd, 7 by default: S₁ … S_K are kept. The order of accuracy is K + 1.
 /// - `chart = exp` (default) or `chart = cayley`.
 /// - `solver = newton` (default up to 24 dimensions) or `solver = fixed_point` (default beyond): see
-///   [`Solver`].
+///   [`solve`].
 /// - `frame = fixed` (default) or `frame = comoving`: whether S generates the whole motion, or what is
 ///   left of it without the spin of a symmetric body and without multiples of quadratic Casimirs, which
 ///   are exponentials of their own ([`GeneratingFunction::frame`]). Then there are fewer terms, and
@@ -143,8 +118,8 @@ mod wide_step;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`Tail`]), `advance`, `advance_by`,
-/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`Lanes`].
+/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`tune::Tail`]), `advance`, `advance_by`,
+/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`lanes::Lanes`].
 /// Every mistake in the function is reported at its place.
 pub use coadjoint_macros::lie_poisson;
 
@@ -152,7 +127,7 @@ pub use coadjoint_macros::lie_poisson;
 /// the kicks of [`Kicked`].
 ///
 /// ```
-/// use coadjoint::{Kicked, LieGroup, Phase, Rkn4, SO3, lie_poisson, potential};
+/// use coadjoint::{Kicked, LieGroup, Phase, SO3, lie_poisson, potential, steps::Rkn4};
 ///
 /// #[lie_poisson(group = SO3)]
 /// fn pendulum(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
@@ -190,49 +165,19 @@ pub use coadjoint_macros::lie_poisson;
 pub use coadjoint_macros::potential;
 pub use nalgebra;
 
-pub use adjustable::{Adjustable, Part, Term};
-pub use catalogue::{
-    Aff1, Aff1Algebra, SL2, SL2Algebra, SO4, SO4Algebra, SO5, SO5Algebra, SU3, SU3Algebra, SU4,
-    SU4Algebra, U2, U2Algebra, U3, U3Algebra,
-};
 pub use chart::{Cayley, Chart, Exponential};
-pub use compensated::{CompensatedGroup, CompensatedPhase, advance_compensated};
-pub use coordinates::{Coordinates, Factors};
-pub use element_error::ElementError;
-pub use error::StepError;
-#[cfg(feature = "alloc")]
-pub use fit::{Fit, FitError, MAX_FITTED_TERMS, fit};
-pub use generating_function::{
-    AHEAD, AT_ONCE, GeneratingFunction, Linearised, LinearisedOf, MatrixOf, ScalarOf, VectorOf,
-    hessian_by_differences,
-};
-pub use group::{CayleyGroup, FixedDimension, LieGroup};
-pub use heisenberg::Heisenberg;
-pub use kicked::Kicked;
-pub use lanes::{F64x4, F64x8, FixedLaneGroup, LaneGroup, Lanes};
-pub use monitor::{Drift, Monitor};
-pub use phase::Phase;
-#[cfg(feature = "alloc")]
-pub use polynomial_function::PolynomialFunction;
-#[cfg(feature = "alloc")]
-pub use product::DirectProduct;
-pub use product::{Power, Product};
-pub use reconstruct::{StepReport, advance, advance_by, poisson_map, reconstruct};
-pub use reversed::Reversed;
-pub use scalar::Scalar;
-pub use se2::SE2;
-pub use se3::SE3;
-pub use so3::SO3;
-pub use so3_matrix::SO3Matrix;
-pub use solve::{MAX_EVALUATIONS, MAX_ITERATIONS, MatrixFree, Solution, Solver, solve, solve_from};
-pub use splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
-pub use su2::SU2;
-pub use table::{
-    BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, StaticAlgebra, StaticMatrixGroup,
-    StaticTables, StructureConstant, TableGroup, Tables,
-};
-#[cfg(feature = "alloc")]
-pub use table::{
-    CayleyMatrixGroup, DynamicLaneTables, DynamicTables, MatrixGroup, TableError, Terms,
-};
-pub use tail::Tail;
+pub use error::{StepError, Stopped};
+pub use generating::GeneratingFunction;
+pub use group::LieGroup;
+pub use group::se2::SE2;
+pub use group::se3::SE3;
+pub use group::so3::SO3;
+pub use group::su2::SU2;
+pub use linear::coordinates::Coordinates;
+pub use number::scalar::Scalar;
+pub use solve::Integrator;
+pub use step::compensated::{CompensatedPhase, advance_compensated};
+pub use step::kicked::Kicked;
+pub use step::monitor::Monitor;
+pub use step::phase::Phase;
+pub use step::{StepReport, advance, advance_by, poisson_map};

@@ -2,12 +2,14 @@
 
 use core::any::Any;
 
-use crate::adjustable::{Part, Term};
+use crate::generating::{Term, TermOf};
 use crate::error::StepError;
-use crate::generating_function::AHEAD;
-use crate::scalar::Scalar;
-use crate::wide::WideF64x8;
-pub use crate::wide_step::{
+use crate::generating::ScalarOf;
+use crate::solve::{Integrator, LOOK_AHEAD};
+use crate::step::phase::Phase;
+use crate::number::scalar::Scalar;
+pub use crate::number::lift::Lift;
+pub use crate::solve::wide::{
     LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
 };
 use nalgebra::SimdValue;
@@ -136,10 +138,10 @@ pub fn term(table: &Table, number: usize) -> Term<'static> {
     let Some(&monomial) = table.monomials.get(number) else {
         let guess = number.checked_sub(table.monomials.len()).and_then(|n| table.guess.get(n));
         let &(base, coordinate, monomial) = guess.unwrap_or(&(u32::MAX, 0, &[]));
-        let part = Part::Guess(coordinate as usize);
-        return Term { part, monomial, order: order(table, base as usize) };
+        let of = TermOf::Guess(coordinate as usize);
+        return Term { of, monomial, order: order(table, base as usize) };
     };
-    Term { part: Part::Series, monomial, order: order(table, number) }
+    Term { of: TermOf::Series, monomial, order: order(table, number) }
 }
 
 /// The highest power of h in a base.
@@ -190,32 +192,89 @@ pub fn polynomial<T: Scalar, const DEGREES: usize>(coefficients: &[T; DEGREES], 
     sum
 }
 
-/// Numbers into which coefficients of type `C` can be put.
-pub trait Lift<C> {
-    /// The coefficient, in every lane.
-    fn lift(coefficient: C) -> Self;
+/// The coefficients of S_K and S_{K−2}, one for each of their terms.
+pub fn last_terms<T: Scalar, const PARTS: usize, const LAST: usize>(
+    table: &Table,
+    parts: &[T; PARTS],
+    truncation: usize,
+) -> [T; LAST] {
+    let mut last = [T::of(0.0); LAST];
+    let mut next = last.iter_mut();
+    for (number, order) in last_orders(table, truncation) {
+        if let (Some(place), Some(&part)) = (next.next(), parts.get(number)) {
+            debug_assert!(order <= truncation);
+            *place = part;
+        }
+    }
+    last
 }
 
-impl<T: Scalar> Lift<T> for T {
-    #[inline(always)]
-    fn lift(coefficient: T) -> T {
-        coefficient
-    }
+/// The numbers of the parts of S_K and S_{K−2}, and the order of each.
+fn last_orders(table: &Table, truncation: usize) -> impl Iterator<Item = (usize, usize)> {
+    let end = table.monomials.len().checked_sub(1).and_then(|last| table.bases.get(last));
+    let parts = table.parts.get(..end.map_or(0, |&end| end as usize)).unwrap_or(&[]);
+    let orders = parts.iter().map(|&(power, _)| usize::from(power)).enumerate();
+    orders.filter(move |&(_, order)| truncation > 1 && order + 2 >= truncation)
 }
 
-impl Lift<f64> for WideF64x4 {
-    #[inline(always)]
-    fn lift(coefficient: f64) -> Self {
-        Self::splat(coefficient)
-    }
+/// The terms whose coefficients are `last`, as (coefficient, order, monomial).
+fn of_last<'a, T: Scalar>(
+    table: &'a Table,
+    last: &'a [T],
+    truncation: usize,
+) -> impl Iterator<Item = (T, usize, Monomial)> + 'a {
+    let numbers = last_orders(table, truncation).zip(last);
+    let mut base = 0;
+    numbers.filter_map(move |((number, order), &value)| {
+        while table.bases.get(base).is_some_and(|&end| end as usize <= number) {
+            base += 1;
+        }
+        table.monomials.get(base).map(|&monomial| (value, order, monomial))
+    })
 }
 
-impl Lift<f64> for WideF64x8 {
-    #[inline(always)]
-    fn lift(coefficient: f64) -> Self {
-        Self::splat(coefficient)
-    }
+/// [`GeneratingFunction::radius`](crate::GeneratingFunction::radius) of a table's series.
+pub fn radius<T: Scalar>(table: &Table, last: &[T], truncation: usize) -> T {
+    crate::generating::series::radius(truncation, of_last(table, last, truncation))
 }
+
+/// [`GeneratingFunction::series_ratio`](crate::GeneratingFunction::series_ratio) of a table's series.
+pub fn series_ratio<T: Scalar, const N: usize>(
+    table: &Table,
+    last: &[T],
+    truncation: usize,
+    p: &[T; N],
+) -> T {
+    crate::generating::series::ratio(truncation, of_last(table, last, truncation), |i| {
+        p.get(i).copied().unwrap_or(T::of(0.0))
+    })
+}
+
+/// The error of a step, with a step size that works where there is one among halves, quarters, … of `step`.
+#[cold]
+#[inline(never)]
+pub fn advise<S: Integrator>(
+    error: StepError,
+    phase: &Phase<S::Group>,
+    step: ScalarOf<S>,
+    shorter: impl Fn(ScalarOf<S>) -> Result<S, StepError>,
+) -> StepError {
+    if !error.asks_for_smaller_step() {
+        return error;
+    }
+    let mut smaller = step;
+    for _ in 0..MOST_HALVINGS {
+        smaller *= Scalar::of(0.5);
+        let works = |step: S| crate::advance(&step, &mut phase.clone()).is_ok();
+        if shorter(smaller).is_ok_and(works) {
+            return error.with_usable_step(smaller.largest_lane());
+        }
+    }
+    error
+}
+
+/// Shorter steps that are tried to advise one.
+const MOST_HALVINGS: u32 = 24;
 
 /// The fine part of the gradient, over numbers that may be wider than the coefficients.
 pub trait FinePart<C, const SLOTS: usize, const N: usize> {
@@ -223,12 +282,12 @@ pub trait FinePart<C, const SLOTS: usize, const N: usize> {
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], input: &[T; N]) -> [T; N];
 }
 
-/// [`FinePart::fine`] at several points: in the lanes of one number if coefficients are `f64`.
+/// [`FineTermOf::fine`] at several points: in the lanes of one number if coefficients are `f64`.
 #[inline(always)]
 pub fn fine_parts<C, P, P64, const SLOTS: usize, const N: usize>(
     c: &[C; SLOTS],
-    points: &[[C; N]; AHEAD],
-) -> [[C; N]; AHEAD]
+    points: &[[C; N]; LOOK_AHEAD],
+) -> [[C; N]; LOOK_AHEAD]
 where
     C: Scalar,
     P: FinePart<C, SLOTS, N>,
@@ -236,15 +295,15 @@ where
 {
     // Decided when compiled: `Any` only tells the compiler what `C` is.
     let numbers = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
-    let places = (points as &dyn Any).downcast_ref::<[[f64; N]; AHEAD]>();
+    let places = (points as &dyn Any).downcast_ref::<[[f64; N]; LOOK_AHEAD]>();
     if let (Some(c), Some(points)) = (numbers, places) {
         // As many steps as lanes, or this does not compile.
         let lanes: [WideF64x4; N] =
             core::array::from_fn(|i| WideF64x4::from(points.map(|point| point[i])));
         let fine = P64::fine(c, &lanes);
-        let found: [[f64; N]; AHEAD] =
+        let found: [[f64; N]; LOOK_AHEAD] =
             core::array::from_fn(|k| core::array::from_fn(|i| fine[i].extract(k)));
-        if let Some(found) = (&found as &dyn Any).downcast_ref::<[[C; N]; AHEAD]>() {
+        if let Some(found) = (&found as &dyn Any).downcast_ref::<[[C; N]; LOOK_AHEAD]>() {
             return *found;
         }
     }

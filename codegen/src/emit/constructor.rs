@@ -14,6 +14,7 @@ use crate::problem::{Parameter, Shape};
 pub fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
+    group: &TokenStream,
     vector: &TokenStream,
 ) -> TokenStream {
     let problem = &integrator.problem;
@@ -25,6 +26,7 @@ pub fn constructor(
     let all = Products::of(&integrator.coefficients);
     let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients, &all);
     let table = table::table(krate, &integrator.coefficients, &all);
+    let last = Literal::usize_unsuffixed(integrator.coefficients.last_terms(problem.truncation));
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
         let slot = Literal::usize_unsuffixed(term.slot);
@@ -43,8 +45,7 @@ pub fn constructor(
             step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let parts = Self::parts(step, &#symbols)?;
-            ::core::result::Result::Ok(Self::fold(step, &parts, &|_| T::of(1.0)))
+            Self::of_symbols(step, &#symbols)
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
@@ -57,11 +58,34 @@ pub fn constructor(
             #(#arguments,)*
             momenta: impl ::core::iter::IntoIterator<Item = impl ::core::convert::Into<#vector>>,
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let parts = Self::parts(step, &#symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| Self::fold(step, &parts, factor);
+            let symbols = #symbols;
+            let parts = Self::parts(step, &symbols)?;
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, &parts, factor)
+            };
             let momenta = momenta.into_iter().map(::core::convert::Into::into);
-            let tail = #krate::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = #krate::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+        }
+
+        fn of_symbols(
+            step: T,
+            symbols: &[T; #count],
+        ) -> ::core::result::Result<Self, #krate::StepError> {
+            let parts = Self::parts(step, symbols)?;
+            ::core::result::Result::Ok(Self::fold(step, symbols, &parts, &|_| T::of(1.0)))
+        }
+
+        /// The error of a step, with a step size that works where one is found.
+        #[cold]
+        fn advise(
+            &self,
+            error: #krate::StepError,
+            phase: &#krate::Phase<#group>,
+        ) -> #krate::StepError {
+            #krate::plumbing::advise(error, phase, self.step, |step| {
+                Self::of_symbols(step, &self.symbols)
+            })
         }
 
         fn table() -> &'static #krate::plumbing::Table {
@@ -84,6 +108,7 @@ pub fn constructor(
         /// The coefficients of Σ factor(k) S_k.
         fn fold(
             step: T,
+            symbols: &[T; #count],
             parts: &[T; #parts],
             factor: &dyn ::core::ops::Fn(usize) -> T,
         ) -> Self {
@@ -92,12 +117,24 @@ pub fn constructor(
                 parts,
                 factor,
             );
-            Self::with(step, coefficients)
+            let last = #krate::plumbing::last_terms::<T, #parts, #last>(
+                Self::table(),
+                parts,
+                Self::TRUNCATION,
+            );
+            let radius = #krate::plumbing::radius(Self::table(), &last, Self::TRUNCATION);
+            Self::with(step, *symbols, coefficients, last, radius)
         }
 
-        fn with(step: T, coefficients: [T; #slots]) -> Self {
+        fn with(
+            step: T,
+            symbols: [T; #count],
+            coefficients: [T; #slots],
+            last: [T; #last],
+            radius: T,
+        ) -> Self {
             let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
-            Self { step, coefficients, defect }
+            Self { step, symbols, coefficients, defect, last, radius }
         }
     }
 }

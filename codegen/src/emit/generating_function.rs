@@ -32,8 +32,6 @@ pub fn generating_function(
             }
         }
     });
-    let solver = (integrator.plan.solver == Solver::FixedPoint)
-        .then(|| quote!(const SOLVER: #krate::Solver = #krate::Solver::FixedPoint;));
     let predictor = vector_function(&integrator.predictor, vector, scope);
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => quote! {
@@ -72,23 +70,13 @@ pub fn generating_function(
             }
         }
     });
-    let in_parts =
-        integrator.parts.as_ref().map(|parts| gradient_parts(parts, name, *dim, vector, scope));
+    let lagged =
+        integrator.parts.as_ref().map(|parts| lagged_model(parts, name, *dim, vector, scope));
     let fine_part =
         integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
     let wide_step = integrator.parts.as_ref().and_then(|step| wide_step(step, name, parts, scope));
-    let wide_registers = wide_registers();
-    let goes_in_parts = integrator.parts.is_some().then(|| {
-        quote!(
-            const IN_PARTS: bool = true;
-        )
-    });
-    let linearises = wide_step.is_some().then(|| {
-        quote! {
-            #wide_registers
-            const LINEARISES: bool = #krate::plumbing::LINEARISES;
-        }
-    });
+    let method = method(integrator, krate, name, wide_step.is_some());
+    let last = Literal::usize_unsuffixed(*dim);
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
             let function = vector_function(program, vector, scope);
@@ -96,9 +84,9 @@ pub fn generating_function(
         });
         quote! {
             #[inline(always)]
-            fn frame(&self, part: usize, input: &#vector) -> ::core::option::Option<#vector> {
+            fn frame(&self, motion: usize, input: &#vector) -> ::core::option::Option<#vector> {
                 let c = &self.coefficients;
-                match part {
+                match motion {
                     #(#parts)*
                     _ => ::core::option::Option::None,
                 }
@@ -121,6 +109,35 @@ pub fn generating_function(
             }
         }
     });
+    let newton_model = (integrator.plan.solver == Solver::Newton).then(|| {
+        quote! {
+            impl<T: #krate::Scalar> #krate::solve::NewtonModel for #name<T> {
+                #newton
+
+                #bend
+
+                #defect
+            }
+        }
+    });
+    let judged = (integrator.coefficients.last_terms(integrator.problem.truncation) > 0).then(|| {
+        quote! {
+            #[inline(always)]
+            fn radius(&self) -> T {
+                self.radius
+            }
+
+            #[cold]
+            fn series_ratio(&self, p: &#vector) -> T {
+                #krate::plumbing::series_ratio::<T, #last>(
+                    Self::table(),
+                    &self.last,
+                    Self::TRUNCATION,
+                    &(*p).into(),
+                )
+            }
+        }
+    });
     quote! {
         #fine_part
 
@@ -129,9 +146,6 @@ pub fn generating_function(
         impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
             type Group = #group;
             type Chart = #chart;
-            #solver
-            #goes_in_parts
-            #linearises
 
             #[inline(always)]
             fn group(&self) -> &#group {
@@ -152,25 +166,53 @@ pub fn generating_function(
 
             #hessian
 
+            #frame
+
+            #judged
+        }
+
+        impl<T: #krate::Scalar> #krate::solve::Predict for #name<T> {
             #predictor
 
             #continuation
+        }
 
-            #newton
+        #newton_model
 
-            #in_parts
+        #lagged
 
-            #bend
+        #method
+    }
+}
 
-            #defect
-
-            #frame
+/// `impl Integrator`: how steps are solved.
+fn method(integrator: &Integrator, krate: &TokenStream, name: &Ident, in_blocks: bool) -> TokenStream {
+    let method = |method: TokenStream| {
+        quote! {
+            impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
+                type Method = #krate::solve::#method;
+            }
+        }
+    };
+    match (integrator.plan.solver, &integrator.parts) {
+        (Solver::FixedPoint, _) => method(quote!(FixedPoint)),
+        (Solver::Newton, None) => method(quote!(Newton<Self>)),
+        (Solver::Newton, Some(_)) if !in_blocks => method(quote!(LaggedNewton<Self>)),
+        (Solver::Newton, Some(_)) => {
+            // Where registers are narrow, several steps at once take longer than one by one.
+            let (several, single) = (method(quote!(BlockNewton<Self>)), method(quote!(LaggedNewton<Self>)));
+            quote! {
+                #[cfg(target_feature = "avx2")]
+                #several
+                #[cfg(not(target_feature = "avx2"))]
+                #single
+            }
         }
     }
 }
 
-/// The methods of a gradient in two parts.
-fn gradient_parts(
+/// `impl LaggedModel`, and `impl BlockModel` where steps go in blocks.
+fn lagged_model(
     parts: &GradientParts,
     name: &Ident,
     dim: usize,
@@ -185,50 +227,62 @@ fn gradient_parts(
     let n = Literal::usize_unsuffixed(dim);
     let slots = Literal::usize_unsuffixed(*slots);
     let wide_registers = wide_registers();
-    let at_once = parts.at_once.as_ref().map(|_| {
+    let blocks = parts.at_once.as_ref().map(|_| {
         quote! {
             #wide_registers
-            #[inline(always)]
-            fn linearise(&self, mu: &#vector, pieces: u32, found: &mut #krate::LinearisedOf<Self>) -> bool {
-                #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(&self.coefficients, mu, pieces, found)
-            }
+            impl<T: #krate::Scalar> #krate::solve::BlockModel for #name<T> {
+                #[inline(always)]
+                fn linearise(
+                    &self,
+                    mu: &#vector,
+                    substeps: u32,
+                    found: &mut #krate::solve::LinearisedOf<Self>,
+                ) -> bool {
+                    let c = &self.coefficients;
+                    #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(c, mu, substeps, found)
+                }
 
-            #wide_registers
-            #[inline(always)]
-            fn refine(&self, found: &mut #krate::LinearisedOf<Self>) -> bool {
-                #krate::plumbing::refine::<T, #name<f64>, #slots, #n>(&self.coefficients, found)
+                #[inline(always)]
+                fn refine(&self, found: &mut #krate::solve::LinearisedOf<Self>) -> bool {
+                    #krate::plumbing::refine::<T, #name<f64>, #slots, #n>(&self.coefficients, found)
+                }
             }
         }
     });
     quote! {
-        #[inline(always)]
-        fn coarse_gradient(&self, input: &#vector) -> #vector {
-            let c = &self.coefficients;
-            #coarse
+        impl<T: #krate::Scalar> #krate::solve::LaggedModel for #name<T> {
+            #[inline(always)]
+            fn coarse_gradient(&self, input: &#vector) -> #vector {
+                let c = &self.coefficients;
+                #coarse
+            }
+
+            #[inline(always)]
+            fn fine_gradient(&self, p: &#vector) -> #vector {
+                <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(&self.coefficients, &(*p).into()).into()
+            }
+
+            #[inline(always)]
+            fn fine_gradients(
+                &self,
+                p: &[#vector; #krate::solve::LOOK_AHEAD],
+            ) -> [#vector; #krate::solve::LOOK_AHEAD] {
+                let p = p.map(::core::convert::Into::into);
+                #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(&self.coefficients, &p)
+                    .map(::core::convert::Into::into)
+            }
+
+            #[inline(always)]
+            fn leading_product(&self, p: &#vector, direction: &#vector) -> #vector {
+                let c = &self.coefficients;
+                let input: [T; #both] =
+                    ::core::array::from_fn(|i| if i < #n { p[i] } else { direction[i - #n] });
+                let input = &input;
+                #leading
+            }
         }
 
-        #[inline(always)]
-        fn fine_gradient(&self, p: &#vector) -> #vector {
-            <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(&self.coefficients, &(*p).into()).into()
-        }
-
-        #[inline(always)]
-        fn fine_gradients(&self, p: &[#vector; #krate::AHEAD]) -> [#vector; #krate::AHEAD] {
-            let p = p.map(::core::convert::Into::into);
-            #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(&self.coefficients, &p)
-                .map(::core::convert::Into::into)
-        }
-
-        #at_once
-
-        #[inline(always)]
-        fn leading_product(&self, p: &#vector, direction: &#vector) -> #vector {
-            let c = &self.coefficients;
-            let input: [T; #both] =
-                ::core::array::from_fn(|i| if i < #n { p[i] } else { direction[i - #n] });
-            let input = &input;
-            #leading
-        }
+        #blocks
     }
 }
 

@@ -62,7 +62,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let summary = header::lines(integrator);
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
-    let constructor = constructor(integrator, krate, &parts.vector);
+    let constructor = constructor(integrator, krate, group, vector);
     let scope = Scope {
         krate: krate.clone(),
         input: vector.clone(),
@@ -70,7 +70,10 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         lifted: false,
     };
     let generating = generating_function(integrator, krate, name, &parts, &scope);
-    let adjustable = adjustable(krate, name);
+    let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
+    let last = integrator.coefficients.last_terms(integrator.problem.truncation);
+    let last = Literal::usize_unsuffixed(last);
+    let adjustable = adjustable(krate, name, &last);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, &scope);
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
@@ -84,9 +87,14 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
         #visibility struct #name<T = f64> {
             step: T,
+            /// The parameters, as expressions of them stand in the coefficients.
+            symbols: [T; #symbols],
             coefficients: [T; #slots],
             /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
             defect: [T; #defects],
+            /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
+            last: [T; #last],
+            radius: T,
         }
 
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables, unexpected_cfgs)]
@@ -116,26 +124,29 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                 /// Advances (g, μ) by one step; on error `phase` is left as it was.
                 ///
                 /// # Errors
-                /// `StepError`: no convergence, or a state that is not finite.
+                /// `StepError`: why there is no right step, and a step size that works where one is found.
                 #[inline]
                 pub fn advance(
                     &self,
                     phase: &mut #krate::Phase<#group>,
                 ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
-                    #krate::advance(self, phase)
+                    #krate::advance(self, phase).map_err(|error| self.advise(error, phase))
                 }
 
                 /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
                 /// worst of them, and on error `phase` is left before the step that failed.
                 ///
                 /// # Errors
-                /// As `advance`.
+                /// `Stopped`: how many steps were made, and why the next was not.
                 pub fn advance_by(
                     &self,
                     phase: &mut #krate::Phase<#group>,
                     steps: u64,
-                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
-                    #krate::advance_by(self, phase, steps)
+                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::Stopped> {
+                    #krate::advance_by(self, phase, steps).map_err(|stopped| #krate::Stopped {
+                        error: self.advise(stopped.error, phase),
+                        ..stopped
+                    })
                 }
 
                 /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
@@ -161,9 +172,9 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
 }
 
 /// `impl Adjustable`.
-fn adjustable(krate: &TokenStream, name: &Ident) -> TokenStream {
+fn adjustable(krate: &TokenStream, name: &Ident, last: &Literal) -> TokenStream {
     quote! {
-        impl<T: #krate::Scalar> #krate::Adjustable for #name<T> {
+        impl<T: #krate::Scalar> #krate::generating::Adjustable for #name<T> {
             fn truncation(&self) -> usize {
                 Self::TRUNCATION
             }
@@ -172,14 +183,16 @@ fn adjustable(krate: &TokenStream, name: &Ident) -> TokenStream {
                 #krate::plumbing::terms(Self::table())
             }
 
-            fn term(&self, number: usize) -> #krate::Term<'_> {
+            fn term(&self, number: usize) -> #krate::generating::Term<'_> {
                 #krate::plumbing::term(Self::table(), number)
             }
 
             fn adjusted(&self, corrections: &[T]) -> Self {
                 let mut coefficients = self.coefficients;
                 #krate::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-                Self::with(self.step, coefficients)
+                // Whoever adjusts the series judges it where it is used.
+                let last = [T::of(0.0); #last];
+                Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
             }
         }
     }
@@ -189,14 +202,17 @@ fn adjustable(krate: &TokenStream, name: &Ident) -> TokenStream {
 fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
     let lane = quote!(#krate::Scalar + #krate::nalgebra::SimdValue<Element = f64>);
     quote! {
-        impl #krate::Lanes for #name<f64> {
+        impl #krate::lanes::Lanes for #name<f64> {
             type Over<L: #lane> = #name<L>;
 
             fn splat<L: #lane>(&self) -> #name<L> {
                 #name {
                     step: L::splat(self.step),
+                    symbols: self.symbols.map(L::splat),
                     coefficients: self.coefficients.map(L::splat),
                     defect: self.defect.map(L::splat),
+                    last: self.last.map(L::splat),
+                    radius: L::splat(self.radius),
                 }
             }
         }

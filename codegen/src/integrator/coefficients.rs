@@ -144,6 +144,25 @@ impl Coefficients {
         slots.iter().zip(&self.slots).map(adjust).collect()
     }
 
+    /// How many parts of the series have the order K or K − 2: the coefficients of its last two terms. None for
+    /// K = 1, where there is one term only.
+    #[must_use]
+    pub fn last_terms(&self, truncation: usize) -> usize {
+        self.last_orders(truncation).count()
+    }
+
+    /// The numbers of these parts, each with its order and the number of its monomial.
+    pub fn last_orders(&self, truncation: usize) -> impl Iterator<Item = (usize, usize, usize)> {
+        let parts = self.parts().enumerate().take(self.series());
+        let orders = parts.flat_map(|(base, parts)| {
+            parts.map(move |part| (base, part.first().map_or(0, |term| term.step_power as usize)))
+        });
+        orders
+            .enumerate()
+            .filter(move |(_, (_, order))| truncation > 1 && order + 2 >= truncation)
+            .map(|(number, (base, order))| (number, order, base))
+    }
+
     /// The value of every part for a step size and symbol values.
     #[must_use]
     pub fn fold_parts(&self, step: f64, symbols: &[f64]) -> Vec<f64> {

@@ -4,12 +4,12 @@ use alloc::vec::Vec;
 
 use super::Vector;
 use crate::chart::Chart;
-use crate::coordinates::Coordinates;
+use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
-use crate::generating_function::GeneratingFunction;
+use crate::solve::Integrator;
 use crate::group::LieGroup;
-use crate::phase::Phase;
-use crate::reconstruct::{advance, poisson_map};
+use crate::step::phase::Phase;
+use crate::step::{advance, poisson_map};
 use crate::solve::solve;
 
 /// Weights of the central difference of eighth order at ±1, ±2, ±3, ±4 steps
@@ -56,7 +56,7 @@ fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
 /// [`StepError`] where the map cannot be made.
 pub fn poisson_defect<S>(map: &S, mu: &Vector<S>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let group = map.group();
@@ -120,7 +120,7 @@ struct Tangent<V> {
 /// [`StepError`] where the map cannot be made.
 pub fn symplectic_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let group = map.group();
@@ -136,11 +136,11 @@ where
 /// x and μ″ of the map of S alone: the frame moves by exact flows of functions of μ.
 fn generated<S>(map: &S, mu: &Vector<S>) -> Result<(Vector<S>, Vector<S>), StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let x = solve(map, mu)?.x;
-    let moved = map.chart().transport(map.group(), &x, mu).1;
+    let moved = S::Chart::default().transport(map.group(), &x, mu).1;
     Ok((x, moved))
 }
 
@@ -148,10 +148,10 @@ where
 /// g″⁻¹δg″ = Ad_{τ(x)⁻¹}(ξ + d^Rτ_x δx).
 fn pairs_by_chart<S>(map: &S, mu: &Vector<S>) -> Result<Pairs<Vector<S>>, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
-    let (group, chart) = (map.group(), map.chart());
+    let (group, chart) = (map.group(), S::Chart::default());
     let dim = group.dim();
     let x = solve(map, mu)?.x;
     let back = group.inverse(&chart.transport(group, &x, mu).0);

@@ -9,13 +9,14 @@ mod order;
 
 use alloc::vec::Vec;
 
-use crate::coordinates::Coordinates;
+use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
-use crate::generating_function::GeneratingFunction;
+use crate::generating::GeneratingFunction;
+use crate::solve::Integrator;
 use crate::group::LieGroup;
-use crate::phase::Phase;
-use crate::reconstruct::{advance, poisson_map};
-use crate::reversed::Reversed;
+use crate::step::phase::Phase;
+use crate::step::{advance, poisson_map};
+use crate::generating::Reversed;
 
 pub use differences::{poisson_defect, symplectic_defect, symplectic_defect_of};
 pub use order::{OrderError, measured_order};
@@ -59,7 +60,7 @@ pub fn check<S>(
     points: &[Phase<S::Group>],
 ) -> Result<Vec<Law>, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let mut laws: Vec<Law> = Vec::new();
@@ -129,7 +130,7 @@ pub fn equivariance_defect<S>(
     k: &<S::Group as LieGroup>::Element,
 ) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let group = map.group();
@@ -152,7 +153,7 @@ fn worse(a: f64, b: f64) -> f64 {
 /// [`StepError`] where the map cannot be made.
 pub fn momentum_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let mut image = point.clone();
@@ -168,7 +169,7 @@ where
 /// [`StepError`] where the map cannot be made.
 pub fn casimir_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let mut monitor = crate::Monitor::new(map.group().clone(), point, 1.0);
@@ -184,7 +185,7 @@ where
 /// [`StepError`] where the map cannot be made.
 pub fn diagram_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
     let mut image = point.clone();
@@ -198,8 +199,8 @@ where
 /// [`StepError`] where a map cannot be made.
 pub fn symmetry_defect<S, B>(forward: &S, backward: &B, mu: &Vector<S>) -> Result<f64, StepError>
 where
-    S: GeneratingFunction,
-    B: GeneratingFunction<Group = S::Group>,
+    S: Integrator,
+    B: Integrator<Group = S::Group>,
     S::Group: LieGroup<Scalar = f64>,
 {
     let there = poisson_map(forward, mu)?;

@@ -2,20 +2,20 @@
 
 /// Blocks of steps over which costs are compared.
 const WINDOW: u32 = 8;
-/// Windows until another number of pieces is tried again.
+/// Windows until another number of substeps is tried again.
 const REST: u32 = 32;
-/// The most pieces, and those to begin with.
+/// The most substeps, and those to begin with.
 const MOST: u32 = 8;
 const FIRST: u32 = 3;
-/// What it costs to refine a block once, in pieces.
+/// What it costs to refine a block once, in substeps.
 const REFINEMENT: u32 = 12;
 
-/// Finds the number of pieces of a guess for which guesses and refinements together cost least: now and then
+/// Finds the number of substeps of a guess for which guesses and refinements together cost least: now and then
 /// others are tried than was best, and kept where they are better.
 #[derive(Debug)]
 pub struct Effort {
     /// The number at present.
-    pieces: u32,
+    substeps: u32,
     /// The best one so far, and what a window costs with it, where that is known.
     best: u32,
     cost: Option<u32>,
@@ -27,7 +27,7 @@ pub struct Effort {
     refinements: u32,
 }
 
-/// Another number of pieces.
+/// Another number of substeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trial {
     /// One more.
@@ -41,7 +41,7 @@ enum Trial {
 impl Effort {
     pub fn new() -> Self {
         Self {
-            pieces: FIRST,
+            substeps: FIRST,
             best: FIRST,
             cost: None,
             next: Trial::Fewer,
@@ -51,10 +51,10 @@ impl Effort {
         }
     }
 
-    /// The number of pieces for the next block.
+    /// The number of substeps for the next block.
     #[inline(always)]
-    pub fn pieces(&self) -> u32 {
-        self.pieces
+    pub fn substeps(&self) -> u32 {
+        self.substeps
     }
 
     /// Takes note of a block that had to be refined so often.
@@ -62,8 +62,8 @@ impl Effort {
     pub fn note(&mut self, refinements: u32) {
         self.blocks += 1;
         self.refinements += refinements;
-        let cost = self.blocks * self.pieces + REFINEMENT * self.refinements;
-        let failed = self.pieces != self.best && self.cost.is_some_and(|known| cost >= known);
+        let cost = self.blocks * self.substeps + REFINEMENT * self.refinements;
+        let failed = self.substeps != self.best && self.cost.is_some_and(|known| cost >= known);
         if failed || self.blocks == WINDOW {
             self.decide(cost, failed);
         }
@@ -75,7 +75,7 @@ impl Effort {
         let refined = self.refinements > 0;
         (self.blocks, self.refinements) = (0, 0);
         if failed {
-            self.pieces = self.best;
+            self.substeps = self.best;
             (self.next, self.rest) = match self.next {
                 Trial::More => (Trial::Most, 0),
                 Trial::Most => (Trial::Fewer, 0),
@@ -84,9 +84,9 @@ impl Effort {
             return;
         }
         let before = self.cost.replace(cost);
-        if self.pieces != self.best {
+        if self.substeps != self.best {
             // Better: on in this direction, and from the most only down.
-            (self.best, self.rest) = (self.pieces, 0);
+            (self.best, self.rest) = (self.substeps, 0);
             if self.next == Trial::Most {
                 self.next = Trial::Fewer;
             }
@@ -102,12 +102,12 @@ impl Effort {
         if !refined || self.best == MOST {
             self.next = Trial::Fewer;
         }
-        self.pieces = match self.next {
+        self.substeps = match self.next {
             Trial::More => self.best + 1,
             Trial::Most => MOST,
             Trial::Fewer => (self.best - 1).max(1),
         };
-        if self.pieces == self.best {
+        if self.substeps == self.best {
             (self.next, self.rest) = (Trial::More, REST);
         }
     }
@@ -117,7 +117,7 @@ impl Effort {
 mod tests {
     use super::*;
 
-    /// The pieces of each of so many blocks, where a block takes `refinements(pieces)`.
+    /// The substeps of each of so many blocks, where a block takes `refinements(substeps)`.
     fn blocks(
         effort: &mut Effort,
         count: usize,
@@ -125,9 +125,9 @@ mod tests {
     ) -> [u32; MOST as usize + 1] {
         let mut seen = [0; MOST as usize + 1];
         for _ in 0..count {
-            let pieces = effort.pieces();
-            seen[pieces as usize] += 1;
-            effort.note(refinements(pieces));
+            let substeps = effort.substeps();
+            seen[substeps as usize] += 1;
+            effort.note(refinements(substeps));
         }
         seen
     }
@@ -136,7 +136,7 @@ mod tests {
     fn the_cheapest_number_is_found_and_kept() {
         for enough in 1..=MOST {
             let mut effort = Effort::new();
-            let seen = blocks(&mut effort, 1000, |pieces| u32::from(pieces < enough));
+            let seen = blocks(&mut effort, 1000, |substeps| u32::from(substeps < enough));
             assert!(seen[enough as usize] > 900, "{enough}: {seen:?}");
         }
     }
@@ -153,9 +153,9 @@ mod tests {
     fn it_follows_when_steps_change() {
         let mut effort = Effort::new();
         blocks(&mut effort, 300, |_| 0);
-        let seen = blocks(&mut effort, 300, |pieces| u32::from(pieces < 4));
+        let seen = blocks(&mut effort, 300, |substeps| u32::from(substeps < 4));
         assert!(seen[4] > 200, "{seen:?}");
-        let seen = blocks(&mut effort, 2000, |pieces| u32::from(pieces < 2));
+        let seen = blocks(&mut effort, 2000, |substeps| u32::from(substeps < 2));
         assert!(seen[2] > 1200, "{seen:?}");
     }
 }

@@ -2,12 +2,15 @@
 
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::{MAX_EVALUATIONS, Solution, Solver, Yardstick, failure};
+use super::accept::NEAR;
+use super::{Candidate, CandidateOf, Method, Predict, Settings, Yardstick};
 use crate::chart::Chart;
-use crate::coordinates::Coordinates;
-use crate::error::StepError;
-use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
-use crate::scalar::Scalar;
+use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
+
+/// Evaluations of the fixed point allowed before the solver gives up.
+pub const MAX_EVALUATIONS: u32 = 60;
 
 /// How many earlier differences the acceleration looks at.
 const WINDOW: usize = 3;
@@ -15,53 +18,111 @@ const WINDOW: usize = 3;
 /// Below this share of its own length a difference is a combination of the newer ones.
 const INDEPENDENT: f64 = 1e-20;
 
-/// [`solve`](super::solve) by [`Solver::FixedPoint`].
+/// The fixed point with Anderson's acceleration: more iterations than Newton's method, each with the gradient of S alone
+/// and work linear in the dimension. Contracts for about h|Ω| < 1.
 ///
 /// With f(p) = (d^R τ_x)ᵀ μ − p, Anderson's acceleration (H. Walker and P. Ni, SIAM J. Numer.
 /// Anal. 49, 2011, 1715) goes from p to p + f − Σ γⱼ (Δpⱼ + Δfⱼ), γ minimising |f − Σ γⱼ Δfⱼ| over
 /// the last few differences: GMRES where f is linear. The least squares go by orthogonalisation,
 /// newest difference first, in pairs, so that no coefficients need to be solved for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FixedPoint;
+
+impl<S: Predict + ?Sized> Method<S> for FixedPoint {
+    #[inline(always)]
+    fn begin(_: &S) -> Self {
+        Self
+    }
+
+    #[inline(always)]
+    fn propose(
+        &mut self,
+        generating: &S,
+        mu: &VectorOf<S>,
+        _left: u64,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S> {
+        fixed_point(generating, mu, None, generating.predict(mu), settings)
+    }
+
+    #[inline(always)]
+    fn forget(&mut self) {}
+
+    #[inline(always)]
+    fn propose_from(
+        generating: &S,
+        mu: &VectorOf<S>,
+        guess: VectorOf<S>,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S> {
+        fixed_point(generating, mu, None, guess, settings)
+    }
+
+    fn propose_scaled(
+        generating: &S,
+        mu: &VectorOf<S>,
+        scale: ScalarOf<S>,
+        guess: VectorOf<S>,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S> {
+        fixed_point(generating, mu, Some(scale), guess, settings)
+    }
+}
+
+/// A step by the fixed point from this guess, of a multiple of S where a scale is given.
 #[inline(always)]
-pub fn fixed_point<S: GeneratingFunction + ?Sized>(
+pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
+    scale: Option<ScalarOf<S>>,
     guess: VectorOf<S>,
-) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    let (group, chart) = (generating.group(), generating.chart());
+    settings: Settings<ScalarOf<S>>,
+) -> CandidateOf<S> {
+    let (group, chart) = (generating.group(), S::Chart::default());
     let dim = mu.dim();
     let (zero, one) = (ScalarOf::<S>::of(0.0), ScalarOf::<S>::of(1.0));
+    let near = ScalarOf::<S>::of(NEAR);
 
-    let Yardstick { inverse_scale, tolerance, .. } = Yardstick::of(mu);
+    let Yardstick { inverse_scale, tolerance, .. } = Yardstick::of(mu, settings);
     // Rounding of many coordinates may stay above that: then it no longer halves.
     let rounding = ScalarOf::<S>::of(32.0) * ScalarOf::<S>::epsilon();
     let half = ScalarOf::<S>::of(0.5);
 
-    let mut p = guess;
-    let mut solved = (p.clone(), mu.clone());
+    let mut p = guess.clone();
+    let mut x_solved = mu.clone();
     let mut remaining = one;
+    let mut way = zero;
     // 1 in lanes that go on, 0 in those that are done.
     let mut open = one;
     let mut last = (p.clone(), p.clone());
     // Pairs Δf, Δp + Δf, the newest first.
     let mut differences: [_; WINDOW] = core::array::from_fn(|_| (p.clone(), p.clone()));
+    let mut iterations = 0;
     for iteration in 0..MAX_EVALUATIONS {
-        let x = generating.gradient(&p);
+        iterations = iteration + 1;
+        let mut x = generating.gradient(&p);
+        if let Some(scale) = scale {
+            x = VectorOf::<S>::from_entries(dim, |i| x[i] * scale);
+        }
         let f = chart.pull_back(group, &x, mu);
         let f = VectorOf::<S>::from_entries(dim, |i| f[i] - p[i]);
 
         let left = f.largest_entry() * inverse_scale;
+        let gone = p.clone().minus(&guess).largest_entry() * inverse_scale;
         let was_open = open.simd_gt(half);
-        solved = (
-            VectorOf::<S>::from_entries(dim, |i| p[i].select(was_open, solved.0[i])),
-            VectorOf::<S>::from_entries(dim, |i| x[i].select(was_open, solved.1[i])),
-        );
+        x_solved = x.select(was_open, &x_solved);
+        way = gone.select(was_open, way);
         let stalled = left.simd_gt(half * remaining);
-        let enough = rounding.select(stalled, tolerance);
-        open = zero.select(left.simd_le(enough), open);
+        let enough = rounding.simd_max(tolerance).select(stalled, tolerance);
+        // Stalled at rounding is solved as well as it can be.
+        let done = left.simd_le(enough);
+        let left = left.simd_min(tolerance).select(done, left);
+        // What is far from its guess is not going to be accepted; what is not a number neither.
+        let goes_on = gone.simd_le(near) & left.simd_le(ScalarOf::<S>::of(f64::MAX));
+        open = zero.select(done, open.select(goes_on, zero));
         remaining = left.select(was_open, remaining);
         if open.simd_le(half).all() {
-            let (p, x) = solved;
-            return Ok(Solution { p, x, iterations: iteration + 1, residual: remaining });
+            break;
         }
 
         let known = WINDOW.min(iteration as usize);
@@ -76,7 +137,7 @@ pub fn fixed_point<S: GeneratingFunction + ?Sized>(
         last = (p, f);
         p = next;
     }
-    Err(failure(Solver::FixedPoint, mu, MAX_EVALUATIONS, remaining))
+    Candidate { x: x_solved, moved: way, residual: remaining, iterations }
 }
 
 /// Subtracts from `next` = p + f what the differences predict of f.

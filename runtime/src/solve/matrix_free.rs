@@ -1,16 +1,12 @@
 //! Choosing the matrix-free solver for a generating function that has a Hessian.
 
-use nalgebra::SimdValue;
+use super::{FixedPoint, Integrator, Predict};
+use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 
-use super::Solver;
-use crate::generating_function::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
-use crate::lanes::Lanes;
-use crate::scalar::Scalar;
-
-/// The same generating function, solved by [`Solver::FixedPoint`].
+/// The same generating function, solved by the [`FixedPoint`].
 ///
 /// ```
-/// use coadjoint::{MatrixFree, Phase, SO3, advance, lie_poisson};
+/// use coadjoint::{Phase, SO3, advance, lie_poisson, solve::MatrixFree};
 ///
 /// #[lie_poisson(group = SO3, truncation = 3)]
 /// fn body(mu: [f64; 3]) -> f64 {
@@ -32,16 +28,10 @@ pub struct MatrixFree<S>(pub S);
 impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     type Group = S::Group;
     type Chart = S::Chart;
-    const SOLVER: Solver = Solver::FixedPoint;
 
     #[inline(always)]
     fn group(&self) -> &Self::Group {
         self.0.group()
-    }
-
-    #[inline(always)]
-    fn chart(&self) -> Self::Chart {
-        self.0.chart()
     }
 
     #[inline(always)]
@@ -60,6 +50,28 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     }
 
     #[inline(always)]
+    fn frame(&self, motion: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.0.frame(motion, mu)
+    }
+
+    #[inline(always)]
+    fn radius(&self) -> ScalarOf<Self> {
+        self.0.radius()
+    }
+
+    #[inline(always)]
+    fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        self.0.series_ratio(p)
+    }
+}
+
+impl<S: Predict> Predict for MatrixFree<S> {
+    #[inline(always)]
+    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.0.predict_increment(mu)
+    }
+
+    #[inline(always)]
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
         self.0.predict(mu)
     }
@@ -68,17 +80,8 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
     fn predict_after(&self, last: &VectorOf<Self>, mu: &VectorOf<Self>) -> VectorOf<Self> {
         self.0.predict_after(last, mu)
     }
-
-    #[inline(always)]
-    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        self.0.frame(part, mu)
-    }
 }
 
-impl<S: Lanes> Lanes for MatrixFree<S> {
-    type Over<L: Scalar + SimdValue<Element = f64>> = MatrixFree<S::Over<L>>;
-
-    fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L> {
-        MatrixFree(self.0.splat())
-    }
+impl<S: Predict> Integrator for MatrixFree<S> {
+    type Method = FixedPoint;
 }

@@ -1,88 +1,138 @@
-//! Solving J_L(∂S/∂p(p), p) = μ for p.
+//! Solving the equation of a step, x = ∂S/∂p((d^R τ_x)ᵀ μ).
+//!
+//! A *method of solution* ([`Method`]) proposes a [`Candidate`] for each step; `accept` alone judges candidates, and
+//! what it refuses goes to `rescue`, which follows the solution from the identity or says why there is
+//! none. Each method is a type in a file of its own and asks for its own small trait, so that a
+//! function can only be given to a method that it serves:
+//!
+//! | method | asks for | for |
+//! |---|---|---|
+//! | [`Newton`] | [`Predict`], [`NewtonModel`] | groups of few dimensions |
+//! | [`LaggedNewton`] | [`LaggedModel`] | four to 24 dimensions, K ≥ 7: no matrices, few gradients |
+//! | [`BlockNewton`] | [`BlockModel`] | the same, several steps at once, where registers are wide |
+//! | [`FixedPoint`] | [`Predict`] | many dimensions |
+//! | [`ByDimension`] | [`Predict`], [`NewtonModel`] | any function at all |
 
-mod ahead;
-mod at_once;
+mod accept;
+mod block;
+mod by_dimension;
+mod continuation;
 mod effort;
 mod fixed_point;
-mod in_parts;
+mod lagged;
+mod look_ahead;
 mod matrix_free;
 mod newton;
+mod plain;
+mod settings;
+pub(crate) mod wide;
 
+pub use block::{BLOCK, BlockModel, BlockNewton, Linearised, LinearisedOf};
+pub use by_dimension::ByDimension;
+pub use fixed_point::{FixedPoint, MAX_EVALUATIONS};
+pub use lagged::{LOOK_AHEAD, LaggedModel, LaggedNewton};
 pub use matrix_free::MatrixFree;
+pub use newton::{MAX_ITERATIONS, Newton, NewtonModel, Predict};
+pub use settings::Settings;
 
-pub(crate) use ahead::Ahead;
-pub(crate) use at_once::{AtOnce, Increment};
-use in_parts::{Start, in_parts};
+pub(crate) use accept::judge;
 
-use crate::coordinates::Coordinates;
+use crate::chart::Chart;
 use crate::error::StepError;
-use crate::generating_function::{GeneratingFunction, ScalarOf, VectorOf};
-use crate::scalar::Scalar;
+use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
 
-/// Newton iterations allowed before the solver gives up.
-pub const MAX_ITERATIONS: u32 = 20;
-
-/// Evaluations of the fixed point allowed before the solver gives up.
-pub const MAX_EVALUATIONS: u32 = 60;
-
-/// How the equation is solved. Both go to rounding, so the map is the same; the cost is not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Solver {
-    /// Newton's method: one to three iterations, each with the Hessian of S and a dense linear
-    /// system, or without matrices ([`GeneratingFunction::in_parts`]). For groups of few dimensions.
-    #[default]
-    Newton,
-    /// The fixed point p ↦ (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), with Anderson acceleration: more iterations,
-    /// each with the gradient of S alone and work linear in the dimension. For spin chains and
-    /// other large groups. Contracts for about h|Ω| < 1.
-    FixedPoint,
+/// A generating function together with the method by which its steps are solved: all that
+/// [`advance`](crate::advance) needs. The attribute implements it; for a function of your own
+/// `impl Integrator for Mine { type Method = ByDimension<Self>; }` does, with empty implementations of [`Predict`] and
+/// [`NewtonModel`].
+pub trait Integrator: GeneratingFunction {
+    /// How steps are solved.
+    type Method: Method<Self>;
 }
+
+/// A method of solution: it proposes the x of the next step and keeps from step to step what it needs.
+pub trait Method<S: GeneratingFunction + ?Sized>: Sized {
+    /// Nothing known yet.
+    fn begin(generating: &S) -> Self;
+
+    /// The next step, from `mu`, with `left` steps to go, this one included.
+    fn propose(
+        &mut self,
+        generating: &S,
+        mu: &VectorOf<S>,
+        left: u64,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S>;
+
+    /// Forgets the steps so far: what comes next does not follow from them.
+    fn forget(&mut self);
+
+    /// A step from `mu` alone, begun at this guess of p.
+    fn propose_from(
+        generating: &S,
+        mu: &VectorOf<S>,
+        guess: VectorOf<S>,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S>;
+
+    /// The solution for s·S in place of S, begun at this guess of p: what continuation in s asks for. Slow and careful.
+    fn propose_scaled(
+        generating: &S,
+        mu: &VectorOf<S>,
+        scale: ScalarOf<S>,
+        guess: VectorOf<S>,
+        settings: Settings<ScalarOf<S>>,
+    ) -> CandidateOf<S>;
+}
+
+/// A step as a method of solution proposes it.
+#[derive(Clone, Debug)]
+pub struct Candidate<V, T> {
+    /// The chart coordinate of the group increment.
+    pub x: V,
+    /// How far the solution lies from the first guess of p, relative to the largest coordinate of μ.
+    pub moved: T,
+    /// A bound on what is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ; measured where the first
+    /// guess was not close.
+    pub residual: T,
+    /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was done).
+    pub iterations: u32,
+}
+
+/// A candidate for a step of `S`.
+pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
 /// A point (x, p) of the Lagrangian submanifold over a given momentum.
 #[derive(Clone, Debug)]
 pub struct Solution<V, T> {
-    /// The canonical momentum.
+    /// The canonical momentum, (d^R τ_x)ᵀ μ.
     pub p: V,
     /// x = ∂S/∂p(p), the chart coordinate of the group increment.
     pub x: V,
-    /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was
-    /// done).
+    /// See [`Candidate::iterations`].
     pub iterations: u32,
-    /// The residual left, relative to the largest coordinate of μ: an estimate for Newton's method,
-    /// which spares the evaluation.
+    /// See [`Candidate::residual`].
     pub residual: T,
 }
 
-/// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, from
-/// [`GeneratingFunction::predict`], as [`GeneratingFunction::SOLVER`] says.
+/// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, and accepts the solution
+/// by the same test as [`advance`](crate::advance).
 ///
 /// # Errors
-/// [`StepError::NonFiniteState`] for a μ with NaN or infinity; [`StepError::NotConverged`] or
-/// [`StepError::FixedPointNotConverged`] when rounding is not reached within [`MAX_ITERATIONS`] or
-/// [`MAX_EVALUATIONS`].
+/// Any [`StepError`]: what `advance` would refuse.
 #[inline(always)]
-pub fn solve<S: GeneratingFunction + ?Sized>(
+pub fn solve<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    if S::IN_PARTS && goes_in_parts(generating) {
-        return in_parts(generating, mu, Start::predicted(generating, mu));
-    }
-    solve_from(generating, mu, generating.predict(mu))
-}
-
-/// As [`solve`], where `last` is the p of the step that has led to μ, if there was one.
-#[inline(always)]
-pub(crate) fn solve_after<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-    last: Option<&VectorOf<S>>,
-) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    let guess = match last {
-        Some(last) => generating.predict_after(last, mu),
-        None => generating.predict(mu),
-    };
-    solve_from(generating, mu, guess)
+    let settings = Settings::default();
+    let mut method = S::Method::begin(generating);
+    let candidate = method.propose(generating, mu, 1, settings);
+    let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
+    let p = S::Chart::default().pull_back(generating.group(), &x, mu);
+    Ok(Solution { p, x, iterations, residual })
 }
 
 /// As [`solve`], from another first guess of p.
@@ -90,77 +140,53 @@ pub(crate) fn solve_after<S: GeneratingFunction + ?Sized>(
 /// # Errors
 /// As [`solve`].
 #[inline(always)]
-pub fn solve_from<S: GeneratingFunction + ?Sized>(
+pub fn solve_from<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    // Constants: solvers that are not asked for, Newton's method with its matrices above all, are not even built.
-    if S::IN_PARTS && goes_in_parts(generating) {
-        return in_parts(generating, mu, Start::new(generating, None, guess));
-    }
-    match S::SOLVER {
-        Solver::Newton => newton::newton(generating, mu, guess),
-        Solver::FixedPoint => fixed_point::fixed_point(generating, mu, guess),
-    }
+    let settings = Settings::default();
+    let candidate = S::Method::propose_from(generating, mu, guess, settings);
+    let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
+    let p = S::Chart::default().pull_back(generating.group(), &x, mu);
+    Ok(Solution { p, x, iterations, residual })
 }
 
-/// Whether [`Solver::Newton`] is meant, and its steps go by parts of the gradient.
-#[inline(always)]
-fn goes_in_parts<S: GeneratingFunction + ?Sized>(generating: &S) -> bool {
-    matches!(S::SOLVER, Solver::Newton) && generating.in_parts()
-}
+/// Up to this size of the first correction, relative to μ, the estimate of what Newton's method leaves is a bound
+/// (tried by the program `stress`); beyond it, what is left is measured by another correction.
+const TRUSTED: f64 = 1e-3;
 
 /// What sizes are measured by.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Yardstick<T> {
     /// Keeps μ = 0 (whose solution is p = 0) from dividing 0 by 0.
     smallest: T,
     /// The largest coordinate of μ.
     scale: T,
     inverse_scale: T,
-    /// What is left, relative to the scale, of a system that is solved.
+    /// What may be left, relative to the scale, of a system that is solved.
     tolerance: T,
 }
 
 impl<T: Scalar> Yardstick<T> {
     #[inline(always)]
-    fn of<V: Coordinates<T>>(mu: &V) -> Self {
+    fn of<V: Coordinates<T>>(mu: &V, settings: Settings<T>) -> Self {
         let smallest = T::of(f64::from(f32::MIN_POSITIVE));
         let scale = mu.largest_entry() + smallest;
-        let tolerance = T::of(4.0) * T::epsilon();
-        Self { smallest, scale, inverse_scale: T::of(1.0) / scale, tolerance }
+        Self { smallest, scale, inverse_scale: T::of(1.0) / scale, tolerance: settings.tolerance() }
     }
 
-    /// An estimate of what a step of Newton's method leaves, relative to the scale, given a bound on
-    /// it, the step's size, and the size of the step before it, if it has one with which to compare.
+    /// What a step of Newton's method leaves, relative to the scale, given an estimate of it, the step's size, and
+    /// the size of the step before it, if it has one with which to compare.
     ///
-    /// The bound knows no more of S than the size of its coefficients. From the second step on the
-    /// steps themselves tell by what they shrink, and one of rounding's size is the last.
+    /// The estimate knows no more of S than the size of its coefficients, and counts for small steps only. From the
+    /// second step on the steps themselves tell by what they shrink, and one of rounding's size is the last.
     #[inline(always)]
-    fn left(&self, bound: T, relative: T, previous: Option<T>) -> T {
+    fn left(&self, estimate: T, relative: T, previous: Option<T>) -> T {
         let left = match previous {
-            Some(previous) => bound.simd_min(T::of(2.0) * relative * relative / previous),
-            None => bound,
+            Some(previous) => estimate.simd_min(T::of(2.0) * relative * relative / previous),
+            None => estimate.select(relative.simd_le(T::of(TRUSTED)), relative),
         };
         left.simd_min(relative).select(relative.simd_le(self.tolerance), left)
-    }
-}
-
-/// Names the reason of a failure; off the hot path.
-#[cold]
-fn failure<T: Scalar, V: Coordinates<T>>(
-    solver: Solver,
-    mu: &V,
-    iterations: u32,
-    remaining: T,
-) -> StepError {
-    if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
-        return StepError::NonFiniteState;
-    }
-    let residual = remaining.largest_lane();
-    match solver {
-        Solver::Newton => StepError::NotConverged { iterations, residual },
-        Solver::FixedPoint => StepError::FixedPointNotConverged { iterations, residual },
     }
 }

@@ -9,8 +9,8 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 use super::algebra::Tables;
 use super::group::TableGroup;
 use super::linear;
-use crate::coordinates::Coordinates;
-use crate::scalar::Scalar;
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
 
 /// Up to this norm of A one Taylor series is used.
 const TAYLOR: f64 = 1.5;

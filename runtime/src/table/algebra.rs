@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-use crate::coordinates::Coordinates;
-use crate::scalar::Scalar;
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
 
 /// (i, j, k, c): [eᵢ, eⱼ] contains c·eₖ. Both (i, j, …) and (j, i, …) are listed.
 pub type StructureConstant = (usize, usize, usize, f64);
@@ -56,6 +56,12 @@ pub trait Tables: Clone + Debug {
 
     /// Whether every matrix in use has trace 0, so that elements have determinant 1.
     fn is_traceless(&self) -> bool;
+
+    /// See [`LieGroup::exp_extent`](crate::LieGroup::exp_extent).
+    fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
+
+    /// See [`CayleyGroup::cayley_extent`](crate::CayleyGroup::cayley_extent).
+    fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
     /// How many Casimirs are known.
     fn casimir_count(&self) -> usize;

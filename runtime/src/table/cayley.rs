@@ -6,9 +6,9 @@ use super::action::Matrix;
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::coordinates::Coordinates;
+use crate::linear::coordinates::Coordinates;
 use crate::group::{CayleyGroup, LieGroup};
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 /// Tables of an algebra with xξx ∈ 𝔤 for x, ξ ∈ 𝔤.
 pub trait CayleyTables: Tables {}
@@ -42,6 +42,11 @@ impl<K: CayleyTables> CayleyGroup for TableGroup<K> {
         let g = self.straighten(linear::multiply(size, &left, &self.shifted(x, 0.5)));
         let moved = self.coadjoint(&self.inverse(&g), mu);
         (g, moved)
+    }
+
+    #[inline(always)]
+    fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar {
+        self.tables.cayley_extent(x)
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {

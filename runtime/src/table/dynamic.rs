@@ -3,10 +3,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use nalgebra::{DMatrix, DVector};
+use core::f64::consts::PI;
+
+use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 use super::algebra::{BasisEntry, StructureConstant, Tables, monomial};
+use super::domain;
 use super::group::TableGroup;
+use crate::number::scalar::Scalar;
 
 /// A matrix group known at run time, coordinates in `DVector<f64>`.
 ///
@@ -53,6 +57,9 @@ pub struct DynamicTables<const CAYLEY: bool> {
     faithful: bool,
     orthogonal: bool,
     traceless: bool,
+    /// Quadratic forms that bound eigenvalues: see `domain`.
+    elliptic: Vec<f64>,
+    cayley: Vec<f64>,
     casimirs: Vec<Terms>,
 }
 
@@ -224,15 +231,19 @@ impl TableGroup<DynamicTables<false>> {
                 }
             }
         }
+        let orthogonal = basis.iter().all(|e| *e == -e.transpose());
+        let (elliptic, cayley) = forms(dim, structure, Some((&entries, orthogonal)));
         let tables = DynamicTables {
             dim,
             matrix_size: basis[0].nrows(),
             structure: structure.to_vec(),
             basis: Some(entries),
+            elliptic,
+            cayley,
             diagonal: is_diagonal(&gram_inverse),
             gram_inverse,
             faithful: true,
-            orthogonal: basis.iter().all(|e| *e == -e.transpose()),
+            orthogonal,
             traceless: basis.iter().all(|e| e.trace() == 0.0),
             casimirs: Vec::new(),
         };
@@ -258,11 +269,14 @@ impl TableGroup<DynamicTables<false>> {
             Ok((inverse, _)) => (inverse, true),
             Err(_) => (DMatrix::zeros(dim, dim), false),
         };
+        let (elliptic, cayley) = forms(dim, structure, None);
         let tables = DynamicTables {
             dim,
             matrix_size: dim,
             structure: structure.to_vec(),
             basis: None,
+            elliptic,
+            cayley,
             diagonal: is_diagonal(&gram_inverse),
             gram_inverse,
             faithful,
@@ -308,6 +322,8 @@ impl TableGroup<DynamicTables<false>> {
             faithful: t.faithful,
             orthogonal: t.orthogonal,
             traceless: t.traceless,
+            elliptic: t.elliptic,
+            cayley: t.cayley,
             casimirs: t.casimirs,
         };
         Ok(TableGroup { tables })
@@ -360,6 +376,25 @@ fn derivative(terms: &Terms, i: usize, mu: &DVector<f64>) -> f64 {
         }
     }
     sum
+}
+
+/// The quadratic forms that bound eigenvalues, for exp and for Cayley's map; with the entries of the basis and
+/// whether all its matrices are antisymmetric, or for adjoint matrices.
+fn forms(
+    dim: usize,
+    structure: &[StructureConstant],
+    basis: Option<(&[BasisEntry], bool)>,
+) -> (Vec<f64>, Vec<f64>) {
+    let (mut elliptic, mut cayley) = (vec![0.0; dim * dim], vec![0.0; dim * dim]);
+    let mut ad = vec![0.0; dim * dim * dim];
+    let ideal = domain::elliptic_form(dim, structure, &mut ad, &mut elliptic);
+    match basis {
+        Some((entries, antisymmetric)) => {
+            domain::cayley_form(dim, entries, antisymmetric, ideal, &mut cayley);
+        }
+        None => cayley.clone_from(&elliptic),
+    }
+    (elliptic, cayley)
 }
 
 fn is_diagonal(m: &DMatrix<f64>) -> bool {
@@ -450,8 +485,18 @@ fn check_structure(dim: usize, structure: &[StructureConstant]) -> Result<(), Ta
 }
 
 impl<const CAYLEY: bool> DynamicTables<CAYLEY> {
+    /// A bound on [`Tables::exp_extent`].
+    pub(crate) fn exp_bound<T: Scalar>(&self, x: &DVector<T>) -> T {
+        domain::exp_extent(&self.elliptic, self.dim, x)
+    }
+
+    /// A bound on [`Tables::cayley_extent`].
+    pub(crate) fn cayley_bound<T: Scalar>(&self, x: &DVector<T>) -> T {
+        domain::cayley_extent(&self.cayley, self.dim, x)
+    }
+
     /// The terms of Casimir number `index`; none for an index out of range.
-    pub(super) fn casimir_terms(&self, index: usize) -> &[(f64, Vec<(usize, u32)>)] {
+    pub(crate) fn casimir_terms(&self, index: usize) -> &[(f64, Vec<(usize, u32)>)] {
         self.casimirs.get(index).map(Vec::as_slice).unwrap_or_default()
     }
 }
@@ -495,6 +540,26 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
 
     fn is_traceless(&self) -> bool {
         self.traceless
+    }
+
+    fn exp_extent(&self, x: &DVector<f64>) -> f64 {
+        let bound = self.exp_bound(x);
+        if bound <= 1.0 || !bound.is_finite() {
+            return bound;
+        }
+        // The bound may be larger than it need be: the eigenvalues themselves decide.
+        let mut ad = DMatrix::zeros(self.dim, self.dim);
+        for &(i, j, k, c) in &self.structure {
+            ad[(k, j)] += x[i] * c;
+        }
+        let Some(schur) = Schur::try_new(ad, f64::EPSILON, 100 * self.dim) else { return bound };
+        let eigenvalues: DVector<Complex<f64>> = schur.complex_eigenvalues();
+        let largest = eigenvalues.iter().fold(0.0_f64, |worst, z| worst.worse(z.im.abs()));
+        bound.min(largest * largest / (PI * PI))
+    }
+
+    fn cayley_extent(&self, x: &DVector<f64>) -> f64 {
+        self.cayley_bound(x)
     }
 
     fn casimir_count(&self) -> usize {

@@ -6,8 +6,9 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use super::algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables, monomial};
+use super::domain;
 use super::group::TableGroup;
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 /// A Lie algebra written down in the program, for [`StaticMatrixGroup`]. Generated code implements
 /// it for a marker type.
@@ -78,6 +79,9 @@ struct Derived<const N: usize> {
     faithful: bool,
     orthogonal: bool,
     traceless: bool,
+    /// Quadratic forms that bound eigenvalues: see `domain`.
+    elliptic: [[f64; N]; N],
+    cayley: [[f64; N]; N],
 }
 
 impl<A: StaticAlgebra, const N: usize, const D: usize, T> StaticTables<A, N, D, T> {
@@ -153,7 +157,17 @@ const fn derive<const N: usize, const D: usize>(
         j += 1;
     }
     let (gram_inverse, faithful) = invert(gram);
-    Derived { gram_inverse, diagonal, faithful, orthogonal, traceless }
+    let mut ad = [[[0.0; N]; N]; N];
+    let (mut elliptic, mut cayley) = ([[0.0; N]; N], [[0.0; N]; N]);
+    let flat = ad.as_flattened_mut().as_flattened_mut();
+    let ideal = domain::elliptic_form(N, structure, flat, elliptic.as_flattened_mut());
+    if let Some(entries) = basis {
+        domain::cayley_form(N, entries, orthogonal, ideal, cayley.as_flattened_mut());
+    } else {
+        // The adjoint matrices themselves.
+        cayley = elliptic;
+    }
+    Derived { gram_inverse, diagonal, faithful, orthogonal, traceless, elliptic, cayley }
 }
 
 /// The inverse of a Gram matrix, and whether there is one. A Gram matrix needs no pivoting.
@@ -246,6 +260,16 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
     #[inline(always)]
     fn is_traceless(&self) -> bool {
         Self::DERIVED.traceless
+    }
+
+    fn exp_extent(&self, x: &Self::Vector) -> T {
+        let derived: &'static Derived<N> = &Self::DERIVED;
+        domain::exp_extent(derived.elliptic.as_flattened(), N, x)
+    }
+
+    fn cayley_extent(&self, x: &Self::Vector) -> T {
+        let derived: &'static Derived<N> = &Self::DERIVED;
+        domain::cayley_extent(derived.cayley.as_flattened(), N, x)
     }
 
     fn casimir_count(&self) -> usize {

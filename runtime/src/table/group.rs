@@ -1,14 +1,14 @@
 //! Everything a Lie group must offer, from its tables.
 
-use nalgebra::{SimdBool, SimdPartialOrd};
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use super::algebra::{BasisEntry, Tables};
 use super::fixed::{StaticAlgebra, StaticTables};
 use super::linear;
-use crate::coordinates::Coordinates;
-use crate::element_error::ElementError;
+use crate::linear::coordinates::Coordinates;
+use crate::group::element_error::ElementError;
 use crate::group::{FixedDimension, LieGroup};
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 /// A Lie group given by the tables of its Lie algebra: structure constants, and a matrix basis
 /// where one is known.
@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 /// allocation) or `MatrixGroup` (tables known at run time, feature `alloc`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TableGroup<K> {
-    pub(super) tables: K,
+    pub(crate) tables: K,
 }
 
 impl<A, const N: usize, const D: usize, T> Default for StaticTables<A, N, D, T>
@@ -268,6 +268,34 @@ impl<K: Tables> LieGroup for TableGroup<K> {
 
     fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
         self.phi_inverse(x, p)
+    }
+
+    #[inline(always)]
+    fn exp_extent(&self, x: &Self::Vector) -> K::Scalar {
+        self.tables.exp_extent(x)
+    }
+
+    #[inline(always)]
+    fn element_defect(&self, g: &Self::Element) -> K::Scalar {
+        let size = self.tables.matrix_size();
+        let one = K::Scalar::of(1.0);
+        let mut defect = K::Scalar::of(0.0);
+        if self.tables.is_orthogonal() {
+            let squared = linear::transpose_multiply(size, g, g);
+            for i in 0..size {
+                for j in 0..size {
+                    let unit = if i == j { one } else { K::Scalar::of(0.0) };
+                    defect = defect.worse((squared[(i, j)] - unit).simd_abs());
+                }
+            }
+            return defect;
+        }
+        for i in 0..size {
+            for j in 0..size {
+                defect += g[(i, j)] * K::Scalar::of(0.0);
+            }
+        }
+        defect
     }
 
     fn casimir_count(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use core::ops::IndexMut;
 
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 /// What the functions below need of a square matrix.
 pub trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}

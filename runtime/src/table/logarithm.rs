@@ -8,9 +8,9 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::coordinates::Coordinates;
+use crate::linear::coordinates::Coordinates;
 use crate::group::LieGroup;
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 /// Square roots taken at most; more than enough for any finite element near which log exists.
 const ROOTS: u32 = 64;

@@ -5,10 +5,10 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::coordinates::Coordinates;
-use crate::element_error::{ElementError, within};
+use crate::linear::coordinates::Coordinates;
+use crate::group::element_error::{ElementError, within};
 use crate::group::LieGroup;
-use crate::scalar::Scalar;
+use crate::number::scalar::Scalar;
 
 impl<K: Tables> TableGroup<K> {
     /// Reads an element: finite, invertible, orthogonal where the group is, of the right

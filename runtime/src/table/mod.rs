@@ -2,22 +2,22 @@
 
 mod action;
 mod algebra;
+mod catalogue;
 mod cayley;
+mod domain;
 #[cfg(feature = "alloc")]
 mod dynamic;
 mod fixed;
 mod group;
-#[cfg(feature = "alloc")]
-mod lanes;
 mod linear;
 mod logarithm;
 mod membership;
 
+pub(crate) use algebra::monomial;
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables};
+pub use catalogue::*;
 pub use cayley::CayleyTables;
 #[cfg(feature = "alloc")]
 pub use dynamic::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};
 pub use fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup, StaticTables};
 pub use group::TableGroup;
-#[cfg(feature = "alloc")]
-pub use lanes::DynamicLaneTables;

@@ -1,0 +1,112 @@
+//! The one interface everything meets at: a generating function S(p) on 𝔤\*.
+
+pub(crate) mod adjustable;
+#[cfg(feature = "alloc")]
+mod polynomial;
+mod reversed;
+pub(crate) mod series;
+
+pub use adjustable::{Adjustable, Term, TermOf};
+#[cfg(feature = "alloc")]
+pub use polynomial::PolynomialFunction;
+pub use reversed::Reversed;
+
+use nalgebra::SimdComplexField;
+
+use crate::chart::Chart;
+use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
+
+/// The number type of a generating function's group.
+pub type ScalarOf<S> = <<S as GeneratingFunction>::Group as LieGroup>::Scalar;
+/// Coordinate vectors of a generating function's group.
+pub type VectorOf<S> = <<S as GeneratingFunction>::Group as LieGroup>::Vector;
+/// Square matrices of a generating function's group.
+pub type MatrixOf<S> = <VectorOf<S> as Coordinates<ScalarOf<S>>>::Matrix;
+
+/// A function S on 𝔤\*, read as the Lagrangian submanifold {x = ∂S/∂p(p)} of T\*G in canonical
+/// coordinates (x, p) of a chart.
+///
+/// Whatever S is (the truncated Hamilton–Jacobi series, a fitted polynomial, a neural network),
+/// [`poisson_map`](crate::poisson_map) and [`advance`](crate::advance) turn it into a Poisson map
+/// of 𝔤\* and a symplectic, G-equivariant, momentum-preserving map of T\*G (Algorithm 1 of
+/// Vaquero, Cortés, Martín de Diego, *Symmetry Preservation in Hamiltonian Systems*). How a step
+/// is solved is said apart, by [`Integrator`](crate::Integrator).
+pub trait GeneratingFunction {
+    /// The group the map lives on.
+    type Group: LieGroup;
+    /// The chart whose canonical coordinates (x, p) are meant.
+    type Chart: Chart<Self::Group>;
+
+    /// The group.
+    fn group(&self) -> &Self::Group;
+
+    /// S(p).
+    fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self>;
+
+    /// x = ∂S/∂p(p).
+    fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self>;
+
+    /// ∂S/∂p and the full Hessian ∂²S/∂p² at p.
+    ///
+    /// The default takes the Hessian by central differences of the gradient, to about 1e-10: give
+    /// the exact one where steps go by Newton's method.
+    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        (self.gradient(p), hessian_by_differences(self, p))
+    }
+
+    /// Where S generates the motion in a comoving frame, the frame's own motion y in one step: a step
+    /// is the map of S, then (g, μ) ↦ (g·exp y, Ad\*_{exp(y)⁻¹} μ) with y of that μ, for motion 0 of
+    /// the frame, then motion 1, … up to the first `None`. `None` for motion 0: S generates the
+    /// whole step.
+    ///
+    /// All these maps must commute and each y be an integral of its own, as with the flows of H − f
+    /// and f where f is a function of an integral ⟨μ, e⟩, or a Casimir: then the frame goes the way of
+    /// many steps at once.
+    #[inline(always)]
+    fn frame(&self, motion: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let _ = (motion, mu);
+        None
+    }
+
+    /// The Euclidean norm of μ up to which [`GeneratingFunction::series_ratio`] is at most ½ in every
+    /// direction; larger momenta are judged one by one. Unbounded where S is no truncated series.
+    #[inline(always)]
+    fn radius(&self) -> ScalarOf<Self> {
+        Scalar::of(f64::MAX)
+    }
+
+    /// Where S is a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by
+    /// the sum of the absolute values of all monomials of its gradient. Steps are refused above ½, where the
+    /// series has stopped to mean something. Zero for any other S.
+    fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        let _ = p;
+        Scalar::of(0.0)
+    }
+}
+
+/// ∂²S/∂p² at p by central differences of the gradient.
+pub fn hessian_by_differences<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    p: &VectorOf<S>,
+) -> MatrixOf<S> {
+    let dim = p.dim();
+    // The third root of rounding balances both errors.
+    let spacing =
+        (p.largest_entry() + ScalarOf::<S>::of(1e-3)) * ScalarOf::<S>::epsilon().simd_cbrt();
+    let factor = ScalarOf::<S>::of(0.5) / spacing;
+    let mut hessian = VectorOf::<S>::zero_matrix(dim);
+    for j in 0..dim {
+        let shifted = |by| {
+            let mut shifted = p.clone();
+            shifted[j] += by;
+            generating.gradient(&shifted)
+        };
+        let (right, left) = (shifted(spacing), shifted(-spacing));
+        for i in 0..dim {
+            hessian[(i, j)] = (right[i] - left[i]) * factor;
+        }
+    }
+    hessian
+}

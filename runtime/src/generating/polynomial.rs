@@ -1,0 +1,162 @@
+//! A generating function given by its terms.
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use crate::chart::Chart;
+use crate::linear::coordinates::Coordinates;
+use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
+use crate::group::LieGroup;
+use crate::number::scalar::Scalar;
+use crate::table::TableError;
+
+/// The polynomial S(p) = Σ c·∏ pᵢ^power as a generating function on the group `G` in the chart
+/// `C`: a series derived elsewhere, or any polynomial at all.
+///
+/// ```
+/// use coadjoint::{Exponential, Phase, PolynomialFunction, SO3, advance};
+/// use nalgebra::Vector3;
+///
+/// // The rigid body at truncation 1: S = h·H.
+/// let h = 0.1;
+/// let terms = [(h / 3.0, vec![(0, 2)]), (h / 4.0, vec![(1, 2)]), (h / 5.0, vec![(2, 2)])];
+/// let map = PolynomialFunction::new(SO3::new(), Exponential, terms)?;
+/// let mut body = Phase::<SO3>::at_identity(Vector3::new(2.0, 0.5, 1.0));
+/// advance(&map, &mut body)?;
+/// assert!((body.momentum.norm_squared() - 5.25_f64).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PolynomialFunction<G, C> {
+    group: G,
+    chart: PhantomData<C>,
+    coefficients: Vec<f64>,
+    /// Where the factors of each term end in `factors`.
+    ends: Vec<usize>,
+    factors: Vec<(usize, u32)>,
+}
+
+impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
+    /// The polynomial with these terms (c, [(i, power), …]); factors of the same coordinate are
+    /// merged.
+    ///
+    /// # Errors
+    /// [`TableError::IndexOutOfRange`] for a coordinate the group does not have.
+    pub fn new(
+        group: G,
+        _chart: C,
+        terms: impl IntoIterator<Item = (f64, Vec<(usize, u32)>)>,
+    ) -> Result<Self, TableError> {
+        let dim = group.dim();
+        let mut result = Self {
+            group,
+            chart: PhantomData,
+            coefficients: Vec::new(),
+            ends: Vec::new(),
+            factors: Vec::new(),
+        };
+        for (c, mut factors) in terms {
+            factors.retain(|f| f.1 > 0);
+            if let Some(&(index, _)) = factors.iter().find(|f| f.0 >= dim) {
+                return Err(TableError::IndexOutOfRange { index, dim });
+            }
+            factors.sort_unstable();
+            let start = result.factors.len();
+            for (i, power) in factors {
+                // Of this term alone: the last factor may still be one of the term before.
+                match result.factors.get_mut(start..).and_then(<[_]>::last_mut) {
+                    Some(last) if last.0 == i => last.1 += power,
+                    _ => result.factors.push((i, power)),
+                }
+            }
+            result.coefficients.push(c);
+            result.ends.push(result.factors.len());
+        }
+        Ok(result)
+    }
+
+    fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {
+        let mut start = 0;
+        self.coefficients.iter().zip(&self.ends).map(move |(&c, &end)| {
+            let factors = self.factors.get(start..end).unwrap_or_default();
+            start = end;
+            (c, factors)
+        })
+    }
+}
+
+/// p^power
+fn power<T: Scalar>(p: T, power: u32) -> T {
+    let mut result = T::of(1.0);
+    for _ in 0..power {
+        result *= p;
+    }
+    result
+}
+
+impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
+    type Group = G;
+    type Chart = C;
+
+    fn group(&self) -> &G {
+        &self.group
+    }
+
+    fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        let mut sum = ScalarOf::<Self>::of(0.0);
+        for (c, factors) in self.terms() {
+            let mut product = ScalarOf::<Self>::of(c);
+            for &(i, n) in factors {
+                product *= power(p[i], n);
+            }
+            sum += product;
+        }
+        sum
+    }
+
+    fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        let mut x = VectorOf::<Self>::zeros(self.group.dim());
+        for (c, factors) in self.terms() {
+            for (at, &(i, n)) in factors.iter().enumerate() {
+                let mut product = ScalarOf::<Self>::of(c * f64::from(n)) * power(p[i], n - 1);
+                for (other, &(j, m)) in factors.iter().enumerate() {
+                    if other != at {
+                        product *= power(p[j], m);
+                    }
+                }
+                x[i] += product;
+            }
+        }
+        x
+    }
+
+    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
+        let mut hessian = VectorOf::<Self>::zero_matrix(self.group.dim());
+        for (c, factors) in self.terms() {
+            for (first, &(i, n)) in factors.iter().enumerate() {
+                for (second, &(j, m)) in factors.iter().enumerate().take(first + 1) {
+                    let degrees = if first == second { n * (n - 1) } else { n * m };
+                    if degrees == 0 {
+                        continue;
+                    }
+                    let mut product = ScalarOf::<Self>::of(c * f64::from(degrees));
+                    product *= if first == second {
+                        power(p[i], n - 2)
+                    } else {
+                        power(p[i], n - 1) * power(p[j], m - 1)
+                    };
+                    for (other, &(k, l)) in factors.iter().enumerate() {
+                        if other != first && other != second {
+                            product *= power(p[k], l);
+                        }
+                    }
+                    hessian[(i, j)] += product;
+                    if i != j {
+                        hessian[(j, i)] += product;
+                    }
+                }
+            }
+        }
+        (self.gradient(p), hessian)
+    }
+}

@@ -1,0 +1,151 @@
+//! What a Lie group must offer: one trait, implemented once per group.
+
+pub(crate) mod compensated;
+pub(crate) mod element_error;
+pub(crate) mod heisenberg;
+pub(crate) mod product;
+pub(crate) mod se2;
+pub(crate) mod se3;
+pub(crate) mod so3;
+pub(crate) mod su2;
+
+use core::fmt::Debug;
+
+use crate::linear::coordinates::Coordinates;
+use crate::group::element_error::ElementError;
+use crate::number::scalar::Scalar;
+
+/// A Lie group G with a chosen basis e₁…eₙ of its Lie algebra 𝔤.
+///
+/// The implementing type *describes* the group (a zero-sized type for the groups of the catalogue,
+/// tables for one known at run time); group elements are [`LieGroup::Element`]. Coordinates of 𝔤
+/// refer to the basis, coordinates of 𝔤\* to the dual basis, [eᵢ, eⱼ] = Σₖ cᵢⱼᵏ eₖ. Conventions:
+/// ⟨Ad\*_g μ, ξ⟩ = ⟨μ, Ad_{g⁻¹} ξ⟩ (a left action), ⟨ad\*_ξ μ, η⟩ = ⟨μ, [ξ, η]⟩.
+pub trait LieGroup: Clone + Debug {
+    /// The number type of coordinates.
+    type Scalar: Scalar;
+    /// Coordinates of 𝔤 and 𝔤\*.
+    type Vector: Coordinates<Self::Scalar>;
+    /// An element g of the group.
+    type Element: Clone + Debug;
+
+    /// n, the dimension of the group.
+    fn dim(&self) -> usize;
+
+    /// The neutral element.
+    fn identity(&self) -> Self::Element;
+
+    /// The product g·h.
+    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element;
+
+    /// The inverse g⁻¹.
+    fn inverse(&self, g: &Self::Element) -> Self::Element;
+
+    /// exp(x), to rounding.
+    fn exp(&self, x: &Self::Vector) -> Self::Element;
+
+    /// The x nearest to 0 with exp(x) = g; `None` where there is none, or none can be found.
+    fn log(&self, g: &Self::Element) -> Option<Self::Vector>;
+
+    /// The bracket [x, y].
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector;
+
+    /// ad\*_x μ, coordinates Σ xᵢ cᵢⱼˡ μₗ: the transpose of ad_x applied to μ.
+    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
+
+    /// Ad_g x.
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector;
+
+    /// Ad\*_g μ, the left coadjoint action: for a phase point (g, μ), its spatial momentum.
+    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector;
+
+    /// exp(x) together with Ad\*_{exp(−x)} μ, computed from x (not from a rounded group element).
+    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
+        let g = self.exp(x);
+        let moved = self.coadjoint(&self.inverse(&g), mu);
+        (g, moved)
+    }
+
+    /// (d^R exp_x)ᵀ μ = Σₖ (ad_xᵀ)ᵏ μ / (k+1)!, to rounding, where dexp·exp⁻¹ = d^R exp_x dx.
+    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
+
+    /// [`LieGroup::dexp_transpose`] and its derivative D(x, μ) in x: entry (i, j) is ∂ᵢ-th
+    /// coordinate by ∂xⱼ. The derivative serves Newton's method; a relative error of 1e-9 does
+    /// no harm.
+    fn dexp_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix);
+
+    /// (d^R exp_x)^{−T} p = Σₖ Bₖ⁺… p, the inverse of [`LieGroup::dexp_transpose`], to rounding.
+    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector;
+
+    /// How far x goes into the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
+    /// it. The chart reaches to one. NaN where x is not finite. The elliptic part alone counts: nilpotent
+    /// directions have no limit; elements that tell x from x + 2π (SU(2)'s own) have twice the range.
+    fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
+
+    /// How far g is from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm
+    /// less one for unit quaternions). NaN where g is not finite; zero where there is nothing to check.
+    fn element_defect(&self, g: &Self::Element) -> Self::Scalar;
+
+    /// How many Casimirs [`LieGroup::casimir`] knows.
+    fn casimir_count(&self) -> usize;
+
+    /// The Casimir number `index` (from 0) at μ: a function constant on coadjoint orbits.
+    fn casimir(&self, index: usize, mu: &Self::Vector) -> Self::Scalar;
+
+    /// d, where elements are d×d matrices (in the representation the group's doc states).
+    fn matrix_size(&self) -> usize;
+
+    /// Entry (row, column) of g as a matrix.
+    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> Self::Scalar;
+
+    /// The element whose matrix has these entries, checked to be one.
+    ///
+    /// # Errors
+    /// [`ElementError`] saying what the matrix lacks.
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> Self::Scalar,
+    ) -> Result<Self::Element, ElementError>;
+}
+
+/// A group whose dimension is known to the compiler; products of such groups check theirs there.
+pub trait FixedDimension {
+    /// n, the dimension of the group.
+    const DIM: usize;
+}
+
+/// A group with the Cayley map cay(x) = (1 − x/2)⁻¹(1 + x/2) in its matrix representation.
+///
+/// Only for groups where ξ, x ∈ 𝔤 implies xξx ∈ 𝔤 (so(n), sp(n), se(3), u(n); not su(3)).
+pub trait CayleyGroup: LieGroup {
+    /// cay(x), together with Ad\*_{cay(−x)} μ.
+    fn cayley_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector);
+
+    /// How far x goes into the Cayley chart: max |λ/2|² over the eigenvalues λ of the matrix of x, or a bound on
+    /// it. The chart is used up to one, its own half turn (|x| = 2 on SO(3)). NaN where x is not finite.
+    fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
+
+    /// The x with cay(x) = g; `None` where g has no Cayley coordinate.
+    fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector>;
+
+    /// (d^R cay_x)ᵀ μ: ⟨μ, (1 − x/2)⁻¹ ξ (1 + x/2)⁻¹⟩ for every ξ.
+    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
+
+    /// [`CayleyGroup::dcay_transpose`] and its derivative in x, as for the exponential.
+    fn dcay_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix);
+
+    /// (d^R cay_x)^{−T} p: ⟨p, (1 − x/2) ξ (1 + x/2)⟩ = ⟨p, ξ − ½[x, ξ] − ¼ xξx⟩, polynomial in x.
+    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector;
+}

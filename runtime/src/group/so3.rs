@@ -1,0 +1,395 @@
+//! SO(3): rotations of space, as unit quaternions.
+
+pub(crate) mod kernel;
+
+use core::marker::PhantomData;
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
+
+use crate::group::compensated::{CompensatedGroup, kahan};
+use crate::group::element_error::{ElementError, finite, within};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::number::scalar::Scalar;
+
+/// The rotation group SO(3), elements as unit quaternions.
+///
+/// Basis: the generators of rotations about the three axes, [e₁, e₂] = e₃ and cyclic, so that
+/// [x, y] = x × y, Ad_R x = Rx, Ad\*_R μ = Rμ, ad\*_x μ = μ × x. Casimir: |μ|². Both charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SO3<T = f64>(PhantomData<T>);
+
+// Not derived: that would ask for `T: Default`, which lanes need not have.
+impl<T> Default for SO3<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T> SO3<T> {
+    /// The group; there is nothing to choose.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<T> FixedDimension for SO3<T> {
+    const DIM: usize = 3;
+}
+
+type V<T> = Vector3<T>;
+
+#[inline(always)]
+pub(crate) fn cross<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    let entry = |i: usize, j: usize| (-a[j]).times_plus(b[i], a[i] * b[j]);
+    V::new(entry(1, 2), entry(2, 0), entry(0, 1))
+}
+
+#[inline(always)]
+pub(crate) fn dot<T: Scalar>(a: &V<T>, b: &V<T>) -> T {
+    a.z.times_plus(b.z, a.y.times_plus(b.y, a.x * b.x))
+}
+
+/// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
+#[inline(always)]
+pub(crate) fn rotate_back<T: Scalar>(w: T, u: &V<T>, v: &V<T>) -> V<T> {
+    let twice = scaled(T::of(2.0), &cross(v, u));
+    sum(&plus(v, w, &twice), &cross(&twice, u))
+}
+
+// Written out, and not by the vectors' operators: those are loops of iterators, which the compiler does
+// not always see through, and then wide lanes go through memory piece by piece.
+
+/// a + s·b
+#[inline(always)]
+pub(crate) fn plus<T: Scalar>(a: &V<T>, s: T, b: &V<T>) -> V<T> {
+    V::new(b.x.times_plus(s, a.x), b.y.times_plus(s, a.y), b.z.times_plus(s, a.z))
+}
+
+/// a + b
+#[inline(always)]
+pub(crate) fn sum<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    V::new(a.x + b.x, a.y + b.y, a.z + b.z)
+}
+
+/// a − b
+#[inline(always)]
+pub(crate) fn difference<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
+    V::new(a.x - b.x, a.y - b.y, a.z - b.z)
+}
+
+/// s·a
+#[inline(always)]
+pub(crate) fn scaled<T: Scalar>(s: T, a: &V<T>) -> V<T> {
+    V::new(a.x * s, a.y * s, a.z * s)
+}
+
+#[inline(always)]
+pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
+    UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
+}
+
+/// (d^R exp_x)ᵀ μ and its derivative D in x, from the functions of |x|².
+#[inline(always)]
+pub(crate) fn dexp_with_derivative<T: Scalar>(
+    k: &kernel::Dexp<T>,
+    x: &V<T>,
+    mu: &V<T>,
+) -> (V<T>, Matrix3<T>) {
+    let once = cross(mu, x);
+    let twice = cross(&once, x);
+    let value = plus(&plus(mu, k.b, &once), k.c, &twice);
+    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
+    // with (μ×v)×x = v (μ·x) − μ (v·x).
+    let two = T::of(2.0);
+    let along = plus(&scaled(k.b_slope, &once), k.c_slope, &twice);
+    let along = plus(&scaled(two, &along), -k.c, mu);
+    let turn = plus(&scaled(k.b, mu), k.c, &once);
+    let diagonal = k.c * dot(mu, x);
+    let derivative = Matrix3::new(
+        along.x.times_plus(x.x, diagonal),
+        along.x.times_plus(x.y, -turn.z),
+        along.x.times_plus(x.z, turn.y),
+        along.y.times_plus(x.x, turn.z),
+        along.y.times_plus(x.y, diagonal),
+        along.y.times_plus(x.z, -turn.x),
+        along.z.times_plus(x.x, -turn.y),
+        along.z.times_plus(x.y, turn.x),
+        along.z.times_plus(x.z, diagonal),
+    );
+    (value, derivative)
+}
+
+/// The rotation whose matrix has these (finite) entries.
+pub(crate) fn rotation_from<T: Scalar>(
+    entry: impl Fn(usize, usize) -> T,
+) -> Result<UnitQuaternion<T>, ElementError> {
+    let m = Matrix3::from_fn(entry);
+    let gram = m.transpose() * m;
+    let mut defect = T::of(0.0);
+    for i in 0..3 {
+        for j in 0..3 {
+            let unit = T::of(if i == j { 1.0 } else { 0.0 });
+            defect = defect.simd_max((gram[(i, j)] - unit).simd_abs());
+        }
+    }
+    if !within(defect, T::of(1.0)) {
+        return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
+    }
+    let columns = [m.column(0).into_owned(), m.column(1).into_owned(), m.column(2).into_owned()];
+    let determinant = dot(&columns[0], &cross(&columns[1], &columns[2]));
+    if !determinant.simd_gt(T::of(0.0)).all() {
+        return Err(ElementError::Determinant {
+            determinant: determinant.largest_lane(),
+            required: "a rotation needs determinant 1",
+        });
+    }
+    let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(m));
+    Ok(UnitQuaternion::new_normalize(q.into_inner()))
+}
+
+impl<T: Scalar> LieGroup for SO3<T> {
+    type Scalar = T;
+    type Vector = Vector3<T>;
+    type Element = UnitQuaternion<T>;
+
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        3
+    }
+
+    #[inline(always)]
+    fn identity(&self) -> Self::Element {
+        quaternion(T::of(1.0), &V::repeat(T::of(0.0)))
+    }
+
+    /// The product, pulled back onto the unit sphere to first order so that rounding does not
+    /// accumulate in the norm over many steps.
+    #[inline(always)]
+    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
+        // Written out: in wide lanes nalgebra's product stays a call.
+        let (a, b) = (g.as_ref(), h.as_ref());
+        let w = a.w * b.w - a.i * b.i - a.j * b.j - a.k * b.k;
+        let i = a.w * b.i + a.i * b.w + a.j * b.k - a.k * b.j;
+        let j = a.w * b.j - a.i * b.k + a.j * b.w + a.k * b.i;
+        let k = a.w * b.k + a.i * b.j - a.j * b.i + a.k * b.w;
+        let norm_squared = (i * i + j * j) + (k * k + w * w);
+        let factor = T::of(1.5) - T::of(0.5) * norm_squared;
+        UnitQuaternion::new_unchecked(Quaternion::new(
+            w * factor,
+            i * factor,
+            j * factor,
+            k * factor,
+        ))
+    }
+
+    #[inline(always)]
+    fn inverse(&self, g: &Self::Element) -> Self::Element {
+        g.conjugate()
+    }
+
+    #[inline(always)]
+    fn exp(&self, x: &Self::Vector) -> Self::Element {
+        let half = kernel::half_angle(dot(x, x));
+        quaternion(half.cosine, &(x * half.sine_over_angle))
+    }
+
+    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
+        // q and −q are the same rotation; the one with w ≥ 0 has the smaller angle.
+        let q = g.as_ref();
+        let sign = T::of(1.0).simd_copysign(q.w);
+        let u = V::new(q.i, q.j, q.k) * sign;
+        let factor = kernel::log_factor(q.w * sign, dot(&u, &u));
+        Some(u * factor)
+    }
+
+    #[inline(always)]
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
+        cross(x, y)
+    }
+
+    #[inline(always)]
+    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        cross(mu, x)
+    }
+
+    #[inline(always)]
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
+        let q = g.as_ref();
+        rotate_back(q.w, &V::new(-q.i, -q.j, -q.k), x)
+    }
+
+    #[inline(always)]
+    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        self.adjoint(g, mu)
+    }
+
+    #[inline(always)]
+    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
+        let half = kernel::half_angle(dot(x, x));
+        let u = x * half.sine_over_angle;
+        (quaternion(half.cosine, &u), rotate_back(half.cosine, &u, mu))
+    }
+
+    #[inline(always)]
+    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        let k = kernel::dexp(dot(x, x));
+        let once = cross(mu, x);
+        plus(&plus(mu, k.b, &once), k.c, &cross(&once, x))
+    }
+
+    #[inline(always)]
+    fn dexp_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        let k = kernel::dexp(dot(x, x));
+        dexp_with_derivative(&k, x, mu)
+    }
+
+    #[inline(always)]
+    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        let c = kernel::dexp_inverse(dot(x, x));
+        let once = cross(x, p);
+        p + once * T::of(0.5) + cross(x, &once) * c
+    }
+
+    #[inline(always)]
+    fn exp_extent(&self, x: &Self::Vector) -> T {
+        dot(x, x) * T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI))
+    }
+
+    #[inline(always)]
+    fn element_defect(&self, g: &Self::Element) -> T {
+        (g.as_ref().norm_squared() - T::of(1.0)).simd_abs()
+    }
+
+    #[inline(always)]
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn casimir(&self, _index: usize, mu: &Self::Vector) -> T {
+        dot(mu, mu)
+    }
+
+    #[inline(always)]
+    fn matrix_size(&self) -> usize {
+        3
+    }
+
+    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
+        let mut unit = V::repeat(T::of(0.0));
+        unit[column] = T::of(1.0);
+        self.adjoint(g, &unit)[row]
+    }
+
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> T,
+    ) -> Result<Self::Element, ElementError> {
+        finite(3, &entry)?;
+        rotation_from(entry)
+    }
+}
+
+impl<T: Scalar> CayleyGroup for SO3<T> {
+    #[inline(always)]
+    fn cayley_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
+        let half = x * T::of(0.5);
+        let w = T::of(1.0) / (T::of(1.0) + dot(&half, &half)).simd_sqrt();
+        let u = half * w;
+        (quaternion(w, &u), rotate_back(w, &u, mu))
+    }
+
+    #[inline(always)]
+    fn cayley_extent(&self, x: &Self::Vector) -> T {
+        dot(x, x) * T::of(0.25)
+    }
+
+    fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
+        let q = g.as_ref();
+        if q.w.simd_abs().simd_le(T::epsilon()).any() {
+            return None; // a half turn: cay never reaches it
+        }
+        let factor = T::of(2.0) / q.w;
+        Some(V::new(q.i, q.j, q.k) * factor)
+    }
+
+    #[inline(always)]
+    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
+        let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
+        (mu + cross(mu, x) * T::of(0.5)) * factor
+    }
+
+    #[inline(always)]
+    fn dcay_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
+        let value = (mu + cross(mu, x) * T::of(0.5)) * factor;
+        let turn = mu * (T::of(0.5) * factor);
+        let along = value * (T::of(-0.5) * factor);
+        let zero = T::of(0.0);
+        let turn_matrix =
+            Matrix3::new(zero, -turn.z, turn.y, turn.z, zero, -turn.x, -turn.y, turn.x, zero);
+        (value, turn_matrix + along * x.transpose())
+    }
+
+    #[inline(always)]
+    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        p + cross(x, p) * T::of(0.5) + x * (dot(x, p) * T::of(0.25))
+    }
+}
+
+impl<T: Scalar> CompensatedGroup for SO3<T> {
+    type Remainder = Quaternion<T>;
+
+    #[inline(always)]
+    fn no_remainder(&self) -> Quaternion<T> {
+        Quaternion::from_vector(nalgebra::Vector4::repeat(T::of(0.0)))
+    }
+
+    #[inline(always)]
+    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        let q = k.as_ref();
+        let u = V::new(q.i, q.j, q.k);
+        let twice = cross(mu, &u) * T::of(2.0);
+        twice * q.w + cross(&twice, &u)
+    }
+
+    #[inline(always)]
+    fn compose_compensated(
+        &self,
+        g: &mut Self::Element,
+        remainder: &mut Quaternion<T>,
+        k: &Self::Element,
+    ) {
+        // g·k − g = g·(k − 1), where w − 1 = −|u|²/(1 + w) without cancellation for w near one.
+        let small = k.as_ref();
+        let u = V::new(small.i, small.j, small.k);
+        let one = T::of(1.0);
+        let near = small.w.simd_gt(T::of(0.0));
+        let below_one = (-dot(&u, &u) / (one + small.w)).select(near, small.w - one);
+        let q = *g.as_ref();
+        let change = q * Quaternion::new(below_one, u.x, u.y, u.z);
+        // Half of what is missing to norm one, along q: the rounding of many products.
+        let excess = q.coords.dot(&q.coords) - T::of(1.0);
+        let change = change.coords - q.coords * (T::of(0.5) * excess);
+        let mut coords = q.coords;
+        for i in 0..4 {
+            kahan(&mut coords[i], &mut remainder.coords[i], change[i]);
+        }
+        *g = UnitQuaternion::new_unchecked(Quaternion::from_vector(coords));
+    }
+}

@@ -1,0 +1,277 @@
+//! SU(2): unit quaternions, the double cover of SO(3).
+
+use core::marker::PhantomData;
+
+use nalgebra::{Matrix3, Quaternion, SimdBool, UnitQuaternion, Vector3};
+
+use crate::group::compensated::CompensatedGroup;
+use crate::group::element_error::{ElementError, finite, fixed, within};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::number::scalar::Scalar;
+use crate::group::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
+
+/// The group SU(2), elements as unit quaternions; q and −q are different here.
+///
+/// Basis: e_k = −iσ_k/2 with the Pauli matrices, so that [e₁, e₂] = e₃ and cyclic, and brackets,
+/// Ad and Ad\* are those of [`SO3`]. Matrices: the complex 2×2 matrix a + ib as the real 4×4
+/// matrix ((a, −b), (b, a)). Casimir: |μ|². Both charts; the Cayley map is that of the 2×2
+/// matrices, which differs from SO(3)'s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SU2<T = f64>(PhantomData<T>);
+
+impl<T> SU2<T> {
+    /// The group; there is nothing to choose.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+// A derived impl would ask for `T: Default`.
+impl<T> Default for SU2<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T> FixedDimension for SU2<T> {
+    const DIM: usize = 3;
+}
+
+type V<T> = Vector3<T>;
+
+impl<T: Scalar> LieGroup for SU2<T> {
+    type Scalar = T;
+    type Vector = V<T>;
+    type Element = UnitQuaternion<T>;
+
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn identity(&self) -> Self::Element {
+        SO3::new().identity()
+    }
+
+    #[inline(always)]
+    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
+        SO3::new().compose(g, h)
+    }
+
+    #[inline(always)]
+    fn inverse(&self, g: &Self::Element) -> Self::Element {
+        g.conjugate()
+    }
+
+    #[inline(always)]
+    fn exp(&self, x: &Self::Vector) -> Self::Element {
+        SO3::new().exp(x)
+    }
+
+    /// The logarithm with |x| < 2π; `None` at −1, which every direction reaches.
+    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
+        let q = g.as_ref();
+        let u = V::new(q.i, q.j, q.k);
+        let squared = dot(&u, &u);
+        if q.w.simd_lt(T::of(0.0)).any() && squared.simd_le(T::epsilon() * T::epsilon()).any() {
+            return None;
+        }
+        Some(u * kernel::log_factor(q.w, squared))
+    }
+
+    #[inline(always)]
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
+        SO3::new().bracket(x, y)
+    }
+
+    #[inline(always)]
+    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        SO3::new().ad_star(x, mu)
+    }
+
+    #[inline(always)]
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
+        SO3::new().adjoint(g, x)
+    }
+
+    #[inline(always)]
+    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        SO3::new().coadjoint(g, mu)
+    }
+
+    #[inline(always)]
+    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
+        SO3::new().exp_transport(x, mu)
+    }
+
+    #[inline(always)]
+    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        SO3::new().dexp_transpose(x, mu)
+    }
+
+    #[inline(always)]
+    fn dexp_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        SO3::new().dexp_transpose_with_derivative(x, mu)
+    }
+
+    #[inline(always)]
+    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        SO3::new().dexp_inverse_transpose(x, p)
+    }
+
+    #[inline(always)]
+    fn exp_extent(&self, x: &Self::Vector) -> T {
+        // The elements tell x from x + 2π: a full turn.
+        dot(x, x) * T::of(0.25 / (core::f64::consts::PI * core::f64::consts::PI))
+    }
+
+    #[inline(always)]
+    fn element_defect(&self, g: &Self::Element) -> T {
+        (g.as_ref().norm_squared() - T::of(1.0)).simd_abs()
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
+        SO3::new().casimir(index, mu)
+    }
+
+    fn matrix_size(&self) -> usize {
+        4
+    }
+
+    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
+        // w − i(xσ₁ + yσ₂ + zσ₃): real part ((w, −y), (y, w)), imaginary part ((−z, −x), (−x, z)).
+        let q = g.as_ref();
+        let real = [[q.w, -q.j], [q.j, q.w]];
+        let imaginary = [[-q.k, -q.i], [-q.i, q.k]];
+        match (row / 2, column / 2) {
+            (0, 1) => -imaginary[row % 2][column % 2],
+            (1, 0) => imaginary[row % 2][column % 2],
+            _ => real[row % 2][column % 2],
+        }
+    }
+
+    fn element_from_matrix(
+        &self,
+        entry: impl Fn(usize, usize) -> T,
+    ) -> Result<Self::Element, ElementError> {
+        finite(4, &entry)?;
+        let u = V::new(-entry(2, 1), entry(1, 0), -entry(2, 0));
+        let w = entry(0, 0);
+        let norm = (w * w + dot(&u, &u)).simd_sqrt();
+        let defect = (norm - T::of(1.0)).simd_abs();
+        if !within(defect, T::of(1.0)) {
+            return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
+        }
+        let q = quaternion(w / norm, &(u / norm));
+        for row in 0..4 {
+            for column in 0..4 {
+                let expected = self.matrix_entry(&q, row, column);
+                fixed(&|i, j| entry(i, j) - expected, (row, column), 0.0)?;
+            }
+        }
+        Ok(q)
+    }
+}
+
+/// (1 + |a|²) and (1 − |a|²)μ + 2(a·μ)a + 2 μ×a, a = x/4: with them (d^R cay_x)ᵀ μ is the second
+/// by the square of the first.
+#[inline(always)]
+fn turned<T: Scalar>(a: &V<T>, mu: &V<T>) -> (T, V<T>) {
+    let one = T::of(1.0);
+    let n = dot(a, a);
+    (one + n, mu * (one - n) + (a * dot(a, mu) + cross(mu, a)) * T::of(2.0))
+}
+
+impl<T: Scalar> CompensatedGroup for SU2<T> {
+    type Remainder = Quaternion<T>;
+
+    #[inline(always)]
+    fn no_remainder(&self) -> Quaternion<T> {
+        SO3::new().no_remainder()
+    }
+
+    #[inline(always)]
+    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
+        SO3::new().momentum_change(k, mu)
+    }
+
+    #[inline(always)]
+    fn compose_compensated(
+        &self,
+        g: &mut Self::Element,
+        remainder: &mut Quaternion<T>,
+        k: &Self::Element,
+    ) {
+        SO3::new().compose_compensated(g, remainder, k);
+    }
+}
+
+impl<T: Scalar> CayleyGroup for SU2<T> {
+    fn cayley_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        // (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
+        let a = x * T::of(0.25);
+        let n = dot(&a, &a);
+        let factor = T::of(1.0) / (T::of(1.0) + n);
+        let (w, u) = ((T::of(1.0) - n) * factor, a * (T::of(2.0) * factor));
+        (quaternion(w, &u), rotate_back(w, &u, mu))
+    }
+
+    #[inline(always)]
+    fn cayley_extent(&self, x: &Self::Vector) -> T {
+        // Eigenvalues of x are ±i|x|/2.
+        dot(x, x) * T::of(0.0625)
+    }
+
+    fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
+        let q = g.as_ref();
+        let below = T::of(1.0) + q.w;
+        if below.simd_le(T::epsilon()).any() {
+            return None; // −1: cay never reaches it
+        }
+        Some(V::new(q.i, q.j, q.k) * (T::of(4.0) / below))
+    }
+
+    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        let (m, y) = turned(&(x * T::of(0.25)), mu);
+        y / (m * m)
+    }
+
+    fn dcay_transpose_with_derivative(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Vector, Matrix3<T>) {
+        let a = x * T::of(0.25);
+        let (m, y) = turned(&a, mu);
+        let factor = T::of(1.0) / (m * m);
+        let value = y * factor;
+        let (zero, half) = (T::of(0.0), T::of(0.5));
+        // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
+        let turn = Matrix3::new(zero, -mu.z, mu.y, mu.z, zero, -mu.x, -mu.y, mu.x, zero);
+        let mut slope = turn + a * mu.transpose() - mu * a.transpose();
+        for i in 0..3 {
+            slope[(i, i)] += dot(&a, mu);
+        }
+        (value, slope * (half * factor) - value * a.transpose() / m)
+    }
+
+    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        let a = x * T::of(0.25);
+        let n = dot(&a, &a);
+        let two = T::of(2.0);
+        p * (T::of(1.0) - n) + (cross(&a, p) + a * dot(&a, p)) * two
+    }
+}

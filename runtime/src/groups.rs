@@ -1,0 +1,27 @@
+//! All groups: closed forms, products, and groups given by tables; and what a group of one's own implements.
+//!
+//! | group | elements | dimension |
+//! |---|---|---|
+//! | [`SO3`](crate::SO3), [`SU2`](crate::SU2) | unit quaternions | 3 |
+//! | [`SE2`](crate::SE2), [`SE3`](crate::SE3) | rotation and translation | 3, 6 |
+//! | [`Heisenberg`] | three numbers | 3 |
+//! | [`SO4`], [`SO5`], [`SU3`], [`SU4`], [`U2`], [`U3`], [`SL2`], [`Aff1`] | matrices | 2 to 15 |
+//! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
+//! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
+
+pub use crate::group::compensated::CompensatedGroup;
+pub use crate::group::element_error::ElementError;
+pub use crate::group::heisenberg::Heisenberg;
+#[cfg(feature = "alloc")]
+pub use crate::group::product::DirectProduct;
+pub use crate::group::product::{Power, Product};
+pub use crate::group::{CayleyGroup, FixedDimension};
+pub use crate::linear::coordinates::Factors;
+pub use crate::table::{
+    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, SL2, SL2Algebra, SO4,
+    SO4Algebra, SO5, SO5Algebra, SU3, SU3Algebra, SU4, SU4Algebra, StaticAlgebra,
+    StaticMatrixGroup, StaticTables, StructureConstant, TableGroup, Tables, U2, U2Algebra, U3,
+    U3Algebra,
+};
+#[cfg(feature = "alloc")]
+pub use crate::table::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};

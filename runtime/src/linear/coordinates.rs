@@ -1,0 +1,214 @@
+//! Coordinate vectors on 𝔤 and 𝔤\*, of fixed or run-time dimension.
+
+use core::fmt::Debug;
+use core::ops::{Index, IndexMut};
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::linear::block_elimination;
+use crate::number::scalar::Scalar;
+
+/// Coordinates of an element of 𝔤 (in its basis) or of 𝔤\* (in the dual basis).
+///
+/// [`SVector`] for groups of fixed dimension (no allocation), `DVector` for groups known only at
+/// run time (feature `alloc`).
+pub trait Coordinates<T: Scalar>:
+    Clone + Debug + PartialEq + Index<usize, Output = T> + IndexMut<usize>
+{
+    /// Square matrices of the same dimension, entries at `(row, column)`.
+    type Matrix: Clone + Debug + Index<(usize, usize), Output = T> + IndexMut<(usize, usize)>;
+
+    /// The zero vector; `dim` must be the fixed dimension where there is one.
+    fn zeros(dim: usize) -> Self;
+
+    /// The zero matrix; `dim` as in [`Coordinates::zeros`].
+    fn zero_matrix(dim: usize) -> Self::Matrix;
+
+    /// The number of coordinates.
+    fn dim(&self) -> usize;
+
+    /// The vector with entries `entry(0)`, `entry(1)`, …
+    #[inline(always)]
+    fn from_entries(dim: usize, mut entry: impl FnMut(usize) -> T) -> Self {
+        let mut result = Self::zeros(dim);
+        for i in 0..result.dim() {
+            result[i] = entry(i);
+        }
+        result
+    }
+
+    /// The matrix with entries `entry(row, column)`.
+    #[inline(always)]
+    fn matrix_from_entries(dim: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self::Matrix {
+        let mut result = Self::zero_matrix(dim);
+        for i in 0..dim {
+            for j in 0..dim {
+                result[(i, j)] = entry(i, j);
+            }
+        }
+        result
+    }
+
+    // Loops, not closures, from here on: in wide lanes the compiler leaves closures as calls.
+
+    /// self + other.
+    #[inline(always)]
+    #[must_use]
+    fn plus(mut self, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] += other[i];
+        }
+        self
+    }
+
+    /// self − other.
+    #[inline(always)]
+    #[must_use]
+    fn minus(mut self, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] -= other[i];
+        }
+        self
+    }
+
+    /// In each lane this vector where `mask` holds, else the other.
+    #[inline(always)]
+    #[must_use]
+    fn select(mut self, mask: T::SimdBool, other: &Self) -> Self {
+        for i in 0..self.dim() {
+            self[i] = self[i].select(mask, other[i]);
+        }
+        self
+    }
+
+    /// 1 − a·b.
+    #[inline(always)]
+    fn one_minus_product(dim: usize, a: &Self::Matrix, b: &Self::Matrix) -> Self::Matrix {
+        let mut result = Self::zero_matrix(dim);
+        if dim == 3 {
+            // Written out: a loop over the rows is vectorised as such, with gathers across the lanes.
+            macro_rules! entries {
+                ($(($i:literal, $j:literal)),*) => {$(
+                    result[($i, $j)] = one_minus_entry(a, b, dim, $i, $j);
+                )*};
+            }
+            entries!((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2));
+            return result;
+        }
+        for i in 0..dim {
+            for j in 0..dim {
+                result[(i, j)] = one_minus_entry(a, b, dim, i, j);
+            }
+        }
+        result
+    }
+
+    /// The product of a matrix with this vector.
+    #[inline(always)]
+    fn left_multiply(&self, matrix: &Self::Matrix) -> Self {
+        let dim = self.dim();
+        let mut result = Self::zeros(dim);
+        for i in 0..dim {
+            let mut sum = matrix[(i, 0)] * self[0];
+            for j in 1..dim {
+                sum = matrix[(i, j)].times_plus(self[j], sum);
+            }
+            result[i] = sum;
+        }
+        result
+    }
+
+    /// The pairing ⟨self, other⟩ = Σ selfᵢ otherᵢ.
+    #[inline(always)]
+    fn pairing(&self, other: &Self) -> T {
+        let mut sum = self[0] * other[0];
+        for i in 1..self.dim() {
+            sum = self[i].times_plus(other[i], sum);
+        }
+        sum
+    }
+
+    /// The largest absolute entry, per lane.
+    #[inline(always)]
+    fn largest_entry(&self) -> T {
+        let mut largest = self[0].simd_abs();
+        for i in 1..self.dim() {
+            largest = largest.simd_max(self[i].simd_abs());
+        }
+        largest
+    }
+
+    /// The factors of `matrix` for [`Coordinates::solve`]: elimination by blocks of three.
+    ///
+    /// Blocks are not pivoted (SIMD lanes cannot swap rows one by one): meant for matrices near the
+    /// identity, as the solver's are. A singular matrix gives non-finite entries, which the caller
+    /// must look for.
+    #[inline(always)]
+    fn factor(dim: usize, mut matrix: Self::Matrix) -> Factors<Self::Matrix, T> {
+        let last = block_elimination::factor(dim, &mut matrix);
+        Factors { matrix, last }
+    }
+
+    /// Solves `matrix · y = right` for `y`, given the factors of `matrix`.
+    #[inline(always)]
+    fn solve(factors: &Factors<Self::Matrix, T>, mut right: Self) -> Self {
+        block_elimination::solve(right.dim(), &factors.matrix, factors.last, &mut right);
+        right
+    }
+}
+
+/// Entry (i, j) of 1 − a·b.
+#[inline(always)]
+fn one_minus_entry<T: Scalar, M>(a: &M, b: &M, dim: usize, i: usize, j: usize) -> T
+where
+    M: Index<(usize, usize), Output = T>,
+{
+    let mut sum = a[(i, 0)] * b[(0, j)];
+    for k in 1..dim {
+        sum = a[(i, k)].times_plus(b[(k, j)], sum);
+    }
+    if i == j { T::of(1.0) - sum } else { -sum }
+}
+
+/// A matrix made ready for solving, by [`Coordinates::factor`].
+#[derive(Clone, Debug)]
+pub struct Factors<M, T> {
+    matrix: M,
+    last: T,
+}
+
+impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {
+    type Matrix = SMatrix<T, N, N>;
+
+    #[inline(always)]
+    fn zeros(_dim: usize) -> Self {
+        Self::repeat(T::of(0.0))
+    }
+
+    #[inline(always)]
+    fn zero_matrix(_dim: usize) -> Self::Matrix {
+        Self::Matrix::repeat(T::of(0.0))
+    }
+
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        N
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Coordinates<T> for nalgebra::DVector<T> {
+    type Matrix = nalgebra::DMatrix<T>;
+
+    fn zeros(dim: usize) -> Self {
+        Self::repeat(dim, T::of(0.0))
+    }
+
+    fn zero_matrix(dim: usize) -> Self::Matrix {
+        Self::Matrix::repeat(dim, dim, T::of(0.0))
+    }
+
+    fn dim(&self) -> usize {
+        self.len()
+    }
+}

@@ -1,0 +1,112 @@
+//! Accepting a step: the one place that says what is right.
+//!
+//! The mask of [`accept`] is what compiled steps test. Whatever it refuses goes, out of the way of what is fast, to
+//! [`rescue`]: a solution that is merely not near its first guess is followed from the identity; all others get the
+//! reason of their refusal.
+
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
+
+use super::continuation::follow;
+use super::{Candidate, CandidateOf, Integrator, Settings};
+use crate::chart::Chart;
+use crate::error::{Circumstances, StepError};
+use crate::generating::series::LARGEST_RATIO;
+use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
+
+/// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
+/// (tried by the program `stress`, not proven).
+pub(super) const NEAR: f64 = 0.05;
+
+/// A verdict on a step of `S`.
+type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;
+
+/// In which lanes a candidate is solved, near its guess, inside the chart, and of a series that converges. Comparisons
+/// with what is not a number do not hold.
+#[inline(always)]
+fn accept<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: &CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Verdict<S> {
+    let one = ScalarOf::<S>::of(1.0);
+    let extent = S::Chart::default().extent(generating.group(), &candidate.x);
+    let radius = generating.radius();
+    let within = mu.pairing(mu).simd_le(radius * radius);
+    solved(candidate, settings) & extent.simd_le(one) & within
+}
+
+/// In which lanes a candidate is solved, and near its guess.
+#[inline(always)]
+fn solved<V, T: Scalar>(candidate: &Candidate<V, T>, settings: Settings<T>) -> T::SimdBool {
+    candidate.residual.simd_le(settings.tolerance()) & candidate.moved.simd_le(T::of(NEAR))
+}
+
+/// The candidate if it is right, or what `rescue` makes of it.
+///
+/// # Errors
+/// Why there is no right step.
+#[inline(always)]
+pub(crate) fn judge<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Result<CandidateOf<S>, StepError> {
+    if accept(generating, mu, &candidate, settings).all() {
+        return Ok(candidate);
+    }
+    rescue(generating, mu, candidate, settings)
+}
+
+/// The right step where there is one that [`accept`] could not tell; the reason where there is none. Over lanes only
+/// the reason: lanes have to be tried again one by one.
+#[cold]
+#[inline(never)]
+fn rescue<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Result<CandidateOf<S>, StepError> {
+    if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
+        return Err(StepError::NonFiniteState);
+    }
+    let known = solved(&candidate, settings).all();
+    let candidate = match known || <ScalarOf<S> as SimdValue>::LANES > 1 {
+        true => candidate,
+        false => follow(generating, mu, settings)
+            .map_err(|reached| refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at }))?,
+    };
+    let (group, chart) = (generating.group(), S::Chart::default());
+    if !solved(&candidate, settings).all() {
+        let (iterations, residual) = (candidate.iterations, candidate.residual.largest_lane());
+        let not_solved = |at| StepError::NotConverged { iterations, residual, at };
+        return Err(refuse(generating, mu, &candidate, not_solved));
+    }
+    let extent = chart.extent(group, &candidate.x);
+    if !extent.simd_le(ScalarOf::<S>::of(1.0)).all() {
+        let extent = extent.simd_sqrt().largest_lane();
+        let outside = |at| StepError::OutsideChart { extent, at };
+        return Err(refuse(generating, mu, &candidate, outside));
+    }
+    let p = chart.pull_back(group, &candidate.x, mu);
+    let ratio = generating.series_ratio(&p);
+    if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
+        return Err(refuse(generating, mu, &candidate, |at| StepError::SeriesDiverges { at }));
+    }
+    Ok(candidate)
+}
+
+/// A refusal with its circumstances.
+fn refuse<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: &CandidateOf<S>,
+    error: impl FnOnce(Circumstances) -> StepError,
+) -> StepError {
+    let ratio = generating.series_ratio(mu).largest_lane();
+    error(Circumstances { x: candidate.x.largest_entry().largest_lane(), ratio, usable_step: None })
+}
