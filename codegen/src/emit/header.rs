@@ -46,6 +46,33 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
     lines
 }
 
+/// Lines for the head of a file: by whom it is written, what the integrator says of itself, and how
+/// to read what follows.
+#[must_use]
+pub fn file_lines(integrator: &Integrator) -> Vec<String> {
+    let mut result = vec![
+        format!(
+            "{}: written by coadjoint {}; changes will be overwritten.",
+            integrator.problem.name,
+            env!("CARGO_PKG_VERSION")
+        ),
+        String::new(),
+    ];
+    result.extend(lines(integrator).into_iter().map(|line| line.trim_start().to_owned()));
+    result.extend(
+        [
+            "",
+            "Programs have one operation a line: `c[i]` is a coefficient, folded once for the step size \
+             and the",
+            "parameters, and `a.times_plus(b, c)` is a * b + c. A comment says what a line computes. \
+             Coordinates",
+            "count from one in names and comments. Tables stand at the end.",
+        ]
+        .map(str::to_owned),
+    );
+    result
+}
+
 /// The text on one line, fit for a doc comment.
 pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "'")
