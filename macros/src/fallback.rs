@@ -1,8 +1,8 @@
 //! What stands in for the generated items when the function could not be read, so that the compiler
 //! reports the mistakes themselves and not the absence of what is used elsewhere.
 //!
-//! Where the signature and the group can be read, it is the expansion for the constant 0, which offers
-//! all that the real one does. Otherwise it is a struct whose methods take whatever they are given.
+//! Where the signature and the group can be read, it is the expansion for the first coordinate alone, which
+//! offers all that the real one does. Otherwise it is a struct whose methods take whatever they are given.
 //! Neither ever runs: the crate does not compile.
 
 use coadjoint_codegen::diagnostic::nearest;
@@ -10,16 +10,33 @@ use coadjoint_codegen::emit::Options;
 use coadjoint_codegen::lie::catalogue;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
-use syn::{FnArg, ItemFn, Type, parse_quote};
+use syn::{Block, FnArg, ItemFn, Type, parse_quote};
 
-/// The function with 0 for its body.
-pub fn without_body(function: &ItemFn) -> ItemFn {
-    ItemFn { block: parse_quote!({ 0.0 }), ..function.clone() }
+/// The expansion that succeeds for the function with its first coordinate for its body, which is at
+/// fault nowhere; `None` if not even the signature or the group can be read.
+pub fn expansion(
+    arguments: &TokenStream,
+    function: &ItemFn,
+    generate: impl Fn(TokenStream, &ItemFn) -> syn::Result<TokenStream>,
+) -> Option<TokenStream> {
+    // Of an array or a vector, of an array of arrays, of a matrix.
+    let bodies: [Block; 3] = [
+        parse_quote!({ coordinates[0] }),
+        parse_quote!({ coordinates[0][0] }),
+        parse_quote!({ coordinates[(0, 0)] }),
+    ];
+    bodies.into_iter().find_map(|body| {
+        let mut function = ItemFn { block: Box::new(body), ..function.clone() };
+        if let Some(FnArg::Typed(first)) = function.sig.inputs.first_mut() {
+            *first.pat = parse_quote!(coordinates);
+        }
+        attempts(arguments.clone()).find_map(|arguments| generate(arguments, &function).ok())
+    })
 }
 
 /// Arguments with which the expansion may succeed: all, or those that say most, or with the group that
 /// was probably meant.
-pub fn attempts(arguments: TokenStream) -> impl Iterator<Item = TokenStream> {
+fn attempts(arguments: TokenStream) -> impl Iterator<Item = TokenStream> {
     let group_and_chart = only(&arguments, &["group", "chart"]);
     let group = only(&arguments, &["group"]);
     let name: String = group.clone().into_iter().skip(2).map(|token| token.to_string()).collect();
@@ -42,11 +59,12 @@ fn only(arguments: &TokenStream, keys: &[&str]) -> TokenStream {
 /// The types of the parameters.
 fn types(function: &ItemFn) -> Vec<&Type> {
     let inputs = function.sig.inputs.iter().skip(1);
-    let ty = |argument| match argument {
-        &FnArg::Typed(ref typed) => Some(&*typed.ty),
-        FnArg::Receiver(_) => None,
-    };
-    inputs.filter_map(ty).collect()
+    inputs
+        .filter_map(|argument| match argument {
+            FnArg::Typed(typed) => Some(&*typed.ty),
+            FnArg::Receiver(_) => None,
+        })
+        .collect()
 }
 
 /// In place of a potential.

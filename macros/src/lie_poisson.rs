@@ -27,11 +27,11 @@ fn generate(
     Ok(emit::tokens(&integrator, options))
 }
 
-/// The expansion for a Hamiltonian that is at fault nowhere; if not even the signature or the
-/// arguments can be read, methods that take whatever they are given.
+/// The expansion for a Hamiltonian that is at fault nowhere; if not even the signature or the group
+/// can be read, methods that take whatever they are given.
 fn stand_in(arguments: TokenStream, function: &ItemFn, options: &emit::Options) -> TokenStream {
-    let function = fallback::without_body(function);
-    fallback::attempts(arguments)
-        .find_map(|arguments| generate(arguments, &function, options).ok())
-        .unwrap_or_else(|| fallback::lie_poisson(&function, options))
+    fallback::expansion(&arguments, function, |arguments, function| {
+        generate(arguments, function, options)
+    })
+    .unwrap_or_else(|| fallback::lie_poisson(function, options))
 }

@@ -232,9 +232,12 @@ fn gradient_parts(
 
         #[inline(always)]
         fn fine_gradients(&self, p: &[#vector; #krate::AHEAD]) -> [#vector; #krate::AHEAD] {
-            let p = p.map(::core::convert::Into::into);
-            #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(&self.coefficients, &p)
-                .map(::core::convert::Into::into)
+            let p = <[#vector; #krate::AHEAD]>::map(*p, ::core::convert::Into::into);
+            let fine = #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(
+                &self.coefficients,
+                &p,
+            );
+            <[[T; #n]; #krate::AHEAD]>::map(fine, ::core::convert::Into::into)
         }
 
         #at_once
