@@ -38,7 +38,7 @@ fn advice(arguments: impl Iterator<Item = String>) -> Option<String> {
         name.starts_with("libcoadjoint-") || name.starts_with("libcoadjoint.")
     };
     let renamed = externs.iter().find(|(_, file)| is_runtime(file)).map(|(name, _)| name);
-    let path = renamed.map_or("path::to::coadjoint", String::as_str);
+    let path = renamed.map_or_else(|| "path::to::coadjoint".to_owned(), |name| format!("::{name}"));
     Some(format!(
         "this crate has no dependency called `coadjoint`: say where the runtime is, `crate = {path}`, \
          among the arguments of this attribute"
@@ -57,7 +57,7 @@ mod tests {
     fn a_renamed_dependency_is_found_by_its_file() {
         let help =
             of(&["rustc", "--extern", "lie=/target/libcoadjoint-0a1b.rmeta"]).unwrap_or_default();
-        assert!(help.contains("crate = lie`"), "{help}");
+        assert!(help.contains("crate = ::lie`"), "{help}");
         let help = of(&["rustc", "--extern=mine=/target/libmine-0a1b.rmeta"]).unwrap_or_default();
         assert!(help.contains("crate = path::to::coadjoint"), "{help}");
     }
