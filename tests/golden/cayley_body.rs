@@ -621,8 +621,8 @@ const _: () = {
         >(&self) -> CayleyBody<L> {
             CayleyBody {
                 step: L::splat(self.step),
-                coefficients: <[f64; 258]>::map(self.coefficients, L::splat),
-                defect: <[f64; 0]>::map(self.defect, L::splat),
+                coefficients: self.coefficients.map(L::splat),
+                defect: self.defect.map(L::splat),
             }
         }
     }

@@ -656,8 +656,8 @@ const _: () = {
         >(&self) -> ComovingBody<L> {
             ComovingBody {
                 step: L::splat(self.step),
-                coefficients: <[f64; 73]>::map(self.coefficients, L::splat),
-                defect: <[f64; 0]>::map(self.defect, L::splat),
+                coefficients: self.coefficients.map(L::splat),
+                defect: self.defect.map(L::splat),
             }
         }
     }

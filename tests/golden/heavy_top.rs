@@ -930,8 +930,8 @@ const _: () = {
         >(&self) -> HeavyTop<L> {
             HeavyTop {
                 step: L::splat(self.step),
-                coefficients: <[f64; 402]>::map(self.coefficients, L::splat),
-                defect: <[f64; 0]>::map(self.defect, L::splat),
+                coefficients: self.coefficients.map(L::splat),
+                defect: self.defect.map(L::splat),
             }
         }
     }

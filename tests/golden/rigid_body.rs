@@ -1082,8 +1082,8 @@ const _: () = {
         >(&self) -> RigidBody<L> {
             RigidBody {
                 step: L::splat(self.step),
-                coefficients: <[f64; 438]>::map(self.coefficients, L::splat),
-                defect: <[f64; 9]>::map(self.defect, L::splat),
+                coefficients: self.coefficients.map(L::splat),
+                defect: self.defect.map(L::splat),
             }
         }
     }

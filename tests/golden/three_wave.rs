@@ -430,8 +430,8 @@ const _: () = {
         >(&self) -> ThreeWave<L> {
             ThreeWave {
                 step: L::splat(self.step),
-                coefficients: <[f64; 63]>::map(self.coefficients, L::splat),
-                defect: <[f64; 0]>::map(self.defect, L::splat),
+                coefficients: self.coefficients.map(L::splat),
+                defect: self.defect.map(L::splat),
             }
         }
     }

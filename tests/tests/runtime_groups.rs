@@ -9,6 +9,7 @@ use coadjoint::{
 use coadjoint_codegen::emit;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::system;
 use num_traits::ToPrimitive;
@@ -77,16 +78,17 @@ fn an_algebra_of_the_users_own_keeps_its_tables() -> Result<(), Box<dyn std::err
     // Named as one of the catalogue, with brackets of its own.
     let text = r#"
 name = "own"
-truncation = 3
 hamiltonian = "a^2 + b*c"
 
 [algebra]
-name = "SO3"
 generators = ["a", "b", "c"]
 brackets = ["[a, b] = 2*c", "[b, c] = a", "[c, a] = 3*b"]
 "#;
-    let system = system::read(text, system::Options::default())
+    let mut system = system::read(text, system::Options::default())
         .map_err(|mistakes| mistakes.render("own.toml", text))?;
+    let constants = system.problem.algebra.structure().iter();
+    let constants: Vec<_> = constants.map(|s| (s.i, s.j, s.k, s.value.clone())).collect();
+    system.problem.algebra = LieAlgebra::from_structure_constants("SO3", 3, constants)?;
     let integrator = Integrator::build(system.problem, TermLimit::default())?;
     let code = emit::file(&integrator, &emit::Options::for_problem("own"));
     assert!(code.contains("pub struct OwnAlgebra;"), "{code}");
