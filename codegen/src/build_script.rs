@@ -11,7 +11,14 @@ use crate::system::{self, Parameters};
 /// Writes the integrator of a system file as a module into `OUT_DIR`, anew only when the file
 /// changes.
 ///
-/// In `build.rs`:
+/// In `Cargo.toml`, where the feature `system` is there by default:
+///
+/// ```toml
+/// [build-dependencies]
+/// coadjoint-codegen = "0.1" # or { version = "0.1", default-features = false, features = ["system"] }
+/// ```
+///
+/// in `build.rs`:
 ///
 /// ```no_run
 /// fn main() -> Result<(), coadjoint_codegen::BuildError> {
@@ -29,7 +36,7 @@ use crate::system::{self, Parameters};
 /// ```
 ///
 /// The parameters of the file become arguments of `new`, in the order of the file; `[initial]` and
-/// `[run]` are not used.
+/// `[run]` are not used. The module opens with a page that says how to read it.
 #[derive(Clone, Debug)]
 pub struct Build {
     input: PathBuf,

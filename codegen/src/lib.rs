@@ -1,4 +1,20 @@
 //! Exact Hamilton–Jacobi series of Lie–Poisson systems, lowered to Rust.
+//!
+//! Most people use this crate through the attribute `coadjoint::lie_poisson`, or in a build script,
+//! where [`Build`] writes the integrator of a system file as a module:
+//!
+//! ```toml
+//! [dependencies]
+//! coadjoint = "0.1"
+//!
+//! [build-dependencies]
+//! coadjoint-codegen = "0.1"
+//! ```
+//!
+//! # Features
+//!
+//! `system` (default): reading system files in TOML, with [`Build`] and the module [`system`]. With
+//! `default-features = false` neither is there, unless the dependency says `features = ["system"]`.
 
 pub mod comoving;
 pub mod diagnostic;

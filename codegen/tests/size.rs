@@ -7,7 +7,7 @@ use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::system::{Options, Parameters, read};
 
 /// A Heisenberg ring with anisotropy and field, couplings to the next neighbours only.
 fn ring(sites: usize) -> Integrator {
@@ -93,4 +93,35 @@ fn too_many_terms_are_refused_by_their_number() {
     let refused = emit::check_size(&large).unwrap_err();
     assert_eq!(refused.terms, large.terms());
     assert!(refused.to_string().contains(&format!("{} terms", large.terms())));
+}
+
+#[test]
+fn a_refusal_says_what_literals_would_leave() {
+    let text = r#"
+group = "SO3"
+hamiltonian = "x^2/(2*a) + y^2/(2*b) + z^2/(2*c)"
+coordinates = ["x", "y", "z"]
+[parameters]
+a = 1.5
+b = 2.0
+c = 2.5
+[integrator]
+truncation = 5
+"#;
+    let built = |parameters| {
+        let options = Options { parameters, ..Options::default() };
+        let system = read(text, options).unwrap_or_else(|m| panic!("{}", m.render("body", text)));
+        Integrator::build(system.problem, TermLimit::default()).unwrap()
+    };
+    let (kept, substituted) = (built(Parameters::Kept), built(Parameters::Substituted));
+    assert!(emit::check_size(&kept).is_ok());
+    // The number that a refusal gives is that of the terms with literals, or a little more.
+    let promised = kept.coefficients.series();
+    assert!(substituted.terms() <= promised && promised < kept.terms());
+
+    let refused = emit::TooManyTerms { terms: 31_000, with_literals: Some(412), limit: 20_000 };
+    let message = refused.to_string();
+    for part in ["31000 terms", "the limit of 20000", "at most 412: write literals"] {
+        assert!(message.contains(part), "{message}");
+    }
 }

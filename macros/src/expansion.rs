@@ -1,45 +1,85 @@
 //! What both attributes do around their own work: read the function, keep it, report mistakes.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
-use syn::ItemFn;
+use syn::{FnArg, ItemFn, Pat};
 
 use coadjoint_codegen::emit;
 
-/// The function itself, followed by what `generate` makes of it, or by the errors and a stand-in.
-pub fn expand(
-    item: TokenStream,
-    generate: impl FnOnce(&ItemFn) -> syn::Result<TokenStream>,
-    fallback: impl FnOnce(&ItemFn, &TokenStream) -> TokenStream,
-) -> TokenStream {
-    let function: ItemFn = match syn::parse2(item.clone()) {
-        Ok(function) => function,
-        Err(error) => {
-            // Not a function: say so, and leave the item in place.
-            let error = error.into_compile_error();
-            return quote!(#error #item);
+use crate::arguments::{self, Arguments};
+use crate::dependency;
+
+/// An attribute: how it reads a function, and what stands in where that fails.
+pub struct Attribute {
+    /// What is generated for the function, given the arguments but `crate`.
+    pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<TokenStream>,
+    /// What stands in for it, given the same.
+    pub stand_in: fn(TokenStream, &ItemFn, &emit::Options) -> TokenStream,
+}
+
+impl Attribute {
+    /// The function itself, followed by what is generated for it, or by the errors and a stand-in.
+    pub fn expand(&self, arguments: TokenStream, item: TokenStream) -> TokenStream {
+        let function: ItemFn = match syn::parse2(item.clone()) {
+            Ok(function) => function,
+            Err(error) => {
+                // Not a function: say so, and leave the item in place.
+                let error = error.into_compile_error();
+                return quote!(#error #item);
+            }
+        };
+        let (arguments, mut errors) = match arguments::split(arguments) {
+            Ok(arguments) => (arguments, None),
+            Err(error) => (Arguments { krate: None, others: TokenStream::new() }, Some(error)),
+        };
+        if arguments.krate.is_none()
+            && errors.is_none()
+            && let Some(help) = dependency::help()
+        {
+            // Without the runtime not even a stand-in compiles.
+            let error = syn::Error::new(proc_macro2::Span::call_site(), help).into_compile_error();
+            return quote!(#[allow(dead_code)] #function #error);
         }
-    };
-    let generated = match generate(&function) {
-        Ok(tokens) => tokens,
-        Err(errors) => {
+        let options = options(&function, arguments.krate());
+        let generated = match errors.take() {
+            Some(error) => Err(error),
+            None => (self.generate)(arguments.others.clone(), &function, &options),
+        };
+        let generated = generated.unwrap_or_else(|errors| {
             let errors = errors.into_compile_error();
-            let stand_in = fallback(&function, &quote!(::coadjoint));
+            let stand_in = (self.stand_in)(arguments.others, &function, &options);
             quote!(#errors #stand_in)
-        }
-    };
-    // Many users only want what is generated; then the function is not dead code either.
-    quote!(#[allow(dead_code)] #function #generated)
+        });
+        let kept = parameters(&function);
+        let taken = emit::identifiers(function.to_token_stream());
+        let generated = emit::hygienic(generated, &kept, &taken);
+        // Many users only want what is generated; then the function is not dead code either.
+        quote!(#[allow(dead_code)] #function #generated)
+    }
 }
 
 /// Named after the function, as visible as it, with its doc comments.
-pub fn options(function: &ItemFn) -> emit::Options {
+fn options(function: &ItemFn, krate: TokenStream) -> emit::Options {
     let name = &function.sig.ident;
     let docs = function.attrs.iter().filter(|attribute| attribute.path().is_ident("doc"));
     emit::Options {
-        krate: quote!(::coadjoint),
+        krate,
         visibility: function.vis.to_token_stream(),
         name: Ident::new(&emit::camel_case(&name.to_string()), name.span()),
         attributes: quote!(#(#docs)*),
     }
+}
+
+/// The names of the function's parameters.
+fn parameters(function: &ItemFn) -> BTreeSet<String> {
+    let name = |argument: &FnArg| match argument {
+        FnArg::Typed(typed) => match &*typed.pat {
+            Pat::Ident(pattern) => Some(pattern.ident.to_string()),
+            _ => None,
+        },
+        FnArg::Receiver(_) => None,
+    };
+    function.sig.inputs.iter().skip(1).filter_map(name).collect()
 }

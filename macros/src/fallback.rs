@@ -1,28 +1,79 @@
-//! What stands in for the generated struct when the function could not be read, so that the compiler
-//! reports the mistakes themselves and not its absence.
+//! What stands in for the generated items when the function could not be read, so that the compiler
+//! reports the mistakes themselves and not the absence of what is used elsewhere.
+//!
+//! Where the signature and the group can be read, it is the expansion for the first coordinate alone, which
+//! offers all that the real one does. Otherwise it is a struct whose methods take whatever they are given.
+//! Neither ever runs: the crate does not compile.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use coadjoint_codegen::diagnostic::nearest;
+use coadjoint_codegen::emit::Options;
+use coadjoint_codegen::lie::catalogue;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
-use syn::{FnArg, ItemFn, Type};
+use syn::{Block, FnArg, ItemFn, Type, parse_quote};
 
-use coadjoint_codegen::emit::camel_case;
+/// The expansion that succeeds for the function with its first coordinate for its body, which is at
+/// fault nowhere; `None` if not even the signature or the group can be read.
+pub fn expansion(
+    arguments: &TokenStream,
+    function: &ItemFn,
+    generate: impl Fn(TokenStream, &ItemFn) -> syn::Result<TokenStream>,
+) -> Option<TokenStream> {
+    // Of an array or a vector, of an array of arrays, of a matrix.
+    let bodies: [Block; 3] = [
+        parse_quote!({ coordinates[0] }),
+        parse_quote!({ coordinates[0][0] }),
+        parse_quote!({ coordinates[(0, 0)] }),
+    ];
+    bodies.into_iter().find_map(|body| {
+        let mut function = ItemFn { block: Box::new(body), ..function.clone() };
+        if let Some(FnArg::Typed(first)) = function.sig.inputs.first_mut() {
+            *first.pat = parse_quote!(coordinates);
+        }
+        attempts(arguments.clone()).find_map(|arguments| generate(arguments, &function).ok())
+    })
+}
 
-/// The struct's name, and the types of the parameters.
-fn outline(function: &ItemFn) -> (Ident, Vec<&Type>) {
-    let name = Ident::new(&camel_case(&function.sig.ident.to_string()), Span::call_site());
-    let types = function.sig.inputs.iter().skip(1).filter_map(|argument| match argument {
-        FnArg::Typed(typed) => Some(&*typed.ty),
-        FnArg::Receiver(_) => None,
-    });
-    (name, types.collect())
+/// Arguments with which the expansion may succeed: all, or those that say most, or with the group that
+/// was probably meant.
+fn attempts(arguments: TokenStream) -> impl Iterator<Item = TokenStream> {
+    let group_and_chart = only(&arguments, &["group", "chart"]);
+    let group = only(&arguments, &["group"]);
+    let name: String = group.clone().into_iter().skip(2).map(|token| token.to_string()).collect();
+    let name = name.trim_matches(['"', ',']).to_owned();
+    let meant =
+        nearest(&name, catalogue::names().iter().copied()).map(|name| quote!(group = #name));
+    [arguments, group_and_chart, group].into_iter().chain(meant)
+}
+
+/// Those of the arguments `key = value, …` with one of these keys.
+fn only(arguments: &TokenStream, keys: &[&str]) -> TokenStream {
+    let tokens: Vec<TokenTree> = arguments.clone().into_iter().collect();
+    let comma = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
+    let kept = |entry: &&[TokenTree]| {
+        entry.first().is_some_and(|key| keys.iter().any(|known| key.to_string() == *known))
+    };
+    tokens.split_inclusive(comma).filter(kept).flatten().cloned().collect()
+}
+
+/// The types of the parameters.
+fn types(function: &ItemFn) -> Vec<&Type> {
+    let inputs = function.sig.inputs.iter().skip(1);
+    inputs
+        .filter_map(|argument| match argument {
+            FnArg::Typed(typed) => Some(&*typed.ty),
+            FnArg::Receiver(_) => None,
+        })
+        .collect()
 }
 
 /// In place of a potential.
-pub fn potential(function: &ItemFn, krate: &TokenStream) -> TokenStream {
-    let (name, types) = outline(function);
-    let visibility = &function.vis;
+pub fn potential(function: &ItemFn, options: &Options) -> TokenStream {
+    let Options { krate, visibility, name, .. } = options;
+    let types = types(function);
     quote! {
         #[allow(dead_code)]
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
         #visibility struct #name<T = f64>(::core::marker::PhantomData<T>);
 
         const _: () = {
@@ -44,36 +95,35 @@ pub fn potential(function: &ItemFn, krate: &TokenStream) -> TokenStream {
     }
 }
 
-/// In place of an integrator: a struct of the right name whose methods type-check at their uses. It never runs: the crate
-/// does not compile.
-pub fn lie_poisson(function: &ItemFn, krate: &TokenStream) -> TokenStream {
-    let (name, types) = outline(function);
-    let visibility = &function.vis;
+/// In place of an integrator.
+pub fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
+    let Options { krate, visibility, name, .. } = options;
+    let types = types(function);
+    let result = quote!(::core::result::Result);
     quote! {
         #[allow(dead_code)]
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
         #visibility struct #name<T = f64>(::core::marker::PhantomData<T>);
 
         const _: () = {
             #[allow(dead_code, unused_variables, clippy::all)]
             impl<T> #name<T> {
-                pub fn new(
+                pub const TRUNCATION: usize = 1;
+                pub const ORDER: usize = 2;
+
+                pub fn new(step: T, #(_: #types),*) -> #result<Self, #krate::StepError> {
+                    loop {}
+                }
+
+                pub fn tuned<M>(
                     step: T,
-                    #(_: #types),*
-                ) -> ::core::result::Result<Self, #krate::StepError> {
+                    #(_: #types,)*
+                    momenta: M,
+                ) -> #result<Self, #krate::StepError> {
                     loop {}
                 }
 
-                pub fn advance<P>(
-                    &self,
-                    phase: &mut P,
-                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
-                    loop {}
-                }
-
-                pub fn poisson_map<V>(
-                    &self,
-                    mu: &V,
-                ) -> ::core::result::Result<V, #krate::StepError> {
+                pub fn step(&self) -> T {
                     loop {}
                 }
 
@@ -81,7 +131,22 @@ pub fn lie_poisson(function: &ItemFn, krate: &TokenStream) -> TokenStream {
                     loop {}
                 }
 
-                pub fn step(&self) -> T {
+                pub fn advance<P>(
+                    &self,
+                    phase: &mut P,
+                ) -> #result<#krate::StepReport<T>, #krate::StepError> {
+                    loop {}
+                }
+
+                pub fn advance_by<P>(
+                    &self,
+                    phase: &mut P,
+                    steps: u64,
+                ) -> #result<#krate::StepReport<T>, #krate::StepError> {
+                    loop {}
+                }
+
+                pub fn poisson_map<V>(&self, mu: &V) -> #result<V, #krate::StepError> {
                     loop {}
                 }
             }

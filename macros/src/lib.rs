@@ -4,6 +4,8 @@
 //! This crate only wires: the reading of the function, the derivation and the emission are in
 //! `coadjoint-codegen`.
 
+mod arguments;
+mod dependency;
 mod expansion;
 mod fallback;
 mod lie_poisson;
@@ -16,7 +18,7 @@ pub fn lie_poisson(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    lie_poisson::expand(arguments.into(), item.into()).into()
+    lie_poisson::ATTRIBUTE.expand(arguments.into(), item.into()).into()
 }
 
 /// Turns a function computing a potential into its torque. See `coadjoint::potential`.
@@ -25,5 +27,5 @@ pub fn potential(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    potential::expand(arguments.into(), item.into()).into()
+    potential::ATTRIBUTE.expand(arguments.into(), item.into()).into()
 }

@@ -8,19 +8,30 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse::rust;
 
-use crate::expansion::{self, options};
+use crate::expansion::Attribute;
 use crate::fallback;
 
-/// The function itself, followed by its integrator or by the errors.
-pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    expansion::expand(item, |function| integrator(arguments, function), fallback::lie_poisson)
-}
+/// The attribute.
+pub const ATTRIBUTE: Attribute = Attribute { generate, stand_in };
 
-fn integrator(arguments: TokenStream, function: &ItemFn) -> syn::Result<TokenStream> {
+fn generate(
+    arguments: TokenStream,
+    function: &ItemFn,
+    options: &emit::Options,
+) -> syn::Result<TokenStream> {
     let problem = rust::lie_poisson(arguments, function)?;
     let integrator = Integrator::build(problem, TermLimit::default())
         .map_err(|error| syn::Error::new(function.sig.ident.span(), error))?;
     emit::check_size(&integrator)
         .map_err(|error| syn::Error::new(function.sig.ident.span(), error))?;
-    Ok(emit::tokens(&integrator, &options(function)))
+    Ok(emit::tokens(&integrator, options))
+}
+
+/// The expansion for a Hamiltonian that is at fault nowhere; if not even the signature or the group
+/// can be read, methods that take whatever they are given.
+fn stand_in(arguments: TokenStream, function: &ItemFn, options: &emit::Options) -> TokenStream {
+    fallback::expansion(&arguments, function, |arguments, function| {
+        generate(arguments, function, options)
+    })
+    .unwrap_or_else(|| fallback::lie_poisson(function, options))
 }

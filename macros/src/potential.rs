@@ -8,15 +8,26 @@ use coadjoint_codegen::emit;
 use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::parse::rust;
 
-use crate::expansion::{self, options};
+use crate::expansion::Attribute;
 use crate::fallback;
 
-/// The function itself, followed by its torque or by the errors.
-pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    expansion::expand(item, |function| kick(arguments, function), fallback::potential)
+/// The attribute.
+pub const ATTRIBUTE: Attribute = Attribute { generate, stand_in };
+
+fn generate(
+    arguments: TokenStream,
+    function: &ItemFn,
+    options: &emit::Options,
+) -> syn::Result<TokenStream> {
+    let potential = rust::potential(arguments, function).map_err(Diagnostics::into_syn_error)?;
+    Ok(emit::kick(&Kick::build(potential), options))
 }
 
-fn kick(arguments: TokenStream, function: &ItemFn) -> syn::Result<TokenStream> {
-    let potential = rust::potential(arguments, function).map_err(Diagnostics::into_syn_error)?;
-    Ok(emit::kick(&Kick::build(potential), &options(function)))
+/// The expansion for a potential that is at fault nowhere; if not even the signature or the group
+/// can be read, methods that take whatever they are given.
+fn stand_in(arguments: TokenStream, function: &ItemFn, options: &emit::Options) -> TokenStream {
+    fallback::expansion(&arguments, function, |arguments, function| {
+        generate(arguments, function, options)
+    })
+    .unwrap_or_else(|| fallback::potential(function, options))
 }

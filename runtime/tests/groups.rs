@@ -4,11 +4,7 @@
 
 mod common;
 
-use coadjoint::{
-    Aff1, CayleyAlgebra, ElementError, Heisenberg, LieGroup, MatrixGroup, Power, Product, SE2, SE3,
-    SL2, SO3, SO3Matrix, SO4, SO5, SU2, SU3, SU4, StaticAlgebra, StaticMatrixGroup, TableError, U2,
-    U3,
-};
+use coadjoint::{groups::Aff1, groups::CayleyAlgebra, groups::ElementError, groups::Heisenberg, LieGroup, groups::MatrixGroup, groups::Power, groups::Product, SE2, SE3, groups::SL2, SO3, SO3Matrix, groups::SO4, groups::SO5, SU2, groups::SU3, groups::SU4, groups::StaticAlgebra, groups::StaticMatrixGroup, groups::TableError, groups::U2, groups::U3};
 use common::{cayley_laws, distance, element_distance, group_laws, small};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
@@ -155,7 +151,7 @@ fn groups_by_name() {
 /// f32 and four lanes of f64 agree with f64, lane by lane, to their own rounding.
 #[test]
 fn other_scalars() {
-    use coadjoint::{F64x4, Scalar};
+    use coadjoint::{lanes::F64x4, Scalar};
     use nalgebra::{SVector, SimdValue};
     let x: [SVector<f64, 8>; 4] = core::array::from_fn(|lane| {
         SVector::from_fn(|i, _| (0.3 + lane as f64) * ((i * 5 % 8) as f64 / 8.0 - 0.4))

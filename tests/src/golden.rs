@@ -36,7 +36,7 @@ pub const COMOVING_BODY: (&str, &str) = (
     }",
 );
 
-/// The resonant three-wave interaction on SL(2,R), a group the runtime has no type for.
+/// The resonant three-wave interaction on SL(2,R), a group the runtime has tables for.
 pub const THREE_WAVE: (&str, &str) = (
     "group = SL2, truncation = 5",
     "fn three_wave(mu: [f64; 3], s: f64) -> f64 {

@@ -122,10 +122,9 @@ fn compiled_steps_equal_the_interpreter() -> Result<(), StepError> {
 
 #[test]
 fn a_group_given_by_tables_keeps_momentum_and_steps_in_time() -> Result<(), StepError> {
-    // SL(2,R) has no type of its own here: the emitted file carries its tables.
     let step = three_wave::ThreeWave::new(0.1, 0.7)?;
-    let group = three_wave::ThreeWaveGroup::<f64>::new();
-    let mut phase = coadjoint::Phase::<three_wave::ThreeWaveGroup>::at_identity([0.3, 0.5, -0.4]);
+    let group = coadjoint::SL2::<f64>::new();
+    let mut phase = coadjoint::Phase::<coadjoint::SL2>::at_identity([0.3, 0.5, -0.4]);
     let before = phase.spatial_momentum(&group);
     for _ in 0..200 {
         step.advance(&mut phase)?;

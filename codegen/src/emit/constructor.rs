@@ -1,11 +1,14 @@
 //! `new`: folding the coefficients for a step size and parameters.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::hygiene::fresh;
 use super::number::float;
 use super::parameter;
-use super::table::{self, Sizes};
+use super::table::Sizes;
 use crate::integrator::{Integrator, Products};
 use crate::problem::{Parameter, Shape};
 
@@ -18,14 +21,15 @@ pub fn constructor(
     vector: &TokenStream,
 ) -> TokenStream {
     let problem = &integrator.problem;
-    let Arguments { arguments, scalars } = arguments(&problem.parameters, krate);
+    let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
+    let step = format_ident!("{}", fresh("step", &names));
+    let momenta = format_ident!("{}", fresh("momenta", &names));
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
     let all = Products::of(&integrator.coefficients);
     let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients, &all);
-    let table = table::table(krate, &integrator.coefficients, &all);
     let last = Literal::usize_unsuffixed(integrator.coefficients.last_terms(problem.truncation));
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let defect = integrator.defect.iter().map(|term| {
@@ -42,28 +46,31 @@ pub fn constructor(
         /// `StepError::InvalidStep` for a step that is zero or not finite,
         /// `StepError::InvalidParameter` where a parameter expression is not finite.
         pub fn new(
-            step: T,
+            #step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            Self::of_symbols(step, &#symbols)
+            Self::of_symbols(#step, &#symbols)
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
         ///
         /// # Errors
         /// As `new`, and where a step from one of the momenta fails.
         pub fn tuned(
-            step: T,
+            #step: T,
             #(#arguments,)*
-            momenta: impl ::core::iter::IntoIterator<Item = impl ::core::convert::Into<#vector>>,
+            #momenta: impl ::core::iter::IntoIterator<Item = impl ::core::convert::Into<#vector>>,
         ) -> ::core::result::Result<Self, #krate::StepError> {
             let symbols = #symbols;
-            let parts = Self::parts(step, &symbols)?;
+            let parts = Self::parts(#step, &symbols)?;
             let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
+                Self::fold(#step, &symbols, &parts, factor)
             };
-            let momenta = momenta.into_iter().map(::core::convert::Into::into);
+            let momenta = ::core::iter::Iterator::map(
+                ::core::iter::IntoIterator::into_iter(#momenta),
+                ::core::convert::Into::into,
+            );
             let tail = #krate::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
@@ -86,11 +93,6 @@ pub fn constructor(
             #krate::plumbing::advise(error, phase, self.step, |step| {
                 Self::of_symbols(step, &self.symbols)
             })
-        }
-
-        fn table() -> &'static #krate::plumbing::Table {
-            static TABLE: #krate::plumbing::Table = #table;
-            &TABLE
         }
 
         fn parts(
@@ -143,6 +145,8 @@ pub fn constructor(
 pub struct Arguments {
     /// `name: type` for each.
     pub arguments: Vec<TokenStream>,
+    /// The names.
+    pub names: BTreeSet<String>,
     /// How each of their scalars is reached.
     pub scalars: Vec<TokenStream>,
 }
@@ -150,9 +154,11 @@ pub struct Arguments {
 /// The arguments for these parameters.
 #[must_use]
 pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
-    let mut result = Arguments { arguments: Vec::new(), scalars: Vec::new() };
+    let mut names = parameters.iter().map(|parameter| parameter.name.clone()).collect();
+    let mut result =
+        Arguments { arguments: Vec::new(), names: BTreeSet::new(), scalars: Vec::new() };
     for parameter in parameters {
-        let name = argument_name(&parameter.name);
+        let name = argument_name(&parameter.name, &mut names);
         let ty = parameter_type(&parameter.shape, krate);
         result.arguments.push(quote!(#name: #ty));
         result.scalars.extend(parameter.scalar_names().iter().map(|scalar| {
@@ -162,17 +168,17 @@ pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
             quote!(#name #access)
         }));
     }
+    result.names = names;
     result
 }
 
-/// A parameter's name as an argument; an underscore is added where it would be a keyword or one of
-/// the constructor's own names.
-fn argument_name(name: &str) -> Ident {
-    let taken = ["step", "momenta", "parts", "series", "tail", "factor"].contains(&name);
-    match syn::parse_str::<Ident>(name) {
-        Ok(name) if !taken => name,
-        _ => format_ident!("{name}_"),
-    }
+/// A parameter's name as an argument; underscores are added where it would be a keyword.
+fn argument_name(name: &str, names: &mut BTreeSet<String>) -> Ident {
+    syn::parse_str::<Ident>(name).unwrap_or_else(|_| {
+        let name = fresh(&format!("{name}_"), names);
+        names.insert(name.clone());
+        format_ident!("{name}")
+    })
 }
 
 /// The type of a parameter over the scalar `T`.

@@ -1,11 +1,12 @@
 //! The implementation of `coadjoint::GeneratingFunction`.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
-use super::body::{Body, body};
-use super::item::Parts;
-use super::parts::Scope;
+use super::body::body;
+use super::scope::{Meaning, Orders, Scope};
+use super::types::Types;
+use super::writer::Body;
 use crate::graph::Program;
 use crate::integrator::{GradientParts, Integrator, Predictor};
 use crate::problem::Solver;
@@ -16,14 +17,17 @@ pub fn generating_function(
     integrator: &Integrator,
     krate: &TokenStream,
     name: &Ident,
-    parts: &Parts,
+    types: &Types,
     scope: &Scope,
 ) -> TokenStream {
-    let Parts { dim, group, chart, vector, matrix, .. } = parts;
-    let value = scalar_function(&integrator.value, scope);
-    let gradient = vector_function(&integrator.gradient, vector, scope);
+    let Types { dim, group, chart, vector, matrix, .. } = types;
+    let all = Orders { first: 1, last: integrator.problem.truncation };
+    let kept = Orders { last: integrator.plan.hessian_truncation, ..all };
+    let value = scalar_function(&integrator.value, &scope.of(Meaning::Value));
+    let gradient = vector_function(&integrator.gradient, vector, &scope.of(Meaning::Gradient(all)));
     let hessian = integrator.hessian.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix, scope);
+        let scope = scope.of(Meaning::Hessian(all));
+        let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
             #[inline(always)]
             fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
@@ -32,7 +36,11 @@ pub fn generating_function(
             }
         }
     });
-    let predictor = vector_function(&integrator.predictor, vector, scope);
+    let guess = match integrator.plan.predictor {
+        Predictor::Explicit(_) => Meaning::Guess,
+        Predictor::Flow(_) => Meaning::Increment,
+    };
+    let predictor = vector_function(&integrator.predictor, vector, &scope.of(guess));
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => quote! {
             #[inline(always)]
@@ -50,7 +58,7 @@ pub fn generating_function(
         },
     };
     let continuation = integrator.continuation.as_ref().map(|program| {
-        let twice_even = vector_function(program, vector, scope);
+        let twice_even = vector_function(program, vector, &scope.of(Meaning::EvenGuess));
         quote! {
             #[inline(always)]
             fn predict_after(&self, last: &#vector, input: &#vector) -> #vector {
@@ -61,7 +69,8 @@ pub fn generating_function(
         }
     });
     let newton = integrator.newton.as_ref().map(|program| {
-        let function = hessian_function(program, *dim, vector, matrix, scope);
+        let scope = scope.of(Meaning::Hessian(kept));
+        let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
             #[inline(always)]
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
@@ -70,16 +79,21 @@ pub fn generating_function(
             }
         }
     });
-    let lagged =
-        integrator.parts.as_ref().map(|parts| lagged_model(parts, name, *dim, vector, scope));
-    let fine_part =
-        integrator.parts.as_ref().map(|parts| fine_part(&parts.fine, name, *dim, scope));
-    let wide_step = integrator.parts.as_ref().and_then(|step| wide_step(step, name, parts, scope));
+    let lagged = integrator
+        .parts
+        .as_ref()
+        .map(|parts| lagged_model(parts, name, *dim, vector, &scope.of(Meaning::Gradient(kept))));
+    let rest = Orders { first: kept.last + 2, ..all };
+    let fine_part = integrator
+        .parts
+        .as_ref()
+        .map(|parts| fine_part(&parts.fine, name, *dim, &scope.of(Meaning::Gradient(rest))));
+    let wide_step = integrator.parts.as_ref().and_then(|step| wide_step(step, name, types, scope));
     let method = method(integrator, krate, name, wide_step.is_some());
     let last = Literal::usize_unsuffixed(*dim);
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
-            let function = vector_function(program, vector, scope);
+            let function = vector_function(program, vector, &scope.of(Meaning::Frame));
             quote!(#part => ::core::option::Option::Some({ #function }),)
         });
         quote! {
@@ -133,7 +147,7 @@ pub fn generating_function(
                     Self::table(),
                     &self.last,
                     Self::TRUNCATION,
-                    &(*p).into(),
+                    &::core::convert::Into::into(*p),
                 )
             }
         }
@@ -222,7 +236,7 @@ fn lagged_model(
     let Scope { krate, slots, .. } = scope;
     let coarse = vector_function(&parts.coarse, vector, scope);
     let both = Literal::usize_unsuffixed(2 * dim);
-    let pair = Scope { krate: krate.clone(), input: quote!([T; #both]), ..*scope };
+    let pair = Scope { input: quote!([T; #both]), ..scope.of(Meaning::Leading) };
     let leading = vector_function(&parts.leading, vector, &pair);
     let n = Literal::usize_unsuffixed(dim);
     let slots = Literal::usize_unsuffixed(*slots);
@@ -259,7 +273,11 @@ fn lagged_model(
 
             #[inline(always)]
             fn fine_gradient(&self, p: &#vector) -> #vector {
-                <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(&self.coefficients, &(*p).into()).into()
+                let fine = <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(
+                    &self.coefficients,
+                    &::core::convert::Into::into(*p),
+                );
+                ::core::convert::Into::into(fine)
             }
 
             #[inline(always)]
@@ -267,9 +285,12 @@ fn lagged_model(
                 &self,
                 p: &[#vector; #krate::solve::LOOK_AHEAD],
             ) -> [#vector; #krate::solve::LOOK_AHEAD] {
-                let p = p.map(::core::convert::Into::into);
-                #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(&self.coefficients, &p)
-                    .map(::core::convert::Into::into)
+                let p = <[#vector; #krate::solve::LOOK_AHEAD]>::map(*p, ::core::convert::Into::into);
+                let fine = #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(
+                    &self.coefficients,
+                    &p,
+                );
+                <[[T; #n]; #krate::solve::LOOK_AHEAD]>::map(fine, ::core::convert::Into::into)
             }
 
             #[inline(always)]
@@ -290,7 +311,7 @@ fn lagged_model(
 fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> TokenStream {
     let Scope { krate, slots, .. } = scope;
     let dim = Literal::usize_unsuffixed(dim);
-    let wide = Scope { krate: krate.clone(), input: quote!([T; #dim]), lifted: true, ..*scope };
+    let wide = Scope { input: quote!([T; #dim]), lifted: true, ..scope.of(scope.meaning) };
     let Body { statements, outputs } = body(program, &wide);
     let slots = Literal::usize_unsuffixed(*slots);
     quote! {
@@ -317,24 +338,30 @@ fn wide_registers() -> TokenStream {
 fn wide_step(
     step: &GradientParts,
     name: &Ident,
-    parts: &Parts,
+    types: &Types,
     scope: &Scope,
 ) -> Option<TokenStream> {
     let at_once = step.at_once.as_ref()?;
-    let Parts { dim, group, chart, vector, matrix, .. } = parts;
+    let Types { dim, group, chart, vector, matrix, .. } = types;
     let Scope { krate, slots, .. } = scope;
-    let wide = Scope { krate: krate.clone(), input: vector.clone(), lifted: true, ..*scope };
+    let wide = Scope { input: vector.clone(), lifted: true, ..scope.of(Meaning::Around) };
     let fine = if at_once.fine == step.fine {
         let (n, slots) = (Literal::usize_unsuffixed(*dim), Literal::usize_unsuffixed(*slots));
-        quote!(<Self as #krate::plumbing::FinePart<C, #slots, #n>>::fine(c, &(*input).into()).into())
+        quote! {
+            ::core::convert::Into::into(<Self as #krate::plumbing::FinePart<C, #slots, #n>>::fine(
+                c,
+                &::core::convert::Into::into(*input),
+            ))
+        }
     } else {
-        vector_function(&at_once.fine, vector, &wide)
+        vector_function(&at_once.fine, vector, &wide.of(Meaning::Unnamed))
     };
-    let coarse = hessian_function(&at_once.coarse, *dim, vector, matrix, &wide);
+    let coarse =
+        hessian_function(&at_once.coarse, *dim, vector, matrix, &wide.of(Meaning::Unnamed));
     let Body { statements, outputs } = body(&at_once.around, &wide);
     let outputs = vectors(&outputs, *dim, vector);
     let more = Literal::usize_unsuffixed(dim + 1);
-    let with_time = Scope { krate: krate.clone(), input: quote!([T; #more]), ..wide };
+    let with_time = Scope { input: quote!([T; #more]), ..wide.of(Meaning::Onwards) };
     let onwards = vector_function(&at_once.onwards, vector, &with_time);
     let dim = Literal::usize_unsuffixed(*dim);
     let slots = Literal::usize_unsuffixed(*slots);
@@ -386,7 +413,7 @@ pub fn scalar_function(program: &Program, scope: &Scope) -> TokenStream {
 #[must_use]
 pub fn vector_function(program: &Program, vector: &TokenStream, scope: &Scope) -> TokenStream {
     let Body { statements, outputs } = body(program, scope);
-    quote!(#statements <#vector>::from([#(#outputs),*]))
+    quote!(#statements <#vector as From<_>>::from([#(#outputs),*]))
 }
 
 /// Outputs as vectors, one after the other.
@@ -395,7 +422,7 @@ fn vectors(
     dim: usize,
     vector: &TokenStream,
 ) -> impl Iterator<Item = TokenStream> {
-    outputs.chunks(dim).map(move |entries| quote!(<#vector>::from([#(#entries),*])))
+    outputs.chunks(dim).map(move |entries| quote!(<#vector as From<_>>::from([#(#entries),*])))
 }
 
 fn hessian_function(
@@ -407,23 +434,16 @@ fn hessian_function(
 ) -> TokenStream {
     let Body { statements, outputs } = body(program, scope);
     let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
-    let mut entry = triangle.iter();
-    let mut lets = TokenStream::new();
-    for i in 0..dim {
-        for j in i..dim {
-            let name = format_ident!("h{i}_{j}");
-            if let Some(value) = entry.next() {
-                lets.extend(quote!(let #name = #value;));
-            }
-        }
-    }
+    // Entry (i, j) of an upper triangle, row by row.
+    let entry = |i: usize, j: usize| triangle.get(i * dim - i * (i + 1) / 2 + j);
     let columns = (0..dim).map(|j| {
-        let column = (0..dim).map(|i| format_ident!("h{}_{}", i.min(j), i.max(j)));
+        let column = (0..dim).map(|i| entry(i.min(j), i.max(j)));
         quote!([#(#column),*])
     });
     quote! {
         #statements
-        #lets
-        (<#vector>::from([#(#gradient),*]), <#matrix>::from([#(#columns),*]))
+        let gradient: #vector = From::from([#(#gradient),*]);
+        let hessian: #matrix = From::from([#(#columns),*]);
+        (gradient, hessian)
     }
 }

@@ -10,8 +10,11 @@ use super::number::exact;
 use crate::lie::{Chart, LieAlgebra, casimirs, catalogue};
 use crate::poly::Polynomial;
 
-/// Groups the runtime has a type of its own for, under the catalogue's name.
-const RUNTIME_TYPES: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
+/// Groups the runtime has closed forms for, under the catalogue's name.
+const CLOSED_FORMS: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
+
+/// Groups the runtime has tables for, under the catalogue's name.
+pub const RUNTIME_TABLES: [&str; 8] = ["Aff1", "SL2", "SO4", "SO5", "SU3", "SU4", "U2", "U3"];
 
 /// How generated code names the group.
 pub struct GroupType {
@@ -19,6 +22,8 @@ pub struct GroupType {
     pub ty: TokenStream,
     /// Items it needs, to stand beside the integrator.
     pub definition: TokenStream,
+    /// The tables of those items.
+    pub tables: TokenStream,
 }
 
 /// The runtime type for `algebra`: one of the runtime's own, or tables written beside the
@@ -30,26 +35,31 @@ pub fn group_type(
     visibility: &TokenStream,
     krate: &TokenStream,
 ) -> GroupType {
-    if RUNTIME_TYPES.contains(&algebra.name()) {
+    let nothing = TokenStream::new;
+    // An algebra of the user's own may have the name of one in the catalogue.
+    let known = catalogue::lookup(algebra.name()).is_ok_and(|known| known == *algebra);
+    if known && CLOSED_FORMS.iter().chain(&RUNTIME_TABLES).any(|known| *known == algebra.name()) {
         let group = format_ident!("{}", algebra.name());
-        return GroupType { ty: quote!(#krate::#group<T>), definition: TokenStream::new() };
+        let ty = quote!(#krate::groups::#group<T>);
+        return GroupType { ty, definition: nothing(), tables: nothing() };
     }
     let group = format_ident!("{name}Group");
-    let definition = match product(algebra, krate) {
-        // Factors act on their own coordinates: far cheaper than one group of large matrices.
+    // Factors act on their own coordinates: far cheaper than one group of large matrices.
+    let (definition, tables) = match known.then(|| product(algebra, krate)).flatten() {
         Some(ty) => {
             let about = format!(" The group {}.", algebra.name());
-            quote! {
+            let definition = quote! {
                 #[doc = #about]
                 #visibility type #group<T = f64> = #ty;
-            }
+            };
+            (definition, nothing())
         }
-        None => definition(algebra, name, &group, visibility, krate),
+        None => own_tables(algebra, name, &group, visibility, krate),
     };
-    GroupType { ty: quote!(#group<T>), definition }
+    GroupType { ty: quote!(#group<T>), definition, tables }
 }
 
-/// The type of a product of the runtime's own types and powers of them, by its name.
+/// The type of a product of the runtime's closed forms and powers of them, by its name.
 fn product(algebra: &LieAlgebra, krate: &TokenStream) -> Option<TokenStream> {
     let factors: Option<Vec<(TokenStream, usize)>> =
         algebra.name().split('*').map(|factor| power(factor.trim(), krate)).collect();
@@ -57,7 +67,7 @@ fn product(algebra: &LieAlgebra, krate: &TokenStream) -> Option<TokenStream> {
     let last = factors.next()?;
     let (ty, dim) = factors.fold(last, |(right, dim), (left, left_dim)| {
         let n = index(left_dim + dim);
-        (quote!(#krate::Product<#left, #right, #n>), left_dim + dim)
+        (quote!(#krate::groups::Product<#left, #right, #n>), left_dim + dim)
     });
     (dim == algebra.dim()).then_some(ty)
 }
@@ -68,23 +78,24 @@ fn power(factor: &str, krate: &TokenStream) -> Option<(TokenStream, usize)> {
         Some((base, copies)) => (base, copies.parse().ok().filter(|&copies: &usize| copies > 0)?),
         None => (factor, 1),
     };
-    let base = RUNTIME_TYPES.iter().find(|known| **known == base)?;
+    let base = CLOSED_FORMS.iter().find(|known| **known == base)?;
     let dim = catalogue::lookup(base).ok()?.dim();
     let ty = format_ident!("{base}");
     if copies == 1 {
-        return Some((quote!(#krate::#ty<T>), dim));
+        return Some((quote!(#krate::groups::#ty<T>), dim));
     }
     let (n, count) = (index(copies * dim), index(copies));
-    Some((quote!(#krate::Power<#krate::#ty<T>, #count, #n>), copies * dim))
+    Some((quote!(#krate::groups::Power<#krate::groups::#ty<T>, #count, #n>), copies * dim))
 }
 
-fn definition(
+/// The marker and the type of a group by its tables, and these.
+fn own_tables(
     algebra: &LieAlgebra,
     name: &Ident,
     group: &Ident,
     visibility: &TokenStream,
     krate: &TokenStream,
-) -> TokenStream {
+) -> (TokenStream, TokenStream) {
     let n = algebra.dim();
     let basis = algebra.basis();
     let size = basis.and_then(<[_]>::first).map_or(n, |matrix| matrix.rows());
@@ -112,7 +123,7 @@ fn definition(
     let cayley = Chart::Cayley
         .check(algebra)
         .is_ok()
-        .then(|| quote!(impl #krate::CayleyAlgebra for #marker {}));
+        .then(|| quote!(impl #krate::groups::CayleyAlgebra for #marker {}));
     let casimirs = known_casimirs(algebra).into_iter().map(|casimir| {
         let terms = casimir.terms().map(|(exponents, value)| {
             let powers = exponents.iter().enumerate().filter(|(_, power)| **power > 0);
@@ -125,26 +136,28 @@ fn definition(
         });
         quote!(&[#(#terms),*])
     });
-    let about = format!(" Tables of {}.", algebra.name());
+    let about = format!(" The Lie algebra of {} as tables.", algebra.name());
     let about_group = format!(" The group of {}.", algebra.name());
-    quote! {
+    let definition = quote! {
+        #[doc = #about_group]
+        #visibility type #group<T = f64> = #krate::groups::StaticMatrixGroup<#marker, #n, #d, T>;
+
         #[doc = #about]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         #visibility struct #marker;
-
-        impl #krate::StaticAlgebra for #marker {
+    };
+    let tables = quote! {
+        impl #krate::groups::StaticAlgebra for #marker {
             const DIM: usize = #n;
             const MATRIX_SIZE: usize = #d;
-            const STRUCTURE: &'static [#krate::StructureConstant] = &[#(#structure),*];
-            const BASIS: ::core::option::Option<&'static [#krate::BasisEntry]> = #basis;
-            const CASIMIRS: &'static [&'static [#krate::CasimirTerm]] = &[#(#casimirs),*];
+            const STRUCTURE: &'static [#krate::groups::StructureConstant] = &[#(#structure),*];
+            const BASIS: ::core::option::Option<&'static [#krate::groups::BasisEntry]> = #basis;
+            const CASIMIRS: &'static [&'static [#krate::groups::CasimirTerm]] = &[#(#casimirs),*];
         }
 
         #cayley
-
-        #[doc = #about_group]
-        #visibility type #group<T = f64> = #krate::StaticMatrixGroup<#marker, #n, #d, T>;
-    }
+    };
+    (definition, tables)
 }
 
 /// The polynomial Casimirs of low degree; none where finding them would take long, since the

@@ -1,65 +1,25 @@
 //! The struct of an integrator and its implementations.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::constructor::constructor;
 use super::generating_function::{generating_function, scalar_function};
-use super::group::group_type;
-use super::header;
-use super::parts::Scope;
-use crate::integrator::Integrator;
+use super::options::Options;
+use super::scope::{Meaning, Scope};
+use super::table::table_item;
+use super::types::Types;
+use super::{allow, header};
+use crate::integrator::{Integrator, Products};
 
-/// How the Rust is to look from outside.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The path of the runtime crate, `::coadjoint` unless renamed.
-    pub krate: TokenStream,
-    /// The visibility of the struct.
-    pub visibility: TokenStream,
-    /// The struct's name.
-    pub name: Ident,
-    /// Attributes for the struct: the user's doc comments.
-    pub attributes: TokenStream,
-}
-
-impl Options {
-    /// Public, `::coadjoint`, named after the problem in camel case.
-    #[must_use]
-    pub fn for_problem(name: &str) -> Self {
-        Self {
-            krate: quote!(::coadjoint),
-            visibility: quote!(pub),
-            name: Ident::new(&camel_case(name), Span::call_site()),
-            attributes: TokenStream::new(),
-        }
-    }
-}
-
-/// `rigid_body` and `rigid-body` as `RigidBody`.
-#[must_use]
-pub fn camel_case(name: &str) -> String {
-    let mut result = String::new();
-    for word in name.split(|c: char| !c.is_alphanumeric()) {
-        let mut letters = word.chars();
-        if let Some(first) = letters.next() {
-            result.extend(first.to_uppercase());
-            result.push_str(letters.as_str());
-        }
-    }
-    match result.chars().next() {
-        Some(first) if first.is_alphabetic() => result,
-        _ => format!("System{result}"),
-    }
-}
-
-/// The integrator as items: a struct and its implementations.
+/// The integrator as items: a struct and its implementations, tables last.
 #[must_use]
 pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, attributes } = options;
-    let parts = Parts::new(integrator, options);
-    let Parts { group, vector, definition, .. } = &parts;
+    let types = Types::new(&integrator.problem.algebra, integrator.problem.chart, options);
+    let Types { group, vector, definition, tables, aliases, .. } = &types;
     let summary = header::lines(integrator);
+    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
     let constructor = constructor(integrator, krate, group, vector);
@@ -68,27 +28,35 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         input: vector.clone(),
         slots: integrator.coefficients.slots().len(),
         lifted: false,
+        dim: types.dim,
+        meaning: Meaning::Unnamed,
     };
-    let generating = generating_function(integrator, krate, name, &parts, &scope);
+    let generating = generating_function(integrator, krate, name, &types, &scope);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let last = integrator.coefficients.last_terms(integrator.problem.truncation);
     let last = Literal::usize_unsuffixed(last);
     let adjustable = adjustable(krate, name, &last);
     let lanes = lanes(krate, name);
-    let energy = scalar_function(&integrator.energy, &scope);
+    let energy = scalar_function(&integrator.energy, &scope.of(Meaning::Energy));
+    let table =
+        table_item(krate, &integrator.coefficients, &Products::of(&integrator.coefficients));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
+    let allow = allow();
     quote! {
         #definition
 
         #attributes
-        #[doc = ""]
+        #blank
         #(#[doc = #summary])*
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        #[allow(clippy::trailing_empty_array)]
         #visibility struct #name<T = f64> {
+            /// The step size h.
             step: T,
             /// The parameters, as expressions of them stand in the coefficients.
             symbols: [T; #symbols],
+            /// The coefficients of the programs below, folded for h and the parameters.
             coefficients: [T; #slots],
             /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
             defect: [T; #defects],
@@ -97,8 +65,10 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
             radius: T,
         }
 
-        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables, unexpected_cfgs)]
+        #allow
         const _: () = {
+            #aliases
+
             impl<T: #krate::Scalar> #name<T> {
                 /// K: the series S₁ … S_K of the generating function is kept.
                 pub const TRUNCATION: usize = #truncation;
@@ -111,14 +81,6 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                 #[inline]
                 pub fn step(&self) -> T {
                     self.step
-                }
-
-                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
-                #[inline]
-                pub fn energy(&self, mu: &#vector) -> T {
-                    let input = mu;
-                    let c = &self.coefficients;
-                    #energy
                 }
 
                 /// Advances (g, μ) by one step; on error `phase` is left as it was.
@@ -160,6 +122,14 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                 ) -> ::core::result::Result<#vector, #krate::StepError> {
                     #krate::poisson_map(self, mu)
                 }
+
+                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
+                #[inline]
+                pub fn energy(&self, mu: &#vector) -> T {
+                    let input = mu;
+                    let c = &self.coefficients;
+                    #energy
+                }
             }
 
             #generating
@@ -167,7 +137,17 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
             #adjustable
 
             #lanes
+
+            impl<T> #name<T> {
+                fn table() -> &'static #krate::plumbing::Table {
+                    &TABLE
+                }
+            }
+
+            #table
         };
+
+        #tables
     }
 }
 
@@ -215,38 +195,6 @@ fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
                     radius: L::splat(self.radius),
                 }
             }
-        }
-    }
-}
-
-/// The types a step mentions.
-pub(super) struct Parts {
-    pub dim: usize,
-    pub group: TokenStream,
-    /// Items the group needs.
-    pub definition: TokenStream,
-    pub chart: TokenStream,
-    pub vector: TokenStream,
-    pub matrix: TokenStream,
-}
-
-impl Parts {
-    fn new(integrator: &Integrator, options: &Options) -> Self {
-        let Options { krate, visibility, name, .. } = options;
-        let dim = integrator.problem.algebra.dim();
-        let n = Literal::usize_unsuffixed(dim);
-        let chart = match integrator.problem.chart {
-            crate::lie::Chart::Exponential => quote!(#krate::Exponential),
-            crate::lie::Chart::Cayley => quote!(#krate::Cayley),
-        };
-        let group = group_type(&integrator.problem.algebra, name, visibility, krate);
-        Self {
-            dim,
-            group: group.ty,
-            definition: group.definition,
-            chart,
-            vector: quote!(#krate::nalgebra::SVector<T, #n>),
-            matrix: quote!(#krate::nalgebra::SMatrix<T, #n, #n>),
         }
     }
 }

@@ -5,41 +5,45 @@ use quote::quote;
 
 use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
-use super::group::group_type;
 use super::header::one_line;
-use super::parts::Scope;
-use super::table::{self, Sizes};
-use super::{Options, parameter};
+use super::options::Options;
+use super::scope::{Meaning, Scope};
+use super::table::{Sizes, table_item};
+use super::types::Types;
+use super::{allow, parameter};
 use crate::integrator::{Kick, Products};
+use crate::lie::Chart;
 
 /// The potential as items: a struct and its implementation.
 #[must_use]
 pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, attributes } = options;
     let potential = &kick.potential;
-    let group = group_type(&potential.algebra, name, visibility, krate);
-    let (definition, group) = (group.definition, group.ty);
-    let n = Literal::usize_unsuffixed(potential.algebra.dim());
-    let vector = quote!(#krate::nalgebra::SVector<T, #n>);
+    let types = Types::new(&potential.algebra, Chart::default(), options);
+    let Types { group, vector, definition, tables, aliases, .. } = &types;
+    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
+    let allow = allow();
     let size = Literal::usize_unsuffixed(potential.size());
     let entries = Literal::usize_unsuffixed(potential.size() * potential.size());
 
-    let Arguments { arguments, scalars } = arguments(&potential.parameters, krate);
+    let Arguments { arguments, scalars, .. } = arguments(&potential.parameters, krate);
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(potential.symbols.len());
     let all = Products::of(&kick.coefficients);
     let Sizes { powers, products, parts, bases, slots } = Sizes::of(&kick.coefficients, &all);
-    let table = table::table(krate, &kick.coefficients, &all);
+    let table = table_item(krate, &kick.coefficients, &all);
 
     let scope = Scope {
         krate: krate.clone(),
         input: quote!([T; #entries]),
         slots: kick.coefficients.slots().len(),
         lifted: false,
+        dim: potential.size(),
+        meaning: Meaning::Potential,
     };
     let energy = scalar_function(&kick.energy, &scope);
-    let torque = vector_function(&kick.torque, &vector, &scope);
+    let torque = vector_function(&kick.torque, vector, &scope.of(Meaning::Torque));
     let cost = kick.torque.cost();
     let summary = [
         format!(" Potential: `{}`", one_line(&potential.source)),
@@ -62,15 +66,19 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
         #definition
 
         #attributes
-        #[doc = ""]
+        #blank
         #(#[doc = #summary])*
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        #[allow(clippy::trailing_empty_array)]
         #visibility struct #name<T = f64> {
+            /// The coefficients of the programs below, folded for the parameters.
             coefficients: [T; #slots],
         }
 
-        #[allow(clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case, unused_variables)]
+        #allow
         const _: () = {
+            #aliases
+
             impl<T: #krate::Scalar> #name<T> {
                 /// Folds all coefficients for the parameters.
                 ///
@@ -79,7 +87,6 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 pub fn new(
                     #(#arguments),*
                 ) -> ::core::result::Result<Self, #krate::StepError> {
-                    static TABLE: #krate::plumbing::Table = #table;
                     let symbols: [T; #count] = [#(#symbols),*];
                     // No coefficient holds the step size.
                     let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
@@ -110,6 +117,10 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                     #torque
                 }
             }
+
+            #table
         };
+
+        #tables
     }
 }

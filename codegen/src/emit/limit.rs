@@ -10,14 +10,25 @@ pub const MOST_TERMS: usize = 20_000;
 /// A generating function with too many terms to emit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "too large to emit: S has {terms} terms, more than the limit of {limit}; run it in the \
-     interpreter with `coadjoint simulate`, or lower the truncation"
+    "too large to emit: S has {terms} terms, more than the limit of {limit}; {}lower the truncation, \
+     or run it in the interpreter with `coadjoint simulate`",
+    literals(*.with_literals)
 )]
 pub struct TooManyTerms {
     /// The terms of S₁ + … + S_K.
     pub terms: usize,
+    /// The terms that are left with numbers in place of the parameters, where there are parameters.
+    pub with_literals: Option<usize>,
     /// [`MOST_TERMS`].
     pub limit: usize,
+}
+
+fn literals(terms: Option<usize>) -> String {
+    terms.map_or_else(String::new, |terms| {
+        format!(
+            "with numbers in place of the parameters it has at most {terms}: write literals; or "
+        )
+    })
 }
 
 /// Whether an integrator is small enough for [`file`](super::file) and [`tokens`](super::tokens):
@@ -27,5 +38,11 @@ pub struct TooManyTerms {
 /// [`TooManyTerms`].
 pub fn check_size(integrator: &Integrator) -> Result<(), TooManyTerms> {
     let terms = integrator.terms();
-    if terms > MOST_TERMS { Err(TooManyTerms { terms, limit: MOST_TERMS }) } else { Ok(()) }
+    if terms <= MOST_TERMS {
+        return Ok(());
+    }
+    // With literals there is one term to a monomial in the momenta.
+    let monomials = integrator.coefficients.series();
+    let with_literals = (!integrator.problem.symbols.is_empty()).then_some(monomials);
+    Err(TooManyTerms { terms, with_literals, limit: MOST_TERMS })
 }

@@ -10,15 +10,38 @@ mod file;
 mod generating_function;
 mod group;
 mod header;
+mod hygiene;
 mod item;
 mod kick;
+mod layout;
+mod legend;
 mod limit;
 mod number;
+mod options;
 mod parameter;
-mod parts;
+mod scope;
+mod split;
 mod table;
+mod types;
+mod writer;
 
 pub use file::{file, potential_items};
-pub use item::{Options, camel_case, tokens};
+pub use group::RUNTIME_TABLES;
+pub use hygiene::{fresh, hygienic, identifiers};
+pub use item::tokens;
 pub use kick::kick;
 pub use limit::{MOST_TERMS, TooManyTerms, check_size};
+pub use options::{Options, camel_case};
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// What lints may say of emitted code, which follows no style.
+fn allow() -> TokenStream {
+    quote! {
+        #[allow(
+            clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case,
+            unexpected_cfgs, unused_doc_comments, unused_imports, unused_variables
+        )]
+    }
+}

@@ -36,10 +36,10 @@ impl Sizes {
     }
 }
 
-/// The expression of a `coadjoint::plumbing::Table` holding `coefficients`, whose symbols make these
-/// products.
+/// The static `TABLE`, a `coadjoint::plumbing::Table` holding `coefficients`, whose symbols make
+/// these products.
 #[must_use]
-pub fn table(krate: &TokenStream, coefficients: &Coefficients, all: &Products) -> TokenStream {
+pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Products) -> TokenStream {
     let pair = |&(of, symbol): &(usize, usize)| {
         let (of, symbol) = (Literal::usize_unsuffixed(of), Literal::usize_unsuffixed(symbol));
         quote!((#of, #symbol))
@@ -75,15 +75,25 @@ pub fn table(krate: &TokenStream, coefficients: &Coefficients, all: &Products) -
         quote!((#base, #coordinate, #monomial))
     });
     quote! {
-        #krate::plumbing::Table {
+        /// All coefficients as data. A base is Σ h^power Σ factor · product, a slot `c[i]` a base
+        /// times an integer.
+        static TABLE: #krate::plumbing::Table = #krate::plumbing::Table {
+            /// Products of symbols: an earlier one times a symbol; number 0 is 1.
             products: &[#(#products),*],
+            /// Factor, and the number of its product.
             terms: &[#(#terms),*],
+            /// The power of h, and where its terms end.
             parts: &[#(#parts),*],
+            /// Where the parts of each base end.
             bases: &[#(#bases),*],
+            /// For each slot its base, and the integer.
             slots: &[#(#slots),*],
+            /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
+            /// first bases.
             monomials: &[#(#monomials),*],
+            /// The terms of the first guess that are even in h: base, coordinate, monomial.
             guess: &[#(#guess),*],
-        }
+        };
     }
 }
 

@@ -14,7 +14,7 @@ use crate::table::TableError;
 /// `C`: a series derived elsewhere, or any polynomial at all.
 ///
 /// ```
-/// use coadjoint::{Exponential, Phase, PolynomialFunction, SO3, advance};
+/// use coadjoint::{Exponential, Phase, generating::PolynomialFunction, SO3, advance};
 /// use nalgebra::Vector3;
 ///
 /// // The rigid body at truncation 1: S = h·H.

@@ -15,7 +15,7 @@ use crate::number::scalar::Scalar;
 /// A matrix group known at run time, coordinates in `DVector<f64>`.
 ///
 /// ```
-/// use coadjoint::{LieGroup, MatrixGroup};
+/// use coadjoint::{LieGroup, groups::MatrixGroup};
 /// use nalgebra::{DMatrix, DVector};
 ///
 /// // SL(2, R) from its basis; the brackets [h, x] = 2x, [h, y] = −2y, [x, y] = h are found, and
@@ -35,7 +35,7 @@ use crate::number::scalar::Scalar;
 ///
 /// // The Cayley map is a property of the algebra, checked: sl(2) has it, sl(3) not.
 /// assert!(group.into_cayley().is_ok());
-/// # Ok::<(), coadjoint::TableError>(())
+/// # Ok::<(), coadjoint::groups::TableError>(())
 /// ```
 pub type MatrixGroup = TableGroup<DynamicTables<false>>;
 

@@ -37,7 +37,7 @@ pub struct StaticTables<A, const N: usize, const D: usize, T = f64>(PhantomData<
 /// any [`Scalar`].
 ///
 /// ```
-/// use coadjoint::{LieGroup, StaticAlgebra, StaticMatrixGroup};
+/// use coadjoint::{LieGroup, groups::StaticAlgebra, groups::StaticMatrixGroup};
 /// use nalgebra::Vector2;
 ///
 /// /// The affine group of the line: [a, b] = b.

@@ -8,7 +8,8 @@ use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::pass::{DEFAULT_TRUNCATION, check_truncation, frame, solver};
 use crate::problem::{FrameChoice, Solver};
 
-const KEYS: [&str; 5] = ["group", "truncation", "chart", "solver", "frame"];
+/// `crate` is taken out by the attribute before.
+const KEYS: [&str; 6] = ["group", "truncation", "chart", "solver", "frame", "crate"];
 const OWNER: &str = "#[lie_poisson(…)]";
 
 /// What the arguments say; `None` where it was missing or wrong, which is reported.
@@ -79,8 +80,8 @@ pub(super) fn potential(tokens: TokenStream, diagnostics: &mut Diagnostics) -> O
             "group" if found.is_some() => diagnostics.report(span, Mistake::RepeatedKey(key)),
             "group" => found = Some(group(&value, Span::of(&value), diagnostics)),
             _ => {
-                let suggestion = nearest(&key, ["group"]).map(str::to_owned);
-                let known = vec!["group".to_owned()];
+                let suggestion = nearest(&key, ["group", "crate"]).map(str::to_owned);
+                let known = vec!["group".to_owned(), "crate".to_owned()];
                 let unknown = Mistake::UnknownKey(key, OWNER.to_owned(), suggestion, known);
                 diagnostics.report(span, unknown);
             }

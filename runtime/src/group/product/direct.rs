@@ -16,7 +16,7 @@ use crate::number::scalar::Scalar;
 /// and so on. All work but that for n×n matrices is linear in the number of factors.
 ///
 /// ```
-/// use coadjoint::{DirectProduct, LieGroup, SO3};
+/// use coadjoint::{groups::DirectProduct, LieGroup, SO3};
 /// use nalgebra::DVector;
 ///
 /// let chain = DirectProduct::new(vec![SO3::<f64>::new(); 64]);

@@ -19,7 +19,7 @@ use crate::number::scalar::Scalar;
 /// them.
 ///
 /// ```
-/// use coadjoint::{LieGroup, Power, SO3};
+/// use coadjoint::{LieGroup, groups::Power, SO3};
 ///
 /// let spins = Power::<SO3, 4, 12>::new();
 /// assert_eq!((spins.dim(), spins.casimir_count()), (12, 4));

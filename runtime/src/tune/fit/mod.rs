@@ -113,14 +113,14 @@ pub enum FitError {
 /// the integrator is the series as it was ([`Fit::unseen`] then equals [`Fit::before`]).
 ///
 /// ```
-/// use coadjoint::{Phase, SO3, fit, lie_poisson};
+/// use coadjoint::{Phase, SO3, tune::fit, lie_poisson};
 ///
 /// #[lie_poisson(group = SO3, truncation = 5)]
 /// fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
 ///     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
 /// }
 ///
-/// # fn main() -> Result<(), coadjoint::FitError> {
+/// # fn main() -> Result<(), coadjoint::tune::FitError> {
 /// let (inertia, start) = ([1.5, 2.0, 2.5], [2.0, 0.5, 1.0]);
 /// let fitted = fit(0.8, |h| Body::new(h, inertia), [start], 12.0)?;
 /// assert!(fitted.before > 1e-6 && fitted.unseen < 1e-10);

@@ -8,20 +8,9 @@ use std::collections::BTreeSet;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::body::{Body, Writer};
+use super::scope::Scope;
+use super::writer::{Body, Writer};
 use crate::graph::{Node, Program, operands};
-
-/// What the names a program uses stand for.
-pub struct Scope {
-    /// The path of the runtime crate.
-    pub krate: TokenStream,
-    /// The type of `input`, over the scalar `T`.
-    pub input: TokenStream,
-    /// The length of `c`, an array of `T`.
-    pub slots: usize,
-    /// Whether `c` is an array of `C` instead, to be lifted to `T`.
-    pub lifted: bool,
-}
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride,
 /// and inlines into a step for lanes, which makes use of wider registers.
@@ -31,14 +20,15 @@ const LARGE: usize = 1500;
 const MOST_OPERATIONS: usize = 1000;
 
 /// The program in several functions; `None` where one is enough.
-pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
+#[must_use]
+pub fn split(program: &Program, scope: &Scope) -> Option<Body> {
     let nodes = program.nodes();
     let part_of = assign(nodes)?;
     let count = part_of.last()? + 1;
     let handed = handed_on(program, &part_of);
     let places = Literal::usize_unsuffixed(handed.len());
 
-    let Scope { krate, input, slots, lifted } = scope;
+    let Scope { krate, input, slots, lifted, .. } = scope;
     let slots = Literal::usize_unsuffixed(*slots);
     let place = |k: usize| {
         let k = Literal::usize_unsuffixed(k);
@@ -53,7 +43,7 @@ pub(super) fn parts(program: &Program, scope: &Scope) -> Option<Body> {
             (quote!(C: #krate::Scalar, T: #krate::Scalar + #krate::plumbing::Lift<C>), quote!(C))
         }
     };
-    let mut writer = Writer::new(program, *lifted);
+    let mut writer = Writer::new(program, scope);
     let mut start = 0;
     for part in 0..count {
         let end = start + part_of[start..].iter().take_while(|&&p| p == part).count();

@@ -1,0 +1,65 @@
+//! The types that emitted items mention.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Options;
+use super::group::group_type;
+use crate::lie::{Chart, LieAlgebra};
+
+/// The types that emitted items mention, and the items that define them.
+pub struct Types {
+    /// The dimension of the algebra.
+    pub dim: usize,
+    /// The group, over the scalar `T`.
+    pub group: TokenStream,
+    /// The chart.
+    pub chart: TokenStream,
+    /// Vectors of the algebra or its dual, over the scalar `T`.
+    pub vector: TokenStream,
+    /// Square matrices of this dimension, over the scalar `T`.
+    pub matrix: TokenStream,
+    /// Items the group needs, to stand beside the struct.
+    pub definition: TokenStream,
+    /// Tables of the group, to stand at the end.
+    pub tables: TokenStream,
+    /// What a block needs in which these types are used.
+    pub aliases: TokenStream,
+}
+
+impl Types {
+    /// The types for this algebra and chart.
+    #[must_use]
+    pub fn new(algebra: &LieAlgebra, chart: Chart, options: &Options) -> Self {
+        let Options { krate, visibility, name, .. } = options;
+        let dim = algebra.dim();
+        let n = Literal::usize_unsuffixed(dim);
+        let chart = match chart {
+            Chart::Exponential => quote!(#krate::Exponential),
+            Chart::Cayley => quote!(#krate::Cayley),
+        };
+        let group = group_type(algebra, name, visibility, krate);
+        // In a block of their own; the struct may have either name.
+        let alias = |plain: &str| match *name == plain {
+            true => format_ident!("{plain}Of"),
+            false => format_ident!("{plain}"),
+        };
+        let (vector, matrix) = (alias("Vector"), alias("Matrix"));
+        Self {
+            dim,
+            group: group.ty,
+            chart,
+            vector: quote!(#vector<T>),
+            matrix: quote!(#matrix<T>),
+            definition: group.definition,
+            tables: group.tables,
+            aliases: quote! {
+                // Whatever names the user has in scope.
+                use ::core::prelude::v1::*;
+
+                type #vector<T> = #krate::nalgebra::SVector<T, #n>;
+                type #matrix<T> = #krate::nalgebra::SMatrix<T, #n, #n>;
+            },
+        }
+    }
+}

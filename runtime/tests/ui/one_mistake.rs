@@ -1,0 +1,47 @@
+//! One wrong name is one error, whatever is done with what should have been generated.
+use coadjoint::{generating::Adjustable, lanes::F64x4, GeneratingFunction, Kicked, lanes::Lanes, Phase, steps::Rkn4, SO3, groups::SO4};
+use coadjoint::{lie_poisson, potential};
+
+/// Free rigid body.
+#[lie_poisson(group = SO3, truncation = 5)]
+fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[3] * mu[2] / inertia[2]
+}
+
+#[lie_poisson(group = SO5, truncation = 3)]
+fn wrong_group(mu: [f64; 6]) -> f64 {
+    mu[0] * mu[1]
+}
+
+#[potential(group = SO3)]
+fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
+    weigth * g[2][2]
+}
+
+fn end<S: GeneratingFunction<Group = SO3> + Adjustable + Lanes + Clone + std::fmt::Debug>(step: S) {
+    let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
+    let _ = coadjoint::advance(&step, &mut phase);
+    let _ = (step.splat::<F64x4>(), step.terms(), format!("{step:?}"));
+}
+
+fn main() -> Result<(), coadjoint::StepError> {
+    let inertia = [1.0, 2.0, 3.0];
+    let step = Body::new(0.1, inertia)?;
+    let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
+    step.advance(&mut phase)?;
+    step.advance_by(&mut phase, 10)?;
+    let mu = step.poisson_map(&phase.momentum)?;
+    let _ = step.energy(&mu) + step.step();
+    let _ = Body::<f64>::TRUNCATION + Body::<f64>::ORDER;
+    end(Body::tuned(0.1, inertia, [[1.0, 2.0, 3.0]])?);
+
+    let wrong = WrongGroup::new(0.1)?;
+    wrong.advance_by(&mut Phase::<SO4>::at_identity([0.0; 6]), 3)?;
+    let _ = (WrongGroup::<f64>::TRUNCATION, wrong.clone());
+
+    let height = Height::new(1.2)?;
+    let torque = |_time: f64, g: &_| height.torque(g);
+    let kicked = Kicked::<Rkn4, _, _>::new(0.05, torque, |h| Body::new(h, inertia))?;
+    kicked.advance(&mut phase, 0.0)?;
+    Ok(())
+}
