@@ -58,10 +58,12 @@ pub(crate) fn block<S: Integrator + ?Sized>(
                 worst.residual = worst.residual.simd_max(residual);
             }
             Err((steps, error)) => {
-                move_frame(generating, phase, steps);
                 method.forget();
-                return sound(generating, phase, start, steps, settings)
-                    .and(Err(Stopped { steps, error }));
+                if steps > 0 {
+                    move_frame(generating, phase, steps);
+                    sound(generating, phase, start, steps, settings)?;
+                }
+                return Err(Stopped { steps, error });
             }
         }
     }

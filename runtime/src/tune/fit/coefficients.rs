@@ -8,7 +8,7 @@ use super::least_squares::least_squares;
 use super::motion::{Point, Step};
 use crate::generating::{Adjustable, Term, TermOf};
 use crate::linear::coordinates::Coordinates;
-use crate::generating::{GeneratingFunction, VectorOf};
+use crate::generating::VectorOf;
 use crate::group::LieGroup;
 use crate::solve::Predict;
 

@@ -220,7 +220,7 @@ where
 /// The largest coordinate of x − ∂S/∂p(p) at the points.
 fn error<S>(generating: &S, points: &[Point<VectorOf<S>>]) -> f64
 where
-    S: GeneratingFunction,
+    S: Predict,
     S::Group: LieGroup<Scalar = f64>,
 {
     let errors = points.iter().map(|point| residual(generating, &point.after).largest_entry());
@@ -230,7 +230,7 @@ where
 /// The largest coordinate of the error of the first guess at the points.
 fn guess_error<S>(generating: &S, points: &[Point<VectorOf<S>>]) -> f64
 where
-    S: GeneratingFunction,
+    S: Predict,
     S::Group: LieGroup<Scalar = f64>,
 {
     largest(points.iter().map(|point| missed(generating, point).largest_entry()))
