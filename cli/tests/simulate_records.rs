@@ -3,7 +3,6 @@
 
 mod support;
 
-use std::io::Write;
 use std::path::Path;
 use std::process::Stdio;
 
@@ -338,5 +337,4 @@ fn a_learned_map_is_not_run_to_another_time() {
     let (code, _, error) = follow("0.25");
     assert!(code == 2 && error.contains("no whole number of steps"), "{error}");
     assert_eq!(follow("0.3").0, 0);
-    std::io::stdout().flush().unwrap();
 }

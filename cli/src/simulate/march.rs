@@ -1,9 +1,11 @@
 //! The steps of a run, one after the other: measured, recorded, and kept for a restart.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
 use coadjoint::{Phase, StepError};
+use coadjoint_codegen::problem::Problem;
 use nalgebra::DVector;
 
 use super::checkpoint::{Checkpoint, bits, numbers};
@@ -13,6 +15,7 @@ use super::names::columns;
 use super::restore::Restore;
 use super::samples::Samples;
 use super::sink::Sink;
+use super::target::Target;
 use super::task::Task;
 use super::trajectory::{Moment, Recorder, Trajectory};
 use crate::error::CliError;
@@ -101,7 +104,6 @@ impl<'a, G: Restore> March<'a, G> {
         let mut recorder =
             Recorder::new(group, task.watched(), &start, task.integrator, setup.sampled);
         let problem = &task.integrator.problem;
-        let names = || columns(&problem.coordinates, recorder.blocks());
         let found = match &setup.checkpoint {
             Some((path, _)) => Checkpoint::read(path, &self.identity())?.map(|found| (path, found)),
             None => None,
@@ -110,7 +112,7 @@ impl<'a, G: Restore> March<'a, G> {
         let Some((path, found)) = found else {
             let moment = recorder.visit(&start).map_err(|what| self.stuck(0, what))?;
             recorder.sample(0.0, &start, &moment);
-            let begin = |target| Sink::begin(target, task.header(), columns_of(&recorder, problem));
+            let begin = |target| Sink::begin(target, task.header(), names(&recorder, problem));
             let sink = setup.out.as_ref().map(begin).transpose()?;
             let phase = start;
             let state =
@@ -142,11 +144,11 @@ impl<'a, G: Restore> March<'a, G> {
         let phase = Phase::<G>::new(element, DVector::from_vec(momentum));
         let moment = recorder.measure(&phase).map_err(|what| self.stuck(found.step, what))?;
         let extent = found.extent();
-        let resume = |target: &super::target::Target| {
+        let resume = |target: &Target| {
             if found.complete && !target.part().exists() && target.path.exists() {
                 return Ok(Sink::done(target, extent));
             }
-            Sink::resume(target, task.header(), names(), extent)
+            Sink::resume(target, task.header(), names(&recorder, problem), extent)
         };
         let sink = setup.out.as_ref().map(resume).transpose()?;
         if found.complete {
@@ -324,7 +326,7 @@ impl<'a, G: Restore> March<'a, G> {
     }
 
     /// What a checkpoint must agree in.
-    fn identity(&self) -> std::collections::BTreeMap<String, String> {
+    fn identity(&self) -> BTreeMap<String, String> {
         let setup = self.task.setup;
         let mut identity = self.task.header().identity();
         // It follows from the time and the step, whose names say more.
@@ -358,9 +360,6 @@ impl<'a, G: Restore> March<'a, G> {
     }
 }
 
-fn columns_of<G: Restore>(
-    recorder: &Recorder<'_, G>,
-    problem: &coadjoint_codegen::problem::Problem,
-) -> Vec<String> {
+fn names<G: Restore>(recorder: &Recorder<'_, G>, problem: &Problem) -> Vec<String> {
     columns(&problem.coordinates, recorder.blocks())
 }
