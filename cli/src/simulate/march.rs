@@ -24,12 +24,18 @@ use crate::progress;
 /// Iterations and residual of the solve of a step, where there was one.
 type Solved = Option<(u32, f64)>;
 
+/// A step of the grid, from the time given.
+type GridStep<'s, G> = dyn Fn(f64, &mut Phase<G>) -> Result<Solved, StepError> + 's;
+
+/// A step of another length, from the time given: (time, length, state).
+type SideStep<'s, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 's;
+
 /// What makes steps on a group.
 pub struct Stepper<'s, G: Restore> {
-    /// A step of the grid, from the time given.
-    pub step: &'s dyn Fn(f64, &mut Phase<G>) -> Result<Solved, StepError>,
-    /// A step of another length, from the time given: (time, length, state).
-    pub side: &'s dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError>,
+    /// Makes a step of the grid.
+    pub step: &'s GridStep<'s, G>,
+    /// Makes a step of another length.
+    pub side: &'s SideStep<'s, G>,
 }
 
 /// A run on a group.
