@@ -38,6 +38,8 @@ pub enum Verb {
     Check(CheckOptions),
     /// Find the polynomial Casimirs of the system's algebra
     Casimirs(CasimirOptions),
+    /// List the groups that have a name, or print basis, brackets, Casimirs and charts of one
+    Groups(GroupOptions),
     /// Learn the map behind pairs of states
     Learn(LearnOptions),
     /// Find the Poisson map nearest to a method that is none, or to pairs of momenta made by one
@@ -317,4 +319,21 @@ pub struct CasimirOptions {
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+}
+
+/// Options of `groups`.
+#[derive(Args, Debug)]
+pub struct GroupOptions {
+    /// A group or a product of groups, such as SO3, "SO3^4" or "SO3 |x R3"; all names if not given
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// The highest degree of Casimirs looked for; as high as is quick, 4 at most, if not given
+    #[arg(long, value_name = "d", default_value_t = 0, hide_default_value = true)]
+    pub degree: u32,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The same as --format json
+    #[arg(long)]
+    pub json: bool,
 }

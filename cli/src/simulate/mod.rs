@@ -55,11 +55,12 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
     };
     let mut runs = Vec::new();
+    let mut heading = systems.first().map(plot::Heading::new);
     for mut system in systems {
         let truncation = system.problem.truncation;
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
-        let System { problem, potential, run } = system;
+        let System { problem, potential, run, .. } = system;
         let follows = [("--tuned", options.tuned), ("--fitted", options.fitted.is_some())];
         if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
             && potential.is_some()
@@ -70,6 +71,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
             return Err(CliError::Option(what));
         }
         let setup = Setup::new(options, &run, problem.algebra.dim())?;
+        heading.iter_mut().for_each(|heading| heading.step(setup.step));
         let kept = potential.as_ref().map(|(potential, _)| potential);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
         let kicked = kept.map(|potential| matrix_group(path, &problem.algebra, Some(potential)));
@@ -121,8 +123,8 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if options.compare.is_some() {
         runs.rotate_left(1);
     }
-    if let Some(plot) = &options.plot {
-        plot::draw(plot, &runs)?;
+    if let (Some(path), Some(heading)) = (&options.plot, &heading) {
+        plot::draw(path, &plot::picture(heading, &runs))?;
     }
     out!("{}", report::report(&runs, options.format));
     Ok(())
