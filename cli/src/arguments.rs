@@ -31,6 +31,9 @@ pub enum Verb {
     /// Write the integrator as a Rust module
     Emit(EmitOptions),
     /// Run the system and report how well momentum, Casimirs and energy are kept
+    #[command(
+        after_help = "The format of FILE is described in docs/file-format.md; `coadjoint groups` lists groups."
+    )]
     Simulate(SimulateOptions),
     /// Advance many states at once, from a file to a file
     Ensemble(EnsembleOptions),

@@ -12,7 +12,7 @@ use coadjoint::{Cayley, Exponential};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::{Parameters, System};
 
-use crate::arguments::SimulateOptions;
+use crate::arguments::{Format, SimulateOptions};
 use crate::engine::{Energy, Forces, cayley_group, matrix_group, product_group};
 use crate::error::CliError;
 use crate::{load, model};
@@ -56,6 +56,8 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     };
     let mut runs = Vec::new();
     let mut heading = systems.first().map(plot::Heading::new);
+    let first = systems.first().filter(|_| options.format == Format::Text);
+    let units = first.and_then(|system| system.units.sentence(&system.problem.coordinates));
     for mut system in systems {
         let truncation = system.problem.truncation;
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
@@ -127,5 +129,8 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         plot::draw(path, &plot::picture(heading, &runs))?;
     }
     out!("{}", report::report(&runs, options.format));
+    if let Some(units) = units {
+        outln!("  units: {units}");
+    }
     Ok(())
 }

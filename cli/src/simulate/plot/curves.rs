@@ -8,6 +8,10 @@ pub const NAMED: usize = 8;
 const MOST_TURNS: usize = 80;
 /// How many turning points are shown then.
 const SHOWN_TURNS: usize = 40;
+/// So many turning points show how fast a motion is.
+const FEW_TURNS: usize = 4;
+/// Records from one turning point to the next that it takes to follow a motion.
+const RECORDS_A_TURN: f64 = 2.5;
 /// A wiggle smaller than this share of the panel is no turning point.
 const WIGGLE: f64 = 0.04;
 
@@ -37,27 +41,40 @@ pub fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) 
 pub struct Window {
     /// So many records from the start on.
     pub records: usize,
-    /// Whether there are at least three records from one turning point to the next.
+    /// Whether there are at least some records from one turning point to the next.
     pub resolved: bool,
 }
 
-/// All records, or the first ones where all together have too many turning points to be told apart.
-pub fn window(series: &[&Series], records: usize) -> Window {
+/// All records, or the first ones: where all together have too many turning points to be told apart, or
+/// where later records are too far apart to follow what the first ones show.
+pub fn window(series: &[&Series], times: &[f64]) -> Window {
     let all = series.iter().flat_map(|series| &series.values);
     let (low, high) = range(all).unwrap_or_default();
     let wiggle = WIGGLE * (high / 2.0 - low / 2.0) * 2.0;
-    let turns: Vec<Vec<usize>> =
-        series.iter().map(|series| turning_points(&series.values, wiggle)).collect();
-    let most = turns.iter().max_by_key(|turns| turns.len());
-    let Some(most) = most.filter(|turns| !turns.is_empty()) else {
-        return Window { records, resolved: true };
+    let turns = series.iter().map(|series| turning_points(&series.values, wiggle));
+    let turns = turns.filter_map(|turns| Some((pace(&turns, times)?, turns)));
+    let Some((pace, turns)) = turns.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Window { records: times.len(), resolved: true };
     };
-    let shown = match most.get(SHOWN_TURNS) {
-        Some(end) if most.len() > MOST_TURNS => (end + 1).min(records),
-        _ => records,
+    let legible = match turns.get(SHOWN_TURNS) {
+        Some(end) if turns.len() > MOST_TURNS => (end + 1).min(times.len()),
+        _ => times.len(),
     };
-    let inside = most.iter().filter(|&&at| at < shown).count();
-    Window { records: shown, resolved: shown >= 3 * inside }
+    let apart = |pair: &[f64]| (pair[1] - pair[0]).abs() > pace / RECORDS_A_TURN;
+    match times[..legible].windows(2).position(apart) {
+        None => Window { records: legible, resolved: true },
+        Some(coarse) if turns.iter().filter(|&&at| at < coarse).count() > FEW_TURNS => {
+            Window { records: coarse + 1, resolved: true }
+        }
+        Some(_) => Window { records: legible, resolved: false },
+    }
+}
+
+/// The time from one of the first turning points to the next, in the mean; `None` if there are few.
+fn pace(turns: &[usize], times: &[f64]) -> Option<f64> {
+    let first = &turns[..turns.len().min(2 * FEW_TURNS)];
+    let (from, to) = (times.get(*first.first()?)?, times.get(*first.last()?)?);
+    (first.len() > 1).then(|| (to - from).abs() / (first.len() - 1) as f64)
 }
 
 /// The records at which a curve turns round by more than `wiggle`.
@@ -88,24 +105,22 @@ fn turning_points(values: &[f64], wiggle: f64) -> Vec<usize> {
     turns
 }
 
-/// A curve with at most two points in each of `columns` stretches of records, the least and the
+/// A curve with at most two points in each of `columns` stretches of time, the least and the
 /// greatest, so that no peak is lost.
 pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = times
-        .iter()
-        .zip(values)
-        .filter(|(time, value)| time.is_finite() && value.is_finite())
-        .map(|(&time, &value)| (time, value))
-        .collect();
-    if points.len() <= 2 * columns {
-        return points;
-    }
+    let points = points(times, values);
     let mut kept = Vec::new();
-    for stretch in points.chunks(points.len().div_ceil(columns).max(1)) {
+    for stretch in stretches(&points, columns) {
         let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
         let (least, greatest) = (stretch.iter().min_by(by_value), stretch.iter().max_by(by_value));
         let mut pair: Vec<(f64, f64)> = least.into_iter().chain(greatest).copied().collect();
-        pair.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pair.dedup();
+        // In the order of the run, which may go backwards in time.
+        if let ([a, b], Some(first)) = (&pair[..], stretch.first())
+            && (a.0 - first.0).abs() > (b.0 - first.0).abs()
+        {
+            pair.reverse();
+        }
         kept.extend(pair);
     }
     // The end of the run is shown as it is.
@@ -113,16 +128,27 @@ pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)>
     kept
 }
 
-/// The greatest value of each of at most `columns` stretches, at its time.
+/// The greatest value of each of at most `columns` stretches of time, at its time.
 pub fn peaks(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = times
-        .iter()
-        .zip(values)
-        .filter(|(time, value)| time.is_finite() && value.is_finite())
-        .map(|(&time, &value)| (time, value))
-        .collect();
-    let stretches = points.chunks(points.len().div_ceil(columns).max(1));
-    stretches.filter_map(|part| part.iter().max_by(|a, b| a.1.total_cmp(&b.1)).copied()).collect()
+    let points = points(times, values);
+    let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+    stretches(&points, columns).filter_map(|part| part.iter().max_by(by_value).copied()).collect()
+}
+
+/// What is finite.
+fn points(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+    let both = times.iter().zip(values).map(|(&time, &value)| (time, value));
+    both.filter(|(time, value)| time.is_finite() && value.is_finite()).collect()
+}
+
+/// Consecutive points that fall into the same of `columns` equal parts of the time.
+fn stretches(points: &[(f64, f64)], columns: usize) -> impl Iterator<Item = &[(f64, f64)]> {
+    let (first, last) = match points {
+        [first, .., last] => (first.0, last.0),
+        _ => (0.0, 1.0),
+    };
+    let column = move |time: f64| ((time - first) / (last - first) * columns as f64).floor();
+    points.chunk_by(move |a, b| column(a.0) == column(b.0))
 }
 
 #[cfg(test)]
@@ -137,13 +163,20 @@ mod tests {
     #[test]
     fn a_motion_that_oscillates_too_often_is_shown_in_part() {
         let slow = wave("slow", 0.05, 1000);
-        assert_eq!(window(&[&slow], 1000), Window { records: 1000, resolved: true });
+        let times: Vec<f64> = (0..1000).map(f64::from).collect();
+        assert_eq!(window(&[&slow], &times), Window { records: 1000, resolved: true });
         let fast = wave("fast", 0.5, 1000);
         // 1000/2π half turns; forty of them are 2·20π records.
-        let part = window(&[&slow, &fast], 1000);
+        let part = window(&[&slow, &fast], &times);
         assert!(part.resolved && part.records.abs_diff(255) < 5, "{part:?}");
-        // Two records from one turn to the next follow no motion.
-        assert!(!window(&[&wave("too fast", 2.5, 1000)], 1000).resolved);
+        // Fewer than two records from one turn to the next follow no motion.
+        assert!(!window(&[&wave("too fast", 2.5, 1000)], &times).resolved);
+        // Where only the beginning is dense, only the beginning is shown.
+        let thin: Vec<f64> =
+            times.iter().map(|&n| if n < 200.0 { n } else { 200.0 + 64.0 * (n - 199.0) }).collect();
+        let values = thin.iter().map(|time| (0.3 * time).sin()).collect();
+        let part = window(&[&Series { values, ..fast }], &thin);
+        assert_eq!(part, Window { records: 200, resolved: true });
         // Rounding of a constant is no motion.
         let noise = Series { values: vec![1.0, 1.0 - 1e-16, 1.0], ..slow.clone() };
         assert!(turning_points(&noise.values, 0.04).is_empty());

@@ -29,7 +29,7 @@ pub fn panels(run: &Run, named: bool, across: (f64, f64), time_unit: Option<&str
     };
     let shown: Vec<_> = groups.iter().map(|group| largest(group)).collect();
     // All panels show the same time.
-    let parts = shown.iter().map(|(shown, _)| window(shown, run.times.len()));
+    let parts = shown.iter().map(|(shown, _)| window(shown, &run.times));
     let parts: Vec<Window> = parts.collect();
     let records = parts.iter().map(|part| part.records).min().unwrap_or(0);
     let resolved = parts.iter().all(|part| part.resolved);
