@@ -230,12 +230,23 @@ pub struct SimulateOptions {
     /// more accurate by many orders
     #[arg(long, value_name = "DURATION", conflicts_with_all = ["model", "tuned"])]
     pub fitted: Option<f64>,
-    /// Record every n-th step
+    /// Record every n-th step, and the last
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,
-    /// Write the trajectory, as .csv or .npy by the name
+    /// Record these times, with commas between them or in a file: alone, or besides every n-th step
+    #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
+    #[arg(requires = "out", conflicts_with = "model")]
+    pub at: Option<String>,
+    /// Write the records as they are made, as .csv or .npy by the name (- for the standard output).
+    /// Until the run is complete the name is FILE.part
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Keep the state in this file, so that the same command goes on where it was stopped
+    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    pub checkpoint: Option<PathBuf>,
+    /// Write the checkpoint after so many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 20.0)]
+    pub checkpoint_interval: f64,
     /// Draw the drift of energy, momentum and Casimirs
     #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,

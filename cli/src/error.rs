@@ -92,6 +92,19 @@ pub enum CliError {
         /// Why.
         source: StepError,
     },
+    /// A run that stopped.
+    #[error("at time {time}, step {step}: {what}")]
+    Run {
+        /// When.
+        time: f64,
+        /// The number of the step, from 1; 0 for the start.
+        step: u64,
+        /// Why.
+        what: String,
+    },
+    /// A run that was asked to stop.
+    #[error("{0}")]
+    Interrupted(String),
     /// The method run beside the integrator failed.
     #[error("the comparison with rk45 failed: {0}")]
     Rival(String),
@@ -104,7 +117,7 @@ pub enum CliError {
 }
 
 impl CliError {
-    /// 2 for bad input, 1 for everything else.
+    /// 2 for bad input, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_)
@@ -123,7 +136,12 @@ impl CliError {
                     1
                 }
             }
-            Self::Write { .. } | Self::Step { .. } | Self::Rival(_) | Self::Laws(_) => 1,
+            Self::Write { .. }
+            | Self::Step { .. }
+            | Self::Run { .. }
+            | Self::Rival(_)
+            | Self::Laws(_) => 1,
+            Self::Interrupted(_) => 130,
         }
     }
 

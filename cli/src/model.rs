@@ -12,6 +12,9 @@ use nalgebra::DMatrix;
 use crate::error::CliError;
 use crate::load;
 
+/// How far, relatively, a time may be from a whole number of steps.
+const WHOLE: f64 = 1e-9;
+
 /// A run of a learned map.
 #[derive(Debug)]
 pub struct Run {
@@ -34,6 +37,14 @@ pub fn simulate(run: &Run) -> Result<(), CliError> {
     if !(steps.is_finite() && (1.0..1e12).contains(&steps)) {
         return Err(CliError::Option(format!(
             "the time {} is no number of steps of {}, the step the model was learned for",
+            run.time, model.step
+        )));
+    }
+    let end = steps * model.step;
+    if (end - run.time).abs() > WHOLE * run.time {
+        return Err(CliError::Option(format!(
+            "the time {} is no whole number of steps of {}, the step the model was learned for: \
+             give --time {end}",
             run.time, model.step
         )));
     }

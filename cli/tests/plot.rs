@@ -5,7 +5,7 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use support::{file, run};
+use support::{file, json, run};
 
 /// The picture of a run.
 fn picture(arguments: &[&str]) -> String {
@@ -246,14 +246,22 @@ fn no_name_breaks_the_picture() {
     contains(&svg, &[">time</text>", ">Body momentum</text>", ">h = 0.1</text>"]);
 }
 
-/// A report says in which units its numbers are; a file without units says nothing of them.
+/// A report says in which units its numbers are; without units in the file it says nothing of them.
 #[test]
 fn reports_say_the_units() {
     let (code, out, _) = run(&["simulate", "examples/heavy_top.toml", "--time", "1"]);
     assert_eq!(code, 0);
-    let line =
-        "units: time in s; Pi_x, Pi_y, Pi_z in kg m²/s; Gamma_x, Gamma_y, Gamma_z in pure number";
-    assert!(out.contains(line), "{out}");
-    let (_, out, _) = run(&["simulate", "examples/su3_quadratic.toml", "--time", "1"]);
-    assert!(!out.contains("units"), "{out}");
+    assert!(out.contains("20 steps to time 1 s\n"), "{out}");
+    let line = |name: &str| out.lines().find(|line| line.trim().starts_with(name)).unwrap();
+    assert!(
+        line("Pi_y").ends_with(" kg m²/s") && line("Gamma_z").ends_with(" pure number"),
+        "{out}"
+    );
+    let report = json(&["simulate", "examples/heavy_top.toml", "--time", "1", "--format", "json"]);
+    assert_eq!(report["units"]["time"], "s");
+    assert_eq!(report["units"]["Pi_x"], "kg m²/s");
+
+    let without =
+        json(&["simulate", "examples/su3_quadratic.toml", "--time", "1", "--format", "json"]);
+    assert!(without.get("units").is_none());
 }

@@ -1,23 +1,36 @@
 //! `coadjoint simulate`: a run, what it kept, and pictures of it.
 
+mod checkpoint;
+mod element;
+mod header;
+mod interrupt;
+mod march;
+mod names;
+mod number;
 mod plot;
 mod report;
+mod restore;
 mod rival;
+mod samples;
+mod schedule;
 mod setup;
+mod sink;
+mod target;
 mod task;
+mod times;
 mod trajectory;
-mod write;
 
 use coadjoint::{Cayley, Exponential};
 use coadjoint_codegen::lie;
-use coadjoint_codegen::system::{Parameters, System};
+use coadjoint_codegen::system::{self, Parameters, System};
 
-use crate::arguments::{Format, SimulateOptions};
+use crate::arguments::SimulateOptions;
 use crate::engine::{Energy, Forces, cayley_group, matrix_group, product_group};
 use crate::error::CliError;
-use crate::{load, model};
+use crate::{load, model, progress};
+pub use schedule::schedule;
 use setup::Setup;
-pub use setup::schedule;
+use target::{Place, Target};
 use task::Task;
 
 /// Follows a learned map, which has its own step.
@@ -46,22 +59,35 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if let Some(path) = &options.input.model {
         return learned(path, options);
     }
+    let out = setup::check_names(options)?;
     let source = options.input.source();
     let path = &source.file;
-    let read = |truncation| load::source(&source, truncation, Parameters::Substituted);
+    // Read once: all runs are of this text, and its hash is that of what was run.
+    let text = std::fs::read_to_string(path)
+        .map_err(|source| CliError::Read { path: path.clone(), source })?;
+    let hash = header::text_hash(&text);
+    let read = |truncation| {
+        let (chart, solver) = (source.chart.map(Into::into), source.solver.map(Into::into));
+        let parameters = Parameters::Substituted;
+        system::read(&text, system::Options { parameters, truncation, chart, solver }).map_err(
+            |mistakes| CliError::Input(mistakes.render(&path.display().to_string(), &text)),
+        )
+    };
     let systems: Vec<System> = if options.truncation.is_empty() {
         vec![read(None)?]
     } else {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
     };
+    let outs = outs(out.as_ref(), &systems)?;
     let mut runs = Vec::new();
     let mut heading = systems.first().map(plot::Heading::new);
-    let first = systems.first().filter(|_| options.format == Format::Text);
-    let units = first.and_then(|system| system.units.sentence(&system.problem.coordinates));
-    for mut system in systems {
+    let units = systems.first().map(|system| system.units.clone()).unwrap_or_default();
+    for (mut system, out) in systems.into_iter().zip(outs) {
         let truncation = system.problem.truncation;
+        let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
+        drop(phase);
         let System { problem, potential, run, .. } = system;
         let follows = [("--tuned", options.tuned), ("--fitted", options.fitted.is_some())];
         if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
@@ -72,8 +98,13 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
             );
             return Err(CliError::Option(what));
         }
-        let setup = Setup::new(options, &run, problem.algebra.dim())?;
-        heading.iter_mut().for_each(|heading| heading.step(setup.step));
+        let setup = Setup::new(options, &hash, out, &run, problem.algebra.dim())?;
+        heading.iter_mut().for_each(|heading| heading.step(setup.schedule.step));
+        let announcement = setup.schedule.announcement();
+        if let Some(line) = announcement.filter(|_| runs.is_empty()) {
+            eprintln!("{line}");
+        }
+        let phase = progress::phase(&format!("deriving the series, K = {}", problem.truncation));
         let kept = potential.as_ref().map(|(potential, _)| potential);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
         let kicked = kept.map(|potential| matrix_group(path, &problem.algebra, Some(potential)));
@@ -81,6 +112,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let energy = Energy::new(&problem, kept);
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
         let integrator = load::integrator(path, problem)?;
+        drop(phase);
         let task = Task {
             integrator: &integrator,
             forces: forces.as_ref(),
@@ -107,10 +139,6 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
                 task.integrate::<_, Cayley>(cayley_group(path, &group)?)?
             }
         };
-        if let Some(out) = &options.out {
-            let out = write::numbered(out, &trajectory, options.truncation.len() > 1);
-            write::trajectory(&out, &trajectory)?;
-        }
         runs.push(trajectory);
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
@@ -128,9 +156,24 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if let (Some(path), Some(heading)) = (&options.plot, &heading) {
         plot::draw(path, &plot::picture(heading, &runs))?;
     }
-    out!("{}", report::report(&runs, options.format));
-    if let Some(units) = units {
-        outln!("  units: {units}");
+    let report = report::report(&runs, &units, options.format);
+    // Records on the standard output are not mixed with the report.
+    if out.is_some_and(|out| out.place == Place::Standard) {
+        eprint!("{report}");
+    } else {
+        out!("{report}");
     }
     Ok(())
+}
+
+/// Where the records of each system go. Several truncations go to a file each; the names are announced.
+fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>, CliError> {
+    let (Some(out), true) = (out, systems.len() > 1) else {
+        return Ok(vec![out.cloned(); systems.len()]);
+    };
+    let numbered = systems.iter().map(|system| out.numbered(system.problem.truncation));
+    let targets: Vec<Target> = numbered.collect::<Result<_, _>>()?;
+    let names: Vec<String> = targets.iter().map(|t| t.path.display().to_string()).collect();
+    eprintln!("--out: a file for each truncation, {}", names.join(", "));
+    Ok(targets.into_iter().map(Some).collect())
 }

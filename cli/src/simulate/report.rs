@@ -2,73 +2,128 @@
 
 use std::fmt::Write;
 
+use coadjoint_codegen::system::Units;
 use serde_json::{Value, json};
 
+use super::element::{lines, matrix, split};
+use super::number::shortest;
 use super::trajectory::Trajectory;
 use crate::arguments::Format;
 
-/// Group elements wider than this are not printed for people.
+/// Larger group elements are given by their blocks only.
 const WIDEST: usize = 12;
 
 /// The text to print: one block per run, or one JSON object (an array of them for several runs).
-pub fn report(runs: &[Trajectory], format: Format) -> String {
+pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
     match format {
-        Format::Text => runs.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Text => runs.iter().map(|run| text(run, units)).collect::<Vec<_>>().join("\n"),
         Format::Json => {
             let value = match runs {
-                [single] => object(single),
-                several => Value::Array(several.iter().map(object).collect()),
+                [single] => object(single, units),
+                several => several.iter().map(|run| object(run, units)).collect(),
             };
             format!("{value:#}\n")
         }
     }
 }
 
-fn object(run: &Trajectory) -> Value {
-    let solver = run.solver.map(|solver| {
-        json!({
-            "mean_iterations": solver.mean_iterations,
-            "max_residual": solver.max_residual,
-        })
-    });
+/// What there is no number for has no key: no value is null.
+fn object(run: &Trajectory, units: &Units) -> Value {
+    let mut drift = json!({ "energy": run.drift.energy });
     // What is not conserved has no drift.
-    let momentum = (run.momenta > 0).then_some(run.drift.spatial_momentum);
-    let casimirs = (run.casimirs > 0 || !run.potential).then_some(run.drift.casimirs);
-    json!({
+    if run.momenta > 0 {
+        drift["spatial_momentum"] = json!(run.drift.spatial_momentum);
+    }
+    if run.casimirs > 0 || !run.potential {
+        drift["casimirs"] = json!(run.drift.casimirs);
+    }
+    let [start, end] = run.energy;
+    let mut object = json!({
         "method": run.label,
-        "truncation": run.truncation,
+        "run": run.header.object(),
         "steps": run.steps,
-        "time": run.time(),
+        "time": run.time,
+        "coordinates": run.coordinates,
         "momentum": run.momentum,
-        "group_element": run.group_element,
-        "drift": {
-            "spatial_momentum": momentum,
-            "casimirs": casimirs,
-            "energy": run.drift.energy,
-        },
+        "group_element_blocks": blocks(run),
+        "energy": { "start": start, "end": end },
+        "drift": drift,
         "conserved_momenta": run.momenta,
         "conserved_casimirs": run.casimirs,
-        "solver": solver,
-    })
+    });
+    let mut given = serde_json::Map::new();
+    given.extend(units.time.as_ref().map(|unit| ("time".to_owned(), json!(unit))));
+    for (i, name) in run.coordinates.iter().enumerate() {
+        given.extend(units.coordinate(i).map(|unit| (name.clone(), json!(unit))));
+    }
+    if !given.is_empty() {
+        object["units"] = Value::Object(given);
+    }
+    for name in ["truncation", "chart", "step", "step_asked"] {
+        if let Some(value) = run.header.get(name) {
+            object[name] = value.clone();
+        }
+    }
+    let size = run.blocks.last().map_or(0, |block| block.range.end);
+    if size <= WIDEST {
+        object["group_element"] = json!(dense(run, size));
+    }
+    if let Some(solver) = run.solver {
+        object["solver"] = json!({
+            "mean_iterations": solver.mean_iterations,
+            "max_residual": solver.max_residual,
+        });
+    }
+    if let Some((path, rows)) = &run.out {
+        object["out"] = json!({ "file": path.display().to_string(), "records": rows });
+    }
+    object
 }
 
-fn text(run: &Trajectory) -> String {
+/// The blocks of the group element with the number, from 0, of the first row and column of each.
+fn blocks(run: &Trajectory) -> Value {
+    let block = |(block, entries): (&super::element::Block, &[f64])| {
+        let rows: Vec<&[f64]> = entries.chunks(block.range.len().max(1)).collect();
+        json!({ "first_row": block.range.start, "matrix": rows })
+    };
+    split(&run.blocks, &run.element).map(block).collect()
+}
+
+/// The whole matrix of the group element.
+fn dense(run: &Trajectory, size: usize) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; size]; size];
+    for (block, entries) in split(&run.blocks, &run.element) {
+        let g = matrix(block, entries);
+        for (i, row) in block.range.clone().enumerate() {
+            for (j, column) in block.range.clone().enumerate() {
+                rows[row][column] = g[(i, j)];
+            }
+        }
+    }
+    rows
+}
+
+/// A number and its unit, if there is one.
+fn with_unit(number: &str, unit: Option<&str>) -> String {
+    unit.map_or_else(|| number.to_owned(), |unit| format!("{number} {unit}"))
+}
+
+fn text(run: &Trajectory, units: &Units) -> String {
     let mut out = String::new();
     // Writing into a string cannot fail.
-    let _ = writeln!(out, "{}: {} steps to time {}", run.label, run.steps, run.time());
-    for (name, value) in run.coordinates.iter().zip(&run.momentum) {
-        let _ = writeln!(out, "  {name:<10} {value:>22.16}");
+    let time = with_unit(&shortest(run.time), units.time.as_deref());
+    let _ = writeln!(out, "{}: {} steps to time {time}", run.label, run.steps);
+    if let Some(line) = &run.announcement {
+        let _ = writeln!(out, "  {line}");
     }
-    let size = run.group_element.len();
-    if size <= WIDEST {
-        let _ = writeln!(out, "  group element");
-        for row in &run.group_element {
-            let entries: Vec<String> = row.iter().map(|value| format!("{value:>20.16}")).collect();
-            let _ = writeln!(out, "    {}", entries.join(" "));
-        }
-    } else {
-        let _ = writeln!(out, "  group element: {size} × {size}, see --format json or --out");
+    for (i, (name, value)) in run.coordinates.iter().zip(&run.momentum).enumerate() {
+        let value = with_unit(&format!("{:>24}", shortest(*value)), units.coordinate(i));
+        let _ = writeln!(out, "  {name:<10} {value}");
     }
+    for line in lines(&run.blocks, &run.element) {
+        let _ = writeln!(out, "  {line}");
+    }
+    let _ = writeln!(out, "  energy     {:>24}", shortest(run.energy[1]));
     let drift = run.drift;
     let _ = writeln!(out, "  largest relative drift");
     let _ = match (run.potential, run.momenta) {
@@ -95,6 +150,9 @@ fn text(run: &Trajectory) -> String {
             "  solver: {:.2} iterations a step, largest residual {:.1e}",
             solver.mean_iterations, solver.max_residual
         );
+    }
+    if let Some((path, rows)) = &run.out {
+        let _ = writeln!(out, "  {rows} records in {}", path.display());
     }
     out
 }

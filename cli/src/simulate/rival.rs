@@ -2,13 +2,17 @@
 
 use coadjoint::{LieGroup, MatrixGroup, Phase};
 use coadjoint_codegen::problem::Problem;
-use differential_equations::prelude::{ExplicitRungeKutta, IVP};
+use differential_equations::prelude::{
+    ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
+};
 use nalgebra::{DMatrix, DVector};
+use serde_json::json;
 
 use super::Task;
-use super::trajectory::{Recorder, Trajectory};
+use super::trajectory::{Moment, Recorder, Trajectory};
 use crate::engine::{FloatPolynomial, Torque};
 use crate::error::CliError;
+use crate::progress;
 
 /// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at its own steps
 /// (between them it would be the interpolation that is measured).
@@ -43,26 +47,82 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
         let moved = g * group.matrix_of(&xi);
         rate[n..].copy_from_slice(moved.as_slice());
     };
-    let end = setup.steps as f64 * setup.step;
+    let end = setup.schedule.end;
+    let name = format!("RK45, tolerance {tolerance:e}");
+    let mut recorder = Recorder::new(group, task.watched(), &start, integrator, setup.sampled);
+    let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
+    let moment = recorder.visit(&start).map_err(|what| failed(0.0, what))?;
+    recorder.sample(0.0, &start, &moment);
+    let mut watch = Watch { recorder, last: start, moment, size, failure: None };
+    let _phase = progress::phase("integrating with RK45");
     let solution = IVP::ode_from_fn(flow, 0.0, end, state)
         .method(ExplicitRungeKutta::dopri5().max_steps(usize::MAX))
         .rtol(tolerance)
         .atol(tolerance)
-        .solve()
-        .map_err(|error| CliError::Rival(format!("{error:?}")))?;
+        .solout(&mut watch)
+        .solve();
+    if let Some((time, what)) = watch.failure {
+        return Err(failed(time, what));
+    }
+    let solution = solution.map_err(|error| CliError::Rival(format!("{error:?}")))?;
+    let header = task.header().only(&KNOWN).with("method", json!(name));
+    let steps = solution.steps.accepted as u64;
+    let Watch { recorder, last, moment, .. } = watch;
+    Ok(recorder.finish(name, header, (steps, end), &last, &moment))
+}
 
-    let label = format!("RK45, tolerance {tolerance:e}");
-    let mut recorder = Recorder::new(group, task.watched(), &start, integrator, label);
-    let mut last = start.clone();
-    for (&time, y) in solution.t.iter().zip(&solution.y) {
+/// What is said of a run by a method beside ours.
+const KNOWN: [&str; 7] = [
+    "program",
+    "system",
+    "system_sha256",
+    "name",
+    "group",
+    "initial_momentum",
+    "initial_group_element",
+];
+
+/// Looks at the method's own steps as they are made; none are kept.
+struct Watch<'a> {
+    recorder: Recorder<'a, MatrixGroup>,
+    last: Phase<MatrixGroup>,
+    moment: Moment,
+    /// Rows of the group's matrices.
+    size: usize,
+    failure: Option<(f64, String)>,
+}
+
+impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
+    fn solout<I>(
+        &mut self,
+        time: f64,
+        _: f64,
+        y: &Vec<f64>,
+        _: &Vec<f64>,
+        _: &mut I,
+        _: &mut Solution<f64, Vec<f64>>,
+    ) -> ControlFlag<f64, Vec<f64>>
+    where
+        I: Interpolation<f64, Vec<f64>> + ?Sized,
+    {
+        if time == 0.0 {
+            return ControlFlag::Continue;
+        }
+        let n = self.last.momentum.len();
         let momentum = DVector::from_column_slice(&y[..n]);
         // What has left the group is measured as it is, not put back on it.
-        last = Phase::new(DMatrix::from_column_slice(size, size, &y[n..]), momentum);
-        if time != 0.0 {
-            recorder.visit(time, &last, true);
+        let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
+        self.last = Phase::new(element, momentum);
+        match self.recorder.visit(&self.last) {
+            Ok(moment) => {
+                self.recorder.sample(time, &self.last, &moment);
+                self.moment = moment;
+                ControlFlag::Continue
+            }
+            Err(what) => {
+                self.failure = Some((time, what));
+                ControlFlag::Terminate
+            }
         }
     }
-    let mut trajectory = recorder.finish(solution.steps.accepted as u64, &last);
-    trajectory.truncation = None;
-    Ok(trajectory)
 }

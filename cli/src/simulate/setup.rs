@@ -1,91 +1,97 @@
-//! Where a run starts, how far it goes, and in which steps.
+//! The settings of a run, from the file and the options that replace them.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use coadjoint_codegen::system::Run;
 use nalgebra::DVector;
 
+use super::schedule::Schedule;
+use super::target::{Target, folder};
+use super::times::Times;
 use crate::arguments::SimulateOptions;
 use crate::engine::Group;
 use crate::error::CliError;
 
-/// The most steps of a run: beyond, the time is surely a slip.
-const MOST_STEPS: f64 = 1e12;
-
-/// The step size h and how many steps reach the time T: of the options, else of the file.
-pub fn schedule(
-    file: &Path,
-    step: Option<f64>,
-    time: Option<f64>,
-    run: &Run,
-) -> Result<(f64, u64), CliError> {
-    let missing =
-        |key, example, option| CliError::Missing { file: file.into(), key, example, option };
-    let step = step.or(run.step);
-    let step = step.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
-    let time = time.or(run.time);
-    let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
-    let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
-    if step == 0.0 || !step.is_finite() {
-        return refuse("--step must be finite and other than zero; try --step 0.1");
-    }
-    if time <= 0.0 || !time.is_finite() {
-        return refuse("--time must be finite and positive; try --time 100");
-    }
-    // Rounding of T/h must not add a step.
-    let steps = (time / step.abs() * (1.0 - 1e-12)).ceil().max(1.0);
-    if steps > MOST_STEPS {
-        return refuse("more than 1e12 steps; take a larger --step or a smaller --time");
-    }
-    Ok((step, steps as u64))
-}
-
-/// The settings of a run, from the file and the options that replace them.
+/// The settings of a run.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    file: PathBuf,
-    /// h.
-    pub step: f64,
-    /// How many steps reach the time asked for.
-    pub steps: u64,
-    /// Every n-th step is recorded.
-    pub every: u64,
+    /// The system file.
+    pub file: PathBuf,
+    /// The SHA-256 of its text.
+    pub hash: String,
+    /// In which steps the run reaches its end.
+    pub schedule: Schedule,
+    /// Every n-th step is recorded, and the last; `None` where only the times of `--at` are.
+    pub every: Option<u64>,
+    /// Times recorded besides.
+    pub at: Option<Times>,
+    /// Where records go.
+    pub out: Option<Target>,
+    /// Whether a picture is asked for.
+    pub sampled: bool,
+    /// Where the state is kept, and how often.
+    pub checkpoint: Option<(PathBuf, Duration)>,
     /// Whether the tail of the series is summed for the motion from the initial momentum.
     pub tuned: bool,
     /// How long the motion is followed to which the coefficients are fitted, if they are.
     pub fitted: Option<f64>,
     /// μ at the start.
     pub momentum: DVector<f64>,
-    group_element: Option<Vec<Vec<f64>>>,
+    /// g at the start, row by row; the identity if it is not given.
+    pub group_element: Option<Vec<Vec<f64>>>,
 }
 
 impl Setup {
     /// Puts the settings together, or says which one is missing.
-    pub fn new(options: &SimulateOptions, run: &Run, dim: usize) -> Result<Self, CliError> {
+    ///
+    /// # Errors
+    /// What is missing or makes no sense.
+    pub fn new(
+        options: &SimulateOptions,
+        hash: &str,
+        out: Option<Target>,
+        run: &Run,
+        dim: usize,
+    ) -> Result<Self, CliError> {
         let file = options.input.source().file;
-        let missing = |key, example, option| CliError::Missing {
-            file: options.input.source().file,
-            key,
-            example,
-            option,
-        };
-        let (step, steps) = schedule(&file, options.accuracy.step, options.time, run)?;
-        let momentum = run.momentum.clone().ok_or_else(|| {
-            missing("[initial] momentum", "momentum = [2.0, 0.5, 1.0]", "another file")
+        let schedule = Schedule::new(&file, options.accuracy.step, options.time, run)?;
+        let momentum = run.momentum.clone().ok_or_else(|| CliError::Missing {
+            file: file.clone(),
+            key: "[initial] momentum",
+            example: "momentum = [2.0, 0.5, 1.0]",
+            option: "another file",
         })?;
         let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
-        let every = options.every.or(run.every).unwrap_or(1);
-        if every == 0 {
+        let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
+        // Times alone are recorded alone; a step count in the file is then no request.
+        let every = match (options.every, &at) {
+            (None, Some(_)) => None,
+            (every, _) => Some(every.or(run.every).unwrap_or(1) as u64),
+        };
+        if every == Some(0) {
             return refuse("--every counts steps from 1; try --every 1");
         }
         if momentum.len() != dim {
             return refuse("the momentum does not fit the group");
         }
+        let interval = options.checkpoint_interval;
+        let checkpoint = options.checkpoint.clone().map(|path| {
+            let interval = Duration::try_from_secs_f64(interval).map_err(|_| {
+                let what = "--checkpoint-interval must be a number of seconds, 0 or more";
+                CliError::Option(what.to_owned())
+            })?;
+            Ok::<_, CliError>((path, interval))
+        });
         Ok(Self {
             file,
-            step,
-            steps,
-            every: every as u64,
+            hash: hash.to_owned(),
+            schedule,
+            every,
+            at,
+            out,
+            sampled: options.plot.is_some(),
+            checkpoint: checkpoint.transpose()?,
             tuned: options.tuned,
             fitted: options.fitted,
             momentum: DVector::from_vec(momentum),
@@ -94,6 +100,9 @@ impl Setup {
     }
 
     /// g at the start.
+    ///
+    /// # Errors
+    /// Where the matrix given is no element of the group.
     pub fn element<G: Group>(&self, group: &G) -> Result<G::Element, CliError> {
         match &self.group_element {
             None => Ok(group.identity()),
@@ -102,4 +111,41 @@ impl Setup {
                 .map_err(|source| CliError::Element { file: self.file.clone(), source }),
         }
     }
+}
+
+/// Refuses names of files that cannot be what they are to be, before anything is computed.
+///
+/// # Errors
+/// By the name of the option.
+pub fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
+    let refuse = |what: String| Err(CliError::Option(what));
+    if let Some(plot) = &options.plot {
+        folder("--plot", plot)?;
+        let ending = plot.extension().and_then(|ending| ending.to_str());
+        if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+            return refuse(format!(
+                "--plot {}: only SVG is drawn; give a name that ends in .svg and convert the picture",
+                plot.display()
+            ));
+        }
+    }
+    let out = options.out.as_deref().map(Target::new).transpose()?;
+    let Some(checkpoint) = &options.checkpoint else { return Ok(out) };
+    folder("--checkpoint", checkpoint)?;
+    if options.truncation.len() > 1 {
+        return refuse("--checkpoint is of one run: give one --truncation".to_owned());
+    }
+    if let Some(out) = &out {
+        if out.place != super::target::Place::File {
+            return refuse(format!(
+                "--checkpoint: what was written to {} cannot be continued; write to a file",
+                out.path.display()
+            ));
+        }
+        let same = |name: &Path| checkpoint.as_path() == name;
+        if same(&out.path) || same(&out.part()) || same(&out.description()) {
+            return refuse("--checkpoint and --out must be different files".to_owned());
+        }
+    }
+    Ok(out)
 }

@@ -1,19 +1,23 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use coadjoint::{Chart, GeneratingFunction, Phase, Solution, StepError, fit, reconstruct, solve};
+use coadjoint::{Chart, GeneratingFunction, Solution, StepError, fit, reconstruct, solve};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use nalgebra::DVector;
 
+use super::header::Header;
+use super::march::{March, Stepper};
+use super::number::largest;
+use super::restore::Restore;
 use super::setup::Setup;
-use super::trajectory::{Recorder, Trajectory, Watched};
-use crate::engine::{Energy, Forces, Group, Interpreter};
+use super::trajectory::{Trajectory, Watched};
+use crate::engine::{Energy, Forces, Interpreter};
 use crate::error::CliError;
 use crate::progress;
 
-/// A step at a time, told to the recorder.
-type Step<'s, G> =
-    dyn FnMut(f64, &mut Phase<G>, &mut Recorder<'_, G>) -> Result<(), StepError> + 's;
+/// A step between grid points is made in so many where S was adjusted to the step of the grid: the plain
+/// series is then no less accurate.
+const SIDE_STEPS: u32 = 8;
 
 /// What is run.
 #[derive(Clone, Copy, Debug)]
@@ -35,49 +39,15 @@ impl<'a> Task<'a> {
         Watched { energy: self.energy, symmetries }
     }
 
-    /// Advances from the initial state to the end.
-    pub fn integrate<G: Group, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
-        let setup = self.setup;
-        if let Some(forces) = self.forces {
-            let step =
-                forces.step::<G, C>(self.integrator, &group, setup.step).map_err(at_start)?;
-            return self.march(&group, &mut |time, phase, _| step(phase, time));
-        }
-        match self.integrator.plan.solver {
-            Solver::Newton => self.flow::<G, C, false>(group),
-            Solver::FixedPoint => self.flow::<G, C, true>(group),
-        }
+    /// What the run is.
+    pub fn header(&self) -> Header {
+        let splitting = self.forces.map(|forces| forces.splitting);
+        Header::new(self.setup, &self.integrator.problem, splitting)
     }
 
-    /// The flow alone, by one of the solvers.
-    fn flow<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
-        &self,
-        group: G,
-    ) -> Result<Trajectory, CliError> {
-        let Setup { step: h, tuned, fitted, momentum, .. } = self.setup;
-        let series = |h| Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h);
-        let step = match fitted {
-            Some(duration) => {
-                let fit = fit(*h, series, [momentum.clone()], *duration);
-                fit.map_err(|error| CliError::Option(format!("--fitted: {error}")))?.integrator
-            }
-            None if *tuned => Interpreter::tuned(self.integrator, group.clone(), *h, momentum)
-                .map_err(at_start)?,
-            None => series(*h).map_err(at_start)?,
-        };
-        self.march(&group, &mut |_, phase, recorder| {
-            let solution = solve(&step, &phase.momentum)?;
-            recorder.solved(solution.iterations, residual(&step, &phase.momentum, &solution));
-            reconstruct(&step, phase, &solution.x);
-            Ok(())
-        })
-    }
-
-    /// Makes the steps.
-    fn march<G: Group>(&self, group: &G, step: &mut Step<'_, G>) -> Result<Trajectory, CliError> {
-        let setup = self.setup;
-        let mut phase = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
-        let problem = &self.integrator.problem;
+    /// What makes the run, in a few words.
+    pub fn label(&self) -> String {
+        let (setup, problem) = (self.setup, &self.integrator.problem);
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
         if problem.comoving.is_some() {
             label.push_str(", comoving");
@@ -91,20 +61,64 @@ impl<'a> Task<'a> {
         if let Some(forces) = self.forces {
             label = format!("{label}, {}", forces.splitting.name());
         }
-        let mut recorder = Recorder::new(group, self.watched(), &phase, self.integrator, label);
-        let bar = progress::bar(setup.steps, "integrating");
-        for n in 1..=setup.steps {
-            let time = (n - 1) as f64 * setup.step;
-            step(time, &mut phase, &mut recorder)
-                .map_err(|source| CliError::Step { time, source })?;
-            let record = n % setup.every == 0 || n == setup.steps;
-            recorder.visit(n as f64 * setup.step, &phase, record);
-            if n % 256 == 0 {
-                bar.set_position(n);
-            }
+        label
+    }
+
+    /// Advances from the initial state to the end.
+    pub fn integrate<G: Restore, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
+        let h = self.setup.schedule.step;
+        if let Some(forces) = self.forces {
+            let step = forces.step::<G, C>(self.integrator, &group, h).map_err(at_start)?;
+            return March { task: self, group: &group }.run(&Stepper {
+                step: &|time, phase| step(phase, time).map(|()| None),
+                side: &|time, part, phase| {
+                    forces.step::<G, C>(self.integrator, &group, part)?(phase, time)
+                },
+            });
         }
-        bar.finish_and_clear();
-        Ok(recorder.finish(setup.steps, &phase))
+        match self.integrator.plan.solver {
+            Solver::Newton => self.flow::<G, C, false>(group),
+            Solver::FixedPoint => self.flow::<G, C, true>(group),
+        }
+    }
+
+    /// The flow alone, by one of the solvers.
+    fn flow<G: Restore, C: Chart<G>, const FIXED_POINT: bool>(
+        &self,
+        group: G,
+    ) -> Result<Trajectory, CliError> {
+        let Setup { schedule, tuned, fitted, momentum, .. } = self.setup;
+        let h = schedule.step;
+        let series = |h| Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h);
+        let step = match fitted {
+            Some(duration) => {
+                let _phase = progress::phase("fitting the coefficients to the motion");
+                let fit = fit(h, series, [momentum.clone()], *duration);
+                fit.map_err(|error| CliError::Option(format!("--fitted: {error}")))?.integrator
+            }
+            None if *tuned => {
+                let _phase = progress::phase("summing the tail of the series");
+                Interpreter::tuned(self.integrator, group.clone(), h, momentum).map_err(at_start)?
+            }
+            None => series(h).map_err(at_start)?,
+        };
+        let count = if *tuned || fitted.is_some() { SIDE_STEPS } else { 1 };
+        March { task: self, group: &group }.run(&Stepper {
+            step: &|_, phase| {
+                let solution = solve(&step, &phase.momentum)?;
+                let residual = residual(&step, &phase.momentum, &solution);
+                reconstruct(&step, phase, &solution.x);
+                Ok(Some((solution.iterations, residual)))
+            },
+            side: &|_, part, phase| {
+                let step = series(part / f64::from(count))?;
+                for _ in 0..count {
+                    let solution = solve(&step, &phase.momentum)?;
+                    reconstruct(&step, phase, &solution.x);
+                }
+                Ok(())
+            },
+        })
     }
 }
 
@@ -113,13 +127,14 @@ fn at_start(source: StepError) -> CliError {
 }
 
 /// What the solve leaves of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
-/// the step itself reports an estimate.
-fn residual<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
+/// the step itself reports an estimate. NaN where anything is NaN.
+fn residual<G: Restore, C: Chart<G>, const FIXED_POINT: bool>(
     step: &Interpreter<'_, G, C, FIXED_POINT>,
     mu: &DVector<f64>,
     solution: &Solution<DVector<f64>, f64>,
 ) -> f64 {
     let reached = C::default().left_momentum(step.group(), &solution.x, &solution.p);
-    let size = mu.amax();
-    if size > 0.0 { (reached - mu).amax() / size } else { 0.0 }
+    let left = largest((reached - mu).iter().copied());
+    let size = largest(mu.iter().copied());
+    if size == 0.0 { left } else { left / size }
 }

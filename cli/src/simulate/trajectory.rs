@@ -1,11 +1,15 @@
-//! What is kept of a run: records, and the largest drift of every invariant.
+//! What is watched of a run: its state, and the largest drift of every invariant.
 
-use std::ops::Range;
+use std::path::PathBuf;
 
 use coadjoint::Phase;
 use coadjoint_codegen::integrator::Integrator;
 use nalgebra::DVector;
 
+use super::element::{Block, blocks};
+use super::header::Header;
+use super::number::{largest, maximum};
+use super::samples::Samples;
 use crate::engine::{Energy, Group};
 
 /// The largest differences from the start so far, each relative to the largest value at the start.
@@ -21,22 +25,30 @@ pub struct Drift {
 }
 
 impl Drift {
-    fn raise(&mut self, other: Self) {
-        self.spatial_momentum = self.spatial_momentum.max(other.spatial_momentum);
-        self.casimirs = self.casimirs.max(other.casimirs);
-        self.energy = self.energy.max(other.energy);
+    /// Takes the larger of each; NaN where one is NaN.
+    pub fn raise(&mut self, other: Self) {
+        self.spatial_momentum = maximum(self.spatial_momentum, other.spatial_momentum);
+        self.casimirs = maximum(self.casimirs, other.casimirs);
+        self.energy = maximum(self.energy, other.energy);
     }
 }
 
-/// A recorded moment.
-#[derive(Clone, Debug)]
+/// A moment kept for pictures.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// t.
     pub time: f64,
     /// μ.
     pub momentum: Vec<f64>,
-    /// g, the diagonal blocks row by row.
-    pub element: Vec<f64>,
+    /// H_red(μ), plus V(g) where there is a potential.
+    pub energy: f64,
+    /// The largest differences since the record before.
+    pub drift: Drift,
+}
+
+/// What is measured at a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
     /// H_red(μ), plus V(g) where there is a potential.
     pub energy: f64,
     /// The differences at this moment.
@@ -57,20 +69,29 @@ pub struct Solver {
 pub struct Trajectory {
     /// What made it, for tables and pictures.
     pub label: String,
+    /// What the run is.
+    pub header: Header,
     /// K; `None` for a method beside ours.
     pub truncation: Option<usize>,
     /// Names of the momentum's coordinates.
     pub coordinates: Vec<String>,
-    /// The recorded moments, the start first.
+    /// A bounded choice of the moments of the run, the start first and the end last; empty where no picture is
+    /// asked for.
     pub records: Vec<Record>,
     /// Steps made.
     pub steps: u64,
-    /// The end: momentum and group element.
+    /// The time reached.
+    pub time: f64,
+    /// A line about the step, where another was used than was asked for.
+    pub announcement: Option<String>,
+    /// The momentum at the end.
     pub momentum: Vec<f64>,
-    /// Row by row.
-    pub group_element: Vec<Vec<f64>>,
-    /// The rows of each diagonal block of the group's matrices; all other entries are 0.
-    pub blocks: Vec<Range<usize>>,
+    /// The blocks of the group's matrices; all other entries are 0.
+    pub blocks: Vec<Block>,
+    /// The entries of the blocks at the end, row by row.
+    pub element: Vec<f64>,
+    /// The energy at the start and at the end.
+    pub energy: [f64; 2],
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
     /// How many Casimirs were watched.
@@ -81,13 +102,8 @@ pub struct Trajectory {
     pub momenta: usize,
     /// How the solves went, where they are ours and one a step.
     pub solver: Option<Solver>,
-}
-
-impl Trajectory {
-    /// The time reached.
-    pub fn time(&self) -> f64 {
-        self.records.last().map_or(0.0, |record| record.time)
-    }
+    /// The file with the records, and how many there are.
+    pub out: Option<(PathBuf, u64)>,
 }
 
 /// What is watched of a run.
@@ -99,10 +115,23 @@ pub struct Watched<'a> {
     pub symmetries: Option<&'a [DVector<f64>]>,
 }
 
+/// The maxima and sums so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// The largest drifts.
+    pub drift: Drift,
+    /// All iterations.
+    pub iterations: u64,
+    /// The largest residual, where residuals were measured.
+    pub residual: Option<f64>,
+}
+
 /// Watches a run.
 pub struct Recorder<'a, G: Group> {
     group: &'a G,
     watched: Watched<'a>,
+    coordinates: &'a [String],
+    blocks: Vec<Block>,
     start: Invariants,
     /// What the energy's drift is measured against.
     energy_scale: f64,
@@ -110,8 +139,10 @@ pub struct Recorder<'a, G: Group> {
     momentum_scale: f64,
     /// What each Casimir's drift is measured against.
     casimir_scales: Vec<f64>,
-    iterations: u64,
-    trajectory: Trajectory,
+    /// The maxima so far.
+    pub tally: Tally,
+    /// The moments kept for pictures, if any are.
+    pub samples: Option<Samples>,
 }
 
 struct Invariants {
@@ -121,97 +152,140 @@ struct Invariants {
 }
 
 impl<'a, G: Group> Recorder<'a, G> {
-    /// Starts at `phase`, which is recorded.
+    /// Measures drifts against `phase`; keeps moments for pictures if `sampled`.
     pub fn new(
         group: &'a G,
         watched: Watched<'a>,
         phase: &Phase<G>,
-        integrator: &Integrator,
-        label: String,
+        integrator: &'a Integrator,
+        sampled: bool,
     ) -> Self {
-        let start = invariants(group, &watched, phase);
-        let trajectory = Trajectory {
-            label,
-            truncation: Some(integrator.problem.truncation),
-            coordinates: integrator.problem.coordinates.clone(),
-            records: Vec::new(),
-            steps: 0,
-            momentum: Vec::new(),
-            group_element: Vec::new(),
-            blocks: group.blocks(),
-            drift: Drift::default(),
-            casimirs: group.casimir_count(),
-            potential: watched.symmetries.is_some(),
-            momenta: start.momenta.len(),
-            solver: None,
-        };
-        let momentum_scale = phase.spatial_momentum(group).amax();
-        let casimir_scales = casimir_scales(group, &phase.momentum);
-        let mut recorder = Self {
+        let algebra = &integrator.problem.algebra;
+        Self {
             group,
             watched,
-            start,
+            coordinates: &integrator.problem.coordinates,
+            blocks: blocks(algebra, group.blocks()),
+            start: invariants(group, &watched, phase),
             energy_scale: watched.energy.magnitude(group, phase),
-            momentum_scale,
-            casimir_scales,
-            iterations: 0,
-            trajectory,
-        };
-        recorder.visit(0.0, phase, true);
-        recorder
+            momentum_scale: largest(phase.spatial_momentum(group).iter().copied()),
+            casimir_scales: casimir_scales(group, &phase.momentum),
+            tally: Tally::default(),
+            samples: sampled.then(|| Samples::new(algebra.dim())),
+        }
+    }
+
+    /// The blocks of the group's matrices.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
     }
 
     /// Takes note of how a solve went.
-    pub fn solved(&mut self, iterations: u32, residual: f64) {
-        self.iterations += u64::from(iterations);
-        let solver = self.trajectory.solver.get_or_insert_default();
-        solver.max_residual = solver.max_residual.max(residual);
+    ///
+    /// # Errors
+    /// What is not finite.
+    pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
+        self.tally.iterations += u64::from(iterations);
+        let most = maximum(self.tally.residual.unwrap_or(0.0), residual);
+        self.tally.residual = Some(most);
+        finite("the residual of the solve", residual)
     }
 
-    /// Measures the drift at this moment, and records it if asked to.
-    pub fn visit(&mut self, time: f64, phase: &Phase<G>, record: bool) {
+    /// Measures this moment, and takes its drift into account.
+    ///
+    /// # Errors
+    /// What is not finite.
+    pub fn visit(&mut self, phase: &Phase<G>) -> Result<Moment, String> {
+        let moment = self.measure(phase)?;
+        self.tally.drift.raise(moment.drift);
+        Ok(moment)
+    }
+
+    /// Measures this moment.
+    ///
+    /// # Errors
+    /// What is not finite.
+    pub fn measure(&self, phase: &Phase<G>) -> Result<Moment, String> {
+        for (name, value) in self.coordinates.iter().zip(phase.momentum.iter()) {
+            finite(&format_args!("the momentum {name}"), *value)?;
+        }
+        if let Some(bad) = self.entries(phase).find(|entry| !entry.is_finite()) {
+            finite("an entry of the group element", bad)?;
+        }
         let now = invariants(self.group, &self.watched, phase);
+        finite("the energy", now.energy)?;
+        for (number, casimir) in now.casimirs.iter().enumerate() {
+            finite(&format_args!("Casimir {}", number + 1), *casimir)?;
+        }
         let start = &self.start;
         let casimirs = start.casimirs.iter().zip(&now.casimirs).zip(&self.casimir_scales);
+        let momenta = now.momenta.iter().zip(start.momenta.iter()).map(|(a, b)| a - b);
         let drift = Drift {
-            spatial_momentum: relative(largest(&now.momenta, &start.momenta), self.momentum_scale),
-            casimirs: casimirs.map(|((c, d), scale)| relative(c - d, *scale)).fold(0.0, f64::max),
+            spatial_momentum: relative(largest(momenta), self.momentum_scale),
+            casimirs: largest(casimirs.map(|((c, d), scale)| relative(c - d, *scale))),
             energy: relative(now.energy - start.energy, self.energy_scale),
         };
-        self.trajectory.drift.raise(drift);
-        if record {
-            let momentum = phase.momentum.iter().copied().collect();
-            let element = self.element(phase);
-            let energy = now.energy;
-            self.trajectory.records.push(Record { time, momentum, element, energy, drift });
+        finite("the drift of the spatial momentum", drift.spatial_momentum)?;
+        finite("the drift of the Casimirs", drift.casimirs)?;
+        finite("the drift of the energy", drift.energy)?;
+        Ok(Moment { energy: now.energy, drift })
+    }
+
+    /// Keeps a moment for pictures, if they are asked for.
+    pub fn sample(&mut self, time: f64, phase: &Phase<G>, moment: &Moment) {
+        if let Some(samples) = &mut self.samples {
+            samples.offer(time, phase.momentum.as_slice(), moment.energy, moment.drift);
         }
     }
 
-    /// The entries of the diagonal blocks.
-    fn element(&self, phase: &Phase<G>) -> Vec<f64> {
-        let entry = |i, j| self.group.matrix_entry(&phase.group_element, i, j);
-        let blocks = self.trajectory.blocks.iter();
-        let row = |block: &Range<usize>, i| block.clone().map(move |j| (i, j)).collect::<Vec<_>>();
-        let places = blocks.flat_map(|block| block.clone().flat_map(|i| row(block, i)));
-        places.map(|(i, j)| entry(i, j)).collect()
-    }
-
-    fn matrix(&self, phase: &Phase<G>) -> Vec<Vec<f64>> {
-        let size = self.group.matrix_size();
-        let entry = |i, j| self.group.matrix_entry(&phase.group_element, i, j);
-        (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
+    /// The entries of the blocks of g, row by row.
+    pub fn entries(&self, phase: &Phase<G>) -> impl Iterator<Item = f64> {
+        self.blocks.iter().flat_map(move |block| {
+            let range = block.range.clone();
+            let row = move |i| {
+                range.clone().map(move |j| self.group.matrix_entry(&phase.group_element, i, j))
+            };
+            block.range.clone().flat_map(row)
+        })
     }
 
     /// The run, which ended at `phase`.
-    pub fn finish(mut self, steps: u64, phase: &Phase<G>) -> Trajectory {
-        self.trajectory.steps = steps;
-        self.trajectory.momentum = phase.momentum.iter().copied().collect();
-        self.trajectory.group_element = self.matrix(phase);
-        if let Some(solver) = &mut self.trajectory.solver {
-            solver.mean_iterations = self.iterations as f64 / steps.max(1) as f64;
+    pub fn finish(
+        self,
+        label: String,
+        header: Header,
+        (steps, time): (u64, f64),
+        phase: &Phase<G>,
+        moment: &Moment,
+    ) -> Trajectory {
+        let Tally { drift, iterations, residual } = self.tally;
+        let mean_iterations = iterations as f64 / steps.max(1) as f64;
+        Trajectory {
+            label,
+            header,
+            truncation: None,
+            coordinates: self.coordinates.to_vec(),
+            steps,
+            time,
+            announcement: None,
+            momentum: phase.momentum.iter().copied().collect(),
+            element: self.entries(phase).collect(),
+            energy: [self.start.energy, moment.energy],
+            drift,
+            casimirs: self.group.casimir_count(),
+            potential: self.watched.symmetries.is_some(),
+            momenta: self.start.momenta.len(),
+            solver: residual.map(|max_residual| Solver { mean_iterations, max_residual }),
+            out: None,
+            records: self.samples.map(Samples::finish).unwrap_or_default(),
+            blocks: self.blocks,
         }
-        self.trajectory
     }
+}
+
+/// Refuses NaN and infinities.
+fn finite(what: &(impl std::fmt::Display + ?Sized), value: f64) -> Result<(), String> {
+    if value.is_finite() { Ok(()) } else { Err(format!("{what} is {value}")) }
 }
 
 fn invariants<G: Group>(group: &G, watched: &Watched<'_>, phase: &Phase<G>) -> Invariants {
@@ -231,21 +305,16 @@ fn invariants<G: Group>(group: &G, watched: &Watched<'_>, phase: &Phase<G>) -> I
     }
 }
 
-/// The largest difference; 0 for vectors without entries.
-fn largest(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
-    a.iter().zip(b.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
 /// The largest value each Casimir takes at ±|μ₁|, … with at most one sign changed: one that starts
 /// at zero, such as Π·Γ for a top, is measured against the size of its terms, not against rounding.
 fn casimir_scales<G: Group>(group: &G, momentum: &DVector<f64>) -> Vec<f64> {
     let scale = |index: usize| {
         let mut point = momentum.abs();
         let value = |point: &DVector<f64>| group.casimir(index, point).abs();
-        let mut largest = value(momentum).max(value(&point));
+        let mut largest = maximum(value(momentum), value(&point));
         for i in 0..point.len() {
             point[i] = -point[i];
-            largest = largest.max(value(&point));
+            largest = maximum(largest, value(&point));
             point[i] = -point[i];
         }
         largest
@@ -255,4 +324,18 @@ fn casimir_scales<G: Group>(group: &G, momentum: &DVector<f64>) -> Vec<f64> {
 
 fn relative(difference: f64, size: f64) -> f64 {
     if size == 0.0 { difference.abs() } else { (difference / size).abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drifts_keep_nan_and_name_what_is_not_finite() {
+        let mut drift = Drift { energy: f64::NAN, ..Drift::default() };
+        drift.raise(Drift { energy: 1.0, spatial_momentum: f64::NAN, casimirs: 2.0 });
+        assert!(drift.energy.is_nan() && drift.spatial_momentum.is_nan() && drift.casimirs == 2.0);
+        assert_eq!(finite("the energy", f64::NAN), Err("the energy is NaN".to_owned()));
+        assert!(relative(f64::NAN, 0.0).is_nan() && relative(f64::NAN, 1.0).is_nan());
+    }
 }

@@ -24,36 +24,6 @@ impl Units {
     pub fn coordinate(&self, i: usize) -> Option<&str> {
         self.momentum.get(i)?.as_deref()
     }
-
-    /// A sentence for reports, such as `time in s; x, y, z in kg m²/s`; `None` without units. `names` are
-    /// those of the coordinates.
-    ///
-    /// ```
-    /// use coadjoint_codegen::system::{Options, read};
-    ///
-    /// let file = "group = 'SO3'\ncoordinates = ['x', 'y', 'z']\nhamiltonian = 'x^2'\n[units]\nx = 'J s'\nz = 'J s'";
-    /// let system = read(file, Options::default()).unwrap();
-    /// let line = system.units.sentence(&system.problem.coordinates);
-    /// assert_eq!(line.as_deref(), Some("x, z in J s"));
-    /// ```
-    #[must_use]
-    pub fn sentence(&self, names: &[String]) -> Option<String> {
-        let mut parts: Vec<(&str, Vec<&str>)> = Vec::new();
-        parts.extend(self.time.as_deref().map(|unit| (unit, vec!["time"])));
-        let times = parts.len();
-        for (name, unit) in names.iter().zip(&self.momentum) {
-            let Some(unit) = unit else { continue };
-            match parts[times..].iter_mut().find(|(known, _)| known == unit) {
-                // Copies of a coordinate have one unit.
-                Some((_, names)) if names.contains(&head(name)) => {}
-                Some((_, names)) => names.push(head(name)),
-                None => parts.push((unit, vec![head(name)])),
-            }
-        }
-        let part = |(unit, names): &(&str, Vec<&str>)| format!("{} in {unit}", names.join(", "));
-        let text = parts.iter().map(part).collect::<Vec<_>>().join("; ");
-        (!text.is_empty()).then_some(text)
-    }
 }
 
 /// Reads `[units]`: `time`, `momentum` (of every coordinate without a unit of its own), and the names

@@ -45,7 +45,7 @@ impl Heading {
         steps.dedup();
         settings.push(format!("h = {}{unit}", steps.join(", ")));
         if let Some(run) = runs.first() {
-            settings.push(format!("T = {}{unit}", brief(run.time())));
+            settings.push(format!("T = {}{unit}", brief(run.time)));
         }
         if let Some((run, k)) = ours().next() {
             let usual = format!("K = {k}, {}", self.chart);

@@ -1,0 +1,111 @@
+//! What a run is: everything needed to repeat it, for the heads of files, for reports, and to tell
+//! whether a checkpoint is of this run.
+
+use std::collections::BTreeMap;
+
+use coadjoint_codegen::problem::{Problem, Solver};
+use coadjoint_codegen::system::Splitting;
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+use super::number::shortest;
+use super::setup::Setup;
+
+/// Names and values, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Header(Vec<(&'static str, Value)>);
+
+/// The SHA-256 of a text in hexadecimal digits.
+pub fn text_hash(text: &str) -> String {
+    format!("{:x}", Sha256::digest(text))
+}
+
+impl Header {
+    /// The description of a run of this problem.
+    pub fn new(setup: &Setup, problem: &Problem, splitting: Option<Splitting>) -> Self {
+        let schedule = &setup.schedule;
+        let solver = match problem.solver() {
+            Solver::Newton => Solver::NAMES[0],
+            Solver::FixedPoint => Solver::NAMES[1],
+        };
+        let mut list = vec![
+            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
+            ("system", json!(setup.file.display().to_string())),
+            ("system_sha256", json!(setup.hash)),
+            ("name", json!(problem.name)),
+            ("group", json!(problem.algebra.name())),
+            ("truncation", json!(problem.truncation)),
+            ("chart", json!(problem.chart.name())),
+            ("frame", json!(if problem.comoving.is_some() { "comoving" } else { "fixed" })),
+            ("solver", json!(solver)),
+            ("step", json!(schedule.step)),
+            ("step_asked", json!(schedule.asked)),
+            ("steps", json!(schedule.steps)),
+            ("time", json!(schedule.end)),
+            ("initial_momentum", json!(setup.momentum.as_slice())),
+        ];
+        if let Some(rows) = &setup.group_element {
+            list.push(("initial_group_element", json!(rows.concat())));
+        }
+        if let Some(splitting) = splitting {
+            list.push(("splitting", json!(splitting.name())));
+        }
+        if setup.tuned {
+            list.push(("tuned", json!(true)));
+        }
+        if let Some(duration) = setup.fitted {
+            list.push(("fitted", json!(duration)));
+        }
+        if let Some(every) = setup.every {
+            list.push(("every", json!(every)));
+        }
+        if let Some(times) = &setup.at {
+            list.push(("at", json!(times.text())));
+        }
+        Self(list)
+    }
+
+    /// Only the entries with these names.
+    pub fn only(mut self, names: &[&str]) -> Self {
+        self.0.retain(|(name, _)| names.contains(name));
+        self
+    }
+
+    /// With another entry at the end.
+    pub fn with(mut self, name: &'static str, value: Value) -> Self {
+        self.0.push((name, value));
+        self
+    }
+
+    /// The value of this name.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    /// Lines `name: value`.
+    pub fn lines(&self) -> impl Iterator<Item = String> + '_ {
+        self.0.iter().map(|(name, value)| format!("{name}: {}", text(value)))
+    }
+
+    /// As a JSON object.
+    pub fn object(&self) -> Map<String, Value> {
+        self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
+    }
+
+    /// By name, to be compared with another run.
+    pub fn identity(&self) -> BTreeMap<String, String> {
+        self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
+    }
+}
+
+/// On one line, numbers as short as they can be.
+fn text(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.replace(['\n', '\r'], " "),
+        Value::Number(number) if number.is_f64() => {
+            number.as_f64().map_or_else(String::new, shortest)
+        }
+        Value::Array(list) => list.iter().map(text).collect::<Vec<_>>().join(","),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,364 @@
+//! The steps of a run, one after the other: measured, recorded, and kept for a restart.
+
+use std::path::Path;
+use std::time::Instant;
+
+use coadjoint::{Phase, StepError};
+use nalgebra::DVector;
+
+use super::checkpoint::{Checkpoint, bits, numbers};
+use super::element::split;
+use super::interrupt::Guard;
+use super::names::columns;
+use super::restore::Restore;
+use super::samples::Samples;
+use super::sink::Sink;
+use super::task::Task;
+use super::trajectory::{Moment, Recorder, Trajectory};
+use crate::error::CliError;
+use crate::progress;
+
+/// Iterations and residual of the solve of a step, where there was one.
+type Solved = Option<(u32, f64)>;
+
+/// What makes steps on a group.
+pub struct Stepper<'s, G: Restore> {
+    /// A step of the grid, from the time given.
+    pub step: &'s dyn Fn(f64, &mut Phase<G>) -> Result<Solved, StepError>,
+    /// A step of another length, from the time given: (time, length, state).
+    pub side: &'s dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError>,
+}
+
+/// A run on a group.
+pub struct March<'a, G> {
+    /// What is run.
+    pub task: &'a Task<'a>,
+    /// The group.
+    pub group: &'a G,
+}
+
+/// What changes along a run.
+struct State<'a, G: Restore> {
+    /// Steps made.
+    n: u64,
+    phase: Phase<G>,
+    moment: Moment,
+    recorder: Recorder<'a, G>,
+    sink: Option<Sink>,
+    /// Times of `--at` recorded.
+    times: usize,
+    /// When the last checkpoint was written.
+    saved: Instant,
+    /// Whether a checkpoint says that all is done.
+    complete: bool,
+}
+
+impl<'a, G: Restore> March<'a, G> {
+    /// Makes the steps that are left.
+    pub fn run(&self, stepper: &Stepper<'_, G>) -> Result<Trajectory, CliError> {
+        let schedule = &self.task.setup.schedule;
+        let mut state = self.begin()?;
+        let outcome = self.go(&mut state, stepper);
+        let target = self.task.setup.out.as_ref();
+        let rows = match (outcome, state.sink.take()) {
+            (Ok(()), None) => None,
+            (Ok(()), Some(sink)) => {
+                let rows = sink.rows();
+                // After an earlier end the name may have been given already.
+                let named = state.complete && target.is_some_and(|t| !t.part().exists());
+                if !named {
+                    sink.publish()?;
+                }
+                Some(rows)
+            }
+            (Err(error), None) => return Err(error),
+            (Err(error), Some(sink)) => {
+                sink.stop(&error.to_string());
+                if let Some(target) = target {
+                    let part = target.part();
+                    if part.is_file() {
+                        eprintln!("the records up to there are in {}", part.display());
+                    }
+                }
+                return Err(error);
+            }
+        };
+        let end = (schedule.steps, schedule.end);
+        let State { recorder, phase, moment, .. } = state;
+        let mut trajectory =
+            recorder.finish(self.task.label(), self.task.header(), end, &phase, &moment);
+        trajectory.truncation = Some(self.task.integrator.problem.truncation);
+        trajectory.announcement = schedule.announcement();
+        trajectory.out = target.zip(rows).map(|(target, rows)| (target.path.clone(), rows));
+        Ok(trajectory)
+    }
+
+    /// The state at the start, or where a checkpoint was made.
+    fn begin(&self) -> Result<State<'a, G>, CliError> {
+        let (task, group) = (self.task, self.group);
+        let setup = task.setup;
+        let start = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
+        let mut recorder =
+            Recorder::new(group, task.watched(), &start, task.integrator, setup.sampled);
+        let problem = &task.integrator.problem;
+        let names = || columns(&problem.coordinates, recorder.blocks());
+        let found = match &setup.checkpoint {
+            Some((path, _)) => Checkpoint::read(path, &self.identity())?.map(|found| (path, found)),
+            None => None,
+        };
+        let saved = Instant::now();
+        let Some((path, found)) = found else {
+            let moment = recorder.visit(&start).map_err(|what| self.stuck(0, what))?;
+            recorder.sample(0.0, &start, &moment);
+            let begin = |target| Sink::begin(target, task.header(), columns_of(&recorder, problem));
+            let sink = setup.out.as_ref().map(begin).transpose()?;
+            let phase = start;
+            let state =
+                State { n: 0, phase, moment, recorder, sink, times: 0, saved, complete: false };
+            return Ok(state);
+        };
+        let momentum = numbers(&found.momentum);
+        let entries = numbers(&found.element);
+        let expected: usize = recorder.blocks().iter().map(|b| b.range.len().pow(2)).sum();
+        let samples = Samples::from_bits(momentum.len(), &found.samples);
+        let fits = momentum.len() == setup.momentum.len()
+            && entries.len() == expected
+            && found.step <= setup.schedule.steps
+            && samples.is_some() == setup.sampled;
+        if !fits {
+            return Err(CliError::Option(format!(
+                "{} does not hold a state of this system: remove it to begin anew",
+                path.display()
+            )));
+        }
+        let mut g = nalgebra::DMatrix::zeros(group.matrix_size(), group.matrix_size());
+        for (block, own) in split(recorder.blocks(), &entries) {
+            let rows = block.range.len();
+            for (place, value) in own.iter().enumerate() {
+                g[(block.range.start + place / rows, block.range.start + place % rows)] = *value;
+            }
+        }
+        let element = group.restore(&|i, j| g[(i, j)]);
+        let phase = Phase::<G>::new(element, DVector::from_vec(momentum));
+        let moment = recorder.measure(&phase).map_err(|what| self.stuck(found.step, what))?;
+        let extent = found.extent();
+        let resume = |target: &super::target::Target| {
+            if found.complete && !target.part().exists() && target.path.exists() {
+                return Ok(Sink::done(target, extent));
+            }
+            Sink::resume(target, task.header(), names(), extent)
+        };
+        let sink = setup.out.as_ref().map(resume).transpose()?;
+        if found.complete {
+            eprintln!(
+                "this run has finished; its report is made from {}: remove it to run anew",
+                path.display()
+            );
+        } else {
+            let steps = setup.schedule.steps;
+            eprintln!("going on from {} at step {} of {steps}", path.display(), found.step);
+        }
+        recorder.tally = found.tally();
+        recorder.samples = samples;
+        let (n, times, complete) = (found.step, found.times, found.complete);
+        Ok(State { n, phase, moment, recorder, sink, times, saved, complete })
+    }
+
+    fn go(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
+        let setup = self.task.setup;
+        let schedule = &setup.schedule;
+        if state.complete {
+            return Ok(());
+        }
+        let guard = Guard::new();
+        let bar = progress::bar(schedule.steps, "integrating");
+        if state.n == 0 {
+            self.record(state, stepper)?;
+        }
+        let mut shown = Instant::now();
+        while state.n < schedule.steps {
+            self.step(state, stepper)?;
+            self.record(state, stepper)?;
+            if shown.elapsed() >= progress::INTERVAL {
+                bar.set_position(state.n);
+                shown = Instant::now();
+            }
+            if let Some(sink) = &mut state.sink {
+                sink.tick()?;
+                if sink.closed() && !setup.sampled {
+                    let what = "nobody reads the records any more".to_owned();
+                    return Err(self.stuck(state.n, what));
+                }
+            }
+            let stop = guard.asked() && state.n < schedule.steps;
+            match &setup.checkpoint {
+                Some((path, interval)) if stop || state.saved.elapsed() >= *interval => {
+                    self.save(path, state)?;
+                }
+                _ => {}
+            }
+            if stop {
+                bar.finish_and_clear();
+                return Err(self.interrupted(state.n));
+            }
+        }
+        bar.finish_and_clear();
+        if let Some(sink) = &mut state.sink {
+            sink.complete()?;
+        }
+        if let Some((path, _)) = &setup.checkpoint {
+            self.save(path, state)?;
+        }
+        Ok(())
+    }
+
+    /// Makes a step of the grid.
+    fn step(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
+        let schedule = &self.task.setup.schedule;
+        let (from, n) = (schedule.time(state.n), state.n + 1);
+        let solved = (stepper.step)(from, &mut state.phase);
+        let solved = solved.map_err(|source| CliError::Run {
+            time: from,
+            step: n,
+            what: source.to_string(),
+        })?;
+        if let Some((iterations, residual)) = solved {
+            let noted = state.recorder.solved(iterations, residual);
+            noted.map_err(|what| self.stuck(n, what))?;
+        }
+        state.moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;
+        state.n = n;
+        Ok(())
+    }
+
+    /// Writes the records at this grid point, and at the times nearer to it than to others.
+    fn record(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
+        let setup = self.task.setup;
+        let (schedule, n) = (&setup.schedule, state.n);
+        let here = schedule.time(n);
+        let chosen =
+            setup.every.is_some_and(|every| n.is_multiple_of(every) || n == schedule.steps);
+        // Pictures show what is recorded, or every step where only some times are.
+        if n > 0 && (chosen || setup.every.is_none()) {
+            state.recorder.sample(here, &state.phase, &state.moment);
+        }
+        if state.sink.is_none() {
+            return Ok(());
+        }
+        let mut own = chosen.then_some(here);
+        let times = setup.at.as_ref().map_or(&[][..], |times| &times.0);
+        while let Some(&time) = times.get(state.times) {
+            let nearest = (time / schedule.step).round().min(schedule.steps as f64);
+            if nearest as u64 > n {
+                break;
+            }
+            let part = time - here;
+            let rounding = 4.0 * f64::EPSILON * time.abs().max(schedule.step.abs());
+            if part.abs() <= rounding {
+                own = Some(time);
+            } else {
+                if part * schedule.step > 0.0
+                    && let Some(time) = own.take()
+                {
+                    self.write(state, time, None)?;
+                }
+                let mut phase = state.phase.clone();
+                (stepper.side)(here, part, &mut phase).map_err(|source| CliError::Run {
+                    time: here,
+                    step: n,
+                    what: format!("the record at {time}: {source}"),
+                })?;
+                let moment = state.recorder.measure(&phase).map_err(|what| CliError::Run {
+                    time,
+                    step: n,
+                    what,
+                })?;
+                self.write(state, time, Some((phase, moment)))?;
+            }
+            state.times += 1;
+        }
+        match own {
+            Some(time) => self.write(state, time, None),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a record: of the state of the grid, or of one beside it.
+    fn write(
+        &self,
+        state: &mut State<'a, G>,
+        time: f64,
+        beside: Option<(Phase<G>, Moment)>,
+    ) -> Result<(), CliError> {
+        let Some(sink) = &mut state.sink else { return Ok(()) };
+        let (phase, moment) = match &beside {
+            Some((phase, moment)) => (phase, moment),
+            None => (&state.phase, &state.moment),
+        };
+        let Moment { energy, drift } = *moment;
+        let last = [energy, drift.spatial_momentum, drift.casimirs, drift.energy];
+        let momentum = phase.momentum.iter().copied();
+        let entries = state.recorder.entries(phase);
+        sink.row(std::iter::once(time).chain(momentum).chain(entries).chain(last))
+    }
+
+    /// Writes a checkpoint; the records that it counts are on the disk before.
+    fn save(&self, path: &Path, state: &mut State<'a, G>) -> Result<(), CliError> {
+        let extent = state.sink.as_mut().map(Sink::vouch).transpose()?.unwrap_or_default();
+        let mut checkpoint = Checkpoint {
+            identity: self.identity(),
+            step: state.n,
+            momentum: bits(state.phase.momentum.iter().copied()),
+            element: bits(state.recorder.entries(&state.phase)),
+            bytes: extent.bytes,
+            rows: extent.rows,
+            times: state.times,
+            samples: state.recorder.samples.as_ref().map(Samples::to_bits).unwrap_or_default(),
+            complete: state.n == self.task.setup.schedule.steps,
+            ..Checkpoint::default()
+        };
+        checkpoint.set_tally(&state.recorder.tally);
+        checkpoint.write(path)?;
+        state.saved = Instant::now();
+        Ok(())
+    }
+
+    /// What a checkpoint must agree in.
+    fn identity(&self) -> std::collections::BTreeMap<String, String> {
+        let setup = self.task.setup;
+        let mut identity = self.task.header().identity();
+        let out = setup.out.as_ref();
+        let out = out.map_or_else(|| "none".to_owned(), |out| out.path.display().to_string());
+        identity.insert("out".to_owned(), out);
+        identity.insert("plot".to_owned(), setup.sampled.to_string());
+        identity
+    }
+
+    /// A number that is not finite, after `step` steps.
+    fn stuck(&self, step: u64, what: String) -> CliError {
+        CliError::Run { time: self.task.setup.schedule.time(step), step, what }
+    }
+
+    fn interrupted(&self, step: u64) -> CliError {
+        let setup = self.task.setup;
+        let again = match &setup.checkpoint {
+            Some((path, _)) => {
+                format!("; the same command goes on from {}", path.display())
+            }
+            None => String::new(),
+        };
+        let schedule = &setup.schedule;
+        CliError::Interrupted(format!(
+            "interrupted at time {}, after {step} of {} steps{again}",
+            schedule.time(step),
+            schedule.steps
+        ))
+    }
+}
+
+fn columns_of<G: Restore>(
+    recorder: &Recorder<'_, G>,
+    problem: &coadjoint_codegen::problem::Problem,
+) -> Vec<String> {
+    columns(&problem.coordinates, recorder.blocks())
+}
