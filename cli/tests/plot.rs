@@ -5,7 +5,8 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use support::{file, json, run};
+use coadjoint_codegen::system::{Options, read};
+use support::{file, json, root, run};
 
 /// The picture of a run.
 fn picture(arguments: &[&str]) -> String {
@@ -264,4 +265,36 @@ fn reports_say_the_units() {
     let without =
         json(&["simulate", "examples/su3_quadratic.toml", "--time", "1", "--format", "json"]);
     assert!(without.get("units").is_none());
+}
+
+/// The pictures of the documentation are those of the examples as they are: name, settings and units.
+#[test]
+fn every_example_has_its_picture() {
+    let mut seen = 0;
+    for entry in std::fs::read_dir(root().join("examples")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let example = std::fs::read_to_string(&path).unwrap();
+        let system = read(&example, Options::default()).unwrap();
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        let picture = root().join(format!("docs/images/{stem}.svg"));
+        let svg = std::fs::read_to_string(picture).unwrap();
+        let problem = &system.problem;
+        assert_ne!(problem.name, "system", "{stem} has no name");
+        let unit = system.units.time.map(|unit| format!(" {unit}")).unwrap_or_default();
+        contains(
+            &svg,
+            &[
+                &format!(">{}</text>", problem.name),
+                &format!(">group {}</text>", problem.algebra.name()),
+                &format!(">h = {}{unit}</text>", system.run.step.unwrap()),
+                &format!(">T = {}{unit}</text>", system.run.time.unwrap()),
+            ],
+        );
+        assert_legible(&svg);
+        seen += 1;
+    }
+    assert!(seen >= 21, "{seen}");
 }
