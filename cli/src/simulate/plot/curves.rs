@@ -147,7 +147,10 @@ fn stretches(points: &[(f64, f64)], columns: usize) -> impl Iterator<Item = &[(f
         [first, .., last] => (first.0, last.0),
         _ => (0.0, 1.0),
     };
-    let column = move |time: f64| ((time - first) / (last - first) * columns as f64).floor();
+    // The last moment belongs to the last part.
+    let most = columns.saturating_sub(1) as f64;
+    let column =
+        move |time: f64| ((time - first) / (last - first) * columns as f64).floor().min(most);
     points.chunk_by(move |a, b| column(a.0) == column(b.0))
 }
 
