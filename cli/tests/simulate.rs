@@ -3,6 +3,7 @@
 mod support;
 
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use support::{file, json, numbers, root, run};
 
 /// The paper's rigid body at T = 100, 25 digits by a separate implementation
@@ -106,6 +107,34 @@ fn json_has_the_keys_programs_rely_on() {
     }
     assert!(run["solver"]["mean_iterations"].as_f64().unwrap() >= 1.0);
     assert!(run["solver"]["max_residual"].as_f64().unwrap() < 1e-14);
+    assert_eq!((&run["step"], &run["step_asked"]), (&Value::from(0.05), &Value::from(0.05)));
+    assert_eq!((&run["chart"], &run["truncation"]), (&Value::from("exp"), &Value::from(7)));
+    assert_eq!(run["coordinates"][3], "Gamma_x");
+    assert_eq!(run["run"]["system"], "examples/heavy_top.toml");
+    let text = std::fs::read(root().join("examples/heavy_top.toml")).unwrap();
+    assert_eq!(run["run"]["system_sha256"], format!("{:x}", Sha256::digest(text)));
+    assert!(run["energy"]["start"].is_f64() && run["energy"]["end"].is_f64());
+}
+
+/// What has no number has no key.
+#[test]
+fn json_never_holds_null() {
+    fn nulls(value: &Value) -> bool {
+        match value {
+            Value::Null => true,
+            Value::Array(list) => list.iter().any(nulls),
+            Value::Object(map) => map.values().any(nulls),
+            _ => false,
+        }
+    }
+    for arguments in [
+        &["examples/rigid_body.toml", "--time", "5", "--compare", "rk45"][..],
+        &["examples/satellite.toml", "--time", "1"],
+        &["examples/spin_chain_64.toml", "--time", "0.1"],
+    ] {
+        let run = json(&[&["simulate"], arguments, &["--format", "json"]].concat());
+        assert!(!nulls(&run), "{run}");
+    }
 }
 
 /// Backwards from the end leads to the start.
@@ -148,9 +177,9 @@ fn files_and_pictures_are_written() {
     let (code, _, _) =
         run(&[&base[..], &["--out", &csv, "--plot", &svg, "--compare", "rk45"]].concat());
     assert_eq!(code, 0);
-    let mut reader = csv::Reader::from_path(&csv).unwrap();
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&csv).unwrap();
     let header: Vec<String> = reader.headers().unwrap().iter().map(Into::into).collect();
-    assert_eq!(header[..5], ["time", "mu_1", "mu_2", "mu_3", "g_11"]);
+    assert_eq!(header[..5], ["time", "x", "y", "z", "g_11"]);
     let rows: Vec<Vec<f64>> =
         reader.records().map(|r| r.unwrap().iter().map(|x| x.parse().unwrap()).collect()).collect();
     // 20 steps, every 4th, and the start.
@@ -184,4 +213,107 @@ fn the_rival_drifts() {
     // Still the same system: it ends near the same place.
     assert!(error(&runs[1]) < 1e-2, "{}", error(&runs[1]));
     assert!(runs[1]["solver"].is_null());
+}
+
+/// Steps end at the time asked for: 50 is 62.5 steps of 0.8. Where the step divides the time it stays.
+#[test]
+fn runs_end_at_the_time_asked_for() {
+    let body = ["simulate", "examples/rigid_body.toml", "--time", "50"];
+    let changed = json(&[&body[..], &["--step", "0.8", "--format", "json"]].concat());
+    assert_eq!(changed["time"], 50.0);
+    assert_eq!(changed["steps"], 63);
+    assert_eq!(changed["step"], 50.0 / 63.0);
+    assert_eq!(changed["step_asked"], 0.8);
+    let (code, out, error) = run(&[&body[..], &["--step", "0.8"]].concat());
+    let line = "step 0.7936507936507936 in place of 0.8, so that 63 steps end at 50";
+    assert!(code == 0 && out.contains(line), "{out}");
+    assert_eq!(error.trim(), line);
+
+    let kept = json(&[&body[..], &["--step", "0.1", "--format", "json"]].concat());
+    assert_eq!((kept["steps"].as_u64(), kept["step"].as_f64()), (Some(500), Some(0.1)));
+    assert_eq!((kept["time"].as_f64(), kept["step_asked"].as_f64()), (Some(50.0), Some(0.1)));
+    let (_, out, error) = run(&[&body[..], &["--step", "0.1"]].concat());
+    assert!(error.is_empty() && !out.contains("in place of"), "{out}{error}");
+    // A step longer than the whole time.
+    let short = ["simulate", "examples/rigid_body.toml", "--time", "0.05", "--format", "json"];
+    let short = json(&short);
+    assert_eq!((short["steps"].as_u64(), short["time"].as_f64()), (Some(1), Some(0.05)));
+}
+
+/// A number that is not finite ends the run with the time and the step.
+#[test]
+fn what_is_not_finite_fails_the_run() {
+    let system = |group: &str, hamiltonian: &str, integrator: &str, momentum: &str, time: &str| {
+        format!(
+            "group = \"{group}\"\nhamiltonian = \"{hamiltonian}\"\n[integrator]\n{integrator}\n\
+             [initial]\nmomentum = {momentum}\n[run]\ntime = {time}\n"
+        )
+    };
+    let product = |solver: &str| {
+        system(
+            "SO3*SO3",
+            "mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]^4/4 + mu[3]^2/2",
+            &format!("truncation = 9\nstep = 1\nsolver = \"{solver}\""),
+            "[2.0, 0.5, 1.0, 1.0, 0.0, 0.0]",
+            "10",
+        )
+    };
+    let body = std::fs::read_to_string(root().join("examples/manakov_so4.toml")).unwrap();
+    let head = body.split("[integrator]").next().unwrap();
+    let zero = format!(
+        "{head}\n[integrator]\ntruncation = 5\nstep = 1.0\n[initial]\n\
+         momentum = [9.3,-10.0,-8.6,9.4,6.4,9.7]\n[run]\ntime = 5.0\n"
+    );
+    // Nothing but the energy is too large for a number.
+    let energy =
+        system("SO3", "mu[0]^2/2", "truncation = 1\nstep = 1e-201", "[1e200, 0, 0]", "1e-200");
+    let directory = tempfile::tempdir().unwrap();
+    for (text, said) in [
+        (product("newton"), "at time "),
+        (product("fixed_point"), "at time "),
+        (zero, "at time "),
+        (energy, "at time 0, step 0: the energy is inf"),
+    ] {
+        let system = file(&directory, &text);
+        for format in ["text", "json"] {
+            let (code, out, error) = run(&["simulate", &system, "--format", format]);
+            assert_eq!((code, out.as_str()), (1, ""), "{text}");
+            assert!(error.contains(said) && error.contains(", step "), "{error}");
+        }
+    }
+}
+
+/// Elements are printed by what they are; zeros outside of the blocks are not printed.
+#[test]
+fn group_elements_can_be_read() {
+    let text = |arguments: &[&str]| {
+        let (code, out, error) = run(&[&["simulate"], arguments].concat());
+        assert_eq!(code, 0, "{error}");
+        out
+    };
+    let body = text(&["examples/rigid_body.toml", "--time", "1"]);
+    let mut lines = body.lines().skip_while(|line| !line.contains("unit quaternion w, x, y, z"));
+    lines.next().unwrap();
+    let q: Vec<f64> =
+        lines.next().unwrap().split_whitespace().map(|word| word.parse().unwrap()).collect();
+    let matrix = json(&["simulate", "examples/rigid_body.toml", "--time", "1", "--format", "json"]);
+    let g = |i: usize, j: usize| matrix["group_element"][i][j].as_f64().unwrap();
+    let [w, x, y, z] = q[..] else { panic!("{q:?}") };
+    assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-14);
+    for (entry, expected) in [
+        (g(0, 0), 1.0 - 2.0 * (y * y + z * z)),
+        (g(1, 0), 2.0 * (x * y + w * z)),
+        (g(2, 1), 2.0 * (y * z + w * x)),
+    ] {
+        assert!((entry - expected).abs() < 1e-14, "{entry} {expected}");
+    }
+    let ring = text(&["examples/heisenberg_spin_ring.toml", "--time", "0.1"]);
+    assert_eq!(ring.matches("unit quaternion").count(), 4, "{ring}");
+    let chain = text(&["examples/spin_chain_64.toml", "--time", "0.1"]);
+    assert!(chain.contains("group elements of 52 more factors"), "{chain}");
+    assert!(chain.lines().count() < 64 * 3 + 50);
+    assert!(text(&["examples/three_wave.toml", "--time", "0.1"]).contains("complex 3 × 3 matrix"));
+    for printed in [body, ring, chain] {
+        assert!(!printed.contains("0.0000000000"), "{printed}");
+    }
 }

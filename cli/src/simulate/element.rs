@@ -170,5 +170,6 @@ fn quaternion(g: &DMatrix<f64>) -> [f64; 4] {
     let rotation = Rotation3::from_matrix_unchecked(matrix);
     let q = UnitQuaternion::from_rotation_matrix(&rotation);
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
-    [q.w, q.i, q.j, q.k].map(|x| sign * x)
+    // No negative zeros.
+    [q.w, q.i, q.j, q.k].map(|x| sign * x + 0.0)
 }

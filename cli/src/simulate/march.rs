@@ -327,6 +327,8 @@ impl<'a, G: Restore> March<'a, G> {
     fn identity(&self) -> std::collections::BTreeMap<String, String> {
         let setup = self.task.setup;
         let mut identity = self.task.header().identity();
+        // It follows from the time and the step, whose names say more.
+        identity.remove("steps");
         let out = setup.out.as_ref();
         let out = out.map_or_else(|| "none".to_owned(), |out| out.path.display().to_string());
         identity.insert("out".to_owned(), out);

@@ -1,0 +1,342 @@
+//! What `simulate` records: when, in which columns, as it goes, and what is left of a run that fails.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod support;
+
+use std::io::Write;
+use std::path::Path;
+use std::process::Stdio;
+
+use support::{file, json, root, run};
+
+const BODY: &str = "examples/rigid_body.toml";
+
+/// The lines of a file of records without comments: names, then records.
+fn table(text: &str) -> Vec<Vec<String>> {
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn read(path: &Path) -> Vec<Vec<String>> {
+    table(&std::fs::read_to_string(path).unwrap())
+}
+
+fn simulate(arguments: &[&str]) -> String {
+    let (code, out, error) = run(&[&["simulate"], arguments].concat());
+    assert_eq!(code, 0, "{arguments:?}: {error}");
+    out
+}
+
+/// SL(2) is not compact: this motion leaves every bound. Its records up to there stay, and say so.
+#[test]
+fn a_run_that_fails_leaves_its_records() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "group = \"SL2\"\nhamiltonian = \"mu[0]^2/2+mu[1]*mu[2]\"\n[integrator]\ntruncation = 3\n\
+         step = 0.1\n[initial]\nmomentum = [1,0.5,0.5]\n[run]\ntime = 10000\n",
+    );
+    for name in ["t.csv", "t.npy"] {
+        let out = directory.path().join(name);
+        let (code, _, error) = run(&["simulate", &system, "--out", out.to_str().unwrap()]);
+        assert_eq!(code, 1, "{error}");
+        assert!(error.contains(", step ") && error.contains(&format!("{name}.part")), "{error}");
+        assert!(!out.exists());
+        let part = directory.path().join(format!("{name}.part"));
+        let time = error.split("at time ").nth(1).unwrap().split(',').next().unwrap();
+        let time: f64 = time.parse().unwrap();
+        assert!(time > 1.0);
+        if name == "t.csv" {
+            let text = std::fs::read_to_string(&part).unwrap();
+            let last = text.lines().last().unwrap();
+            assert!(last.starts_with("# part: at time "), "{last}");
+            let rows = table(&text);
+            assert!(rows[1..].iter().flatten().all(|x| x.parse::<f64>().unwrap().is_finite()));
+            let end: f64 = rows.last().unwrap()[0].parse().unwrap();
+            assert!((time - end).abs() < 0.11, "{time} {end}");
+        } else {
+            let bytes = std::fs::read(&part).unwrap();
+            let array = npyz::NpyFile::new(&bytes[..]).unwrap();
+            assert!(array.shape()[0] > 10);
+            let values = array.into_vec::<f64>().unwrap();
+            assert!(values.iter().all(|value| value.is_finite()));
+            let about = std::fs::read_to_string(directory.path().join("t.npy.json")).unwrap();
+            assert!(about.contains("\"complete\": false"));
+        }
+    }
+}
+
+/// The head of a file says what is needed to repeat and judge the run.
+#[test]
+fn files_say_what_they_are() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("t.csv");
+    let comoving = ["--step", "0.3", "--chart", "exp", "--solver", "newton", "--tuned"];
+    let name = out.to_str().unwrap();
+    simulate(&[&[BODY, "--time", "1", "--truncation", "9", "--out", name], &comoving[..]].concat());
+    let text = std::fs::read_to_string(&out).unwrap();
+    for line in [
+        "# system: examples/rigid_body.toml",
+        "# system_sha256: ",
+        "# name: rigid-body",
+        "# group: SO3",
+        "# truncation: 9",
+        "# chart: exp",
+        "# frame: fixed",
+        "# solver: newton",
+        "# step: 0.25",
+        "# step_asked: 0.3",
+        "# steps: 4",
+        "# time: 1",
+        "# initial_momentum: 2,0.5,1",
+        "# tuned: true",
+        "# complete: 5 records",
+    ] {
+        assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
+    }
+    assert!(!directory.path().join("t.csv.part").exists());
+}
+
+/// The names are those of the file; numbers are short, with exponents, and read back exactly.
+#[test]
+fn columns_and_numbers_can_be_read() {
+    let top = table(&simulate(&["examples/heavy_top.toml", "--time", "1", "--out", "-"]));
+    assert_eq!(top[0][..7], ["time", "Pi_x", "Pi_y", "Pi_z", "Gamma_x", "Gamma_y", "Gamma_z"]);
+    assert_eq!(top[0][7..9], ["g_11", "g_12"]);
+    let longest = top.iter().flatten().map(String::len).max().unwrap();
+    assert!(longest <= 24, "{longest}");
+    assert!(top.iter().flatten().any(|cell| cell.contains("e-")), "no small number");
+
+    let directory = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(root().join(BODY)).unwrap();
+    let unnamed = text.lines().filter(|line| !line.starts_with("coordinates")).collect::<Vec<_>>();
+    let unnamed = unnamed.join("\n").replace("x^2", "mu[0]^2").replace("y^2", "mu[1]^2");
+    let system = file(&directory, &unnamed.replace("z^2", "mu[2]^2"));
+    let rows = table(&simulate(&[&system, "--time", "1", "--out", "-"]));
+    assert_eq!(rows[0][..4], ["time", "mu_1", "mu_2", "mu_3"]);
+    // A potential couples the factors; of their matrices the blocks are written still.
+    let satellite = table(&simulate(&["examples/satellite.toml", "--time", "0.1", "--out", "-"]));
+    assert_eq!(satellite[0].iter().filter(|name| name.starts_with("g_")).count(), 9 + 4);
+}
+
+/// Records between the steps are as accurate as steps, and change nothing.
+#[test]
+fn times_between_steps_change_no_bit() {
+    let directory = tempfile::tempdir().unwrap();
+    let plain = table(&simulate(&[BODY, "--time", "4", "--out", "-"]));
+    let times = "3.99,0.37,0.3,1.25,4,0";
+    let at = table(&simulate(&[BODY, "--time", "4", "--at", times, "--out", "-"]));
+    let found: Vec<&str> = at[1..].iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(found, ["0", "0.3", "0.37", "1.25", "3.99", "4"]);
+    // On the grid it is the grid's own state.
+    assert_eq!(at[2][1..], plain[4][1..]);
+    assert_eq!(at[6], plain[41]);
+    for (row, time) in [(3, "0.37"), (4, "1.25"), (5, "3.99")] {
+        let exact = json(&[
+            "simulate",
+            BODY,
+            "--time",
+            time,
+            "--step",
+            "0.01",
+            "--truncation",
+            "9",
+            "--format",
+            "json",
+        ]);
+        for i in 0..3 {
+            let value: f64 = at[row][1 + i].parse().unwrap();
+            assert!((value - exact["momentum"][i].as_f64().unwrap()).abs() < 1e-11, "{time}");
+        }
+    }
+    // Besides every step, from a file.
+    let list = directory.path().join("times");
+    std::fs::write(&list, "# two times\n0.37 1.25\n").unwrap();
+    let arguments = [BODY, "--time", "4", "--every", "1", "--at", list.to_str().unwrap()];
+    let both = table(&simulate(&[&arguments[..], &["--out", "-"]].concat()));
+    let grid: Vec<_> =
+        both.iter().filter(|row| !["0.37", "1.25"].contains(&row[0].as_str())).cloned().collect();
+    assert_eq!(both.len(), plain.len() + 2);
+    assert_eq!(grid, plain);
+    // Fitted coefficients are good for one step size only; records between are no worse for it.
+    let fitted = ["--truncation", "5", "--step", "0.5", "--fitted", "12", "--time", "4"];
+    let rows = table(&simulate(&[&[BODY, "--at", "1.25", "--out", "-"], &fitted[..]].concat()));
+    for i in 1..4 {
+        let difference = rows[1][i].parse::<f64>().unwrap() - at[4][i].parse::<f64>().unwrap();
+        assert!(difference.abs() < 1e-9, "{difference:e}");
+    }
+
+    for (times, said) in [
+        ("5", "5 is not between 0 and the end, 4"),
+        ("-1", "-1 is not between"),
+        ("nan", "NaN is not between"),
+        ("nothing", "neither numbers"),
+        ("", "neither numbers"),
+    ] {
+        let (code, _, error) = run(&["simulate", BODY, "--time", "4", "--at", times, "--out", "-"]);
+        assert!(code == 2 && error.contains(said), "{times}: {error}");
+    }
+}
+
+/// With several truncations each file is announced.
+#[test]
+fn several_truncations_announce_their_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("t.csv");
+    let name = out.to_str().unwrap();
+    let arguments = ["simulate", BODY, "--time", "1", "--truncation", "3,5", "--out", name];
+    let (code, report, error) = run(&arguments);
+    assert_eq!(code, 0, "{error}");
+    for name in ["t-K3.csv", "t-K5.csv"] {
+        assert!(error.contains(name) && report.contains(name), "{error}{report}");
+        assert_eq!(read(&directory.path().join(name)).len(), 12);
+    }
+    assert!(!out.exists());
+    let (code, _, error) = run(&["simulate", BODY, "--truncation", "3,5", "--out", "-"]);
+    assert!(code == 2 && error.contains("several files"), "{error}");
+}
+
+/// Names that cannot work are refused before anything is computed, by their option.
+#[test]
+fn names_are_looked_at_first() {
+    let slow = "examples/zeitlin_5.toml";
+    for (arguments, said) in [
+        (&["--plot", "x.png"][..], "--plot x.png: only SVG"),
+        (&["--plot", "none/x.svg"], "there is no folder none"),
+        (&["--out", "none/t.csv"], "there is no folder none"),
+        (&["--out", "t.xls"], ".csv or .npy"),
+        (&["--out", "examples"], "this is a folder"),
+        (&["--checkpoint", "none/c"], "there is no folder none"),
+        (&["--checkpoint", "c", "--truncation", "3,5"], "give one --truncation"),
+        (&["--checkpoint", "c", "--out", "-"], "write to a file"),
+        (&["--checkpoint", "t.csv", "--out", "t.csv"], "must be different files"),
+        (&["--at", "1"], "--out"),
+    ] {
+        let (code, _, error) = run(&[&["simulate", slow], arguments].concat());
+        assert!(code == 2 && error.contains(said), "{arguments:?}: {error}");
+    }
+    assert!(!root().join("x.png").exists());
+}
+
+/// A full disk is named; a reader that stops reading is no failure of the records.
+#[cfg(unix)]
+#[test]
+fn full_disks_are_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let link = directory.path().join("full.csv");
+    std::os::unix::fs::symlink("/dev/full", &link).unwrap();
+    for name in ["/dev/full", link.to_str().unwrap()] {
+        let (code, _, error) = run(&["simulate", BODY, "--out", name]);
+        assert_eq!(code, 1);
+        assert!(error.contains(&format!("cannot write {name}")), "{error}");
+    }
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let simulate = |stdout: Stdio| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
+        let command = command.current_dir(root()).args(["simulate", BODY, "--out", "-"]);
+        command.stdout(stdout).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let output = simulate(full.into()).wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(error.contains("cannot write the standard output"), "{error}");
+    // Records alone are on the standard output; the report is not among them.
+    let (code, out, error) = run(&["simulate", BODY, "--time", "1", "--out", "-"]);
+    assert_eq!(code, 0);
+    assert!(out.ends_with("# complete: 11 records\n") && error.contains("10 steps to time 1"));
+    // A device is written as it is.
+    let (code, report, _) = run(&["simulate", BODY, "--time", "1", "--out", "/dev/null"]);
+    assert!(code == 0 && report.contains("11 records in /dev/null"), "{report}");
+    assert!(!Path::new("/dev/null.part").exists());
+}
+
+/// Records are on the disk while the run goes on, and memory does not grow with their number.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_does_not_grow_with_steps() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2\"\n[integrator]\ntruncation = 1\nstep = 0.1\n\
+         [initial]\nmomentum = [1, 0.2, 0]\n[run]\ntime = 1500\n",
+    );
+    let out = directory.path().join("t.csv");
+    let part = directory.path().join("t.csv.part");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
+    command.args(["simulate", &system, "--out"]).arg(&out).stdout(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    // The largest memory of the process so far, in kB, when the first records are there and last of all.
+    let (mut first, mut last, mut seen) = (None, 0, 0);
+    while child.try_wait().unwrap().is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find(|line| line.starts_with("VmHWM:"));
+        let peak: Option<u64> = line.and_then(|l| l.split_whitespace().nth(1)?.parse().ok());
+        let length = std::fs::metadata(&part).map_or(0, |data| data.len());
+        if let Some(peak) = peak.filter(|_| length > 100_000) {
+            (first, last, seen) = (first.or(Some(peak)), peak, length);
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let whole = std::fs::metadata(&out).unwrap().len();
+    let first = first.expect("no record was on the disk before the end");
+    assert!(seen > whole / 2, "{seen} of {whole} bytes were seen");
+    assert!(last - first < 1024, "memory grew from {first} to {last} kB");
+    assert_eq!(read(&out).len(), 15_002);
+}
+
+/// What is being derived is said on a terminal.
+#[cfg(unix)]
+#[test]
+fn setup_shows_progress_on_a_terminal() {
+    use std::io::Read;
+
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+
+    let terminal = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&terminal).unwrap();
+    unlockpt(&terminal).unwrap();
+    let name = ptsname(&terminal, Vec::new()).unwrap().into_string().unwrap();
+    let other = std::fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
+    command.current_dir(root()).env("TERM", "xterm").stdout(Stdio::null()).stderr(other);
+    command.args(["simulate", "examples/heavy_top.toml", "--truncation", "9", "--time", "0.5"]);
+    let mut child = command.spawn().unwrap();
+    drop(command);
+    let mut shown = Vec::new();
+    let mut piece = [0; 4096];
+    let mut terminal = std::fs::File::from(terminal);
+    // An error once nobody writes any more.
+    while let Ok(length @ 1..) = terminal.read(&mut piece) {
+        shown.extend_from_slice(&piece[..length]);
+    }
+    assert!(child.wait().unwrap().success());
+    let shown = String::from_utf8_lossy(&shown);
+    assert!(shown.contains("deriving the series, K = 9"), "{shown}");
+    // Not on a pipe.
+    let (_, _, error) = run(&["simulate", BODY, "--time", "1"]);
+    assert_eq!(error, "");
+}
+
+/// A learned map has one step; another time is refused, not rounded.
+#[test]
+fn a_learned_map_is_not_run_to_another_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let data = directory.path().join("train.csv");
+    let group = coadjoint::SO3::new();
+    let wide = coadjoint_learn::truth::MomentumBox { low: -2.0, high: 2.0 };
+    let truth = coadjoint_learn::truth::Quadratic::paper();
+    let pairs = coadjoint_learn::truth::phase_pairs(&group, &truth, 0.1, wide, 40, 1);
+    coadjoint_learn::data::write_pairs(&data, &group, &pairs).unwrap();
+    let model = directory.path().join("model.json");
+    let [data, model] = [&data, &model].map(|path| path.to_str().unwrap());
+    let (code, _, error) =
+        run(&["learn", data, "--group", "SO3", "--dt", "0.1", "--degree", "2", "--out", model]);
+    assert_eq!(code, 0, "{error}");
+    let follow =
+        |time: &str| run(&["simulate", "--model", model, "--start", "2,0.5,1", "--time", time]);
+    let (code, _, error) = follow("0.25");
+    assert!(code == 2 && error.contains("no whole number of steps"), "{error}");
+    assert_eq!(follow("0.3").0, 0);
+    std::io::stdout().flush().unwrap();
+}
