@@ -31,6 +31,9 @@ pub enum Verb {
     /// Write the integrator as a Rust module
     Emit(EmitOptions),
     /// Run the system and report how well momentum, Casimirs and energy are kept
+    #[command(
+        after_help = "The format of FILE is described in docs/file-format.md; `coadjoint groups` lists groups."
+    )]
     Simulate(SimulateOptions),
     /// Advance many states at once, from a file to a file
     Ensemble(EnsembleOptions),
@@ -38,6 +41,8 @@ pub enum Verb {
     Check(CheckOptions),
     /// Find the polynomial Casimirs of the system's algebra
     Casimirs(CasimirOptions),
+    /// List the groups that have a name, or print basis, brackets, Casimirs and charts of one
+    Groups(GroupOptions),
     /// Learn the map behind pairs of states
     Learn(LearnOptions),
     /// Find the Poisson map nearest to a method that is none, or to pairs of momenta made by one
@@ -328,4 +333,21 @@ pub struct CasimirOptions {
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+}
+
+/// Options of `groups`.
+#[derive(Args, Debug)]
+pub struct GroupOptions {
+    /// A group or a product of groups, such as SO3, "SO3^4" or "SO3 |x R3"; all names if not given
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// The highest degree of Casimirs looked for; as high as is quick, 4 at most, if not given
+    #[arg(long, value_name = "d", default_value_t = 0, hide_default_value = true)]
+    pub degree: u32,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The same as --format json
+    #[arg(long)]
+    pub json: bool,
 }

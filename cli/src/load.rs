@@ -42,7 +42,7 @@ const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
 /// and says so on the error stream. `truncation` and `time` are what the command line gives.
 pub fn meet_tolerance(
     path: &Path,
-    System { problem, potential, run }: &mut System,
+    System { problem, potential, run, .. }: &mut System,
     asked: &Accuracy,
     truncation: Option<usize>,
     time: Option<f64>,

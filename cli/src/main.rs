@@ -16,6 +16,7 @@ mod engine;
 mod ensemble;
 mod error;
 mod geometrize;
+mod groups;
 mod learn;
 mod load;
 mod model;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Verb::Ensemble(options) => ensemble::run(&options),
         Verb::Check(options) => check::run(&options),
         Verb::Casimirs(options) => casimirs::run(&options),
+        Verb::Groups(options) => groups::run(&options),
         Verb::Learn(options) => learn::run(&options),
         Verb::Geometrize(options) => geometrize::run(&options),
         Verb::Reproduce(options) => reproduce::run(&options),

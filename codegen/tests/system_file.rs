@@ -42,6 +42,30 @@ fn all_of_a_file_is_read() {
     assert_eq!(run.group_element.as_ref().unwrap()[1], [0.0, 1.0, 0.0]);
 }
 
+/// Units are kept for each coordinate; one for the momentum is that of all that have none of their own.
+#[test]
+fn units_are_read_and_change_nothing() {
+    let with = format!("{RIGID_BODY}\n[units]\ntime = \" s \"\nmomentum = \"kg m²/s\"\ny = \"1\"");
+    let system = system::read(&with, Options::default()).unwrap();
+    assert_eq!(system.units.time.as_deref(), Some("s"));
+    let of = |units: &system::Units| {
+        (0..4).map(|i| units.coordinate(i).map(str::to_owned)).collect::<Vec<_>>()
+    };
+    let unit = |text: &str| Some(text.to_owned());
+    assert_eq!(of(&system.units), [unit("kg m²/s"), unit("1"), unit("kg m²/s"), None]);
+    let without = system::read(RIGID_BODY, Options::default()).unwrap();
+    assert_eq!(of(&without.units), [None, None, None, None]);
+    assert_eq!(without.problem.hamiltonian, system.problem.hamiltonian);
+    assert_eq!(without.run, system.run);
+
+    // Copies share the unit of their coordinate; indexed names need no quotes.
+    let copies = "group = \"SO3^2\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x[0]*x[1]\"\n\
+        [units]\ny = \"J s\"";
+    let units = system::read(copies, Options::default()).unwrap().units;
+    assert_eq!((units.coordinate(1), units.coordinate(4)), (Some("J s"), Some("J s")));
+    assert_eq!((units.coordinate(0), &units.time), (None, &None));
+}
+
 #[test]
 fn options_replace_what_the_file_says() {
     let options = Options {
@@ -120,6 +144,7 @@ fn mistakes() {
         "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\"]\nbrackets = [\"[a, b] = a*b\", \"[a, d] = b\", \"a, b = c\", \"[a, b] = 2*e +\"]",
         "hamiltonian = \"a\"\n[algebra]\nbrackets = [\"[a, b] = a\"]\ngenerator = [\"a\", \"b\"]",
         "group = \"SO3\"\nhamiltonian = \"a\"\n[algebra]\nbrackets = []",
+        "group = \"SO3\"\ncoordinates = [\"px\", \"py\", \"pz\"]\nhamiltonian = \"px\"\n[units]\ntimes = \"s\"\npy = 3\npz = \" \"\nmomentum = \"the unit in which this momentum was measured\"",
     ];
     let mut text = String::new();
     for case in cases {

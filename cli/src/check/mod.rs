@@ -38,7 +38,7 @@ pub struct Law {
 /// Tries all laws, prints them, and fails if one does not hold.
 pub fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let System { problem, potential, run } =
+    let System { problem, potential, run, .. } =
         load::source(&options.source, options.truncation, Parameters::Substituted)?;
     let step = options.step.or(run.step).unwrap_or(DEFAULT_STEP);
     if step == 0.0 || !step.is_finite() {

@@ -32,7 +32,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
-    let System { mut problem, potential, run } = system;
+    let System { mut problem, potential, run, .. } = system;
     // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
     problem.solver = Some(Solver::Newton);
     if potential.is_some() {

@@ -80,13 +80,15 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     };
     let outs = outs(out.as_ref(), &systems)?;
     let mut runs = Vec::new();
+    let mut heading = systems.first().map(plot::Heading::new);
+    let units = systems.first().map(|system| system.units.clone()).unwrap_or_default();
     for (mut system, out) in systems.into_iter().zip(outs) {
         let truncation = system.problem.truncation;
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         drop(phase);
-        let System { problem, potential, run } = system;
+        let System { problem, potential, run, .. } = system;
         let follows = [("--tuned", options.tuned), ("--fitted", options.fitted.is_some())];
         if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
             && potential.is_some()
@@ -97,6 +99,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
             return Err(CliError::Option(what));
         }
         let setup = Setup::new(options, &hash, out, &run, problem.algebra.dim())?;
+        heading.iter_mut().for_each(|heading| heading.step(setup.schedule.step));
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
@@ -150,10 +153,10 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if options.compare.is_some() {
         runs.rotate_left(1);
     }
-    if let Some(plot) = &options.plot {
-        plot::draw(plot, &runs)?;
+    if let (Some(path), Some(heading)) = (&options.plot, &heading) {
+        plot::draw(path, &plot::picture(heading, &runs))?;
     }
-    let report = report::report(&runs, options.format);
+    let report = report::report(&runs, &units, options.format);
     // Records on the standard output are not mixed with the report.
     if out.is_some_and(|out| out.place == Place::Standard) {
         eprint!("{report}");

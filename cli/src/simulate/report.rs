@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use coadjoint_codegen::system::Units;
 use serde_json::{Value, json};
 
 use super::element::{lines, matrix, split};
@@ -13,13 +14,13 @@ use crate::arguments::Format;
 const WIDEST: usize = 12;
 
 /// The text to print: one block per run, or one JSON object (an array of them for several runs).
-pub fn report(runs: &[Trajectory], format: Format) -> String {
+pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
     match format {
-        Format::Text => runs.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Text => runs.iter().map(|run| text(run, units)).collect::<Vec<_>>().join("\n"),
         Format::Json => {
             let value = match runs {
-                [single] => object(single),
-                several => Value::Array(several.iter().map(object).collect()),
+                [single] => object(single, units),
+                several => several.iter().map(|run| object(run, units)).collect(),
             };
             format!("{value:#}\n")
         }
@@ -27,7 +28,7 @@ pub fn report(runs: &[Trajectory], format: Format) -> String {
 }
 
 /// What there is no number for has no key: no value is null.
-fn object(run: &Trajectory) -> Value {
+fn object(run: &Trajectory, units: &Units) -> Value {
     let mut drift = json!({ "energy": run.drift.energy });
     // What is not conserved has no drift.
     if run.momenta > 0 {
@@ -50,6 +51,14 @@ fn object(run: &Trajectory) -> Value {
         "conserved_momenta": run.momenta,
         "conserved_casimirs": run.casimirs,
     });
+    let mut given = serde_json::Map::new();
+    given.extend(units.time.as_ref().map(|unit| ("time".to_owned(), json!(unit))));
+    for (i, name) in run.coordinates.iter().enumerate() {
+        given.extend(units.coordinate(i).map(|unit| (name.clone(), json!(unit))));
+    }
+    if !given.is_empty() {
+        object["units"] = Value::Object(given);
+    }
     for name in ["truncation", "chart", "step", "step_asked"] {
         if let Some(value) = run.header.get(name) {
             object[name] = value.clone();
@@ -94,15 +103,22 @@ fn dense(run: &Trajectory, size: usize) -> Vec<Vec<f64>> {
     rows
 }
 
-fn text(run: &Trajectory) -> String {
+/// A number and its unit, if there is one.
+fn with_unit(number: &str, unit: Option<&str>) -> String {
+    unit.map_or_else(|| number.to_owned(), |unit| format!("{number} {unit}"))
+}
+
+fn text(run: &Trajectory, units: &Units) -> String {
     let mut out = String::new();
     // Writing into a string cannot fail.
-    let _ = writeln!(out, "{}: {} steps to time {}", run.label, run.steps, shortest(run.time));
+    let time = with_unit(&shortest(run.time), units.time.as_deref());
+    let _ = writeln!(out, "{}: {} steps to time {time}", run.label, run.steps);
     if let Some(line) = &run.announcement {
         let _ = writeln!(out, "  {line}");
     }
-    for (name, value) in run.coordinates.iter().zip(&run.momentum) {
-        let _ = writeln!(out, "  {name:<10} {:>24}", shortest(*value));
+    for (i, (name, value)) in run.coordinates.iter().zip(&run.momentum).enumerate() {
+        let value = with_unit(&format!("{:>24}", shortest(*value)), units.coordinate(i));
+        let _ = writeln!(out, "  {name:<10} {value}");
     }
     for line in lines(&run.blocks, &run.element) {
         let _ = writeln!(out, "  {line}");

@@ -8,6 +8,7 @@ mod error;
 mod factors;
 mod field;
 mod matrix;
+mod nilpotent;
 mod product;
 mod span;
 

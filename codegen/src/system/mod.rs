@@ -32,6 +32,9 @@
 //! Numbers are read from their decimals, so `0.1` is exactly 1/10. Instead of `group`, an
 //! `[algebra]` table gives a `basis` of matrices, or `generators` and `brackets`.
 //!
+//! `[units]` gives the units that plots and reports show: `time = "s"`, `momentum = "kg m²/s"`, or one for a
+//! coordinate by its name. Nothing is computed with them.
+//!
 //! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
 //! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
 
@@ -42,6 +45,7 @@ mod run;
 mod splitting;
 mod table;
 mod tolerance;
+mod units;
 
 use toml::de::DeTable;
 
@@ -56,6 +60,7 @@ use table::Table;
 
 pub use run::Run;
 pub use splitting::Splitting;
+pub use units::Units;
 
 /// The system of a file that names none.
 const DEFAULT_NAME: &str = "system";
@@ -92,6 +97,8 @@ pub struct System {
     pub potential: Option<(Potential, Splitting)>,
     /// Where to start, how far and in which steps; each as far as the file says.
     pub run: Run,
+    /// The units that plots and reports show.
+    pub units: Units,
 }
 
 /// Reads the text of a system file.
@@ -120,6 +127,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
             "hamiltonian",
             "potential",
             "parameters",
+            "units",
             "integrator",
             "initial",
             "run",
@@ -130,6 +138,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
     let algebra = group(&root, &name, &mut diagnostics);
     let written = hamiltonian::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
+    let units = units::read(&root, &written.coordinates, &mut diagnostics);
     let integrator = root.table("integrator", &mut diagnostics);
     let chosen = match &integrator {
         Some(table) => integrator_table(table, options, &mut diagnostics),
@@ -171,7 +180,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         Some(potential) => Some((potential, splitting::choose(splitting, &problem)?)),
         None => None,
     };
-    Ok(System { problem, potential, run })
+    Ok(System { problem, potential, run, units })
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.

@@ -23,8 +23,10 @@
 mod error;
 mod groups;
 mod parse;
+mod summary;
 
 pub use error::CatalogueError;
+pub use summary::summary;
 
 use super::LieAlgebra;
 

@@ -1,0 +1,226 @@
+//! What is known of a group, computed from its algebra.
+
+use std::collections::BTreeMap;
+
+use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, casimirs, catalogue};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
+use num_traits::{One, Signed, Zero};
+
+use crate::error::CliError;
+
+/// Casimirs are looked for among at most so many monomials of one degree.
+const MONOMIALS: u128 = 1000;
+/// An algebra of more dimensions is described by its factors.
+pub const LARGEST: usize = 24;
+
+/// A group of the catalogue, or a product.
+pub struct Facts {
+    /// Its algebra.
+    pub algebra: LieAlgebra,
+    /// What it is, in a few words.
+    pub summary: Option<String>,
+    /// Whether the basis is written as complex matrices.
+    pub complex: bool,
+    /// Whether the algebra is nilpotent: exp is then regular at every x.
+    pub nilpotent: bool,
+    /// Why there is no Cayley chart.
+    pub no_cayley: Option<String>,
+    /// The degree up to which Casimirs were looked for.
+    pub degree: u32,
+    /// Generators of the polynomial Casimirs of at most this degree.
+    pub casimirs: Vec<Polynomial>,
+}
+
+impl Facts {
+    /// Looks a group up; Casimirs are looked for by [`Facts::with_casimirs`].
+    pub fn new(name: &str) -> Result<Self, CliError> {
+        let algebra = catalogue::lookup(name).map_err(|error| refused(&error))?;
+        let factors = algebra.factors();
+        let summary = catalogue::summary(algebra.name());
+        // The families of complex matrices; SO2 has the same form, but is real.
+        let name = algebra.name();
+        let family = name.starts_with("SU") || name.starts_with('U');
+        let matrices = algebra.basis().unwrap_or_default();
+        let complex = family && summary.is_some() && matrices.iter().all(is_complex);
+        Ok(Self {
+            summary,
+            complex,
+            nilpotent: factors.iter().all(LieAlgebra::is_nilpotent),
+            no_cayley: Chart::Cayley.check(&algebra).err().map(|error| error.to_string()),
+            degree: 0,
+            casimirs: Vec::new(),
+            algebra,
+        })
+    }
+
+    /// With the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
+    pub fn with_casimirs(mut self, degree: u32) -> Result<Self, CliError> {
+        let quick = |factor: &LieAlgebra| {
+            (1..=4).rev().find(|&d| monomials(factor.dim(), d) <= MONOMIALS).unwrap_or(1)
+        };
+        self.degree = match degree {
+            0 => self.algebra.factors().iter().map(quick).min().unwrap_or(1),
+            degree => degree,
+        };
+        self.casimirs = casimirs(&self.algebra, self.degree)
+            .map_err(|error| refused(&format!("{error}: --degree {}", self.degree)))?;
+        Ok(self)
+    }
+
+    /// The size of the group's matrices.
+    pub fn size(&self) -> Option<usize> {
+        self.algebra.basis().and_then(<[_]>::first).map(RationalMatrix::rows)
+    }
+
+    /// The rows of basis matrix `i`, as they are shown: entries `1`, `-1/2`, `i/2`.
+    pub fn matrix(&self, i: usize) -> Option<Vec<Vec<String>>> {
+        let matrix = self.algebra.basis()?.get(i)?;
+        let n = if self.complex { matrix.rows() / 2 } else { matrix.rows() };
+        let entry = |a: usize, b: usize| match self.complex {
+            true => complex(&matrix.get(a, b), &matrix.get(a + n, b)),
+            false => matrix.get(a, b).to_string(),
+        };
+        Some((0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect())
+    }
+
+    /// Basis matrix `i` as a sum of matrices E(a,b) with a one in row a and column b.
+    pub fn entries(&self, i: usize) -> String {
+        let matrix = self.algebra.basis().and_then(|basis| basis.get(i));
+        let entries = matrix.into_iter().flat_map(RationalMatrix::entries);
+        let terms: Vec<(String, Rational)> = entries
+            .map(|(a, b, value)| (format!("E({},{})", a + 1, b + 1), value.clone()))
+            .collect();
+        sum(&terms)
+    }
+
+    /// The brackets \[e_i, e_j\], i < j, that are not zero: i and j from 1, and the value.
+    pub fn brackets(&self) -> Vec<(usize, usize, String)> {
+        let mut found: BTreeMap<(usize, usize), Vec<(String, Rational)>> = BTreeMap::new();
+        for c in self.algebra.structure().iter().filter(|c| c.i < c.j) {
+            let term = (format!("e{}", c.k + 1), c.value.clone());
+            found.entry((c.i + 1, c.j + 1)).or_default().push(term);
+        }
+        found.into_iter().map(|((i, j), terms)| (i, j, sum(&terms))).collect()
+    }
+
+    /// (ad*_ξ μ)_j = Σ ξ_i c_ij^l μ_l, written out for j from 0.
+    pub fn ad_star(&self, j: usize) -> String {
+        let terms = self.algebra.structure().iter().filter(|c| c.j == j);
+        let terms: Vec<(String, Rational)> =
+            terms.map(|c| (format!("ξ{}*μ{}", c.i + 1, c.k + 1), c.value.clone())).collect();
+        sum(&terms)
+    }
+
+    /// Whether the algebra has the constants of this group.
+    fn is_like(&self, name: &str) -> bool {
+        catalogue::lookup(name).is_ok_and(|it| it.structure() == self.algebra.structure())
+    }
+
+    /// ad* in vectors, where the algebra has the constants of SO3 or SE3.
+    pub fn ad_star_in_vectors(&self) -> Option<&'static str> {
+        let known =
+            [("SO3", "ad*_ξ μ = μ × ξ"), ("SE3", "ad*_(ω, v) (Π, P) = (Π × ω + P × v, P × ω)")];
+        known.into_iter().find(|(name, _)| self.is_like(name)).map(|(_, formula)| formula)
+    }
+
+    /// Where exp is a chart.
+    pub fn exp_domain(&self) -> &'static str {
+        const GENERAL: &str = "|Im λ| < π for every eigenvalue λ of ad_x";
+        if self.nilpotent {
+            "all x: the algebra is nilpotent"
+        } else if self.algebra.name() == "SU2" {
+            "|Im λ| < 2π for every eigenvalue λ of ad_x, that is |x| < 2π: a full turn, twice as far as on SO3"
+        } else if self.is_like("SO3") {
+            "|Im λ| < π for every eigenvalue λ of ad_x, that is |x| < π: a half turn"
+        } else if self.is_like("SE3") {
+            "|Im λ| < π for every eigenvalue λ of ad_x, that is |ω| < π for x = (ω, v)"
+        } else if self.is_like("SE2") {
+            "|Im λ| < π for every eigenvalue λ of ad_x, that is |x1| < π"
+        } else {
+            GENERAL
+        }
+    }
+
+    /// Where Cayley's map is a chart, or why it is none.
+    pub fn cayley_domain(&self) -> Result<&'static str, &str> {
+        let turns = ["SO3", "SE3"].contains(&self.algebra.name());
+        match &self.no_cayley {
+            Some(why) => Err(why),
+            None if turns => Ok(
+                "(1 - x/2)^-1 (1 + x/2) in the matrices; a turn by 2 atan(|ω|/2), to |ω| = 2: a quarter turn",
+            ),
+            None => Ok("(1 - x/2)^-1 (1 + x/2) in the matrices, where 1 - x/2 is well conditioned"),
+        }
+    }
+
+    /// A Casimir in μ1, μ2, ….
+    pub fn casimir(&self, casimir: &Polynomial) -> String {
+        let terms: Vec<(String, Rational)> = casimir
+            .factors()
+            .map(|(factors, value)| {
+                let power = |(variable, power): (u32, u32)| match power {
+                    1 => format!("μ{}", variable + 1),
+                    power => format!("μ{}^{power}", variable + 1),
+                };
+                (factors.into_iter().map(power).collect::<Vec<_>>().join("*"), value)
+            })
+            .collect();
+        sum(&terms)
+    }
+}
+
+fn refused(reason: &dyn std::fmt::Display) -> CliError {
+    CliError::Option(format!("groups: {reason}"))
+}
+
+/// How many monomials of this degree there are in `n` variables.
+fn monomials(n: usize, degree: u32) -> u128 {
+    (1..=u128::from(degree)).fold(1, |product, k| product.saturating_mul(n as u128 + k - 1) / k)
+}
+
+/// Whether a matrix is ((A, −B), (B, A)).
+fn is_complex(matrix: &RationalMatrix) -> bool {
+    let n = matrix.rows() / 2;
+    let half = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    matrix.rows() == 2 * n
+        && half().all(|(i, j)| {
+            matrix.get(i, j) == matrix.get(i + n, j + n)
+                && matrix.get(i + n, j) == -matrix.get(i, j + n)
+        })
+}
+
+/// a + ib, one of them zero in every basis of the catalogue.
+fn complex(a: &Rational, b: &Rational) -> String {
+    if b.is_zero() {
+        return a.to_string();
+    }
+    let sign = if b.is_negative() { "-" } else { "" };
+    let size = b.abs();
+    let numerator = match size.numer() {
+        n if n.is_one() => "i".to_owned(),
+        n => format!("{n}i"),
+    };
+    let divisor = if size.is_integer() { String::new() } else { format!("/{}", size.denom()) };
+    let imaginary = format!("{sign}{numerator}{divisor}");
+    if a.is_zero() { imaginary } else { format!("{a}+{imaginary}") }
+}
+
+/// A sum of numbers times names: `e3 - 1/2*e1`.
+fn sum(terms: &[(String, Rational)]) -> String {
+    let mut text = String::new();
+    for (name, value) in terms {
+        text.push_str(match (text.is_empty(), value.is_negative()) {
+            (true, true) => "-",
+            (true, false) => "",
+            (false, true) => " - ",
+            (false, false) => " + ",
+        });
+        let size = value.abs();
+        if !size.is_one() {
+            text.push_str(&format!("{size}*"));
+        }
+        text.push_str(name);
+    }
+    if text.is_empty() { "0".to_owned() } else { text }
+}

@@ -1,0 +1,60 @@
+//! Groups for programs.
+
+use serde_json::{Value, json};
+
+use super::facts::Facts;
+
+/// The list of groups.
+pub fn list(all: &[Facts]) -> Value {
+    all.iter()
+        .map(|facts| {
+            json!({
+                "name": facts.algebra.name(),
+                "dimension": facts.algebra.dim(),
+                "summary": facts.summary,
+                "charts": charts(facts).iter().map(|chart| chart["name"].clone()).collect::<Value>(),
+            })
+        })
+        .collect()
+}
+
+/// Everything about one group. Indices count from 1, numbers are exact texts.
+pub fn group(facts: &Facts) -> Value {
+    let algebra = &facts.algebra;
+    let dim = algebra.dim();
+    let constant = |c: &coadjoint_codegen::lie::StructureConstant| json!({ "i": c.i + 1, "j": c.j + 1, "k": c.k + 1, "value": c.value.to_string() });
+    // Nonzero entries: the matrices of large products are mostly zeros.
+    let matrix = |matrix: &coadjoint_codegen::lie::RationalMatrix| {
+        matrix
+            .entries()
+            .map(|(i, j, value)| json!({ "row": i + 1, "column": j + 1, "value": value.to_string() }))
+            .collect::<Value>()
+    };
+    json!({
+        "name": algebra.name(),
+        "summary": facts.summary,
+        "dimension": dim,
+        "matrix_size": facts.size(),
+        "basis": algebra.basis().map(|basis| basis.iter().map(matrix).collect::<Value>()),
+        "structure_constants": algebra.structure().iter().map(constant).collect::<Value>(),
+        "ad_star": {
+            "convention": "<ad*_xi mu, eta> = <mu, [xi, eta]>; d mu/dt = ad*_xi mu with xi = dH/dmu",
+            "in_vectors": facts.ad_star_in_vectors(),
+            "components": (0..dim).map(|j| facts.ad_star(j)).collect::<Value>(),
+        },
+        "casimirs": {
+            "degree": facts.degree,
+            "generators": facts.casimirs.iter().map(|c| facts.casimir(c)).collect::<Value>(),
+        },
+        "nilpotent": facts.nilpotent,
+        "charts": charts(facts),
+    })
+}
+
+fn charts(facts: &Facts) -> Vec<Value> {
+    let mut charts = vec![json!({ "name": "exp", "domain": facts.exp_domain() })];
+    if let Ok(domain) = facts.cayley_domain() {
+        charts.push(json!({ "name": "cayley", "domain": domain }));
+    }
+    charts
+}

@@ -1,0 +1,145 @@
+//! Writing SVG: elements, text that cannot break them, and how wide a text is about.
+
+use std::fmt::Write;
+
+/// A document that grows downwards. Writing into a string cannot fail, so results are dropped.
+#[derive(Debug, Default)]
+pub struct Svg {
+    body: String,
+}
+
+/// Where a text stands relative to its place.
+#[derive(Clone, Copy, Debug)]
+pub enum Anchor {
+    /// It begins there.
+    Start,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
+impl Anchor {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Middle => "middle",
+            Self::End => "end",
+        }
+    }
+}
+
+impl Svg {
+    /// Opens a group with a name that pointers and screen readers show.
+    pub fn open(&mut self, title: &str) {
+        let _ = writeln!(self.body, "<g><title>{}</title>", escaped(title));
+    }
+
+    /// Closes the group opened last.
+    pub fn close(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// A text with its baseline at (x, y); `style` is further attributes.
+    pub fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
+        let (anchor, text) = (anchor.name(), escaped(text));
+        let _ = writeln!(
+            self.body,
+            r#"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}" {style}>{text}</text>"#
+        );
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, (x1, y1): (f64, f64), (x2, y2): (f64, f64), style: &str) {
+        let _ = writeln!(
+            self.body,
+            r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" {style}/>"#
+        );
+    }
+
+    /// A line through points; nothing if there are fewer than two.
+    pub fn polyline(&mut self, points: &[(f64, f64)], style: &str) {
+        if points.len() > 1 {
+            let points = coordinates(points);
+            let _ = writeln!(self.body, r#"<polyline points="{points}" fill="none" {style}/>"#);
+        }
+    }
+
+    /// A filled area.
+    pub fn polygon(&mut self, points: &[(f64, f64)], style: &str) {
+        if points.len() > 2 {
+            let points = coordinates(points);
+            let _ = writeln!(self.body, r#"<polygon points="{points}" {style}/>"#);
+        }
+    }
+
+    /// The whole document, with a title and a description for those who cannot see it.
+    pub fn finish(&self, (width, height): (f64, f64), title: &str, description: &str) -> String {
+        let (title, description, body) = (escaped(title), escaped(description), &self.body);
+        format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" role="img" aria-labelledby="title description" font-family="DejaVu Sans, Verdana, sans-serif" font-size="13" fill="#222222">
+<title id="title">{title}</title>
+<desc id="description">{description}</desc>
+<rect width="100%" height="100%" fill="#ffffff"/>
+{body}</svg>
+"##
+        )
+    }
+}
+
+fn coordinates(points: &[(f64, f64)]) -> String {
+    let mut text = String::new();
+    let mut last = String::new();
+    for (x, y) in points {
+        let next = format!("{x:.1},{y:.1}");
+        // Points that fall together on paper are one.
+        if next != last {
+            if !text.is_empty() {
+                text.push(' ');
+            }
+            text.push_str(&next);
+            last = next;
+        }
+    }
+    text
+}
+
+/// The text with what has a meaning in XML written out; control characters become spaces.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// About how wide a text is at this size of font, in pixels; rather too wide than too narrow.
+pub fn width(text: &str, size: f64) -> f64 {
+    // Ideographs and the like take twice the room.
+    let units = text.chars().map(|c| if c >= '\u{2e80}' { 1.1 } else { 0.62 });
+    units.sum::<f64>() * size
+}
+
+/// The text, cut with an ellipsis where it is wider than `room` pixels.
+pub fn cut(text: &str, size: f64, room: f64) -> String {
+    if width(text, size) <= room {
+        return text.to_owned();
+    }
+    let mut short = String::new();
+    for c in text.chars() {
+        short.push(c);
+        if width(&short, size) + size > room {
+            break;
+        }
+    }
+    short.pop();
+    short.push('…');
+    short
+}

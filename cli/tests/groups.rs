@@ -1,0 +1,176 @@
+//! `groups`: what is printed is what the integrators use, and docs/groups.md is what is printed.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod support;
+
+use coadjoint::{Heisenberg, LieGroup, SE2, SE3, SO3, SU2};
+use coadjoint_codegen::lie::catalogue;
+use support::{json, root, run};
+
+/// Numbers without a pattern, so that no wrong sign cancels.
+fn numbers_of(n: usize, seed: f64) -> Vec<f64> {
+    (1..=n).map(|i| (seed + 1.7 * i as f64).sin()).collect()
+}
+
+/// The value of a sum such as `-2*ξ1*μ3 + ξ2*μ1`.
+fn value(sum: &str, xi: &[f64], mu: &[f64]) -> f64 {
+    if sum == "0" {
+        return 0.0;
+    }
+    let spaced = sum.replace(" - ", " + -");
+    let factor = |text: &str| match (text.strip_prefix('ξ'), text.strip_prefix('μ')) {
+        (Some(i), _) => xi[i.parse::<usize>().unwrap() - 1],
+        (_, Some(i)) => mu[i.parse::<usize>().unwrap() - 1],
+        _ => text.parse().unwrap(),
+    };
+    let term = |text: &str| {
+        let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+        sign * rest.split('*').map(factor).product::<f64>()
+    };
+    spaced.split(" + ").map(term).sum()
+}
+
+/// The components that the command prints are those of the runtime's group of the same name.
+fn assert_sign<G: LieGroup<Scalar = f64>>(name: &str, group: &G)
+where
+    G::Vector: std::ops::Index<usize, Output = f64>,
+{
+    use coadjoint::Coordinates;
+    let facts = json(&["groups", name, "--json"]);
+    let components = facts["ad_star"]["components"].as_array().unwrap();
+    let n = components.len();
+    let (xi, mu) = (numbers_of(n, 0.3), numbers_of(n, 2.9));
+    let vector = |list: &[f64]| G::Vector::from_entries(n, |i| list[i]);
+    let expected = group.ad_star(&vector(&xi), &vector(&mu));
+    for (j, component) in components.iter().enumerate() {
+        let found = value(component.as_str().unwrap(), &xi, &mu);
+        assert!((found - expected[j]).abs() < 1e-14, "{name} {j}: {found} {}", expected[j]);
+    }
+}
+
+#[test]
+fn the_sign_of_ad_star_is_that_of_the_integrators() {
+    assert_sign("SO3", &SO3::new());
+    assert_sign("SU2", &SU2::new());
+    assert_sign("SE2", &SE2::new());
+    assert_sign("SE3", &SE3::new());
+    assert_sign("Heisenberg", &Heisenberg::new());
+    let (_, out, _) = run(&["groups", "SO3"]);
+    assert!(out.contains("ad*_ξ μ = μ × ξ"), "{out}");
+}
+
+/// Every group of the catalogue is listed, with its dimension and its charts.
+#[test]
+fn the_list_is_that_of_the_catalogue() {
+    let list = json(&["groups", "--json"]);
+    let list = list.as_array().unwrap();
+    let names: Vec<&str> = list.iter().map(|group| group["name"].as_str().unwrap()).collect();
+    assert_eq!(names, catalogue::names());
+    let (code, text, _) = run(&["groups"]);
+    assert_eq!(code, 0);
+    for group in list {
+        let name = group["name"].as_str().unwrap();
+        let dim = catalogue::lookup(name).unwrap().dim();
+        assert_eq!(group["dimension"], dim, "{name}");
+        let charts = group["charts"].as_array().unwrap();
+        assert_eq!(charts.len(), if ["SU3", "SU4"].contains(&name) { 1 } else { 2 }, "{name}");
+        let line = text.lines().find(|line| line.split(' ').next() == Some(name)).unwrap();
+        assert!(line.contains(&format!(" {dim} ")), "{line}");
+    }
+    for written in ["SO3*SE3", "SO3^64", "SO3 |x R3", "[algebra]"] {
+        assert!(text.contains(written), "{written}");
+    }
+}
+
+/// The printed constants are those of the printed matrices.
+#[test]
+fn structure_constants_are_the_commutators_of_the_basis() {
+    for name in ["SO4", "SU3", "U2", "SL2", "SO3 |x Sym3"] {
+        let facts = json(&["groups", name, "--json"]);
+        let size = facts["matrix_size"].as_u64().unwrap() as usize;
+        let matrix = |entries: &serde_json::Value| {
+            let mut matrix = nalgebra::DMatrix::<f64>::zeros(size, size);
+            for entry in entries.as_array().unwrap() {
+                let at = |key: &str| entry[key].as_u64().unwrap() as usize - 1;
+                let value: f64 = entry["value"].as_str().unwrap().parse().unwrap();
+                matrix[(at("row"), at("column"))] = value;
+            }
+            matrix
+        };
+        let basis: Vec<_> = facts["basis"].as_array().unwrap().iter().map(matrix).collect();
+        let n = basis.len();
+        let mut brackets = vec![vec![nalgebra::DMatrix::<f64>::zeros(size, size); n]; n];
+        for c in facts["structure_constants"].as_array().unwrap() {
+            let at = |key: &str| c[key].as_u64().unwrap() as usize - 1;
+            let value: f64 = c["value"].as_str().unwrap().parse().unwrap();
+            brackets[at("i")][at("j")] += value * &basis[at("k")];
+        }
+        for i in 0..n {
+            for j in 0..n {
+                let commutator = &basis[i] * &basis[j] - &basis[j] * &basis[i];
+                assert_eq!(commutator, brackets[i][j], "{name} {i} {j}");
+            }
+        }
+    }
+}
+
+#[test]
+fn products_and_mistakes() {
+    let facts = json(&["groups", "SO3^64", "--format", "json"]);
+    assert_eq!(facts["dimension"], 192);
+    assert_eq!(facts["casimirs"]["generators"].as_array().unwrap().len(), 64);
+    let (code, out, _) = run(&["groups", "SO3*Heisenberg"]);
+    assert_eq!(code, 0);
+    assert!(out.contains("μ1^2 + μ2^2 + μ3^2") && out.contains("  μ6\n"), "{out}");
+    assert_eq!(json(&["groups", "Heisenberg", "--json"])["nilpotent"], true);
+    assert_eq!(json(&["groups", "SE2", "--json"])["nilpotent"], false);
+
+    for (name, said) in [
+        ("SO33", "too large"),
+        ("so3", "did you mean `SO3`"),
+        ("SO3 |x R4", "R3 and Sym3"),
+        ("", "a group such as SO3"),
+    ] {
+        let (code, _, error) = run(&["groups", name]);
+        assert_eq!(code, 2, "{name}");
+        assert!(error.contains(said), "{error}");
+    }
+    let (code, _, error) = run(&["groups", "SU4", "--degree", "40"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("lower degree"), "{error}");
+}
+
+/// The page is made of the command's own output; `COADJOINT_BLESS=1` writes it anew.
+#[test]
+fn the_page_is_what_the_command_prints() {
+    let path = root().join("docs/groups.md");
+    let mut page = String::from(INTRODUCTION);
+    let commands = std::iter::once(None).chain(catalogue::names().iter().copied().map(Some));
+    for name in commands {
+        let mut arguments = vec!["groups"];
+        arguments.extend(name);
+        let (code, out, error) = run(&arguments);
+        assert_eq!(code, 0, "{error}");
+        let title = name.unwrap_or("All names");
+        page.push_str(&format!("\n## {title}\n\n```text\n$ coadjoint {}\n", arguments.join(" ")));
+        page.push_str(&format!("{}\n```\n", out.trim_end()));
+    }
+    if std::env::var_os("COADJOINT_BLESS").is_some() {
+        std::fs::write(&path, &page).unwrap();
+    }
+    let written = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(
+        written, page,
+        "docs/groups.md is not what `coadjoint groups` prints; run this test with COADJOINT_BLESS=1"
+    );
+}
+
+const INTRODUCTION: &str = "# Groups
+
+What `coadjoint groups` prints: the names first, then each group with its basis, its brackets, the sign of ad\\*, its
+Casimirs and its charts. `coadjoint groups NAME` prints the same for any other size and any product, such as
+`coadjoint groups \"SO3 |x R3^2\"`. How a group is chosen in a system file is in [file-format.md](file-format.md).
+
+A step moves the group element by τ(x) for some x in the Lie algebra, and is possible while x lies inside the chart τ.
+There ad_x is the matrix of y ↦ [x, y], and λ stands for its eigenvalues: on SO3 they are 0 and ±i|x|.
+";
