@@ -52,8 +52,3 @@ pub use session::{
     Kind, NetworkSettings, Request, Summary, learn, learn_momenta, remove_checkpoints,
 };
 pub use type_two::{TypeTwo, TypeTwoData, canonical_pairs, type_two_data};
-
-/// The page on learning; its snippets are tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../docs/learning.md")]
-mod page {}
