@@ -45,5 +45,7 @@ pages! {
     Runtime: "../../runtime/README.md";
     Learn: "../../learn/README.md";
     Ensembles: "../../docs/ensembles.md";
+    Faster: "../../docs/faster.md";
+    Guarantee: "../../docs/guarantee.md";
     Learning: "../../docs/learning.md";
 }
