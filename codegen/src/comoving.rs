@@ -1,4 +1,4 @@
-//! The comoving frame: a part of H whose flow is known and commutes with the rest.
+//! The comoving frame: a summand of H whose flow is known and commutes with the rest.
 //!
 //! A free body turns at Ω = I⁻¹Π, and most of that is uniform: with c between the 1/Iᵢ the part c|Π|²/2
 //! of H, a Casimir, makes it turn about the fixed direction of its momentum, and what the body does in the
@@ -19,7 +19,7 @@ use crate::poly::{Polynomial, split_at};
 /// The truncation at which series are compared: brackets that vanish from S₃ are missing from all terms.
 const COMPARED: usize = 3;
 
-/// The part f of H that moves the frame.
+/// The summand f of H whose flow moves the frame, and what is left of H without it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Functions of coordinates s = μ_e that are integrals and commute: the flow turns g and μ about
@@ -32,13 +32,13 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// f.
+    /// The function f as one polynomial.
     #[must_use]
     pub fn energy(&self) -> Polynomial {
         &self.spin + &self.casimirs
     }
 
-    /// The parts that are not zero. They commute, but each is an exponential of its own.
+    /// The summands of f that are not zero. Their flows commute, and each takes an exponential of its own.
     pub fn parts(&self) -> impl Iterator<Item = &Polynomial> {
         [&self.spin, &self.casimirs].into_iter().filter(|part| !part.is_zero())
     }

@@ -15,7 +15,7 @@ pub struct Symbol {
     pub text: String,
 }
 
-/// The form of a parameter.
+/// The type of a parameter in Rust.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// `f64`.
@@ -31,7 +31,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// How many scalars it holds.
+    /// The number of scalars it holds.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -51,9 +51,9 @@ impl Shape {
 /// A parameter of the Hamiltonian. Parameters are flattened to scalars in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
-    /// The name.
+    /// The name of the parameter.
     pub name: String,
-    /// The form.
+    /// The type of the parameter.
     pub shape: Shape,
     /// The value of each scalar, where the input gives one.
     pub default: Option<Vec<Rational>>,
@@ -77,12 +77,13 @@ impl Parameter {
     }
 }
 
-/// How a step solves for p.
+/// The method by which a step solves for p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
-    /// Newton's method with the Hessian of S: for few dimensions.
+    /// Newton's method, or a variant of it, with the Hessian of S: the default up to
+    /// [`Solver::NEWTON_DIMENSIONS`].
     Newton,
-    /// The accelerated fixed point with the gradient of S alone: for many.
+    /// The fixed point with Anderson's acceleration, which needs the gradient of S alone: the default beyond.
     FixedPoint,
 }
 
@@ -140,11 +141,11 @@ impl FrameChoice {
 pub struct Problem {
     /// The name of the system.
     pub name: String,
-    /// 𝔤.
+    /// The Lie algebra 𝔤.
     pub algebra: LieAlgebra,
     /// The names of the momentum's coordinates, dual to the basis of 𝔤.
     pub coordinates: Vec<String>,
-    /// H_red.
+    /// The reduced Hamiltonian H_red.
     pub hamiltonian: Polynomial,
     /// The opaque coefficients of `hamiltonian`.
     pub symbols: Vec<Symbol>,
@@ -152,24 +153,24 @@ pub struct Problem {
     pub parameters: Vec<Parameter>,
     /// The Hamiltonian as the user wrote it.
     pub source: String,
-    /// The chart.
+    /// The chart in which S is derived.
     pub chart: Chart,
-    /// K: S₁ … S_K are kept.
+    /// The truncation K: S₁ … S_K are kept.
     pub truncation: usize,
-    /// The solver asked for; `None` leaves it to the dimension.
+    /// The solver asked for; `None` takes the default for the dimension.
     pub solver: Option<Solver>,
     /// The comoving frame, if S is to generate the motion in it.
     pub comoving: Option<Frame>,
 }
 
 impl Problem {
-    /// The Hamiltonian whose flow S generates: H_red without what moves the frame.
+    /// The Hamiltonian whose flow S generates: H_red, less the summand f of a comoving frame.
     #[must_use]
     pub fn generated(&self) -> &Polynomial {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
-    /// The solver asked for, or the one for this dimension.
+    /// The solver asked for, or the default for the dimension.
     #[must_use]
     pub fn solver(&self) -> Solver {
         let by_dimension = match self.algebra.dim() {

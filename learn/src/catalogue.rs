@@ -11,7 +11,7 @@ use crate::group::DataGroup;
 
 /// Work to be done for a group and chart known only by name.
 pub trait Visitor {
-    /// What the work gives.
+    /// The result of the work.
     type Output;
 
     /// Does the work for `group` in the chart `C`.

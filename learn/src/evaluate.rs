@@ -11,18 +11,18 @@ use crate::group::matrix_of;
 /// An error in each of the three quantities; a quantity the data do not have is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
-    /// Of ∂S/∂p(p) against x, at the p of the data.
+    /// The error of ∂S/∂p(p) against x, at the p of the data.
     pub x: Option<f64>,
-    /// Of the map's μ″.
+    /// The error of the momentum μ″ after a step.
     pub momentum: Option<f64>,
-    /// Of the map's g″, entries of the matrix.
+    /// The error of the group element g″ after a step, in entries of its matrix.
     pub group: Option<f64>,
 }
 
 /// Errors of a map on data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Samples.
+    /// The number of samples.
     pub samples: usize,
     /// Mean squared errors, over samples and coordinates.
     pub mse: Errors,
@@ -57,7 +57,7 @@ impl Gauge {
     }
 }
 
-/// Errors of the map S generates, on pairs of phase points and their reduction.
+/// Measures the errors of the map that S generates, on pairs of phase points and their reduction.
 pub fn evaluate<G, C, M>(
     map: &Generating<G, C, M>,
     group: &G,
@@ -86,7 +86,7 @@ where
     figures
 }
 
-/// Errors of any map of phase points on pairs; `None` marks a point the map cannot take.
+/// Measures the errors of any map of phase points on pairs; `map` returns `None` for a point it cannot take.
 pub fn evaluate_with<G: LieGroup<Scalar = f64>>(
     group: &G,
     pairs: &PairRows<G>,
@@ -113,7 +113,7 @@ pub fn evaluate_with<G: LieGroup<Scalar = f64>>(
     }
 }
 
-/// Errors of the Poisson map S generates, on pairs of momenta.
+/// Measures the errors of the Poisson map that S generates, on pairs of momenta.
 pub fn evaluate_momenta<G, C, M>(map: &Generating<G, C, M>, pairs: &MomentumPairs) -> Figures
 where
     G: LieGroup<Scalar = f64>,
@@ -140,13 +140,13 @@ where
 /// How far conserved quantities drift along a trajectory: largest values over all steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drifts {
-    /// Steps made.
+    /// The number of steps made.
     pub steps: usize,
-    /// Of the spatial momentum J_L, relative to its largest coordinate.
+    /// The drift of the spatial momentum J_L, relative to its largest coordinate.
     pub momentum: f64,
-    /// Of the Casimirs, each relative to its size at the start (absolute where that is 0).
+    /// The largest drift of a Casimir, relative to its size at the start (absolute where that is 0).
     pub casimir: f64,
-    /// Of the energy, relative, where a Hamiltonian is known.
+    /// The relative drift of the energy; `None` where no Hamiltonian is known.
     pub energy: Option<f64>,
 }
 

@@ -58,12 +58,12 @@ impl<M: MomentumFunction + ?Sized> MomentumFunction for Box<M> {
     }
 }
 
-/// factor · f; with factor = Δt and f = H it is the trivial answer S = Δt·H.
+/// The function factor · f; with factor = Δt and f = H it is the trivial answer S = Δt·H.
 #[derive(Clone, Copy, Debug)]
 pub struct Scaled<M> {
     /// The factor.
     pub factor: f64,
-    /// f.
+    /// The function f.
     pub function: M,
 }
 
@@ -87,7 +87,7 @@ impl<M: MomentumFunction> MomentumFunction for Scaled<M> {
     }
 }
 
-/// f = 0; as a generating function the identity map, the answer "x = 0, μ″ = μ′".
+/// The zero function; as a generating function it makes the identity map, the answer "x = 0, μ″ = μ′".
 #[derive(Clone, Copy, Debug)]
 pub struct Zero {
     /// n, the number of coordinates.
@@ -121,12 +121,12 @@ impl MomentumFunction for Zero {
 pub struct Generating<G, C, M> {
     group: G,
     chart: PhantomData<C>,
-    /// S.
+    /// The function read as S.
     pub function: M,
 }
 
 impl<G, C, M> Generating<G, C, M> {
-    /// S = `function` on `group`, in the chart `C`.
+    /// Reads `function` as the generating function S on `group`, in the chart `C`.
     pub fn new(group: G, function: M) -> Self {
         Self { group, chart: PhantomData, function }
     }

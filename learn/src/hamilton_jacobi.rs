@@ -15,23 +15,23 @@ use crate::truth::MomentumBox;
 /// How [`solve_hamilton_jacobi`] works.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CollocationOptions {
-    /// The total degree in p.
+    /// The total degree of S in p.
     pub degree: usize,
     /// The powers of t; odd ones, since S is odd in t.
     pub powers: Vec<u32>,
-    /// Times are sampled from 0 to this.
+    /// The largest time T; samples are drawn from 0 to T.
     pub time: f64,
-    /// Momenta are sampled from this box.
+    /// The box from which momenta are drawn.
     pub momenta: MomentumBox,
-    /// Samples (t, p).
+    /// The number of samples (t, p).
     pub samples: usize,
-    /// Seed of the samples.
+    /// The seed of the samples.
     pub seed: u64,
-    /// The iteration.
+    /// When the Gauss–Newton iteration stops.
     pub iteration: GaussNewton,
 }
 
-/// S(t, p) = Σ_a (t/T)^a S_a(p), each S_a a polynomial.
+/// A function S(t, p) = Σ_a (t/T)^a S_a(p) with polynomials S_a.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeDependent {
     powers: Vec<u32>,
@@ -44,7 +44,7 @@ pub struct TimeDependent {
 }
 
 impl TimeDependent {
-    /// S(t, ·).
+    /// The polynomial S(t, ·) at the time `t`.
     #[must_use]
     pub fn at(&self, t: f64) -> PolynomialModel {
         let mut sum = vec![0.0; self.model.basis().len()];

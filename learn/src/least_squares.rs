@@ -13,7 +13,7 @@ pub struct Reduced {
 }
 
 impl Reduced {
-    /// Reduces min |A c − b|².
+    /// Reduces the problem min |A c − b|² with A = `matrix` and b = `right`.
     #[must_use]
     pub fn new(matrix: DMatrix<f64>, mut right: DVector<f64>) -> Self {
         let columns = matrix.ncols();
@@ -72,7 +72,7 @@ fn back_substitute(triangle: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVec
     solution.iter().all(|v| v.is_finite()).then_some(solution)
 }
 
-/// How a damped Gauss–Newton iteration went.
+/// The outcome of a damped Gauss–Newton iteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descent {
     /// The unknowns at the end.
@@ -84,11 +84,11 @@ pub struct Descent {
 /// When a damped Gauss–Newton iteration stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussNewton {
-    /// The most linearisations to make.
+    /// The maximum number of linearisations.
     pub iterations: usize,
-    /// Stop when a step lowers the sum of squares by less than this fraction.
+    /// The iteration stops when a step lowers the sum of squares by less than this fraction.
     pub relative_decrease: f64,
-    /// Weight of |c|², relative to the mean squared column norm: picks the smallest among
+    /// The weight of |c|², relative to the mean squared column norm: it picks the smallest among
     /// unknowns the residuals cannot tell apart.
     pub ridge: f64,
 }

@@ -1,10 +1,37 @@
-//! Learn the map from data, keep the geometry exactly.
+//! Learns maps on Lie groups from data, with exact geometry.
 //!
 //! Pairs of states one step apart (simulated, measured, noisy, or produced by a bad integrator)
 //! are reduced to points (x, p) of a Lagrangian submanifold {x = ∂S/∂p(p)} of T\*G; a model of S
 //! is fitted to them and read as a generating function ([`Generating`]). Whatever the model, the
 //! map is Poisson, symplectic and G-equivariant, and conserves the spatial momentum and every
 //! Casimir to rounding; data decide only how close it is to the true one.
+//!
+//! ```
+//! use coadjoint::{Exponential, Phase, SO3, advance};
+//! use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
+//! use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+//! use coadjoint_learn::{Generating, polynomial::fit_polynomial};
+//!
+//! // Sixty pairs (state, state 0.1 later) of a rigid body.
+//! let group = SO3::new();
+//! let wide = MomentumBox { low: -2.0, high: 2.0 };
+//! let pairs = phase_pairs(&group, &Quadratic::paper(), 0.1, wide, 60, 1).into();
+//! let data = reduce::<SO3, Exponential>(&group, &pairs, Tolerances::default(), RowPolicy::Refuse)?.data;
+//! let model = fit_polynomial(&data, 4, 0.0)?;
+//! let map = Generating::<SO3, Exponential, _>::new(group, model);
+//! let mut state = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+//! advance(&map, &mut state)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Limits
+//!
+//! A pair determines S only while its increment stays inside the chart, short of the fold of the canonical
+//! momentum. Only polynomial models can be emitted as code.
+//!
+//! # Features
+//!
+//! `parquet` (reads and writes `.parquet`), `neural` (latent momenta, by the crate burn).
 //!
 //! Source: M. Vaquero, J. Cortés, D. Martín de Diego, *Symmetry Preservation in Hamiltonian
 //! Systems: Simulation and Learning*, sections 5.2–5.4 and conclusions.
@@ -52,8 +79,3 @@ pub use session::{
     Kind, NetworkSettings, Request, Summary, learn, learn_momenta, remove_checkpoints,
 };
 pub use type_two::{TypeTwo, TypeTwoData, canonical_pairs, type_two_data};
-
-/// The page on learning; its snippets are tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../docs/learning.md")]
-mod page {}

@@ -18,7 +18,7 @@ const VERSION: u32 = 1;
 /// How a model came to be.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrainingRecord {
-    /// Samples fitted to.
+    /// The number of samples of the fit.
     pub samples: usize,
     /// The seed of everything random in the fit.
     pub seed: u64,
@@ -28,7 +28,7 @@ pub struct TrainingRecord {
     pub candidates: Vec<Candidate>,
     /// The loss after every step of an iterative fit.
     pub history: Vec<f64>,
-    /// Errors on the training data.
+    /// The errors on the training data.
     pub train: Option<Figures>,
 }
 
@@ -48,7 +48,7 @@ pub struct ModelFile {
     pub attitude: bool,
     /// How the model came to be.
     pub training: TrainingRecord,
-    /// S.
+    /// The function S.
     pub model: Model,
 }
 

@@ -12,7 +12,7 @@ pub struct Monomials {
 }
 
 impl Monomials {
-    /// Σ_k step^k S_k of an exact series without opaque symbols.
+    /// The polynomial Σ_k step^k S_k of an exact series without opaque symbols.
     #[must_use]
     pub fn of_series(series: &GeneratingSeries, step: f64) -> Self {
         let dim = series.dim();

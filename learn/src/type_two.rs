@@ -16,7 +16,7 @@ use crate::function::{MomentumFunction, entries, vector};
 /// The map of a type-II generating function S(q′, p″).
 #[derive(Clone, Debug)]
 pub struct TypeTwo<M> {
-    /// S, of 2n arguments.
+    /// The function S of 2n arguments (q′, p″).
     pub function: M,
 }
 
@@ -70,7 +70,7 @@ where
     Ok((DMatrix::from_vec(width, count, before), DMatrix::from_vec(width, count, after)))
 }
 
-/// What S has to fit.
+/// The points and gradients that S has to fit, from pairs of phase points.
 ///
 /// # Errors
 /// As [`canonical_pairs`].
@@ -90,7 +90,7 @@ where
 }
 
 impl<M: MomentumFunction> TypeTwo<M> {
-    /// (q″, p″) from (q′, p′) by Newton's method on p′ = p″ + ∂S/∂q′(q′, p″); `None` where it does
+    /// Maps (q′, p′) to (q″, p″) by Newton's method on p′ = p″ + ∂S/∂q′(q′, p″); `None` where it does
     /// not converge.
     #[must_use]
     pub fn map(&self, state: &[f64]) -> Option<Vec<f64>> {
@@ -120,7 +120,7 @@ impl<M: MomentumFunction> TypeTwo<M> {
         None
     }
 
-    /// The map on a phase point, through the chart; `None` where it leaves the chart.
+    /// Maps a phase point, through the chart; `None` where it leaves the chart.
     #[must_use]
     pub fn advance<G, C>(&self, group: &G, phase: &Phase<G>) -> Option<Phase<G>>
     where

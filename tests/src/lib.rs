@@ -27,12 +27,25 @@ pub fn from_function(arguments: &str, function: &str) -> syn::Result<Integrator>
         .map_err(|error| syn::Error::new(proc_macro2::Span::call_site(), error))
 }
 
-/// The README's snippets, as tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-pub struct Readme;
+/// Makes the snippets of pages into tests.
+macro_rules! pages {
+    ($($name:ident: $path:literal;)*) => {
+        $(
+            #[cfg(doctest)]
+            #[doc = include_str!($path)]
+            pub struct $name;
+        )*
+    };
+}
 
-/// The snippets of `docs/ensembles.md`, as tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../docs/ensembles.md")]
-pub struct Ensembles;
+pages! {
+    Readme: "../../README.md";
+    Codegen: "../../codegen/README.md";
+    Macros: "../../macros/README.md";
+    Runtime: "../../runtime/README.md";
+    Learn: "../../learn/README.md";
+    Ensembles: "../../docs/ensembles.md";
+    Faster: "../../docs/faster.md";
+    Guarantee: "../../docs/guarantee.md";
+    Learning: "../../docs/learning.md";
+}

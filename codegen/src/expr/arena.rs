@@ -6,26 +6,26 @@ use crate::diagnostic::Span;
 use crate::expr::Function;
 use crate::number::Rational;
 
-/// A node of an [`Arena`].
+/// The identity of a node in its [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
 impl ExprId {
-    /// Its number: operands have smaller ones.
+    /// The index of the node in its arena; its operands have smaller ones.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// One operation.
+/// A number, a variable, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Node {
     /// An exact number.
     Number(Rational),
     /// A coordinate of the momentum.
     Coordinate(usize),
-    /// A scalar parameter, counted through all parameters flattened.
+    /// A scalar parameter, by its index among all parameters flattened.
     Parameter(usize),
     /// −a.
     Neg(ExprId),
@@ -41,12 +41,12 @@ pub enum Node {
     Pow(ExprId, ExprId),
     /// A function of a.
     Call(Function, ExprId),
-    /// Something wrong that has been reported; no further mistakes follow from it.
+    /// Stands for input that was wrong and has been reported, so that nothing is reported twice.
     Wrong,
 }
 
 impl Node {
-    /// The operands.
+    /// The operands of the node: two, one, or none.
     #[must_use]
     pub fn operands(&self) -> [Option<ExprId>; 2] {
         match *self {
@@ -63,7 +63,7 @@ impl Node {
     }
 }
 
-/// Operations in the order they were read, operands before what uses them.
+/// An expression as a list of nodes in the order they were read, operands before what uses them.
 ///
 /// An arena instead of a tree: passes are loops, so deep nesting costs no stack, and a `let` that
 /// is used twice is one node.
@@ -73,13 +73,13 @@ pub struct Arena {
 }
 
 impl Arena {
-    /// No operations.
+    /// An arena without nodes.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds an operation read at `span`.
+    /// Adds a node that was read at `span`.
     pub fn push(&mut self, node: Node, span: Span) -> ExprId {
         // Inputs are far smaller than 2³² operations; the loops of the front ends are limited.
         let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
@@ -87,31 +87,31 @@ impl Arena {
         id
     }
 
-    /// How many operations there are.
+    /// The number of nodes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no nodes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The operation.
+    /// The node of this identity.
     #[must_use]
     pub fn node(&self, id: ExprId) -> &Node {
         &self.nodes[id.index()].0
     }
 
-    /// Where it was read.
+    /// The place in the input where the node was read.
     #[must_use]
     pub fn span(&self, id: ExprId) -> Span {
         self.nodes[id.index()].1
     }
 
-    /// The value of an expression without momenta and parameters, in floating point.
+    /// The value of an expression in floating point; `None` if it has momenta or parameters.
     #[must_use]
     pub fn evaluate(&self, root: ExprId) -> Option<f64> {
         let mut values: Vec<Option<f64>> = Vec::with_capacity(root.index() + 1);
@@ -133,7 +133,7 @@ impl Arena {
         values.pop().flatten()
     }
 
-    /// The operations from the first.
+    /// The nodes in their order, with identity and place.
     pub fn iter(&self) -> impl Iterator<Item = (ExprId, &Node, Span)> {
         self.nodes.iter().enumerate().map(|(i, (node, span))| (ExprId(i as u32), node, *span))
     }

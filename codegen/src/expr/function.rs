@@ -20,11 +20,11 @@ pub enum Function {
 }
 
 impl Function {
-    /// All of them.
+    /// Every function.
     pub const ALL: [Self; 7] =
         [Self::Sqrt, Self::Sin, Self::Cos, Self::Tan, Self::Exp, Self::Ln, Self::Abs];
 
-    /// The name, the same in text and as a method of `f64`.
+    /// The name of the function: the same in a system file and as a method of `f64`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl Function {
         Self::ALL.into_iter().find(|function| function.name() == name)
     }
 
-    /// Its value.
+    /// The value of the function at `x`.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {

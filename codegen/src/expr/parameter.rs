@@ -12,7 +12,7 @@ use crate::number::Rational;
 pub enum ParameterExpr {
     /// An exact number.
     Rational(Rational),
-    /// A scalar parameter, counted through all parameters flattened.
+    /// A scalar parameter, by its index among all parameters flattened.
     Parameter(usize),
     /// a + b.
     Add(Box<Self>, Box<Self>),
@@ -24,14 +24,14 @@ pub enum ParameterExpr {
     Div(Box<Self>, Box<Self>),
     /// −a.
     Neg(Box<Self>),
-    /// a to a whole power.
+    /// a to an integer power.
     Powi(Box<Self>, i32),
     /// A function of a.
     Call(Function, Box<Self>),
 }
 
 impl ParameterExpr {
-    /// Its value for these values of the flattened parameters; missing ones are NaN.
+    /// The value of the expression for given values of the flattened parameters; a missing one counts as NaN.
     #[must_use]
     pub fn evaluate(&self, parameters: &[f64]) -> f64 {
         let value = |e: &Self| e.evaluate(parameters);

@@ -13,7 +13,7 @@ pub struct TermLimit {
 }
 
 impl TermLimit {
-    /// At most this many terms in one polynomial, and work in proportion.
+    /// Allows this many terms in one polynomial, and a number of products in proportion to it.
     #[must_use]
     pub fn new(terms: usize) -> Self {
         Self { terms, products: (terms as u64).saturating_mul(2000) }
@@ -38,9 +38,9 @@ pub enum DeriveError {
         "the Hamiltonian has {variables} variables, fewer than the {dimension} momenta of the algebra"
     )]
     Variables {
-        /// Variables of the Hamiltonian.
+        /// The number of variables of the Hamiltonian.
         variables: usize,
-        /// Dimension of the algebra.
+        /// The dimension of the algebra.
         dimension: usize,
     },
     /// A polynomial grew beyond the limit.
@@ -50,7 +50,7 @@ pub enum DeriveError {
     TooLarge {
         /// The order in t at which it happened.
         order: usize,
-        /// The terms counted when it stopped.
+        /// The number of terms counted when it stopped.
         terms: usize,
         /// The limit.
         limit: usize,
@@ -62,7 +62,7 @@ pub enum DeriveError {
     TooMuchWork {
         /// The order in t at which it happened.
         order: usize,
-        /// The products counted when it stopped.
+        /// The number of products counted when it stopped.
         products: u64,
         /// The limit.
         limit: u64,
@@ -70,7 +70,7 @@ pub enum DeriveError {
     /// The Hamiltonian has too high a degree.
     #[error("the Hamiltonian has degree {degree}; at most {limit} is supported")]
     Degree {
-        /// The degree.
+        /// The degree of the Hamiltonian.
         degree: u32,
         /// The limit.
         limit: u32,

@@ -12,7 +12,9 @@ use crate::number::{BernoulliWeights, Rational, ratio};
 use crate::poly::Polynomial;
 use num_traits::{One, Zero};
 
-/// p = Σ_m h^m p_m(μ′): the result is indexed by order m = 0..=`degree`, then by component.
+/// Derives the solution p = Σ_m h^m p_m(μ′) of J_L(∂S/∂p(p), p) = μ′ as a power series in the step h. The result
+/// is indexed by the order m, from 0 to `degree`, then by the component of p; the variables are those of
+/// `hamiltonian`, with μ′ in place of the momenta.
 ///
 /// # Errors
 /// If the chart does not exist, the Hamiltonian has too few variables, or a limit is exceeded.
@@ -59,7 +61,7 @@ pub fn predictor(
     }
 }
 
-/// ẋ = (d^L τ_x)⁻¹ ξ, coefficient by coefficient.
+/// The series of ẋ = (d^L τ_x)⁻¹ ξ, coefficient by coefficient.
 struct Velocity {
     variables: usize,
     dimension: usize,

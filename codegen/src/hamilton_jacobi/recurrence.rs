@@ -1,4 +1,4 @@
-//! k S_k = [t^{k−1}] H(J_R(Σ t^i ∂S_i/∂p, p)).
+//! The recurrence k S_k = [t^{k−1}] H(J_R(Σ t^i ∂S_i/∂p, p)), where [t^m] takes the coefficient of t^m.
 
 use super::online::{Composition, Series, Work, coadjoint, convolve, identity, reciprocal};
 use super::{DeriveError, TermLimit};
@@ -7,7 +7,7 @@ use crate::number::{BernoulliWeights, Rational, ratio};
 use crate::poly::Polynomial;
 use num_traits::{One, Zero};
 
-/// S = Σ t^k S_k(p), truncated.
+/// The truncated series S = S_1 t + … + S_K t^K of a generating function, with exact coefficients.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GeneratingSeries {
     dimension: usize,
@@ -22,19 +22,19 @@ impl GeneratingSeries {
         self.dimension
     }
 
-    /// The chart.
+    /// The chart in which S generates the flow.
     #[must_use]
     pub fn chart(&self) -> Chart {
         self.chart
     }
 
-    /// K.
+    /// The truncation K.
     #[must_use]
     pub fn truncation(&self) -> usize {
         self.orders.len() - 1
     }
 
-    /// S_k for k = 1..=K; zero outside.
+    /// S_k as a polynomial in p and the symbols, for k from 1 to K; zero for any other k.
     #[must_use]
     pub fn order(&self, k: usize) -> &Polynomial {
         self.orders.get(k).unwrap_or(&self.orders[0])
@@ -96,11 +96,11 @@ pub(super) fn derive_orders(
 pub(super) struct BodyMomentum<'a> {
     algebra: &'a LieAlgebra,
     variables: usize,
-    /// x(t), to be extended by the caller.
+    /// The series x(t), which the caller extends.
     pub(super) x: Vec<Series>,
     /// The momenta p(t), known in advance.
     p: Vec<Series>,
-    /// J_R(x(t), p).
+    /// The series J_R(x(t), p), as far as it is known.
     pub(super) value: Vec<Series>,
     form: Form,
 }

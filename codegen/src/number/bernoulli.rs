@@ -15,7 +15,7 @@ pub(crate) struct BernoulliWeights {
 }
 
 impl BernoulliWeights {
-    /// The number of this index.
+    /// (−1)^k B_k / k! for k = `index`.
     pub(crate) fn get(&mut self, index: usize) -> Rational {
         while self.inverse_factorial.len() < index + 2 {
             let next = match self.inverse_factorial.last() {

@@ -22,7 +22,7 @@ impl Coefficients {
         Self::Small { numerators: Vec::new(), denominator: 1, bits: 0 }
     }
 
-    /// Reduces to lowest terms. The denominator must be positive.
+    /// The list with these numerators over one denominator, which must be positive, reduced to lowest terms.
     pub(crate) fn small(mut numerators: Vec<i128>, mut denominator: i128) -> Self {
         if denominator != 1 {
             let mut divisor = denominator.unsigned_abs();
@@ -60,7 +60,8 @@ impl Coefficients {
         Self::Small { numerators, denominator, bits: most }
     }
 
-    /// Reduces to lowest terms, and to machine integers if they suffice.
+    /// The list with these numerators over one positive denominator, reduced to lowest terms, and to machine
+    /// integers if they suffice.
     pub(crate) fn big(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
         let mut divisor = denominator.clone();
         for numerator in &numerators {
@@ -89,7 +90,7 @@ impl Coefficients {
         Self::Big { numerators, denominator }
     }
 
-    /// The same values as they are given.
+    /// The list of these values.
     pub(crate) fn from_rationals(values: &[Rational]) -> Self {
         let mut denominator = BigInt::one();
         for value in values {
@@ -116,7 +117,7 @@ impl Coefficients {
         }
     }
 
-    /// The value correctly rounded, or nearly so.
+    /// The value at `index` in floating point, to within a unit in the last place.
     pub(crate) fn to_f64(&self, index: usize) -> f64 {
         const EXACT: u128 = 1 << f64::MANTISSA_DIGITS;
         if let Self::Small { numerators, denominator, .. } = self
@@ -128,7 +129,7 @@ impl Coefficients {
         self.get(index).to_f64().unwrap_or(f64::NAN)
     }
 
-    /// As big integers: numerators and denominator.
+    /// The numerators and the common denominator as big integers.
     pub(crate) fn widen(&self) -> (Vec<BigInt>, BigInt) {
         match self {
             Self::Small { numerators, denominator, .. } => {
@@ -157,7 +158,7 @@ impl Coefficients {
         }
     }
 
-    /// Every value times its own integer and times one rational.
+    /// The list with every value multiplied by one rational and, where `each` is given, by its own integer.
     pub(crate) fn scale(&self, factor: &Rational, each: Option<&[u32]>) -> Self {
         if let (Self::Small { numerators, denominator, bits: most }, Some(n), Some(d)) =
             (self, factor.numer().to_i128(), factor.denom().to_i128())

@@ -4,7 +4,7 @@ use super::Rational;
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
 
-/// What elimination needs.
+/// The operations that Gaussian elimination needs.
 pub(crate) trait Field: Clone {
     fn zero() -> Self;
     fn one() -> Self;
@@ -14,7 +14,7 @@ pub(crate) trait Field: Clone {
     fn times(&self, other: &Self) -> Self;
     /// The inverse of a nonzero element.
     fn inverse(&self) -> Self;
-    /// None if the rational has no image.
+    /// The image of a rational; `None` where its denominator vanishes in the field.
     fn from_rational(value: &Rational) -> Option<Self>;
 }
 

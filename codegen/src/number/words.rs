@@ -14,7 +14,7 @@ pub(crate) struct Words<const N: usize> {
 }
 
 impl<const N: usize> Words<N> {
-    /// Of an integer that fits.
+    /// The words of an integer, which must fit.
     pub(crate) fn new(value: &BigInt) -> Self {
         let mut magnitude = [0; N];
         let mut length = 0;
@@ -25,7 +25,7 @@ impl<const N: usize> Words<N> {
         Self { negative: value.sign() == Sign::Minus, length, magnitude }
     }
 
-    /// Of a machine integer; N is at least two.
+    /// The words of a machine integer; N must be at least two.
     pub(crate) fn from_small(value: i128) -> Self {
         let mut magnitude = [0; N];
         let absolute = value.unsigned_abs();
@@ -34,7 +34,7 @@ impl<const N: usize> Words<N> {
         Self { negative: value < 0, length: 2, magnitude }
     }
 
-    /// The product, which fits.
+    /// The product, which must fit.
     pub(crate) fn times(&self, other: &Self) -> Self {
         let magnitude = self.multiplied(other);
         let length = N - magnitude.iter().rev().take_while(|&&word| word == 0).count();

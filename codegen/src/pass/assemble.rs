@@ -20,18 +20,18 @@ pub const DEFAULT_TRUNCATION: usize = 7;
 /// The largest truncation accepted.
 pub const MAX_TRUNCATION: usize = 63;
 
-/// What a front end has read. Missing parts are `None` when they were wrong and are reported.
+/// What a front end has read. A field is `None` where the input was wrong, which has then been reported.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// The name of the system.
     pub name: String,
-    /// 𝔤.
+    /// The Lie algebra 𝔤.
     pub algebra: Option<LieAlgebra>,
     /// The names of the momentum's coordinates.
     pub coordinates: Vec<String>,
-    /// Where they are given.
+    /// The place where the coordinates are named.
     pub coordinates_span: Span,
-    /// The operations of the Hamiltonian.
+    /// The nodes of the Hamiltonian's expression.
     pub arena: Arena,
     /// The Hamiltonian itself, and where it stands.
     pub hamiltonian: Option<(ExprId, Span)>,
@@ -41,7 +41,7 @@ pub struct Draft {
     pub source: String,
     /// The chart, and where it is given.
     pub chart: (Chart, Span),
-    /// K.
+    /// The truncation K.
     pub truncation: Option<usize>,
     /// The solver, if one is asked for.
     pub solver: Option<Solver>,
@@ -110,14 +110,14 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
 /// What a front end has read of a potential.
 #[derive(Clone, Debug)]
 pub struct PotentialDraft {
-    /// The name.
+    /// The name of the potential.
     pub name: String,
-    /// 𝔤.
+    /// The Lie algebra 𝔤.
     pub algebra: Option<LieAlgebra>,
-    /// The rows and columns of the matrix as it was declared, and where; `None` where the group
-    /// says.
+    /// The numbers of rows and columns that were declared for the matrix, and where; `None` where the group
+    /// determines them.
     pub declared: Option<((usize, usize), Span)>,
-    /// The operations of the potential.
+    /// The nodes of the potential's expression.
     pub arena: Arena,
     /// The potential itself, and where it stands.
     pub energy: Option<(ExprId, Span)>,

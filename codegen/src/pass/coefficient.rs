@@ -14,11 +14,11 @@ use crate::diagnostic::Mistake;
 use crate::expr::{Function, ParameterExpr};
 use crate::number::Rational;
 
-/// Numerators and denominators may have this many bits.
+/// The maximum number of bits of a numerator or denominator.
 const MOST_BITS: u64 = 1 << 14;
-/// Atoms may be raised to this power.
+/// The maximum power of an atom.
 const HIGHEST_POWER: i64 = 1000;
-/// Functions and sums may be nested this deep.
+/// The maximum depth to which functions and sums may be nested.
 const DEEPEST: usize = 200;
 
 /// A product of powers of atoms, by its number in the table; [`ONE`] is the empty product.

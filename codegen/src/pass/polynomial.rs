@@ -1,4 +1,4 @@
-//! Expression → polynomial in the momentum with opaque coefficients.
+//! From an expression to a polynomial in the momentum with opaque coefficients.
 
 use std::collections::BTreeMap;
 

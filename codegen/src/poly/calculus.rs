@@ -95,13 +95,13 @@ impl Polynomial {
         Self::assemble(self.variables(), self.bound, self.keys.clone(), values)
     }
 
-    /// The multiple with integer coefficients without common divisor, the first one positive.
+    /// The rational multiple whose coefficients are integers without a common divisor, the leading one positive.
     #[must_use]
     pub fn primitive(&self) -> Self {
         self.scale(&self.values.content().recip())
     }
 
-    /// The polynomial to a power.
+    /// The polynomial raised to a power.
     #[must_use]
     pub fn pow(&self, exponent: u32) -> Self {
         let mut result = Self::constant(self.variables(), Rational::one());

@@ -166,7 +166,7 @@ impl Polynomial {
         Cow::Owned(Self::from_factors(variables, self.factors()))
     }
 
-    /// How many variables the polynomial has, used or not.
+    /// The number of variables of the polynomial's ring, whether they occur or not.
     #[must_use]
     pub fn variables(&self) -> usize {
         self.variables
@@ -190,7 +190,7 @@ impl Polynomial {
         self.is_zero()
     }
 
-    /// The words of the largest numerator; one for machine integers.
+    /// The number of 64-bit words of the largest numerator; one for machine integers.
     pub(crate) fn words(&self) -> usize {
         match &self.values {
             Coefficients::Small { .. } => 1,

@@ -8,7 +8,7 @@ use crate::number::{Coefficients, Rational, Sum, Words};
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-/// factor · left · right.
+/// A summand factor · left · right.
 pub(crate) struct Product<'a> {
     pub(crate) factor: Rational,
     pub(crate) left: &'a Polynomial,
@@ -18,9 +18,9 @@ pub(crate) struct Product<'a> {
 /// Why a sum was not computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SumError {
-    /// It has more terms than allowed; so many were reached.
+    /// The sum has more terms than the limit allows; this many were counted.
     Terms(usize),
-    /// Degrees do not fit into 32 bits.
+    /// A degree does not fit into 32 bits.
     Degree,
 }
 

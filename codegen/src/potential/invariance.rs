@@ -9,7 +9,7 @@ use crate::lie::{Echelon, RationalMatrix};
 use crate::number::{Rational, integer};
 use crate::poly::Polynomial;
 
-/// More multiplications than this in an elimination are not made.
+/// The maximum number of multiplications in an elimination.
 const OPERATIONS: u64 = 10_000_000;
 
 impl Potential {
@@ -47,8 +47,8 @@ impl Potential {
             .map_or_else(|_| Vec::new(), |kernel| kernel.into_iter().map(dense).collect())
     }
 
-    /// Whether kicks leave this function of the momentum as it is: Σ ∂C/∂μ_k τ_k(g) = 0 for all μ
-    /// and g.
+    /// Whether kicks by V conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k(g) = 0 for all μ
+    /// and g, τ the body torque.
     #[must_use]
     pub fn keeps(&self, casimir: &Polynomial) -> bool {
         let torque = self.torque();

@@ -15,11 +15,11 @@ use crate::problem::{Parameter, Symbol};
 /// algebra's basis, or the adjoint matrix where only brackets are known.
 #[derive(Clone, Debug)]
 pub struct Potential {
-    /// The name.
+    /// The name of the potential.
     pub name: String,
-    /// 𝔤.
+    /// The Lie algebra 𝔤.
     pub algebra: LieAlgebra,
-    /// V.
+    /// The polynomial V.
     pub energy: Polynomial,
     /// The opaque coefficients of `energy`.
     pub symbols: Vec<Symbol>,
@@ -30,7 +30,7 @@ pub struct Potential {
 }
 
 impl Potential {
-    /// d, where group elements are d × d matrices.
+    /// The size d of group elements, which are d × d matrices.
     #[must_use]
     pub fn size(&self) -> usize {
         matrix_size(&self.algebra)
@@ -71,7 +71,7 @@ impl Potential {
     }
 }
 
-/// d, where elements of the group of `algebra` are d × d matrices.
+/// The size d of elements of the group of `algebra`, which are d × d matrices.
 #[must_use]
 pub fn matrix_size(algebra: &LieAlgebra) -> usize {
     algebra.basis().and_then(<[_]>::first).map_or(algebra.dim(), RationalMatrix::rows)

@@ -9,14 +9,15 @@ use crate::error::LearnError;
 use crate::function::MomentumFunction;
 use crate::polynomial::{Scaling, fit_polynomial};
 
-/// How [`fit_gaussian_process`] fits.
+/// Options of [`fit_gaussian_process`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct GaussianProcessOptions {
     /// The degree of the polynomial that is the prior mean.
     pub mean_degree: usize,
-    /// The most samples conditioned on (the work grows with the cube); evenly thinned beyond.
+    /// The maximum number of samples conditioned on; the work grows with its cube, and more samples are thinned
+    /// evenly.
     pub largest: usize,
-    /// The most samples used to choose length and noise.
+    /// The maximum number of samples by which length and noise are chosen.
     pub largest_for_choice: usize,
 }
 

@@ -59,7 +59,7 @@ impl TryFrom<Stored> for GaussianProcess {
 }
 
 impl GaussianProcess {
-    /// ℓ, in normalised momenta.
+    /// The length ℓ of the kernel, in normalised momenta.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.stored.length

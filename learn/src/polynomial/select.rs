@@ -20,11 +20,11 @@ pub struct SelectionOptions {
     pub degrees: Vec<usize>,
     /// Ridge weights to try, as in [`fit_gradients`](super::fit_gradients).
     pub ridges: Vec<f64>,
-    /// Folds of the cross-validation, at least 2.
+    /// The number of folds of the cross-validation, at least 2.
     pub folds: usize,
-    /// Seed of the shuffle that makes the folds.
+    /// The seed of the shuffle that makes the folds.
     pub seed: u64,
-    /// The most basis functions a candidate may have: bounds time and memory.
+    /// The maximum number of basis functions of a candidate, which bounds time and memory.
     pub largest_basis: usize,
 }
 

@@ -1,0 +1,114 @@
+//! The pages of the repository: what they link to exists, and what they repeat is the same everywhere.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Folders of crates that are published.
+const PUBLISHED: [&str; 5] = ["codegen", "macros", "runtime", "learn", "cli"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The names in a folder that end in `ending`, sorted.
+fn files(folder: &str, ending: &str) -> Vec<String> {
+    let names = fs::read_dir(root().join(folder)).unwrap();
+    let mut names: Vec<String> =
+        names.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.retain(|name| name.ends_with(ending));
+    names.sort();
+    names
+}
+
+/// Every page of the repository, by its path from the root.
+fn pages() -> Vec<String> {
+    let mut pages = files(".", ".md");
+    for folder in ["docs", "docs/measurements", "examples", "bench"].iter().chain(&PUBLISHED) {
+        pages.extend(files(folder, ".md").iter().map(|name| format!("{folder}/{name}")));
+    }
+    pages
+}
+
+/// The text of a page without its fenced blocks.
+fn prose(page: &str) -> String {
+    page.split("\n```").step_by(2).collect()
+}
+
+/// The targets of links and pictures that are files of the repository.
+fn links(page: &str) -> Vec<String> {
+    let prose = prose(page);
+    let starts = prose.match_indices("](").map(|(at, _)| at + 2);
+    let pictures = prose.match_indices("src=\"").map(|(at, _)| at + 5);
+    let targets = starts.chain(pictures).map(|at| prose[at..].split([')', '#', '"']).next());
+    let targets = targets.flatten().filter(|target| !target.is_empty() && !target.contains(':'));
+    targets.map(str::to_owned).collect()
+}
+
+#[test]
+fn links_lead_to_files() {
+    let mut count = 0;
+    let mut missing = Vec::new();
+    for page in pages() {
+        let folder = root().join(&page).parent().unwrap().to_owned();
+        for link in links(&read(&page)) {
+            count += 1;
+            if !folder.join(&link).exists() {
+                missing.push(format!("{page} links to {link}"));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+    assert!(count > 50, "{count}");
+}
+
+#[test]
+fn every_measurement_is_listed() {
+    let overview = read("docs/measurements/README.md");
+    for name in files("docs/measurements", ".md") {
+        assert!(name == "README.md" || overview.contains(&format!("({name})")), "{name}");
+    }
+}
+
+#[test]
+fn every_example_is_listed() {
+    let overview = read("examples/README.md");
+    for name in files("examples", ".toml") {
+        assert!(overview.contains(&format!("({name})")), "{name}");
+    }
+}
+
+#[test]
+fn crates_carry_the_licences_of_the_root() {
+    for name in ["LICENSE-MIT", "LICENSE-APACHE"] {
+        for folder in PUBLISHED {
+            assert_eq!(read(&format!("{folder}/{name}")), read(name), "{folder}/{name}");
+        }
+    }
+}
+
+#[test]
+fn the_readme_names_the_version() {
+    let manifest = read("Cargo.toml");
+    let version = manifest.split("\nversion = \"").nth(1).unwrap().split('"').next().unwrap();
+    let (series, _) = version.rsplit_once('.').unwrap();
+    assert!(read("README.md").contains(&format!("\ncoadjoint = \"{series}\"")), "{series}");
+    assert!(read("CHANGELOG.md").contains(version), "{version}");
+}
+
+#[test]
+fn what_is_banned_stays_out_of_the_lock_file() {
+    let banned = read("deny.toml");
+    let banned =
+        banned.split("\n    { crate = \"").skip(1).map(|rest| rest.split('"').next().unwrap());
+    let lock = read("Cargo.lock");
+    let names: Vec<&str> = banned.collect();
+    assert!(names.len() >= 5, "{names:?}");
+    for name in names {
+        assert!(!lock.contains(&format!("name = \"{name}\"\n")), "{name}");
+    }
+}
