@@ -144,8 +144,12 @@ impl Step<'_> {
             let correction = model.jacobian.solve(&model.residual).ok()?;
             let length = norm(&correction);
             x.iter_mut().zip(&correction).for_each(|(x, c)| *x -= c);
-            // Rounding's size.
-            if length <= 1e-12 * norm(&x) || length == 0.0 {
+            // On the way a few digits will do; at its end rounding's size.
+            let enough = if s < 1.0 { 1e-5 } else { 1e-12 };
+            if length <= enough * norm(&x) || length == 0.0 {
+                if s >= 1.0 {
+                    return Some((x, model));
+                }
                 let model = self.model(&x, s).ok()?;
                 return (model.jacobian.sign == sign).then_some((x, model));
             }
@@ -161,23 +165,27 @@ impl Step<'_> {
     pub(super) fn polish(&self, x: Vec<DoubleDouble>) -> Result<RightSolution, JudgeError> {
         let mut x = x;
         let mut last = f64::INFINITY;
+        let double = |x: &[DoubleDouble]| x.iter().map(|x| x.to_f64()).collect::<Vec<_>>();
+        let mut jacobian = self.model(&double(&x), 1.0)?.jacobian;
         for _ in 0..30 {
-            let double: Vec<f64> = x.iter().map(|x| x.to_f64()).collect();
-            let model = self.model(&double, 1.0)?;
-            let residual = self.defect(&x)?;
-            let residual: Vec<f64> = residual.iter().map(|r| r.to_f64()).collect();
-            let correction = model.jacobian.solve(&residual)?;
+            let correction = jacobian.solve(&double(&self.defect(&x)?))?;
             let length = norm(&correction);
             for (x, c) in x.iter_mut().zip(&correction) {
                 *x = *x - DoubleDouble::from(*c);
             }
-            let whole = norm(&double);
-            if length <= 1e-29 * whole || length == 0.0 || (length < 1e-25 * whole && length >= last)
+            let whole = norm(&double(&x));
+            if length <= 1e-28 * whole
+                || length == 0.0
+                || (length < 1e-24 * whole && length >= last)
             {
-                return Ok(RightSolution { x, response: model.jacobian.inverse_norm() });
+                return Ok(RightSolution { x, response: jacobian.inverse_norm() });
             }
             if !length.is_finite() || (length > last && length > whole) {
                 return Err(JudgeError::OutOfRange);
+            }
+            // The same factors as long as they gain three digits.
+            if length > 1e-3 * last || last.is_infinite() && length > 1e-6 * whole {
+                jacobian = self.model(&double(&x), 1.0)?.jacobian;
             }
             last = length;
         }
@@ -219,7 +227,10 @@ impl Step<'_> {
         // To which solution x belongs: the one that Newton's method finds from it.
         let far = distance(&right.x, x);
         let Some(own) = own else {
-            return (if far > APART { Branch::Another(far) } else { Branch::CannotTell }, Some(right));
+            return (
+                if far > APART { Branch::Another(far) } else { Branch::CannotTell },
+                Some(right),
+            );
         };
         let apart = distance(&right.x, &own.x.iter().map(|x| x.to_f64()).collect::<Vec<_>>());
         let branch = match apart {

@@ -234,11 +234,7 @@ impl Geometry {
     }
 
     /// With J_L = M(x) p = μ: ∂p = −M⁻¹ ∂M p.
-    fn cayley_derivative(
-        &self,
-        x: &[f64],
-        mu: &[f64],
-    ) -> Result<(Vec<f64>, Vec<f64>), JudgeError> {
+    fn cayley_derivative(&self, x: &[f64], mu: &[f64]) -> Result<(Vec<f64>, Vec<f64>), JudgeError> {
         let n = self.dim;
         let lu = Lu::new(n, self.cayley_matrix(x)).ok_or(JudgeError::OutOfRange)?;
         let p = lu.solve(mu)?;

@@ -107,9 +107,8 @@ impl<T: Real> Lu<T> {
             let mut unit = vec![T::default(); self.n];
             unit[j] = T::from(1.0);
             let Ok(column) = self.solve(&unit) else { return f64::INFINITY };
-            sum = sum.hypot(super::series::norm(
-                &column.iter().map(|v| v.double()).collect::<Vec<_>>(),
-            ));
+            sum = sum
+                .hypot(super::series::norm(&column.iter().map(|v| v.double()).collect::<Vec<_>>()));
         }
         sum
     }

@@ -40,7 +40,8 @@ impl Series {
         orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
     ) -> Self {
         let mut index = BTreeMap::new();
-        let mut result = Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
+        let mut result =
+            Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
         let mut known = Vec::new();
         for (order, polynomial) in orders {
             known.push(order);
@@ -62,7 +63,8 @@ impl Series {
         terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
     ) -> Result<Self, JudgeError> {
         let mut index = BTreeMap::new();
-        let mut result = Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
+        let mut result =
+            Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
         let mut known = Vec::new();
         for (order, value, factors) in terms {
             let mut merged: BTreeMap<usize, u32> = BTreeMap::new();
@@ -287,7 +289,8 @@ impl Folded {
 
 /// The Euclidean norm, without overflow; NaN where an entry is.
 pub(super) fn norm(v: &[f64]) -> f64 {
-    let largest = v.iter().fold(0.0_f64, |a, b| if b.is_nan() { f64::NAN } else { maximum(a, b.abs()) });
+    let largest =
+        v.iter().fold(0.0_f64, |a, b| if b.is_nan() { f64::NAN } else { maximum(a, b.abs()) });
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
@@ -296,9 +299,5 @@ pub(super) fn norm(v: &[f64]) -> f64 {
 
 /// The larger of two numbers; NaN where one is, unlike `f64::max`.
 fn maximum(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.max(b)
-    }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -109,7 +109,8 @@ impl Step<'_> {
     pub fn residual(&self, x: &[f64], unit: f64) -> Result<Residual, JudgeError> {
         let p = self.pull_back(x)?;
         let gradient = self.folded.series.gradient(&p);
-        let difference = x.iter().zip(&gradient).map(|(&x, &g)| (DoubleDouble::from(x) - g).to_f64());
+        let difference =
+            x.iter().zip(&gradient).map(|(&x, &g)| (DoubleDouble::from(x) - g).to_f64());
         let residual = norm(&difference.collect::<Vec<_>>());
         let bound = self.bound(x, &p, unit);
         Ok(Residual { residual, bound })
@@ -176,13 +177,15 @@ impl Step<'_> {
             let terms = norm(&part.absolute_gradient(&at));
             let moved = rounding * terms + norm(&hessian) * momentum_bound;
             momentum_bound = turn
-                * (momentum_bound + norm(&at) * (rounding * (1.0 + norm(&short)) + a * slope * moved));
+                * (momentum_bound
+                    + norm(&at) * (rounding * (1.0 + norm(&short)) + a * slope * moved));
             growth *= turn * (1.0 + a * slope * norm(&at) * norm(&hessian));
             let turned = geometry.exponential_matrix(&y)?;
             let factor = norm_of(&turned);
             element_bound = factor
                 * (element_bound
-                    + length * (rounding * (1.0 + norm(&short)) + geometry.basis_norm * slope * moved));
+                    + length
+                        * (rounding * (1.0 + norm(&short)) + geometry.basis_norm * slope * moved));
             element = multiply(geometry.size, &element, &turned);
             length = norm_of(&element);
             momentum = next;

@@ -23,7 +23,9 @@ fn main() -> ExitCode {
             }
         }
         Err(message) => {
-            eprintln!("{message}\nusage: stress [--steps N] [--seed N] [--only NAME] [--threads N] [--instance SEED]");
+            eprintln!(
+                "{message}\nusage: stress [--steps N] [--seed N] [--only NAME] [--threads N] [--instance SEED]"
+            );
             ExitCode::from(2)
         }
     }
@@ -35,7 +37,8 @@ fn options() -> Result<Options, String> {
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         let value = arguments.next().ok_or_else(|| format!("{name} wants a value"))?;
-        let number = || value.parse::<f64>().map_err(|_| format!("{name}: {value} is not a number"));
+        let number =
+            || value.parse::<f64>().map_err(|_| format!("{name}: {value} is not a number"));
         let whole = || value.parse::<u64>().map_err(|_| format!("{name}: {value} is not whole"));
         match name.as_str() {
             "--steps" => options.steps = number()? as u64,

@@ -68,9 +68,8 @@ fn inertias(random: &mut Random) -> [i64; 3] {
 /// A Hamiltonian on this many coordinates.
 #[must_use]
 pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> Polynomial {
-    let product = |i: usize, j: usize, n: i64, d: i64| {
-        (vec![(i as u32, 1), (j as u32, 1)], ratio(n, d))
-    };
+    let product =
+        |i: usize, j: usize, n: i64, d: i64| (vec![(i as u32, 1), (j as u32, 1)], ratio(n, d));
     let mut terms = Vec::new();
     match kind {
         Energy::Body | Energy::Top | Energy::Tensor => {

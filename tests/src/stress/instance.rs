@@ -1,6 +1,6 @@
 //! One system with one step size: momenta are drawn, steps made and judged.
 
-use coadjoint_codegen::judge::{Branch, DoubleDouble, End, Inside, Setting, Step};
+use coadjoint_codegen::judge::{Branch, DoubleDouble, End, Inside, RightSolution, Setting, Step};
 
 use super::family::{Family, Model};
 use super::random::Random;
@@ -104,8 +104,19 @@ fn find_boundary(steps: &dyn Steps, ray: &[f64], longest: f64) -> f64 {
 /// Momenta beyond all bounds.
 fn special(random: &mut Random, dim: usize) -> Vec<f64> {
     let sizes = [
-        0.0, 5e-324, 1e-310, 1e-300, 1e-150, 1e-30, 1e30, 1e150, 1e300, 1.7e308, f64::NAN,
-        f64::INFINITY, f64::NEG_INFINITY,
+        0.0,
+        5e-324,
+        1e-310,
+        1e-300,
+        1e-150,
+        1e-30,
+        1e30,
+        1e150,
+        1e300,
+        1.7e308,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
     ];
     let size = sizes[random.below(sizes.len())];
     let mut mu: Vec<f64> = random.direction(dim);
@@ -156,6 +167,7 @@ fn judge_step(
     let unit = case.steps.unit();
     let finite = mu.iter().all(|m| m.is_finite());
     let solved = case.steps.solve(mu);
+    let mut right = None;
     match &solved {
         Ok(_) if !finite => {
             tally.accepted += 1;
@@ -164,7 +176,7 @@ fn judge_step(
         Ok(x) => {
             tally.accepted += 1;
             match judge.step(mu) {
-                Ok(step) => judge_increment(case, &step, x, mu, unit, tally),
+                Ok(step) => right = judge_increment(case, &step, x, mu, unit, tally),
                 Err(_) => tally.unsure += 1,
             }
         }
@@ -174,7 +186,11 @@ fn judge_step(
             let size = mu.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
             let moderate = size == 0.0 || (size > 1e-30 && size < 1e30);
             if case.model.must_accept && finite && turn < MUST && moderate {
-                tally.note(Wrong::Refused, || case.example(error, mu));
+                let found = match judge.step(mu) {
+                    Ok(step) => describe(&step),
+                    Err(error) => error.to_string(),
+                };
+                tally.note(Wrong::Refused, || case.example(&format!("{error}; {found}"), mu));
             }
         }
     }
@@ -188,7 +204,19 @@ fn judge_step(
     let at: Vec<f64> = (0..mu.len()).map(|_| random.between(-1.0, 1.0)).collect();
     if let Some(outcome) = case.steps.go(way, &at, mu) {
         let steps = if let Way::Many(steps) = way { steps } else { 1 };
-        judge_outcome(case, judge, &outcome, steps, &format!("{way:?}"), tally);
+        judge_outcome(case, judge, &outcome, right, steps, &format!("{way:?}"), tally);
+    }
+}
+
+/// What the judge finds where a step was refused.
+fn describe(step: &Step<'_>) -> String {
+    match step.right_solution() {
+        Ok(right) => {
+            let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+            let ratio = step.series_ratio(&x).unwrap_or(f64::NAN);
+            format!("the right x = {x:?}, the series' ratio {ratio:.3}")
+        }
+        Err(branch) => format!("the judge: {branch:?}"),
     }
 }
 
@@ -200,16 +228,44 @@ fn judge_increment(
     mu: &[f64],
     unit: f64,
     tally: &mut Tally,
-) {
+) -> Option<RightSolution> {
+    let wrong = judge_all_but_branch(case, step, x, mu, unit, tally);
+    if wrong {
+        return None;
+    }
     let note = |tally: &mut Tally, wrong, what: String| {
         tally.note(wrong, || case.example(&format!("{what}, x = {x:?}"), mu));
+    };
+    let (branch, right) = step.branch(x);
+    match branch {
+        Branch::Proven | Branch::Right => return right,
+        Branch::CannotTell => tally.unsure += 1,
+        Branch::Another(far) => note(tally, Wrong::Branch, format!("{far:.2e} from the right x")),
+        Branch::Folds(s) => note(tally, Wrong::Branch, format!("the right one ends at s = {s:.4}")),
+    }
+    None
+}
+
+/// Judges an accepted x by itself; whether it is wrong.
+fn judge_all_but_branch(
+    case: &Case<'_>,
+    step: &Step<'_>,
+    x: &[f64],
+    mu: &[f64],
+    unit: f64,
+    tally: &mut Tally,
+) -> bool {
+    let note = |tally: &mut Tally, wrong, what: String| {
+        tally.note(wrong, || case.example(&format!("{what}, x = {x:?}"), mu));
+        true
     };
     if !x.iter().all(|x| x.is_finite()) {
         return note(tally, Wrong::NotFinite, "x".to_owned());
     }
     match step.residual(x, unit) {
         Ok(residual) if residual.relative() > 1.0 => {
-            let what = format!("residual {:.2e} of a bound {:.2e}", residual.residual, residual.bound);
+            let what =
+                format!("residual {:.2e} of a bound {:.2e}", residual.residual, residual.bound);
             return note(tally, Wrong::Residual, what);
         }
         Ok(residual) => tally.residual = tally.residual.max(residual.relative()),
@@ -229,12 +285,7 @@ fn judge_increment(
         }
         _ => {}
     }
-    match step.branch(x).0 {
-        Branch::Proven | Branch::Right => {}
-        Branch::CannotTell => tally.unsure += 1,
-        Branch::Another(far) => note(tally, Wrong::Branch, format!("{far:.2e} from the right x")),
-        Branch::Folds(s) => note(tally, Wrong::Branch, format!("the right one ends at s = {s:.4}")),
-    }
+    false
 }
 
 /// Judges what `advance` and its kin did to a state.
@@ -242,6 +293,7 @@ fn judge_outcome(
     case: &Case<'_>,
     judge: &mut Setting<'_>,
     outcome: &Outcome,
+    mut right: Option<RightSolution>,
     steps: u64,
     way: &str,
     tally: &mut Tally,
@@ -280,7 +332,7 @@ fn judge_outcome(
         if done == steps {
             break;
         }
-        if let Err(stop) = walk.go_on(judge, unit) {
+        if let Err(stop) = walk.go_on(judge, right.take(), unit) {
             // No right solution: nothing may have been accepted from here on.
             if outcome.error.is_none() {
                 match stop {
@@ -322,12 +374,20 @@ impl Walk {
     }
 
     /// One step; the error is where the continuation folds, if that is why there is no step.
-    fn go_on(&mut self, judge: &mut Setting<'_>, unit: f64) -> Result<(), Option<f64>> {
+    fn go_on(
+        &mut self,
+        judge: &mut Setting<'_>,
+        known: Option<RightSolution>,
+        unit: f64,
+    ) -> Result<(), Option<f64>> {
         let step = judge.step_from(&self.momentum, self.scale).map_err(|_| None)?;
-        let right = step.right_solution().map_err(|branch| match branch {
-            Branch::Folds(s) => Some(s),
-            _ => None,
-        })?;
+        let right = match known {
+            Some(right) => right,
+            None => step.right_solution().map_err(|branch| match branch {
+                Branch::Folds(s) => Some(s),
+                _ => None,
+            })?,
+        };
         let end: End = step.end(&right, unit).map_err(|_| None)?;
         let before = 2_f64.powi((self.scale - end.scale) as i32) * self.momentum_bound;
         self.momentum_bound = end.growth * before + end.momentum_bound;
@@ -358,8 +418,7 @@ impl Walk {
             growth: 1.0,
         };
         let momentum = ratio(end.momentum_error(&outcome.after.momentum), self.momentum_bound);
-        let (error, bound) =
-            end.element_error(&outcome.before.element, &outcome.after.element);
+        let (error, bound) = end.element_error(&outcome.before.element, &outcome.after.element);
         momentum.max(ratio(error, bound))
     }
 }
@@ -418,6 +477,6 @@ fn in_lanes(
             let what = format!("{count} lanes, {steps} steps: {:?} alone {:?}", outcome, alone);
             tally.note(Wrong::Lanes, || case.example(&what, &start.1));
         }
-        judge_outcome(case, judge, outcome, steps, &format!("{steps} in lanes"), tally);
+        judge_outcome(case, judge, outcome, None, steps, &format!("{steps} in lanes"), tally);
     }
 }

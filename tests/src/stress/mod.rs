@@ -3,6 +3,7 @@
 
 mod families;
 mod family;
+mod generated;
 mod instance;
 mod random;
 mod runtime;

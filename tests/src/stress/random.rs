@@ -47,7 +47,10 @@ impl Random {
             match self.below(12) {
                 0 => {
                     let keep = self.below(dim);
-                    v.iter_mut().enumerate().filter(|(i, _)| *i != keep).for_each(|(_, v)| *v = 0.0);
+                    v.iter_mut()
+                        .enumerate()
+                        .filter(|(i, _)| *i != keep)
+                        .for_each(|(_, v)| *v = 0.0);
                 }
                 1 => {
                     let at = self.below(dim);
@@ -57,7 +60,10 @@ impl Random {
                 2 => {
                     let keep = self.below(dim);
                     let small = 10_f64.powf(self.between(-9.0, -1.0));
-                    v.iter_mut().enumerate().filter(|(i, _)| *i != keep).for_each(|(_, v)| *v *= small);
+                    v.iter_mut()
+                        .enumerate()
+                        .filter(|(i, _)| *i != keep)
+                        .for_each(|(_, v)| *v *= small);
                 }
                 _ => {}
             }

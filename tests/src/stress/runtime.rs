@@ -6,10 +6,7 @@ use coadjoint::{
     advance_compensated, ensemble, solve,
 };
 
-pub use coadjoint::{
-    Aff1, Cayley, Exponential, Heisenberg, MatrixFree, MatrixGroup, Power, SE2, SE3, SL2, SO3, SO4,
-    SU2, SU3, U2,
-};
+pub use coadjoint::{Cayley, Exponential, Heisenberg, MatrixFree, Power, SE2, SE3, SO3, SU2, SU3};
 
 /// By which function steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,10 +171,11 @@ impl<S: GeneratingFunction> Steps for Runner<S> {
         let mut phases: Vec<_> = starts.iter().map(|(at, mu)| self.start(at, mu)).collect();
         let before: Vec<_> = phases.iter().map(|phase| self.state(phase)).collect();
         let failures = run(&self.steps, &mut phases, steps);
-        let outcomes = before.into_iter().zip(&phases).enumerate().map(|(index, (before, phase))| {
-            let error = failures.iter().find(|f| f.0 == index).map(|f| f.1.clone());
-            Outcome { before, after: self.state(phase), error }
-        });
+        let outcomes =
+            before.into_iter().zip(&phases).enumerate().map(|(index, (before, phase))| {
+                let error = failures.iter().find(|f| f.0 == index).map(|f| f.1.clone());
+                Outcome { before, after: self.state(phase), error }
+            });
         Some(outcomes.collect())
     }
 
