@@ -33,6 +33,7 @@ mod double_double;
 mod error;
 mod geometry;
 mod linear;
+mod motion;
 mod series;
 mod step;
 mod wide;
@@ -41,6 +42,7 @@ pub use branch::{Branch, RightSolution};
 pub use domain::{Inside, Limits};
 pub use double_double::{DoubleDouble, Real};
 pub use error::JudgeError;
+pub use motion::{Motion, Stop};
 pub use step::{End, Residual, Step};
 
 use crate::comoving::Frame;
@@ -174,7 +176,8 @@ impl Setting<'_> {
             return Err(JudgeError::NotFinite { what: "the momentum" });
         }
         let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
-        let unit = (exponent + UNITS / 2).div_euclid(UNITS) * UNITS;
+        // Not so small that coefficients underflow in it.
+        let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
         if self.scaled.as_ref().is_none_or(|scaled| scaled.scale != unit) {
             let judge = self.judge;
             let folded = judge.series.folded(self.step, &self.symbols, unit);

@@ -122,8 +122,7 @@ impl Step<'_> {
         let hessian = self.hessian_norm(&p);
         let momenta = norm(&p) + norm(&self.double);
         let n = x.len() as f64;
-        // The spacing of numbers below the smallest normal one.
-        let spacing = if unit > 1e-10 { 2_f64.powi(-149) } else { 2_f64.powi(-1074) };
+        let spacing = spacing(unit);
         let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
         16.0 * n * unit * (norm(x) + terms + hessian * momenta)
             + 16.0 * n * spacing * (1.0 + unscaled)
@@ -163,6 +162,8 @@ impl Step<'_> {
         let moved = 2.0 * right.response * self.bound(&x, &p, unit);
         let rounding = 16.0 * n * unit;
         let mut momentum_bound = turn * mu * (rounding * (1.0 + norm(&x)) + a * slope * moved);
+        let least = DoubleDouble::from(spacing(unit)).scaled(-self.folded.scale).to_f64();
+        momentum_bound += 16.0 * n * least * (1.0 + turn);
         let mut length = norm_of(&element);
         let mut element_bound =
             length * (rounding * (1.0 + norm(&x)) + geometry.basis_norm * slope * moved);
@@ -195,31 +196,11 @@ impl Step<'_> {
     }
 }
 
-fn norm_of(matrix: &[DoubleDouble]) -> f64 {
-    norm(&matrix.iter().map(|m| m.to_f64()).collect::<Vec<_>>())
+/// The spacing of numbers below the smallest normal one.
+fn spacing(unit: f64) -> f64 {
+    f64::from_bits(if unit > 1e-10 { (1023 - 149) << 52 } else { 1 })
 }
 
-impl End {
-    /// How far a momentum is from the exact one, in the units of this end.
-    #[must_use]
-    pub fn momentum_error(&self, momentum: &[f64]) -> f64 {
-        let difference = self.momentum.iter().zip(momentum).map(|(&exact, &found)| {
-            (exact - DoubleDouble::from(found).scaled(-self.scale)).to_f64()
-        });
-        norm(&difference.collect::<Vec<_>>())
-    }
-
-    /// How far a group element is from `before` times the exact change, and the bound on it.
-    #[must_use]
-    pub fn element_error(&self, before: &[f64], after: &[f64]) -> (f64, f64) {
-        let exact: Vec<DoubleDouble> = before.iter().map(|&g| DoubleDouble::from(g)).collect();
-        let mut size = 0;
-        while size * size < before.len() {
-            size += 1;
-        }
-        let product = multiply(size, &exact, &self.element);
-        let difference =
-            product.iter().zip(after).map(|(&e, &f)| (e - DoubleDouble::from(f)).to_f64());
-        (norm(&difference.collect::<Vec<_>>()), norm(before) * self.element_bound)
-    }
+fn norm_of(matrix: &[DoubleDouble]) -> f64 {
+    norm(&matrix.iter().map(|m| m.to_f64()).collect::<Vec<_>>())
 }

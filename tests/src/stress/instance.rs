@@ -1,6 +1,6 @@
 //! One system with one step size: momenta are drawn, steps made and judged.
 
-use coadjoint_codegen::judge::{Branch, DoubleDouble, End, Inside, RightSolution, Setting, Step};
+use coadjoint_codegen::judge::{Branch, Inside, Motion, RightSolution, Setting, Step, Stop};
 
 use super::family::{Family, Model};
 use super::random::Random;
@@ -186,11 +186,11 @@ fn judge_step(
             let size = mu.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
             let moderate = size == 0.0 || (size > 1e-30 && size < 1e30);
             if case.model.must_accept && finite && turn < MUST && moderate {
-                let found = match judge.step(mu) {
-                    Ok(step) => describe(&step),
-                    Err(error) => error.to_string(),
-                };
-                tally.note(Wrong::Refused, || case.example(&format!("{error}; {found}"), mu));
+                let found = judge.step(mu).ok().and_then(|step| acceptable(&step));
+                // Where the series has stopped converging a step must be refused.
+                if let Some(found) = found {
+                    tally.note(Wrong::Refused, || case.example(&format!("{error}; {found}"), mu));
+                }
             }
         }
     }
@@ -208,16 +208,12 @@ fn judge_step(
     }
 }
 
-/// What the judge finds where a step was refused.
-fn describe(step: &Step<'_>) -> String {
-    match step.right_solution() {
-        Ok(right) => {
-            let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
-            let ratio = step.series_ratio(&x).unwrap_or(f64::NAN);
-            format!("the right x = {x:?}, the series' ratio {ratio:.3}")
-        }
-        Err(branch) => format!("the judge: {branch:?}"),
-    }
+/// The right solution of a step that was refused, where the series' last terms have a ratio of at most a half.
+fn acceptable(step: &Step<'_>) -> Option<String> {
+    let right = step.right_solution().ok()?;
+    let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+    let ratio = step.series_ratio(&x)?;
+    (ratio <= 0.5).then(|| format!("the right x = {x:?}, the series' ratio {ratio:.3}"))
 }
 
 /// Judges an accepted x.
@@ -322,24 +318,30 @@ fn judge_outcome(
     }
     // Where it should be after one step, two, …
     let unit = case.steps.unit();
-    let mut walk = Walk::new(mu);
+    let mut walk = Motion::new(mu);
     let mut best: Option<f64> = None;
     for done in 0..=steps {
         if outcome.error.is_none() == (done == steps) {
-            let deviation = walk.deviation(outcome);
+            let (before, after) = (&outcome.before, &outcome.after);
+            let deviation = if done == 0 {
+                if after.text == before.text { 0.0 } else { f64::INFINITY }
+            } else {
+                let momentum = walk.momentum_deviation(&after.momentum);
+                momentum.max(walk.element_deviation(&before.element, &after.element))
+            };
             best = Some(best.map_or(deviation, |best| best.min(deviation)));
         }
         if done == steps {
             break;
         }
-        if let Err(stop) = walk.go_on(judge, right.take(), unit) {
+        if let Err(stop) = walk.step(judge, right.take(), unit) {
             // No right solution: nothing may have been accepted from here on.
             if outcome.error.is_none() {
                 match stop {
-                    Some(s) => tally.note(Wrong::Branch, || {
+                    Stop::Branch(Branch::Folds(s)) => tally.note(Wrong::Branch, || {
                         example(format!("step {done}: the right solution ends at s = {s:.4}"))
                     }),
-                    None => tally.unsure += 1,
+                    _ => tally.unsure += 1,
                 }
                 return;
             }
@@ -353,89 +355,6 @@ fn judge_outcome(
         }
         None => tally.unsure += 1,
     }
-}
-
-/// A motion in doubled precision by the right solution of each step, with bounds on what rounding may do.
-pub struct Walk {
-    momentum: Vec<DoubleDouble>,
-    scale: i64,
-    /// The product of the steps' elements, row by row; none before the first step.
-    element: Option<Vec<DoubleDouble>>,
-    momentum_bound: f64,
-    element_bound: f64,
-}
-
-impl Walk {
-    /// From a momentum.
-    #[must_use]
-    pub fn new(mu: &[f64]) -> Self {
-        let momentum = mu.iter().map(|&m| DoubleDouble::from(m)).collect();
-        Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }
-    }
-
-    /// One step; the error is where the continuation folds, if that is why there is no step.
-    fn go_on(
-        &mut self,
-        judge: &mut Setting<'_>,
-        known: Option<RightSolution>,
-        unit: f64,
-    ) -> Result<(), Option<f64>> {
-        let step = judge.step_from(&self.momentum, self.scale).map_err(|_| None)?;
-        let right = match known {
-            Some(right) => right,
-            None => step.right_solution().map_err(|branch| match branch {
-                Branch::Folds(s) => Some(s),
-                _ => None,
-            })?,
-        };
-        let end: End = step.end(&right, unit).map_err(|_| None)?;
-        let before = 2_f64.powi((self.scale - end.scale) as i32) * self.momentum_bound;
-        self.momentum_bound = end.growth * before + end.momentum_bound;
-        let size = self.momentum.iter().map(|m| m.to_f64()).fold(0.0, f64::hypot);
-        let relative = if before == 0.0 { 0.0 } else { before / size };
-        self.element = Some(match &self.element {
-            None => end.element.clone(),
-            Some(element) => product(element, &end.element),
-        });
-        let factor = end.element.iter().map(|m| m.to_f64()).fold(0.0, f64::hypot);
-        self.element_bound =
-            factor * self.element_bound + end.element_bound + end.growth * relative * factor;
-        (self.momentum, self.scale) = (end.momentum, end.scale);
-        Ok(())
-    }
-
-    /// How far the state after is from here, over the bound.
-    fn deviation(&self, outcome: &Outcome) -> f64 {
-        let Some(element) = &self.element else {
-            return if outcome.after.text == outcome.before.text { 0.0 } else { f64::INFINITY };
-        };
-        let end = End {
-            momentum: self.momentum.clone(),
-            scale: self.scale,
-            element: element.clone(),
-            momentum_bound: self.momentum_bound,
-            element_bound: self.element_bound,
-            growth: 1.0,
-        };
-        let momentum = ratio(end.momentum_error(&outcome.after.momentum), self.momentum_bound);
-        let (error, bound) = end.element_error(&outcome.before.element, &outcome.after.element);
-        momentum.max(ratio(error, bound))
-    }
-}
-
-/// error / bound; infinite where that is no number.
-fn ratio(error: f64, bound: f64) -> f64 {
-    if error == 0.0 {
-        return 0.0;
-    }
-    let ratio = error / bound;
-    if ratio.is_nan() { f64::INFINITY } else { ratio }
-}
-
-fn product(a: &[DoubleDouble], b: &[DoubleDouble]) -> Vec<DoubleDouble> {
-    let n = (0..).find(|n| n * n >= a.len()).unwrap_or(0);
-    let entry = |i: usize, j: usize| (0..n).map(|k| a[i * n + k] * b[k * n + j]).sum();
-    (0..n * n).map(|at| entry(at / n, at % n)).collect()
 }
 
 /// Lanes, some of them bad: each must do what it does alone.
