@@ -5,7 +5,7 @@ use coadjoint_tests::stress::{Options, report, run};
 #[test]
 fn no_wrong_step_is_accepted() {
     let options =
-        Options { steps: 30_000, seed: 20, only: String::new(), threads: 2, instance: None };
+        Options { steps: 8_000, seed: 20, only: String::new(), threads: 2, instance: None };
     let tallies = run(&options);
     assert!(tallies.len() > 20);
     // Every family has both kinds: the draws lie around the boundary of acceptance.
