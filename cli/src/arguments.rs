@@ -39,6 +39,8 @@ pub enum Verb {
     Ensemble(EnsembleOptions),
     /// Try the laws of the method on this system, at random points
     Check(CheckOptions),
+    /// Judge the output of simulate or ensemble afterwards, step by step in doubled precision
+    Verify(VerifyOptions),
     /// Find the polynomial Casimirs of the system's algebra
     Casimirs(CasimirOptions),
     /// List the groups that have a name, or print basis, brackets, Casimirs and charts of one
@@ -293,6 +295,32 @@ pub struct EnsembleOptions {
     /// Begin anew, whatever an earlier run that was stopped has written
     #[arg(long)]
     pub restart: bool,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Options of `verify`.
+#[derive(Args, Debug)]
+pub struct VerifyOptions {
+    /// The system file and the output; the output alone, where it names its system
+    #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
+    pub files: Vec<PathBuf>,
+    /// The states that an ensemble started from
+    #[arg(long, value_name = "STATES", requires = "steps")]
+    pub input: Option<PathBuf>,
+    /// How many steps the ensemble made
+    #[arg(long, value_name = "n", requires = "input")]
+    pub steps: Option<u64>,
+    /// The step size h, where the output does not say
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// S₁ … S_K were kept, where the output does not say
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// The chart, where the output does not say
+    #[arg(long)]
+    pub chart: Option<ChartName>,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,

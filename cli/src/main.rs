@@ -23,6 +23,7 @@ mod model;
 mod progress;
 mod reproduce;
 mod simulate;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Verb::Simulate(options) => simulate::run(&options),
         Verb::Ensemble(options) => ensemble::run(&options),
         Verb::Check(options) => check::run(&options),
+        Verb::Verify(options) => verify::run(&options),
         Verb::Casimirs(options) => casimirs::run(&options),
         Verb::Groups(options) => groups::run(&options),
         Verb::Learn(options) => learn::run(&options),

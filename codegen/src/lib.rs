@@ -47,6 +47,8 @@ pub mod expr;
 pub mod graph;
 pub mod hamilton_jacobi;
 pub mod integrator;
+#[cfg(feature = "judge")]
+pub mod judge;
 pub mod lie;
 pub mod number;
 pub mod parse;

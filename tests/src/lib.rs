@@ -10,6 +10,7 @@ pub mod moments;
 pub mod reference;
 pub mod run;
 pub mod series;
+pub mod stress;
 pub mod toutatis;
 pub mod toutatis_figure;
 

@@ -1,0 +1,76 @@
+//! Whether x lies inside the chart.
+
+use nalgebra::{DMatrix, Schur};
+
+use super::geometry::Geometry;
+use super::series::norm;
+use crate::lie::Chart;
+
+/// The limits of the charts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x. π, a half turn, by default; 2π
+    /// on SU(2) with its own elements, whose chart reaches a full turn. Nilpotent algebras have no limit.
+    pub exponential: f64,
+    /// Cayley chart: |λ| must not be more for every eigenvalue λ of the matrix x. 2 by default, which on
+    /// SO(3) is |x| ≤ 2 and on SU(2) |x| ≤ 4.
+    pub cayley: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { exponential: std::f64::consts::PI, cayley: 2.0 }
+    }
+}
+
+/// Whether x is inside the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inside {
+    /// It is.
+    Yes,
+    /// It is not; the largest |Im λ|, or |λ| for the Cayley chart.
+    No(f64),
+    /// It is too near the limit for the accuracy of the eigenvalues.
+    CannotTell,
+}
+
+/// Eigenvalues of a defective matrix are as inexact as the root of its rounding.
+const DEFECTIVE: f64 = 4e-8;
+
+pub(super) fn inside(geometry: &Geometry, x: &[f64], limits: Limits) -> Inside {
+    let (size, matrix, limit) = match geometry.chart {
+        Chart::Exponential if geometry.nilpotent => return Inside::Yes,
+        Chart::Exponential => (geometry.dim, geometry.ad_transpose(x), limits.exponential),
+        Chart::Cayley => {
+            let (size, matrix) = geometry.representation(x);
+            (size, matrix, limits.cayley)
+        }
+    };
+    // Sufficient: no eigenvalue is larger than any norm.
+    let length = norm(&matrix);
+    if length < limit {
+        return Inside::Yes;
+    }
+    if !length.is_finite() {
+        return Inside::CannotTell;
+    }
+    let matrix = DMatrix::from_row_slice(size, size, &matrix);
+    let antisymmetric = (&matrix + matrix.transpose()).amax() == 0.0;
+    let uncertain = if antisymmetric { 1e-13 } else { DEFECTIVE } * length;
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, 1000) else {
+        return Inside::CannotTell;
+    };
+    let eigenvalues = schur.complex_eigenvalues();
+    let sizes = eigenvalues.iter().map(|z| match geometry.chart {
+        Chart::Exponential => z.im.abs(),
+        Chart::Cayley => z.re.hypot(z.im),
+    });
+    let largest = sizes.fold(0.0, f64::max);
+    if largest < limit - uncertain {
+        Inside::Yes
+    } else if largest > limit + uncertain {
+        Inside::No(largest)
+    } else {
+        Inside::CannotTell
+    }
+}

@@ -1,0 +1,224 @@
+//! Doubled precision: unevaluated sums of two doubles.
+//!
+//! The algorithms are those of Dekker (1971) and Knuth, with the error bounds of Joldes, Muller and Popescu,
+//! *Tight and rigorous error bounds for basic building blocks of double-word arithmetic* (2017): a relative
+//! error of at most 3·2⁻¹⁰⁶ for a sum, 5·2⁻¹⁰⁶ for a product and 10·2⁻¹⁰⁶ for a quotient.
+
+use std::cmp::Ordering;
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A number of about 106 bits, between 1e-290 and 1e290 in size (below, the second half loses bits).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DoubleDouble {
+    hi: f64,
+    lo: f64,
+}
+
+/// a + b and its rounding error, exactly.
+#[inline]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let other = sum - a;
+    (sum, (a - (sum - other)) + (b - other))
+}
+
+/// a + b and its rounding error, exactly, for |a| ≥ |b|.
+#[inline]
+fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+/// The upper and the lower half of a's bits (Veltkamp).
+#[inline]
+fn split(a: f64) -> (f64, f64) {
+    let c = 134_217_729.0 * a;
+    let hi = c - (c - a);
+    (hi, a - hi)
+}
+
+/// a·b and its rounding error, exactly, while neither overflows nor underflows. Without the instruction a fused
+/// product would be a call of a library.
+#[inline]
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    if cfg!(target_feature = "fma") {
+        return (product, a.mul_add(b, -product));
+    }
+    let ((a1, a2), (b1, b2)) = (split(a), split(b));
+    (product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
+}
+
+impl DoubleDouble {
+    /// The number `hi + lo`.
+    #[must_use]
+    pub fn new(hi: f64, lo: f64) -> Self {
+        let (hi, lo) = two_sum(hi, lo);
+        Self { hi, lo }
+    }
+
+    /// The nearest double.
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        self.hi
+    }
+
+    /// What the nearest double leaves over.
+    #[must_use]
+    pub fn remainder(self) -> f64 {
+        self.lo
+    }
+
+    /// The absolute value.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.hi < 0.0 { -self } else { self }
+    }
+
+    /// Whether it is neither infinite nor NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.hi.is_finite() && self.lo.is_finite()
+    }
+
+    /// The product with 2^exponent.
+    #[must_use]
+    pub fn scaled(self, exponent: i64) -> Self {
+        let mut left = exponent.clamp(-4400, 4400) as i32;
+        let mut value = self;
+        while left != 0 {
+            let part = left.clamp(-900, 900);
+            let factor = power_of_two(part);
+            value = Self { hi: value.hi * factor, lo: value.lo * factor };
+            left -= part;
+        }
+        value
+    }
+}
+
+/// 2^exponent for |exponent| ≤ 1000.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent.clamp(-1000, 1000)) as u64) << 52)
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(value: f64) -> Self {
+        Self { hi: value, lo: 0.0 }
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        let (s, e) = two_sum(self.hi, other.hi);
+        let (t, f) = two_sum(self.lo, other.lo);
+        let (s, e) = fast_two_sum(s, e + t);
+        let (hi, lo) = fast_two_sum(s, e + f);
+        Self { hi, lo }
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        let (product, error) = two_product(self.hi, other.hi);
+        let error = error + (self.hi * other.lo + self.lo * other.hi);
+        let (hi, lo) = fast_two_sum(product, error);
+        Self { hi, lo }
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let first = self.hi / other.hi;
+        let rest = self - other * Self::from(first);
+        let second = rest.hi / other.hi;
+        let rest = rest - other * Self::from(second);
+        let third = rest.hi / other.hi;
+        let (hi, lo) = fast_two_sum(first, second);
+        Self { hi, lo } + Self::from(third)
+    }
+}
+
+impl AddAssign for DoubleDouble {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sum for DoubleDouble {
+    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
+        terms.fold(Self::default(), |sum, term| sum + term)
+    }
+}
+
+impl PartialOrd for DoubleDouble {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match self.hi.partial_cmp(&other.hi) {
+            Some(Ordering::Equal) => self.lo.partial_cmp(&other.lo),
+            order => order,
+        }
+    }
+}
+
+/// The arithmetic that the judge needs, in double or doubled precision.
+pub trait Real:
+    Copy
+    + Default
+    + PartialEq
+    + PartialOrd
+    + From<f64>
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+{
+    /// The number of doubled precision, rounded to this type.
+    fn of(value: DoubleDouble) -> Self;
+
+    /// The nearest double.
+    fn double(self) -> f64;
+}
+
+impl Real for f64 {
+    fn of(value: DoubleDouble) -> Self {
+        value.hi
+    }
+
+    fn double(self) -> f64 {
+        self
+    }
+}
+
+impl Real for DoubleDouble {
+    fn of(value: DoubleDouble) -> Self {
+        value
+    }
+
+    fn double(self) -> f64 {
+        self.hi
+    }
+}

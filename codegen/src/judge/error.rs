@@ -1,0 +1,45 @@
+//! What keeps the judge from judging.
+
+use crate::hamilton_jacobi::DeriveError;
+use crate::lie::ChartError;
+
+/// Why a step could not be judged, or a judge not be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JudgeError {
+    /// The series could not be derived.
+    #[error(transparent)]
+    Derive(#[from] DeriveError),
+    /// The chart does not exist for the algebra.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// A term has a coordinate that the algebra does not have.
+    #[error("a term of S names coordinate {index}, counted from zero, of {dim}")]
+    Coordinate {
+        /// The coordinate.
+        index: usize,
+        /// The dimension.
+        dim: usize,
+    },
+    /// A vector or a matrix has the wrong number of entries.
+    #[error("{what} has {found} entries in place of {expected}")]
+    Length {
+        /// What was given.
+        what: &'static str,
+        /// Its number of entries.
+        found: usize,
+        /// The number wanted.
+        expected: usize,
+    },
+    /// A number that must be finite is not.
+    #[error("{what} is not finite")]
+    NotFinite {
+        /// What was given.
+        what: &'static str,
+    },
+    /// A number leaves the range of doubles, or a sum loses more digits than doubled precision has to spare.
+    #[error(
+        "the numbers of this step leave the range in which they can be judged; take a smaller step"
+    )]
+    OutOfRange,
+}

@@ -1,0 +1,198 @@
+//! Judges a step by means of its own, in doubled precision.
+//!
+//! A step of (g, μ) is right if x, the coordinate of the group's increment, solves x = ∂S(p̂), p̂ = (d^R τ_x)ᵀ μ,
+//! is the solution continued from x = s ∂S(p̂), s from 0 to 1, lies inside the chart, and moves g by τ(x) and μ by
+//! Ad\*_{τ(x)⁻¹}. Everything here is computed from the exact problem, structure constants and rational S_k, and
+//! shares no code with the steps it judges.
+//!
+//! ```
+//! use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+//! use coadjoint_codegen::judge::{Branch, Judge};
+//! use coadjoint_codegen::lie::{Chart, catalogue::lookup};
+//! use coadjoint_codegen::number::ratio;
+//! use coadjoint_codegen::poly::Polynomial;
+//!
+//! // A rigid body, I = (1.5, 2, 2.5).
+//! let square = |i: usize, d: i64| Polynomial::variable(3, i).pow(2).scale(&ratio(1, d));
+//! let energy = &(&square(0, 3) + &square(1, 4)) + &square(2, 5);
+//! let so3 = lookup("SO3").unwrap();
+//! let series = derive(&so3, Chart::Exponential, &energy, 7, TermLimit::default()).unwrap();
+//! let judge = Judge::new(&so3, &series).unwrap();
+//! let mut setting = judge.at(0.2, &[]).unwrap();
+//! let step = setting.step(&[2.0, 0.5, 1.0]).unwrap();
+//! let right = step.right_solution().unwrap();
+//! let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+//! let residual = step.residual(&x, f64::EPSILON / 2.0).unwrap();
+//! assert!(residual.relative() < 1.0);
+//! assert!(matches!(step.branch(&x).0, Branch::Proven | Branch::Right));
+//! ```
+
+mod branch;
+mod domain;
+mod double_double;
+mod error;
+mod geometry;
+mod linear;
+mod motion;
+mod series;
+mod step;
+mod wide;
+
+pub use branch::{Branch, RightSolution};
+pub use domain::{Inside, Limits};
+pub use double_double::{DoubleDouble, Real};
+pub use error::JudgeError;
+pub use motion::{Motion, Stop};
+pub use step::{End, Residual, Step};
+
+use crate::comoving::Frame;
+use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
+use crate::lie::{Chart, LieAlgebra};
+use crate::problem::Problem;
+use geometry::{Geometry, size};
+use series::Series;
+use step::Scaled;
+use wide::exponent_of;
+
+/// Momenta of about this many binary digits of range are counted in the same unit.
+const UNITS: i64 = 32;
+
+/// Judges the steps of one problem.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    geometry: Geometry,
+    series: Series,
+    frame: Vec<Series>,
+    limits: Limits,
+}
+
+impl Judge {
+    /// For the exact series of a Hamiltonian; its variables beyond the dimension are symbols.
+    ///
+    /// # Errors
+    /// [`JudgeError::Chart`] where the algebra has no such chart.
+    pub fn new(algebra: &LieAlgebra, series: &GeneratingSeries) -> Result<Self, JudgeError> {
+        let geometry = Geometry::new(algebra, series.chart())?;
+        let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
+        let series = Series::new(algebra.dim(), orders);
+        Ok(Self { geometry, series, frame: Vec::new(), limits: Limits::default() })
+    }
+
+    /// For the problem that a front end has read, its comoving frame included.
+    ///
+    /// # Errors
+    /// [`JudgeError::Derive`] where the series cannot be derived.
+    pub fn of_problem(problem: &Problem, limit: TermLimit) -> Result<Self, JudgeError> {
+        let (algebra, chart) = (&problem.algebra, problem.chart);
+        let series = derive(algebra, chart, problem.generated(), problem.truncation, limit)?;
+        let judge = Self::new(algebra, &series)?;
+        Ok(match &problem.comoving {
+            Some(frame) => judge.with_frame(frame),
+            None => judge,
+        })
+    }
+
+    /// For any S given by terms (k, c, \[(coordinate, power), …\]), the step size counted in c; k tells which
+    /// terms are the last of a series.
+    ///
+    /// # Errors
+    /// [`JudgeError::Coordinate`], [`JudgeError::Chart`].
+    pub fn from_terms(
+        algebra: &LieAlgebra,
+        chart: Chart,
+        terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
+    ) -> Result<Self, JudgeError> {
+        let geometry = Geometry::new(algebra, chart)?;
+        let mut series = Series::from_terms(algebra.dim(), terms)?;
+        series.step_is_counted();
+        Ok(Self { geometry, series, frame: Vec::new(), limits: Limits::default() })
+    }
+
+    /// The same where S generates the motion in a comoving frame, whose own motion follows each step.
+    #[must_use]
+    pub fn with_frame(mut self, frame: &Frame) -> Self {
+        let dim = self.geometry.dim;
+        self.frame = frame.parts().map(|part| Series::new(dim, [(1, part)])).collect();
+        self
+    }
+
+    /// The same with other limits of the charts.
+    #[must_use]
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// With a step size and the values of the symbols put in. They are taken as exact: give the doubles
+    /// that the step itself computes with.
+    ///
+    /// # Errors
+    /// [`JudgeError::NotFinite`].
+    pub fn at(&self, step: f64, symbols: &[f64]) -> Result<Setting<'_>, JudgeError> {
+        if !step.is_finite() {
+            return Err(JudgeError::NotFinite { what: "the step size" });
+        }
+        if !size(symbols).is_finite() {
+            return Err(JudgeError::NotFinite { what: "a parameter" });
+        }
+        Ok(Setting { judge: self, step, symbols: symbols.to_vec(), scaled: None })
+    }
+}
+
+/// A judge with a step size and parameters.
+#[derive(Clone, Debug)]
+pub struct Setting<'a> {
+    judge: &'a Judge,
+    step: f64,
+    symbols: Vec<f64>,
+    scaled: Option<Scaled>,
+}
+
+impl Setting<'_> {
+    /// The step from a momentum.
+    ///
+    /// # Errors
+    /// [`JudgeError::NotFinite`], [`JudgeError::Length`]; [`JudgeError::OutOfRange`] where S is.
+    pub fn step(&mut self, mu: &[f64]) -> Result<Step<'_>, JudgeError> {
+        let mu: Vec<DoubleDouble> = mu.iter().map(|&mu| DoubleDouble::from(mu)).collect();
+        self.step_from(&mu, 0)
+    }
+
+    /// The step from a momentum in units of 2^scale, as another step's [`End`] holds it.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_from(
+        &mut self,
+        momentum: &[DoubleDouble],
+        scale: i64,
+    ) -> Result<Step<'_>, JudgeError> {
+        let (dim, found) = (self.judge.geometry.dim, momentum.len());
+        if found != dim {
+            return Err(JudgeError::Length { what: "the momentum", found, expected: dim });
+        }
+        let largest = size(momentum);
+        if !largest.is_finite() {
+            return Err(JudgeError::NotFinite { what: "the momentum" });
+        }
+        let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
+        // Not so small that coefficients underflow in it.
+        let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
+        if self.scaled.as_ref().is_none_or(|scaled| scaled.scale != unit) {
+            let judge = self.judge;
+            let folded = judge.series.folded(self.step, &self.symbols, unit);
+            let frame: Vec<_> =
+                judge.frame.iter().map(|f| f.folded(self.step, &self.symbols, unit)).collect();
+            let growth = folded.growth();
+            self.scaled = Some(Scaled { series: folded, growth, frame, scale: unit });
+        }
+        let Some(folded) = &self.scaled else { return Err(JudgeError::OutOfRange) };
+        if !folded.series.is_finite() {
+            return Err(JudgeError::OutOfRange);
+        }
+        let momentum: Vec<_> = momentum.iter().map(|m| m.scaled(scale - unit)).collect();
+        let double = momentum.iter().map(|m| m.to_f64()).collect();
+        let (geometry, limits) = (&self.judge.geometry, self.judge.limits);
+        Ok(Step { geometry, folded, limits, momentum, double })
+    }
+}

@@ -1,0 +1,206 @@
+//! One step to be judged.
+
+use super::branch::RightSolution;
+use super::domain::{Inside, Limits, inside};
+use super::geometry::{Geometry, size};
+use super::linear::multiply;
+use super::series::{Folded, norm};
+use super::{DoubleDouble, JudgeError};
+
+/// S folded, and the bounds of its derivatives by degree.
+#[derive(Clone, Debug)]
+pub(super) struct Scaled {
+    pub(super) series: Folded,
+    pub(super) growth: Vec<(u32, f64, f64)>,
+    /// The motion of the frame, part by part: y is the gradient.
+    pub(super) frame: Vec<Folded>,
+    pub(super) scale: i64,
+}
+
+impl Scaled {
+    pub(super) fn derivatives(&self, p: &[f64]) -> super::series::Derivatives<f64> {
+        self.series.derivatives(p)
+    }
+}
+
+/// One step from a momentum μ. Inside, momenta are counted in units of a power of two near |μ|.
+#[derive(Debug)]
+pub struct Step<'a> {
+    pub(super) geometry: &'a Geometry,
+    pub(super) folded: &'a Scaled,
+    pub(super) limits: Limits,
+    pub(super) momentum: Vec<DoubleDouble>,
+    pub(super) double: Vec<f64>,
+}
+
+/// |x − ∂S(p̂)| and its bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// |x − ∂S(p̂)|, the Euclidean norm.
+    pub residual: f64,
+    /// 16 n u (|x| + Σ of the absolute terms of ∂S + ‖Hess S‖ (|p̂| + |μ|)), and what numbers below the
+    /// smallest normal one lose.
+    pub bound: f64,
+}
+
+impl Residual {
+    /// residual / bound; infinite where a number is not finite.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        if self.residual == 0.0 {
+            return 0.0;
+        }
+        let ratio = self.residual / self.bound;
+        if ratio.is_nan() { f64::INFINITY } else { ratio }
+    }
+}
+
+/// Where the right solution leads.
+#[derive(Clone, Debug)]
+pub struct End {
+    /// The momentum after the step, in units of 2^scale.
+    pub momentum: Vec<DoubleDouble>,
+    /// The exponent of the momentum's unit.
+    pub scale: i64,
+    /// τ(x)·exp(y)…, by which the group element moves: its matrix, row by row.
+    pub element: Vec<DoubleDouble>,
+    /// The bound on |μ″ − exact|, in the same units: 16 n u of what is computed and twice what the residual's
+    /// bound may move x by.
+    pub momentum_bound: f64,
+    /// The bound on the change of the group element, relative to ‖g‖.
+    pub element_bound: f64,
+    /// By how much an error of the momentum before the step grows at most, to first order.
+    pub growth: f64,
+}
+
+impl Step<'_> {
+    /// μ in the units of this step, and their exponent.
+    #[must_use]
+    pub fn momentum(&self) -> (&[DoubleDouble], i64) {
+        (&self.momentum, self.folded.scale)
+    }
+
+    /// p̂ = (d^R τ_x)ᵀ μ, in units of 2^scale.
+    ///
+    /// # Errors
+    /// [`JudgeError::OutOfRange`] where x is too large, [`JudgeError::NotFinite`], [`JudgeError::Length`].
+    pub fn pull_back(&self, x: &[f64]) -> Result<Vec<DoubleDouble>, JudgeError> {
+        self.check(x)?;
+        let x: Vec<_> = x.iter().map(|&x| DoubleDouble::from(x)).collect();
+        self.geometry.pull_back(&x, &self.momentum)
+    }
+
+    fn check(&self, x: &[f64]) -> Result<(), JudgeError> {
+        if x.len() != self.geometry.dim {
+            let (found, expected) = (x.len(), self.geometry.dim);
+            return Err(JudgeError::Length { what: "x", found, expected });
+        }
+        if !size(x).is_finite() {
+            return Err(JudgeError::NotFinite { what: "x" });
+        }
+        Ok(())
+    }
+
+    /// Whether x solves x = ∂S(p̂): the residual and its bound for a scalar of this unit roundoff, 2⁻⁵³ for
+    /// `f64` and 2⁻²⁴ for `f32`.
+    ///
+    /// # Errors
+    /// As [`pull_back`](Self::pull_back).
+    pub fn residual(&self, x: &[f64], unit: f64) -> Result<Residual, JudgeError> {
+        let p = self.pull_back(x)?;
+        let gradient = self.folded.series.gradient(&p);
+        let difference =
+            x.iter().zip(&gradient).map(|(&x, &g)| (DoubleDouble::from(x) - g).to_f64());
+        let residual = norm(&difference.collect::<Vec<_>>());
+        let bound = self.bound(x, &p, unit);
+        Ok(Residual { residual, bound })
+    }
+
+    fn bound(&self, x: &[f64], p: &[DoubleDouble], unit: f64) -> f64 {
+        let p: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
+        let terms = norm(&self.folded.series.absolute_gradient(&p));
+        let hessian = self.hessian_norm(&p);
+        let momenta = norm(&p) + norm(&self.double);
+        let n = x.len() as f64;
+        let spacing = spacing(unit);
+        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
+        16.0 * n * unit * (norm(x) + terms + hessian * momenta)
+            + 16.0 * n * spacing * (1.0 + unscaled)
+    }
+
+    /// Whether x is inside the chart.
+    #[must_use]
+    pub fn inside(&self, x: &[f64]) -> Inside {
+        inside(self.geometry, x, self.limits)
+    }
+
+    /// |∂S_K| / |∂S_{K−2}| at p̂; `None` where the series has one term, or p̂ cannot be found.
+    #[must_use]
+    pub fn series_ratio(&self, x: &[f64]) -> Option<f64> {
+        let p = self.pull_back(x).ok()?;
+        let p: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
+        let (last, before) = self.folded.series.last_two(&p);
+        if last == 0.0 {
+            return Some(0.0);
+        }
+        self.folded.series.has_two().then_some(last / before)
+    }
+
+    /// Where the right solution leads, frame motions included.
+    ///
+    /// # Errors
+    /// [`JudgeError::OutOfRange`].
+    pub fn end(&self, right: &RightSolution, unit: f64) -> Result<End, JudgeError> {
+        let (geometry, n) = (self.geometry, self.geometry.dim as f64);
+        let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+        let p = geometry.pull_back(&right.x, &self.momentum)?;
+        let mut momentum = geometry.transport(&right.x, &self.momentum, &p)?;
+        let mut element = geometry.element(&right.x)?;
+        let p64: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
+        let (turn, slope) = geometry.sensitivity(&x)?;
+        let (a, mu, hessian) = (geometry.bracket_norm, norm(&self.double), self.hessian_norm(&p64));
+        let moved = 2.0 * right.response * self.bound(&x, &p, unit);
+        let rounding = 16.0 * n * unit;
+        let mut momentum_bound = turn * mu * (rounding * (1.0 + norm(&x)) + a * slope * moved);
+        let least = DoubleDouble::from(spacing(unit)).scaled(-self.folded.scale).to_f64();
+        momentum_bound += 16.0 * n * least * (1.0 + turn);
+        let mut length = norm_of(&element);
+        let mut element_bound =
+            length * (rounding * (1.0 + norm(&x)) + geometry.basis_norm * slope * moved);
+        let mut growth = turn * (1.0 + a * slope * mu * right.response * hessian * (1.0 + slope));
+        for part in &self.folded.frame {
+            let y = part.gradient(&momentum);
+            let short: Vec<f64> = y.iter().map(|y| y.to_f64()).collect();
+            let at: Vec<f64> = momentum.iter().map(|m| m.to_f64()).collect();
+            let (turn, slope) = geometry.exp_sensitivity(&short)?;
+            let (_, hessian) = part.derivatives(&at);
+            let next = geometry.exp_transport(&y, &momentum)?;
+            let terms = norm(&part.absolute_gradient(&at));
+            let moved = rounding * terms + norm(&hessian) * momentum_bound;
+            momentum_bound = turn
+                * (momentum_bound
+                    + norm(&at) * (rounding * (1.0 + norm(&short)) + a * slope * moved));
+            growth *= turn * (1.0 + a * slope * norm(&at) * norm(&hessian));
+            let turned = geometry.exponential_matrix(&y)?;
+            let factor = norm_of(&turned);
+            element_bound = factor
+                * (element_bound
+                    + length
+                        * (rounding * (1.0 + norm(&short)) + geometry.basis_norm * slope * moved));
+            element = multiply(geometry.size, &element, &turned);
+            length = norm_of(&element);
+            momentum = next;
+        }
+        let scale = self.folded.scale;
+        Ok(End { momentum, scale, element, momentum_bound, element_bound, growth })
+    }
+}
+
+/// The spacing of numbers below the smallest normal one.
+fn spacing(unit: f64) -> f64 {
+    f64::from_bits(if unit > 1e-10 { (1023 - 149) << 52 } else { 1 })
+}
+
+fn norm_of(matrix: &[DoubleDouble]) -> f64 {
+    norm(&matrix.iter().map(|m| m.to_f64()).collect::<Vec<_>>())
+}

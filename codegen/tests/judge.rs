@@ -1,0 +1,173 @@
+//! The judge against exact references: end states of motions, and steps that are wrong on purpose.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_codegen::judge::{Branch, DoubleDouble, Inside, Judge, Motion, Real};
+use coadjoint_codegen::lie::{Chart, catalogue::lookup};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::number::ratio;
+use coadjoint_codegen::poly::Polynomial;
+use serde_json::Value;
+
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
+}
+
+/// H of an entry of the references: Σ coefficient·∏ μᵢ^exponent.
+fn energy(entry: &Value, dim: usize) -> Polynomial {
+    let terms = entry["H"].as_array().unwrap().iter().map(|term| {
+        let exponents: Vec<u32> = term["exponents"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|e| e.as_u64().unwrap() as u32)
+            .collect();
+        let text = term["coefficient"].as_str().unwrap();
+        let coefficient: Rational = match text.split_once('.') {
+            Some((whole, part)) => {
+                let digits: Rational = format!("{whole}{part}").parse().unwrap();
+                let tens: Rational = format!("1{}", "0".repeat(part.len())).parse().unwrap();
+                digits / tens
+            }
+            None => text.parse().unwrap(),
+        };
+        (exponents, coefficient)
+    });
+    Polynomial::from_terms(dim, terms.collect::<Vec<_>>())
+}
+
+/// The judge's own motion reaches the references' end states (40 digits, an independent program), to the
+/// series' truncation error: the signs, both charts, and the group element.
+#[test]
+fn motions_reach_the_references_end_states() {
+    let text = include_str!("../../tests/reference/end_states.json");
+    let entries: Vec<Value> = serde_json::from_str(text).unwrap();
+    for (name, group, chart, truncation, steps, tolerance) in [
+        ("rigid-body (DMV driver)", "SO3", Chart::Exponential, 9, 200, 1e-9),
+        ("rigid-body (DMV driver)", "SO3", Chart::Cayley, 9, 400, 1e-7),
+        ("Kirchhoff", "SE3", Chart::Exponential, 5, 400, 1e-7),
+        ("Manakov so(4)", "SO4", Chart::Exponential, 3, 400, 1e-3),
+    ] {
+        let entry = entries.iter().find(|e| e["system"] == name).unwrap();
+        let algebra = lookup(group).unwrap();
+        let h = energy(entry, algebra.dim());
+        let series = derive(&algebra, chart, &h, truncation, TermLimit::default()).unwrap();
+        let judge = Judge::new(&algebra, &series).unwrap();
+        let step = number(&entry["T"]) / f64::from(steps);
+        let mut setting = judge.at(step, &[]).unwrap();
+        let vector =
+            |key: &str| entry[key].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
+        let mut motion = Motion::new(&vector("momentum0"));
+        let size = (1..).find(|n| n * n >= algebra.basis().unwrap()[0].rows().pow(2)).unwrap();
+        let unit: Vec<f64> =
+            (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
+        let mut element = unit.clone();
+        for _ in 0..steps {
+            let before = motion.momentum();
+            let mut one = Motion::new(&before);
+            one.step(&mut setting, None, UNIT).unwrap();
+            motion.step(&mut setting, None, UNIT).unwrap();
+            // The product of rounded elements, for the comparison only.
+            let single = one.element_from(&unit);
+            element = product(size, &element, &single);
+        }
+        let found = motion.momentum();
+        let expected = vector("momentum");
+        let whole = expected.iter().map(|m| m.abs()).fold(0.0, f64::max);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!(
+                (found - expected).abs() < tolerance * whole,
+                "{name}: {found} is not {expected}"
+            );
+        }
+        let rows = entry["group_element"].as_array().unwrap();
+        let expected: Vec<f64> =
+            rows.iter().flat_map(|row| row.as_array().unwrap().iter().map(number)).collect();
+        assert_eq!(expected.len(), element.len());
+        for (found, expected) in element.iter().zip(&expected) {
+            assert!(
+                (found - expected).abs() < 100.0 * tolerance,
+                "{name}: {found} is not {expected}"
+            );
+        }
+        assert!(motion.element_deviation(&unit, &element) < 1.0);
+    }
+}
+
+fn product(n: usize, a: &[f64], b: &[f64]) -> Vec<f64> {
+    let entry = |at: usize| (0..n).map(|k| a[at / n * n + k] * b[k * n + at % n]).sum();
+    (0..n * n).map(entry).collect()
+}
+
+fn body(inverse: [(i64, i64); 3]) -> Polynomial {
+    let terms = (0..3).map(|i| (vec![(i as u32, 2)], ratio(inverse[i].0, inverse[i].1)));
+    Polynomial::from_factors(3, terms)
+}
+
+fn judge(chart: Chart, h: &Polynomial, truncation: usize) -> Judge {
+    let so3 = lookup("SO3").unwrap();
+    let series = derive(&so3, chart, h, truncation, TermLimit::default()).unwrap();
+    Judge::new(&so3, &series).unwrap()
+}
+
+/// On a spherical body S = h|μ|²/2I exactly, and x = hμ/I whatever its length.
+#[test]
+fn a_spherical_body_turns_uniformly() {
+    let judge = judge(Chart::Exponential, &body([(1, 2), (1, 2), (1, 2)]), 5);
+    for scale in [1e-300, 1e-30, 1.0, 1e30, 1e290] {
+        let mu = [0.3 * scale, -0.4 * scale, 1.2 * scale];
+        for angle in [1e-6, 0.5, 2.0, 3.0] {
+            let mut setting = judge.at(angle / scale / 1.3, &[]).unwrap();
+            let step = setting.step(&mu).unwrap();
+            let right = step.right_solution().unwrap();
+            let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+            for (x, mu) in x.iter().zip(mu) {
+                assert!((x - angle / 1.3 * mu / scale).abs() < 1e-14 * angle, "{scale:e} {angle}");
+            }
+            assert!(step.residual(&x, UNIT).unwrap().relative() < 1.0);
+            assert_eq!(step.inside(&x), Inside::Yes);
+            assert!(matches!(step.branch(&x).0, Branch::Proven | Branch::Right));
+        }
+    }
+}
+
+/// Beyond a half turn x is outside; an x that is off by more than rounding does not solve the equation.
+#[test]
+fn wrong_steps_are_told() {
+    let judge = judge(Chart::Exponential, &body([(1, 3), (1, 4), (1, 5)]), 7);
+    let mut setting = judge.at(0.2, &[]).unwrap();
+    let step = setting.step(&[2.0, 0.5, 1.0]).unwrap();
+    let right = step.right_solution().unwrap();
+    let mut x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+    assert!(step.residual(&x, UNIT).unwrap().relative() < 0.1);
+    assert!(step.series_ratio(&x).unwrap() < 0.1);
+    assert_eq!(step.branch(&x).0, Branch::Proven);
+    x[0] += 1e-13;
+    assert!(step.residual(&x, UNIT).unwrap().relative() > 1.0);
+    assert!(step.residual(&x, 2_f64.powi(-24)).unwrap().relative() < 1.0);
+    assert!(matches!(step.inside(&[0.0, 3.2, 0.0]), Inside::No(_)));
+    assert!(step.residual(&[f64::NAN, 0.0, 0.0], UNIT).is_err());
+    assert!(setting.step(&[f64::INFINITY, 0.0, 0.0]).is_err());
+    assert!(setting.step(&[1.0, 0.0]).is_err());
+}
+
+/// Sums of 106 bits: (a + b)(a − b) = a² − b² for numbers 2⁻⁴⁰ apart, and 1/3 to 31 digits.
+#[test]
+fn doubled_precision() {
+    let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
+    let left = third * DoubleDouble::from(3.0) - DoubleDouble::from(1.0);
+    assert!(left.to_f64().abs() < 1e-31);
+    let (a, b) = (DoubleDouble::from(1.0 + 2_f64.powi(-40)), third);
+    let difference = (a + b) * (a - b) - (a * a - b * b);
+    assert!(difference.to_f64().abs() < 1e-31);
+    // 2⁻⁹⁰ is not lost beside 1.
+    let small = DoubleDouble::from(2_f64.powi(-90));
+    assert_eq!(
+        (DoubleDouble::from(1.0) + small - DoubleDouble::from(1.0)).to_f64(),
+        2_f64.powi(-90)
+    );
+    assert_eq!(DoubleDouble::from(3.0).scaled(-1000).scaled(1000).double(), 3.0);
+}

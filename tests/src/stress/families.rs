@@ -1,0 +1,193 @@
+//! The families there are.
+
+use std::f64::consts::TAU;
+
+use coadjoint_codegen::lie::{Chart, LieAlgebra};
+
+use super::family::{Energy, Family, Recipe};
+use super::generated;
+use super::runtime::{
+    Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Steps,
+    Terms, polynomial,
+};
+use crate::bridge::matrix_group;
+
+type Made = Box<dyn Steps>;
+type Maker = fn(&LieAlgebra, Terms) -> Made;
+
+fn table(algebra: &LieAlgebra, terms: Terms) -> Made {
+    let group = matrix_group(algebra).expect("a group");
+    Box::new(Runner::new(polynomial(group, Exponential, terms)))
+}
+
+fn table_cayley(algebra: &LieAlgebra, terms: Terms) -> Made {
+    let group = matrix_group(algebra).expect("a group").into_cayley().expect("a Cayley map");
+    Box::new(Runner::new(polynomial(group, Cayley, terms)))
+}
+
+/// The steps of a group that the compiler knows.
+macro_rules! known {
+    ($group:expr, $chart:expr $(, $with:ident)*) => {
+        |_: &LieAlgebra, terms: Terms| -> Made {
+            Box::new(Runner::new(polynomial($group, $chart, terms))$(.$with())*)
+        }
+    };
+}
+
+/// Families of polynomials on groups that the compiler knows.
+fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
+    let base = Recipe::default;
+    let cayley = || Recipe { chart: Chart::Cayley, ..Recipe::default() };
+    let body = Energy::Body;
+    let all = &[3, 5, 7, 9, 11, 13];
+    vec![
+        (
+            Recipe {
+                name: "so3-exp",
+                energy: body,
+                truncations: all,
+                models: 4,
+                must_accept: true,
+                ..base()
+            },
+            known!(SO3::<f64>::new(), Exponential, compensated) as Maker,
+        ),
+        (
+            Recipe {
+                name: "so3-exp-tensor",
+                energy: Energy::Tensor,
+                truncations: &[5, 7],
+                ..base()
+            },
+            known!(SO3::<f64>::new(), Exponential, compensated),
+        ),
+        (
+            Recipe { name: "so3-exp-fixed-point", energy: body, truncations: &[3, 7], ..base() },
+            |_, terms| {
+                Box::new(Runner::new(MatrixFree(polynomial(SO3::<f64>::new(), Exponential, terms))))
+            },
+        ),
+        (
+            Recipe { name: "so3-cayley", energy: body, truncations: &[1, 3, 5, 7], ..cayley() },
+            known!(SO3::<f64>::new(), Cayley, compensated),
+        ),
+        (
+            Recipe {
+                name: "so3-exp-f32",
+                energy: body,
+                truncations: &[3, 5, 7],
+                single: true,
+                decades: 1.0,
+                ..base()
+            },
+            known!(SO3::<f32>::new(), Exponential),
+        ),
+        (
+            Recipe {
+                name: "su2-exp",
+                group: "SU2",
+                energy: body,
+                truncations: &[3, 7],
+                limit: TAU,
+                ..base()
+            },
+            known!(SU2::<f64>::new(), Exponential, compensated),
+        ),
+        (
+            Recipe {
+                name: "su2-cayley",
+                group: "SU2",
+                energy: body,
+                truncations: &[3, 5],
+                ..cayley()
+            },
+            known!(SU2::<f64>::new(), Cayley),
+        ),
+        (
+            Recipe { name: "se2-exp", group: "SE2", truncations: &[3, 5, 7], ..base() },
+            known!(SE2::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe { name: "se2-cayley", group: "SE2", truncations: &[3, 5], ..cayley() },
+            known!(SE2::<f64>::new(), Cayley),
+        ),
+        (
+            Recipe {
+                name: "se3-exp-top",
+                group: "SE3",
+                energy: Energy::Top,
+                truncations: &[3, 5, 7],
+                decades: 1.0,
+                ..base()
+            },
+            known!(SE3::<f64>::new(), Exponential, compensated),
+        ),
+        (
+            Recipe { name: "se3-exp-fluid", group: "SE3", ..base() },
+            known!(SE3::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe { name: "se3-cayley", group: "SE3", truncations: &[3], ..cayley() },
+            known!(SE3::<f64>::new(), Cayley),
+        ),
+        (
+            Recipe { name: "heisenberg", group: "Heisenberg", truncations: &[3, 5], ..base() },
+            known!(Heisenberg::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe { name: "so3-power", group: "SO3^2", truncations: &[3, 5], ..base() },
+            known!(Power::<SO3, 2, 6>::default(), Exponential),
+        ),
+        (
+            Recipe { name: "su3", group: "SU3", truncations: &[3], ..base() },
+            known!(SU3::<f64>::new(), Exponential),
+        ),
+    ]
+}
+
+/// Families of polynomials on groups that are tables at run time.
+fn tables() -> Vec<(Recipe<'static>, Maker)> {
+    let base = Recipe::default;
+    let cayley = || Recipe { chart: Chart::Cayley, ..Recipe::default() };
+    vec![
+        (
+            Recipe {
+                name: "so3-table",
+                energy: Energy::Body,
+                truncations: &[5, 9],
+                must_accept: true,
+                ..base()
+            },
+            table as Maker,
+        ),
+        (Recipe { name: "so4-table", group: "SO4", ..base() }, table),
+        (
+            Recipe { name: "so4-table-cayley", group: "SO4", truncations: &[3], ..cayley() },
+            table_cayley,
+        ),
+        (Recipe { name: "su3-table", group: "SU3", truncations: &[3], models: 1, ..base() }, table),
+        (Recipe { name: "sl2-table", group: "SL2", ..base() }, table),
+        (
+            Recipe { name: "sl2-table-cayley", group: "SL2", truncations: &[3], ..cayley() },
+            table_cayley,
+        ),
+        (Recipe { name: "u2-table", group: "U2", ..base() }, table),
+        (Recipe { name: "aff1-table", group: "Aff1", ..base() }, table),
+    ]
+}
+
+/// All families whose names contain `only`.
+#[must_use]
+pub fn families(only: &str) -> Vec<Family> {
+    let mut families = Vec::new();
+    for (recipe, steps) in closed_forms().into_iter().chain(tables()) {
+        if recipe.name.contains(only) {
+            // The same systems whatever else is tried.
+            let seed =
+                recipe.name.bytes().fold(7_u64, |seed, b| seed.wrapping_mul(31) + u64::from(b));
+            families.push(recipe.family(seed, steps));
+        }
+    }
+    families.extend(generated::families(only));
+    families
+}

@@ -1,0 +1,204 @@
+//! The only place where the stress program touches the runtime: steps of any type behind one trait.
+
+use coadjoint::{
+    Chart, CompensatedGroup, CompensatedPhase, Coordinates, GeneratingFunction, Lanes, LieGroup,
+    Phase, PolynomialFunction, Scalar, ScalarOf, StepError, VectorOf, advance, advance_by,
+    advance_compensated, ensemble, solve,
+};
+
+pub use coadjoint::{Cayley, Exponential, Heisenberg, MatrixFree, Power, SE2, SE3, SO3, SU2, SU3};
+
+/// By which function steps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// `advance`.
+    One,
+    /// `advance_by`, this many steps.
+    Many(u64),
+    /// `advance_compensated`.
+    Compensated,
+}
+
+/// A state as numbers: the group element's matrix, row by row, and the momentum.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// The matrix.
+    pub element: Vec<f64>,
+    /// μ.
+    pub momentum: Vec<f64>,
+    /// Everything the runtime's own state holds, as text that tells every bit of finite numbers.
+    pub text: String,
+}
+
+impl State {
+    /// Whether all numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.element.iter().chain(&self.momentum).all(|v| v.is_finite())
+    }
+}
+
+/// What came of some steps.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The state before.
+    pub before: State,
+    /// The state after, whatever came.
+    pub after: State,
+    /// The error, if it was refused.
+    pub error: Option<String>,
+}
+
+/// A generating function of whatever group, chart and solver.
+pub trait Steps {
+    /// The x that `solve` finds.
+    ///
+    /// # Errors
+    /// The runtime's message.
+    fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String>;
+
+    /// Steps from (exp(at), μ); `None` where these groups have no such steps.
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome>;
+
+    /// The same steps of several states at once, in lanes; `None` where there are none.
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>>;
+
+    /// The unit roundoff of the scalar.
+    fn unit(&self) -> f64;
+
+    /// μ as the scalar holds it.
+    fn rounded(&self, mu: &[f64]) -> Vec<f64>;
+}
+
+type PhaseOf<S> = Phase<<S as GeneratingFunction>::Group>;
+type Compensated<S> = fn(&S, PhaseOf<S>) -> (PhaseOf<S>, Result<(), StepError>);
+type Together<S> = fn(&S, &mut [PhaseOf<S>], u64) -> Vec<(usize, String)>;
+
+/// A generating function with what its group can do.
+pub struct Runner<S: GeneratingFunction> {
+    steps: S,
+    compensated: Option<Compensated<S>>,
+    together: Option<Together<S>>,
+}
+
+impl<S: GeneratingFunction> Runner<S> {
+    /// With `advance` and `advance_by`.
+    pub fn new(steps: S) -> Self {
+        Self { steps, compensated: None, together: None }
+    }
+
+    /// And with `advance_compensated`.
+    #[must_use]
+    pub fn compensated(mut self) -> Self
+    where
+        S::Group: CompensatedGroup,
+    {
+        self.compensated = Some(|steps, phase| {
+            let mut state = CompensatedPhase::new(steps.group(), phase);
+            let result = advance_compensated(steps, &mut state).map(drop);
+            (state.into_phase(), result)
+        });
+        self
+    }
+
+    /// And with `ensemble::advance_all`.
+    #[must_use]
+    pub fn in_lanes(mut self) -> Self
+    where
+        S: Lanes + Sync,
+        S::Over<coadjoint::F64x8>: Sync,
+        Phase<S::Group>: Send,
+    {
+        self.together = Some(|steps, states, count| {
+            let failures = ensemble::advance_all(steps, states, count);
+            failures.into_iter().map(|f| (f.index, f.error.to_string())).collect()
+        });
+        self
+    }
+
+    fn vector(&self, v: &[f64]) -> VectorOf<S> {
+        VectorOf::<S>::from_entries(v.len(), |i| ScalarOf::<S>::of(v[i]))
+    }
+
+    fn start(&self, at: &[f64], mu: &[f64]) -> PhaseOf<S> {
+        Phase::new(self.steps.group().exp(&self.vector(at)), self.vector(mu))
+    }
+
+    fn state(&self, phase: &PhaseOf<S>) -> State {
+        let group = self.steps.group();
+        let size = group.matrix_size();
+        let element = (0..size * size).map(|at| {
+            group.matrix_entry(&phase.group_element, at / size, at % size).largest_lane()
+        });
+        State {
+            element: element.collect(),
+            momentum: entries(&phase.momentum),
+            text: format!("{phase:?}"),
+        }
+    }
+}
+
+fn entries<T: Scalar, V: Coordinates<T>>(v: &V) -> Vec<f64> {
+    (0..v.dim()).map(|i| v[i].largest_lane()).collect()
+}
+
+impl<S: GeneratingFunction> Steps for Runner<S> {
+    fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String> {
+        match solve(&self.steps, &self.vector(mu)) {
+            Ok(solution) => Ok(entries(&solution.x)),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome> {
+        let mut phase = self.start(at, mu);
+        let before = self.state(&phase);
+        let result = match way {
+            Way::One => advance(&self.steps, &mut phase).map(drop),
+            Way::Many(steps) => advance_by(&self.steps, &mut phase, steps).map(drop),
+            Way::Compensated => {
+                let (after, result) = (self.compensated?)(&self.steps, phase);
+                phase = after;
+                result
+            }
+        };
+        let error = result.err().map(|error| error.to_string());
+        Some(Outcome { before, after: self.state(&phase), error })
+    }
+
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>> {
+        let run = self.together?;
+        let mut phases: Vec<_> = starts.iter().map(|(at, mu)| self.start(at, mu)).collect();
+        let before: Vec<_> = phases.iter().map(|phase| self.state(phase)).collect();
+        let failures = run(&self.steps, &mut phases, steps);
+        let outcomes =
+            before.into_iter().zip(&phases).enumerate().map(|(index, (before, phase))| {
+                let error = failures.iter().find(|f| f.0 == index).map(|f| f.1.clone());
+                Outcome { before, after: self.state(phase), error }
+            });
+        Some(outcomes.collect())
+    }
+
+    fn unit(&self) -> f64 {
+        0.5 * ScalarOf::<S>::epsilon().largest_lane()
+    }
+
+    fn rounded(&self, mu: &[f64]) -> Vec<f64> {
+        entries(&self.vector(mu))
+    }
+}
+
+/// S given by terms (c, \[(coordinate, power), …\]).
+pub type Terms = Vec<(f64, Vec<(usize, u32)>)>;
+
+/// The polynomial as a generating function.
+///
+/// # Panics
+/// If a term names a coordinate that the group does not have.
+pub fn polynomial<G: LieGroup, C: Chart<G>>(
+    group: G,
+    chart: C,
+    terms: Terms,
+) -> PolynomialFunction<G, C> {
+    PolynomialFunction::new(group, chart, terms).expect("terms of the group's dimension")
+}

@@ -1,0 +1,27 @@
+//! A short run of the stress program: no accepted step is wrong, and none is refused that must not be.
+
+use coadjoint_tests::stress::{Options, report, run};
+
+#[test]
+fn no_wrong_step_is_accepted() {
+    let options =
+        Options { steps: 8_000, seed: 20, only: String::new(), threads: 2, instance: None };
+    let tallies = run(&options);
+    assert!(tallies.len() > 20);
+    // Every family has both kinds: the draws lie around the boundary of acceptance.
+    for (name, tally) in &tallies {
+        assert!(tally.accepted > 20, "{name} accepts {} steps", tally.accepted);
+    }
+    assert!(tallies.iter().map(|t| t.1.refused).sum::<u64>() > 1000);
+    assert!(tallies.iter().all(|(_, tally)| tally.wrong() == 0), "{}", report(&tallies));
+}
+
+#[test]
+fn the_result_does_not_depend_on_threads() {
+    let with = |threads| {
+        let only = "so3-cayley".to_owned();
+        let tallies = run(&Options { steps: 600, seed: 3, only, threads, instance: None });
+        report(&tallies)
+    };
+    assert_eq!(with(1), with(3));
+}
