@@ -29,10 +29,11 @@ fn element(algebra: &LieAlgebra, x: &[f64]) -> DMatrix<f64> {
 }
 
 fn largest(matrix: DMatrix<f64>, part: impl Fn(&Complex<f64>) -> f64) -> f64 {
-    // Shifted, or the iteration stands still on nilpotent blocks.
-    let shift = DMatrix::identity(matrix.nrows(), matrix.nrows());
-    let schur = Schur::try_new(matrix + shift, 1e-13, 10_000).unwrap();
-    schur.complex_eigenvalues().iter().map(|λ| part(&(λ - 1.0))).fold(0.0, f64::max)
+    // The iteration may stand still where eigenvalues coincide; noise below `BLUR` parts them.
+    let n = matrix.nrows();
+    let noise = points(n * n, 20).into_iter().map(|noise| DMatrix::from_vec(n, n, noise) * 1e-13);
+    let schur = noise.skip(1).find_map(|noise| Schur::try_new(&matrix + noise, 1e-14, 1000));
+    schur.unwrap().complex_eigenvalues().iter().map(part).fold(0.0, f64::max)
 }
 
 fn bound(forms: &[QuadraticForm], x: &[f64]) -> f64 {
