@@ -111,6 +111,17 @@ pub enum CliError {
     /// Learning failed, or its data or model cannot be used.
     #[error(transparent)]
     Learn(#[from] coadjoint_learn::LearnError),
+    /// No row of an ensemble has an end state; the report has been printed.
+    #[error(
+        "no trajectory reached the end: all {failed} rows failed{}",
+        .list.as_ref().map(|list| format!("; {} says why", list.display())).unwrap_or_default()
+    )]
+    Rows {
+        /// How many.
+        failed: u64,
+        /// The list of reasons.
+        list: Option<PathBuf>,
+    },
     /// Laws that do not hold; the table has been printed.
     #[error("{0}")]
     Laws(String),
@@ -136,7 +147,8 @@ impl CliError {
                     1
                 }
             }
-            Self::Write { .. }
+            Self::Rows { .. }
+            | Self::Write { .. }
             | Self::Step { .. }
             | Self::Run { .. }
             | Self::Rival(_)

@@ -17,6 +17,9 @@ use crate::error::CliError;
 use crate::learn::Fit;
 use crate::load;
 
+/// The most pairs that are made.
+const MOST_SAMPLES: usize = 100_000;
+
 /// Methods that keep no geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum MapName {
@@ -115,6 +118,13 @@ impl Visitor for Pairs<'_> {
         }
         if options.samples == 0 {
             return Err(CliError::Option("--samples must be at least 1".to_owned()));
+        }
+        if options.samples > MOST_SAMPLES {
+            return Err(CliError::Option(format!(
+                "--samples {}: at most {MOST_SAMPLES} pairs are made and held in memory; a few \
+                 thousand determine every map that can be fitted",
+                options.samples
+            )));
         }
         let method = match options.map {
             MapName::Euler => OneStep::Euler,

@@ -302,6 +302,73 @@ fn bad_rows_are_told_and_do_not_stop_the_rest() {
     assert!(!Path::new(&format!("{out}.rejected.csv")).exists());
 }
 
+/// Columns that are not ours keep their names, their places and their text, also in rows that fail
+/// and after a run that was stopped.
+#[test]
+fn other_columns_are_carried_through_unchanged() {
+    let directory = TempDir::new().unwrap();
+    let text = "id,mu_2, name ,mu_1,mu_3,note\n\
+                7,0.5,\"a, \"\"b\"\"\",2,1,  two  blanks \n\
+                # passed over\n\
+                008,0.5,é,nan,1,\n\
+                9,1,#hash,2,1e0,0.10\n";
+    let initial = written(&directory, "in.csv", text);
+    let out = at(&directory, "out.csv");
+    let summary = ensemble(&initial, &out, &["--time", "1"]);
+    assert_eq!((&summary["trajectories"], &summary["failed"]), (&3.into(), &1.into()));
+    let end = String::from_utf8(bytes(&out)).unwrap();
+    let lines: Vec<&str> = end.lines().collect();
+    assert_eq!(lines.len(), 4);
+    assert_eq!(lines[0], "id,mu_2,name,mu_1,mu_3,note");
+    assert!(lines[1].starts_with("7,") && lines[1].ends_with(",  two  blanks "), "{end}");
+    assert!(lines[1].contains(",\"a, \"\"b\"\"\","), "{end}");
+    assert_eq!(lines[2], "008,NaN,é,NaN,NaN,");
+    assert!(lines[3].contains(",\"#hash\",") && lines[3].ends_with(",0.10"), "{end}");
+    // The numbers are those of a file without the other columns.
+    let plain = written(&directory, "plain.csv", "mu_1,mu_2,mu_3\n2,0.5,1\n2,1,1\n");
+    let plain_out = at(&directory, "plain_out.csv");
+    ensemble(&plain, &plain_out, &["--time", "1"]);
+    let plain = String::from_utf8(bytes(&plain_out)).unwrap();
+    for (line, plain) in [lines[1], lines[3]].iter().zip(plain.lines().skip(1)) {
+        for number in plain.split(',') {
+            assert!(line.split(',').any(|cell| cell == number), "{line}\n{plain}");
+        }
+    }
+    // What is written is read again: the second run carries the same cells.
+    let again = at(&directory, "again.csv");
+    ensemble(&out, &again, &["--time", "1"]);
+    let again = String::from_utf8(bytes(&again)).unwrap();
+    assert!(
+        again.contains(",\"a, \"\"b\"\"\",") && again.contains("008,NaN,é,NaN,NaN,"),
+        "{again}"
+    );
+    // A matrix has no room for them, and it is said.
+    let npy = at(&directory, "out.npy");
+    let arguments = ["ensemble", BODY, "--initial", &initial, "--out", &npy, "--time", "1"];
+    let (code, _, error) = run(&arguments);
+    assert_eq!(code, 0, "{error}");
+    assert!(error.contains("not carried through") && error.contains("id, name, note"), "{error}");
+}
+
+#[test]
+fn a_run_without_a_single_end_state_fails() {
+    let directory = TempDir::new().unwrap();
+    let out = at(&directory, "out.csv");
+    for rows in ["2,inf,1\n2,x,1\n", "2000,500,1000\n"] {
+        let initial = written(&directory, "in.csv", &format!("mu_1,mu_2,mu_3\n{rows}"));
+        let (code, report, error) = run(&["ensemble", BODY, "--initial", &initial, "--out", &out]);
+        assert_eq!(code, 1, "{error}");
+        assert!(report.contains("trajectories of 1000 steps"), "{report}");
+        let count = rows.lines().count();
+        assert!(error.contains(&format!("all {count} rows failed")), "{error}");
+        assert!(error.contains("out.csv.rejected.csv says why"), "{error}");
+        assert!(String::from_utf8(bytes(&out)).unwrap().contains("NaN,NaN,NaN"));
+    }
+    // A file without rows has nothing that could fail.
+    let initial = written(&directory, "in.csv", "mu_1,mu_2,mu_3\n");
+    assert_eq!(ensemble(&initial, &out, &[])["trajectories"], 0);
+}
+
 #[test]
 fn mistakes_are_told_before_anything_runs() {
     let directory = TempDir::new().unwrap();
@@ -316,12 +383,34 @@ fn mistakes_are_told_before_anything_runs() {
     cut.truncate(cut.len() - 8);
     let short = at(&directory, "short.npy");
     std::fs::write(&short, cut).unwrap();
+    let mut claims = b"\x93NUMPY\x02\x00".to_vec();
+    claims.extend(u32::MAX.to_le_bytes());
+    claims.extend([b' '; 20]);
+    let long = at(&directory, "long.npy");
+    std::fs::write(&long, claims).unwrap();
+    let header = |name: &str, line: &str| written(&directory, name, &format!("{line}\n"));
+    let twice = header("twice.csv", "mu_1,mu_2,mu_3,mu_1");
+    let both = header("both.csv", "mu_1,mu_2,mu_3,q_w,q_x,q_y,q_z,g_11");
+    let part = header("part.csv", "mu_1,mu_2,mu_3,g_12,g_13");
+    let fourth = header("fourth.csv", "mu_1,mu_2,mu_3,mu_4");
     let top = "examples/heavy_top.toml";
     for (file, initial, out, more, expected) in [
-        (BODY, &missing, &out, [].as_slice(), "column mu_3 is missing"),
+        (
+            BODY,
+            &twice,
+            &out,
+            [].as_slice(),
+            "column mu_1 is there twice, in row 1 as cells 1 and 4",
+        ),
+        (BODY, &both, &out, &[], "columns g_11 and q_w both give the attitude"),
+        (BODY, &part, &out, &[], "column g_11 is missing"),
+        (BODY, &fourth, &out, &[], "column mu_4: the momentum of this system has"),
+        (BODY, &long, &out, &[], "its header claims 4294967295 bytes; the file has 20 left"),
+        (BODY, &good, &out, &["--threads", "1000000"], "--threads 1000000: at most"),
+        (BODY, &missing, &out, &[], "column mu_3 is missing"),
         (top, &quaternions, &out, &[], "no quaternions"),
         (top, &npy, &out, &[], "the array has 3 columns; this system needs 6 or 22"),
-        (BODY, &short, &out, &[], "ends before its 3 rows do"),
+        (BODY, &short, &out, &[], "its shape [3, 3] needs more than the 64 bytes"),
         (BODY, &good, &out, &["--shard", "3/2"], "counted from 1"),
         (BODY, &good, &out, &["--shard", "0/2"], "counted from 1"),
         (BODY, &good, &out, &["--shard", "half"], "write i/n"),

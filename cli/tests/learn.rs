@@ -117,3 +117,37 @@ fn geometrize_a_method_on_a_system() {
         .assert()
         .code(2);
 }
+
+/// Numbers that make no sense, and sizes that no memory holds, are refused as arguments.
+#[test]
+fn arguments_without_sense_are_refused_before_anything_is_allocated() {
+    let directory = tempfile::TempDir::new().unwrap();
+    let data = directory.path().join("pairs.csv");
+    let mut text = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n".to_owned();
+    for i in 0..40 {
+        let x = f64::from(i) / 40.0;
+        text += &format!("{},{},1,{},{},1.01\n", x, 1.0 - x, x + 0.01, 0.99 - x);
+    }
+    std::fs::write(&data, text).unwrap();
+    let data = data.to_str().unwrap();
+    let body = "examples/rigid_body.toml";
+    for (arguments, expected) in [
+        (["learn", data, "--dt", "0.1", "--start", "nan,1,1"].as_slice(), "start is NaN"),
+        (&["learn", data, "--dt", "0.1", "--start", "1,inf,1"], "start is inf"),
+        (&["learn", data, "--dt", "0.1", "--ridge", "nan"], "ridge is NaN"),
+        (&["learn", data, "--dt", "0.1", "--degree", "50"], "23425 coefficients"),
+        (&["learn", data, "--dt", "0.1", "--degree", "1000"], "167668500 coefficients"),
+        (&["learn", data, "--dt", "0.1", "--degree", "0"], "degree is 0"),
+        (
+            &["geometrize", "--system", body, "--dt", "0.1", "--samples", "1000000000"],
+            "--samples 1000000000: at most 100000 pairs",
+        ),
+        (&["geometrize", "--system", body, "--dt", "0.1", "--start", "nan,0,0"], "start is NaN"),
+    ] {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+        let output = coadjoint().current_dir(root).args(arguments).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(error.contains(expected), "{arguments:?}: {error}");
+    }
+}

@@ -52,6 +52,7 @@ mod least_squares;
 mod model;
 pub mod momentum;
 pub mod network;
+mod npy;
 pub mod polynomial;
 mod save;
 mod series;
@@ -73,6 +74,7 @@ pub use hamiltonian::fit_hamiltonian;
 pub use hybrid::{fit_hybrid, fit_hybrid_to_gradients};
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
+pub use npy::{NpyError, NpyHeader, npy_header};
 pub use save::{ModelFile, TrainingRecord};
 pub use series::Monomials;
 pub use session::{

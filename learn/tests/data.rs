@@ -9,8 +9,7 @@ use coadjoint_learn::data::{
     PhasePair, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce, write_pairs,
 };
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
-use coadjoint_learn::{LearnError, RowProblem};
-use npyz::WriterBuilder;
+use coadjoint_learn::{LearnError, RowProblem, npy_header};
 
 fn path(name: &str) -> PathBuf {
     let directory = std::env::temp_dir().join(format!("coadjoint-data-{}", std::process::id()));
@@ -98,37 +97,77 @@ fn npz_and_npy_hold_the_same_data() {
             [mu.x, mu.y, mu.z, nu.x, nu.y, nu.z, q.w, q.i, q.j, q.k, r.w, r.i, r.j, r.k]
         })
         .collect();
-    let array = |out: &mut dyn Write, first: usize, width: usize| {
-        let options = npyz::WriteOptions::new().default_dtype();
-        let mut writer = options.shape(&[5, width as u64]).writer(out).begin_nd().unwrap();
-        writer.extend(rows.iter().flat_map(|r| r[first..first + width].to_vec())).unwrap();
-        writer.finish().unwrap();
+    let array = |first: usize, width: usize| {
+        let mut bytes = npy_header(&[5, width as u64]);
+        let values = rows.iter().flat_map(|r| r[first..first + width].to_vec());
+        bytes.extend(values.flat_map(f64::to_le_bytes));
+        bytes
     };
     let npy = path("pairs.npy");
-    array(&mut std::fs::File::create(&npy).unwrap(), 0, 14);
+    std::fs::write(&npy, array(0, 14)).unwrap();
     let npz = path("pairs.npz");
-    let mut archive = npyz::npz::NpzWriter::create(&npz).unwrap();
+    let mut archive = zip::ZipWriter::new(std::fs::File::create(&npz).unwrap());
     for (name, first, width) in [("mu", 0, 3), ("mu_next", 3, 3), ("q", 6, 4), ("q_next", 10, 4)] {
-        let mut bytes = Vec::new();
-        array(&mut bytes, first, width);
-        let values = rows.iter().flat_map(|r| r[first..first + width].to_vec());
-        archive
-            .array(name, Default::default())
-            .unwrap()
-            .default_dtype()
-            .shape(&[5, width as u64])
-            .begin_nd()
-            .and_then(|mut w| {
-                w.extend(values)?;
-                w.finish()
-            })
-            .unwrap();
+        let options = zip::write::SimpleFileOptions::default();
+        archive.start_file(format!("{name}.npy"), options).unwrap();
+        archive.write_all(&array(first, width)).unwrap();
     }
-    drop(archive);
+    archive.finish().unwrap();
     let (a, b) = (load(&npy).unwrap(), load(&npz).unwrap());
     assert_eq!(a, b);
     assert_eq!(a.data.len(), 5);
     assert_eq!(a.data.momenta.before[(1, 2)], pairs[2].before.momentum.y);
+}
+
+/// The same five arrays as NumPy 2 writes them with `savez` (stored) and `savez_compressed`, and a
+/// matrix with the first index quickest in version 2 of the format; see `numpy/write.py`.
+#[test]
+fn what_numpy_writes_is_read() {
+    let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/numpy");
+    let file = |name: &str| read_columns(&directory.join(name), 3, 3).unwrap();
+    let [stored, deflated] = [file("stored.npz"), file("deflated.npz")];
+    assert_eq!(stored, deflated);
+    assert_eq!(stored.rows(), 200);
+    assert_eq!(stored.column("mu_2").unwrap()[..3], [0.25, 1.0, 1.75]);
+    assert_eq!(stored.column("mu_next_3").unwrap()[1], -1.25);
+    assert_eq!(stored.column("g_12").unwrap()[1], 10.0);
+    assert_eq!(stored.column("q_z").unwrap()[199], 0.5);
+    assert_eq!(stored.column("weight").unwrap()[7], 7.0);
+    let fortran = file("fortran_v2.npy");
+    assert_eq!((fortran.rows(), fortran.names().len()), (4, 6));
+    assert_eq!(fortran.column("mu_next_1").unwrap(), [3.0, 9.0, 15.0, 21.0]);
+}
+
+#[test]
+fn arrays_that_claim_more_than_they_hold_are_refused() {
+    // Version 2, a header of 4 GiB less one byte.
+    let mut claims = b"\x93NUMPY\x02\x00".to_vec();
+    claims.extend(u32::MAX.to_le_bytes());
+    claims.extend(b"{'descr': '<f8', ");
+    let long = path("long.npy");
+    std::fs::write(&long, &claims).unwrap();
+    // More rows than bytes.
+    let short = path("short.npy");
+    std::fs::write(&short, npy_header(&[1 << 60, 6])).unwrap();
+    // The same in an archive.
+    let archived = path("claims.npz");
+    let mut archive = zip::ZipWriter::new(std::fs::File::create(&archived).unwrap());
+    archive.start_file("mu.npy", zip::write::SimpleFileOptions::default()).unwrap();
+    archive.write_all(&claims).unwrap();
+    archive.finish().unwrap();
+    let cut = path("cut.npz");
+    let whole = std::fs::read(&archived).unwrap();
+    std::fs::write(&cut, &whole[..whole.len() - 30]).unwrap();
+    for (file, expected) in [
+        (&long, "its header claims 4294967295 bytes; the file has 17 left"),
+        (&short, "needs more than the 0 bytes that the file has left"),
+        (&archived, "its header claims 4294967295 bytes"),
+        (&cut, "NumPy"),
+    ] {
+        let error = read_columns(file, 3, 3).unwrap_err();
+        assert!(matches!(error, LearnError::Format { .. }), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+    }
 }
 
 const HEADER_OF_MATRICES: &str = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,\

@@ -159,19 +159,40 @@ where
             });
         }
         rows.values.fill(f64::NAN);
-        for ((&place, state), _) in
-            places.iter().zip(&states).zip(&failed).filter(|(_, failed)| !**failed)
-        {
+        let drifts: Vec<Option<Drift>> = before
+            .par_iter()
+            .zip(&states)
+            .zip(&failed)
+            .map(|((before, after), failed)| (!failed).then(|| drift(self.group(), before, after)))
+            .collect();
+        let mut largest = Drift::default();
+        for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
+            let Some(drift) = drift else { continue };
             let row = &mut rows.values[place * width..(place + 1) * width];
             write(self.group(), layout, state, row);
+            if let Err(reason) = check(layout, row, drift) {
+                row.fill(f64::NAN);
+                let row = rows.first + place as u64;
+                rows.rejected.push(Rejected { row, step: steps, reason });
+                continue;
+            }
+            largest = largest.max(drift);
         }
         rows.rejected.sort_by_key(|r| r.row);
-        let drifts = before.par_iter().zip(&states).zip(&failed);
-        drifts
-            .filter(|(_, failed)| !**failed)
-            .map(|((before, after), _)| drift(self.group(), before, after))
-            .reduce(Drift::default, Drift::max)
+        largest
     }
+}
+
+/// Refuses an end state that is no state: a number in it, or its drift, is not finite.
+fn check(layout: &Layout, row: &[f64], drift: Drift) -> Result<(), String> {
+    if let Some(place) = row.iter().position(|value| !value.is_finite()) {
+        let name = layout.names().swap_remove(place);
+        return Err(format!("{name} is {} at the end", row[place]));
+    }
+    if drift.spatial_momentum.is_finite() && drift.casimirs.is_finite() {
+        return Ok(());
+    }
+    Err("the drift of the momentum or of a Casimir is not finite: the numbers are too large".into())
 }
 
 /// The phase point of a row, or what is wrong with it.
@@ -241,13 +262,47 @@ fn drift<G: EnsembleGroup>(group: &G, before: &Phase<G>, after: &Phase<G>) -> Dr
         if size > 0.0 { difference.abs() / size } else { difference.abs() }
     };
     let (start, end) = (before.spatial_momentum(group), after.spatial_momentum(group));
-    let difference = (0..group.dim()).map(|i| (end[i] - start[i]).abs()).fold(0.0, f64::max);
+    let difference = (0..group.dim()).map(|i| (end[i] - start[i]).abs()).fold(0.0, larger);
     let casimirs = (0..group.casimir_count()).map(|index| {
         let start = group.casimir(index, &before.momentum);
         relative(group.casimir(index, &after.momentum) - start, start.abs())
     });
     Drift {
         spatial_momentum: relative(difference, before.momentum.largest_entry()),
-        casimirs: casimirs.fold(0.0, f64::max),
+        casimirs: casimirs.fold(0.0, larger),
+    }
+}
+
+/// The larger of two numbers; what is no number is larger than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_finite_is_never_an_end_state() {
+        let shape = Shape { dim: 3, matrix_size: 3, quaternions: true };
+        let layout = Layout { shape, attitude: Attitude::Quaternion };
+        let fine = Drift { spatial_momentum: 1e-16, casimirs: 0.0 };
+        let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];
+        assert_eq!(check(&layout, &row, fine), Ok(()));
+        for (place, value, expected) in
+            [(1, f64::NAN, "mu_2 is NaN"), (5, f64::INFINITY, "q_y is inf")]
+        {
+            let mut wrong = row;
+            wrong[place] = value;
+            assert!(check(&layout, &wrong, fine).unwrap_err().starts_with(expected));
+        }
+        for wrong in [
+            Drift { spatial_momentum: f64::NAN, ..fine },
+            Drift { casimirs: f64::INFINITY, ..fine },
+        ] {
+            assert!(check(&layout, &row, wrong).unwrap_err().contains("not finite"));
+        }
+        assert!(larger(f64::NAN, 1.0).is_nan() && larger(1.0, f64::NAN).is_nan());
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0)), (2.0, 2.0));
     }
 }

@@ -56,16 +56,24 @@ impl Layout {
     }
 
     /// The layout of a file with named columns, and for each of its columns the number in the
-    /// file. Other columns are left alone.
+    /// file. Other columns are not looked at.
     pub fn find(shape: Shape, header: &[String]) -> Result<(Self, Vec<usize>), CliError> {
-        let has = |name: &str| header.iter().any(|h| h == name);
+        let any = |attitude| {
+            let names = Self { shape, attitude }.names();
+            names.into_iter().skip(shape.dim).find(|name| header.contains(name))
+        };
         let first = matrix(shape.matrix_size).into_iter().next().unwrap_or_default();
-        let attitude = if has(&first) {
-            Attitude::Matrix
-        } else if has("q_w") {
-            Attitude::Quaternion
-        } else {
-            Attitude::None
+        let quaternion =
+            ["q_w", "q_x", "q_y", "q_z"].into_iter().find(|q| header.iter().any(|h| h == q));
+        let attitude = match (any(Attitude::Matrix), quaternion) {
+            (Some(g), Some(q)) => {
+                return Err(CliError::Option(format!(
+                    "columns {g} and {q} both give the attitude: keep either g_… or q_w, q_x, q_y, q_z"
+                )));
+            }
+            (Some(_), None) => Attitude::Matrix,
+            (None, Some(_)) => Attitude::Quaternion,
+            (None, None) => Attitude::None,
         };
         if attitude == Attitude::Quaternion && !shape.quaternions {
             return Err(CliError::Option(format!(
@@ -73,6 +81,24 @@ impl Layout {
                  as a {d}×{d} matrix, {first} …",
                 d = shape.matrix_size
             )));
+        }
+        for (column, name) in header.iter().enumerate() {
+            let index = name.strip_prefix("mu_").and_then(|index| index.parse::<usize>().ok());
+            if index.is_some_and(|index| index == 0 || index > shape.dim) {
+                return Err(CliError::Option(format!(
+                    "column {name}: the momentum of this system has the coordinates mu_1 … mu_{}; \
+                     take it out or give it another name",
+                    shape.dim
+                )));
+            }
+            let ours = Self { shape, attitude }.names().contains(name);
+            if let Some(before) = header[..column].iter().position(|h| ours && h == name) {
+                return Err(CliError::Option(format!(
+                    "column {name} is there twice, in row 1 as cells {} and {}: keep one",
+                    before + 1,
+                    column + 1
+                )));
+            }
         }
         let layout = Self { shape, attitude };
         let place = |name: String| {
@@ -111,4 +137,31 @@ fn matrix(size: usize) -> Vec<String> {
     let separator = if size > 9 { "_" } else { "" };
     let places = (1..=size).flat_map(|i| (1..=size).map(move |j| (i, j)));
     places.map(|(i, j)| format!("g_{i}{separator}{j}")).collect()
+}
+
+/// All columns of a file of names, in its order.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The names.
+    pub header: Vec<String>,
+    /// For each cell of a row, the number of the layout's column, or nothing where it is carried
+    /// through as it is.
+    pub own: Vec<Option<usize>>,
+}
+
+impl Table {
+    /// Of a header, in which the layout's columns are at `places`.
+    pub fn new(header: Vec<String>, places: &[usize]) -> Self {
+        let mut own = vec![None; header.len()];
+        for (column, &place) in places.iter().enumerate() {
+            own[place] = Some(column);
+        }
+        Self { header, own }
+    }
+
+    /// The names of the columns that are carried through.
+    pub fn others(&self) -> impl Iterator<Item = &str> + '_ {
+        let names = self.header.iter().zip(&self.own);
+        names.filter(|(_, own)| own.is_none()).map(|(name, _)| name.as_str())
+    }
 }

@@ -47,7 +47,8 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         return Err(CliError::Option("--out must be another file than --initial".into()));
     }
     // Refused before the derivation, which may take long.
-    output::Form::of(&options.out)?;
+    let form = output::Form::of(&options.out)?;
+    options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
     let engine = engine::engine(path, &integrator, step)?;
     let input = input::open(&options.initial, engine.shape())?;
@@ -74,6 +75,12 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         identity,
         restart: options.restart,
     };
+    if let Some(table) = job.input.table().filter(|_| form != output::Form::Csv) {
+        let others: Vec<&str> = table.others().collect();
+        if !others.is_empty() {
+            eprintln!("not carried through, as only .csv has room for them: {}", others.join(", "));
+        }
+    }
     if let Some(threads) = options.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -84,7 +91,26 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let text =
         report::report(&outcome, &integrator, step, steps, engine.casimirs(), options.format);
     out!("{text}");
+    if outcome.trajectories > 0 && outcome.failed == outcome.trajectories {
+        return Err(CliError::Rows { failed: outcome.failed, list: outcome.list });
+    }
     Ok(())
+}
+
+/// Threads that are always allowed, however few processors there are.
+const THREADS: usize = 256;
+
+/// Refuses a number of threads that no machine is faster with.
+fn check_threads(threads: usize) -> Result<(), CliError> {
+    let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let most = THREADS.max(4 * processors);
+    if threads <= most {
+        return Ok(());
+    }
+    Err(CliError::Option(format!(
+        "--threads {threads}: at most {most} are started, and more than the {processors} processors \
+         of this machine save no time; leave it out for one each"
+    )))
 }
 
 /// Whether two names mean one file.

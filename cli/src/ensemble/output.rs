@@ -6,9 +6,14 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::layout::Layout;
+use coadjoint_learn::npy_header;
+
+use super::layout::{Layout, Table};
 use super::rows::Rows;
 use crate::error::CliError;
+
+/// Rows turned into text at a time.
+const PIECE: usize = 256;
 
 /// The format of the file, by the ending of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,31 +45,48 @@ impl Form {
     }
 
     /// What stands before the first of `count` rows.
-    pub fn header(self, layout: &Layout, count: u64) -> Vec<u8> {
+    pub fn header(self, layout: &Layout, table: Option<&Table>, count: u64) -> Vec<u8> {
         match self {
-            Self::Csv => format!("{}\n", layout.names().join(",")).into_bytes(),
-            Self::Npy => npy_header(count, layout.width()),
+            Self::Csv => {
+                let names = table.map_or_else(|| layout.names(), |table| table.header.clone());
+                let mut line = Vec::new();
+                for (column, name) in names.iter().enumerate() {
+                    if column > 0 {
+                        line.push(b',');
+                    }
+                    push_cell(&mut line, name.as_bytes());
+                }
+                line.push(b'\n');
+                line
+            }
+            Self::Npy => npy_header(&[count, layout.width() as u64]),
             #[cfg(feature = "parquet")]
             Self::Parquet => Vec::new(),
         }
     }
 
-    /// The bytes of the rows.
-    pub fn encode(self, layout: &Layout, rows: &Rows) -> Vec<u8> {
+    /// The bytes of the rows; in CSV, in the order of the `table`'s columns.
+    pub fn encode(self, layout: &Layout, table: Option<&Table>, rows: &Rows) -> Vec<u8> {
         if self != Self::Csv {
             return rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
         }
         let width = layout.width();
         // Pieces of fixed size, joined in order: the same bytes whatever the threads.
-        let pieces = rows.values.par_chunks(256 * width).map(|piece| {
+        let own: Vec<Option<usize>> =
+            table.map_or_else(|| (0..width).map(Some).collect(), |table| table.own.clone());
+        let pieces = rows.values.par_chunks(PIECE * width).enumerate().map(|(number, piece)| {
             let mut text = Vec::with_capacity(piece.len() * 20);
-            for row in piece.chunks(width) {
-                for (column, value) in row.iter().enumerate() {
-                    if column > 0 {
+            for (place, row) in piece.chunks(width).enumerate() {
+                let mut others = rows.others.get(number * PIECE + place).into_iter().flatten();
+                for (cell, own) in own.iter().enumerate() {
+                    if cell > 0 {
                         text.push(b',');
                     }
-                    // Writing into memory cannot fail.
-                    let _ = write!(text, "{value}");
+                    match own {
+                        // Writing into memory cannot fail.
+                        Some(column) => drop(write!(text, "{}", row[*column])),
+                        None => push_cell(&mut text, others.next().unwrap_or_default()),
+                    }
                 }
                 text.push(b'\n');
             }
@@ -74,17 +96,19 @@ impl Form {
     }
 }
 
-/// Version 1.0 of NumPy's format, the header padded to a multiple of 64 bytes.
-fn npy_header(rows: u64, width: usize) -> Vec<u8> {
-    let dictionary =
-        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {width}), }}");
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    let length = (bytes.len() + 2 + dictionary.len() + 1).next_multiple_of(64) - bytes.len() - 2;
-    bytes.extend((length as u16).to_le_bytes());
-    bytes.extend(dictionary.bytes());
-    bytes.resize(bytes.len() + length - dictionary.len() - 1, b' ');
-    bytes.push(b'\n');
-    bytes
+/// Adds a cell, in quotes where it would be read as something else without.
+fn push_cell(text: &mut Vec<u8>, cell: &[u8]) {
+    if !cell.iter().any(|byte| matches!(byte, b',' | b'"' | b'\r' | b'\n' | b'#')) {
+        return text.extend(cell);
+    }
+    text.push(b'"');
+    for &byte in cell {
+        if byte == b'"' {
+            text.push(b'"');
+        }
+        text.push(byte);
+    }
+    text.push(b'"');
 }
 
 /// A file that grows at its end.

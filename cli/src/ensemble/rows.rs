@@ -1,5 +1,7 @@
 //! A piece of an ensemble in memory.
 
+use ::csv::ByteRecord;
+
 /// A row that has no end state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rejected {
@@ -18,6 +20,8 @@ pub struct Rows {
     pub first: u64,
     /// Row-major.
     pub values: Vec<f64>,
+    /// For each row the cells of the columns that are carried through, where there are any.
+    pub others: Vec<ByteRecord>,
     /// Rows already known to be bad, ascending.
     pub rejected: Vec<Rejected>,
 }
@@ -27,6 +31,7 @@ impl Rows {
     pub fn clear(&mut self, first: u64) {
         self.first = first;
         self.values.clear();
+        self.others.clear();
         self.rejected.clear();
     }
 

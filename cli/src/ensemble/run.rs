@@ -137,8 +137,9 @@ fn advance(
     mut list: Appended,
 ) -> Result<Vec<Rejected>, CliError> {
     let count = job.range.end - job.range.start;
+    let table = job.input.table().cloned();
     if journal.rows == 0 {
-        output.append(&form.header(layout, count))?;
+        output.append(&form.header(layout, table.as_ref(), count))?;
         list.append(b"row,step,reason\n")?;
     }
     let position = (journal.rows > 0).then_some(journal.position);
@@ -153,7 +154,7 @@ fn advance(
         rows.clear(job.range.start + journal.rows + 1);
         job.input.read(take as usize, &mut rows)?;
         let drift = job.engine.advance(layout, job.steps, &mut rows);
-        output.append(&form.encode(layout, &rows))?;
+        output.append(&form.encode(layout, table.as_ref(), &rows))?;
         for rejected in &rows.rejected {
             let reason = rejected.reason.replace('"', "'");
             list.append(format!("{},{},\"{reason}\"\n", rejected.row, rejected.step).as_bytes())?;

@@ -168,6 +168,9 @@ pub enum Mistake {
     /// A value of the wrong kind: key, what was expected, what was found, an example.
     #[error("`{0}` must be {1}, not {2}")]
     WrongKind(String, String, String, String),
+    /// A quote that opens a text which nothing closes.
+    #[error("this quote has no partner: the text that it opens is never closed")]
+    UnclosedQuote,
     /// The file is not TOML.
     #[error("not readable as TOML: {0}")]
     Toml(String),
@@ -279,6 +282,9 @@ impl Mistake {
                 return Some(format!("write for example {example}"));
             }
             Self::RepeatedKey(_) => "keep one of them",
+            Self::UnclosedQuote => {
+                "texts begin and end with the same quote on one line, as in name = \"rigid-body\""
+            }
             Self::Other(_, help) => return help.clone(),
             _ => return None,
         };

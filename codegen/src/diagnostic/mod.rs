@@ -4,11 +4,13 @@
 
 mod mistake;
 mod nearest;
+mod quote;
 mod render;
 mod span;
 
 pub use mistake::Mistake;
 pub use nearest::{distance, nearest};
+pub use quote::unclosed_quote;
 pub use span::Span;
 
 use proc_macro2::TokenStream;

@@ -9,6 +9,26 @@ pub enum LieAlgebraError {
     /// There are no generators.
     #[error("a Lie algebra needs at least one generator; give its basis or its brackets")]
     Empty,
+    /// More generators than brackets alone are of use for.
+    #[error(
+        "{generators} generators are known by their brackets alone; at most {limit} are: the matrices of such an algebra are those of its adjoint representation, {generators} tables of {generators} × {generators}. Write it as a product of smaller groups, or give a matrix basis"
+    )]
+    TooLarge {
+        /// The number of generators.
+        generators: usize,
+        /// The most there may be.
+        limit: usize,
+    },
+    /// The bracket of a generator with itself is given and not zero.
+    #[error(
+        "[{generator}, {generator}] = 0 always, but a value is given for it; leave it out, or name two generators"
+    )]
+    SelfBracket {
+        /// The name of the generator.
+        generator: String,
+        /// Its index, from zero.
+        index: usize,
+    },
     /// A basis matrix is not square.
     #[error("basis matrix {generator} is {rows} × {columns}; every basis matrix must be square")]
     NotSquare {

@@ -4,8 +4,10 @@ use super::names::{Name, Names};
 use super::text;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::Arena;
+use crate::lie::LieAlgebraError;
 use crate::number::Rational;
 use crate::pass::linear;
+use num_traits::Zero;
 
 /// \\[e_i, e_j\\] with its components along the generators: (i, j, [(k, c_ij^k)]).
 pub type Bracket = (usize, usize, Vec<(usize, Rational)>);
@@ -46,5 +48,11 @@ pub fn bracket(
         return None;
     }
     let components = linear(&arena, root, diagnostics)?;
-    Some((i?, j?, components))
+    let (i, j) = (i?, j?);
+    if i == j && components.iter().any(|(_, value)| !value.is_zero()) {
+        let wrong = LieAlgebraError::SelfBracket { generator: a.to_owned(), index: i };
+        diagnostics.report(whole, Mistake::Algebra(wrong));
+        return None;
+    }
+    Some((i, j, components))
 }

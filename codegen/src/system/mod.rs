@@ -49,7 +49,7 @@ mod units;
 
 use toml::de::DeTable;
 
-use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::diagnostic::{Diagnostics, Mistake, Span, unclosed_quote};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::pass::{
     self, DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
@@ -108,6 +108,11 @@ pub struct System {
 pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
+    // What a quote without a partner lets run on is read as nonsense: only the quote is told.
+    if let Some(at) = unclosed_quote(text).filter(|_| !errors.is_empty()) {
+        diagnostics.report(Span::text(at..at + 1), Mistake::UnclosedQuote);
+        return Err(diagnostics);
+    }
     for error in errors {
         let span = error.span().map_or(Span::Whole, Span::text);
         // One line: more would repeat the source, which is shown anyway.

@@ -80,6 +80,11 @@ impl Flow<'_> {
             for ((error, before), after) in errors.iter_mut().zip(&forcing).zip(&after) {
                 self.advance(error, &points, h, before, after);
             }
+            if next.iter().chain(after.iter().flatten()).any(|value| !value.is_finite()) {
+                // The motion leaves every bound: no step is small enough.
+                along.errors.fill(f64::INFINITY);
+                return along;
+            }
             mu = next;
             forcing = after;
             time += h;
@@ -87,7 +92,8 @@ impl Flow<'_> {
             self.look(&mut along, &mu, &forcing);
             for (largest_so_far, error) in along.errors.iter_mut().zip(&errors) {
                 let now = (largest(&error.nu) / size).max(largest(&error.eta));
-                *largest_so_far = largest_so_far.max(now);
+                let finite = error.nu.iter().chain(&error.eta).all(|value| value.is_finite());
+                *largest_so_far = largest_so_far.max(if finite { now } else { f64::INFINITY });
             }
         }
         // Beyond what was followed: in proportion to time.

@@ -29,6 +29,12 @@ const RATIO: f64 = 0.4;
 /// folds at about 2.
 const TURN: f64 = 1.5;
 
+/// The most steps of a run that is picked: more than a day of computing.
+const MOST_STEPS: f64 = 1e10;
+/// The smallest step that is picked, as part of the time in which the group turns by [`TURN`]. With
+/// K = 3 a tolerance of 1e-14 needs about 1e-4 of it.
+const SMALLEST: f64 = 1e-6;
+
 /// What is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
@@ -78,6 +84,33 @@ impl fmt::Display for Choice {
     }
 }
 
+/// What a step was limited by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Bound {
+    /// The duration of the run.
+    Duration,
+    /// The ratio of neighbouring terms of the series.
+    Ratio,
+    /// The angle by which the group turns in a step.
+    Turn,
+    /// The error at the end.
+    Error,
+}
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Duration => f.write_str("the duration of the run"),
+            Self::Ratio => {
+                write!(f, "that a term of the series be at most {RATIO} of the one before it")
+            }
+            Self::Turn => write!(f, "that the group turn by at most {TURN} rad in a step"),
+            Self::Error => f.write_str("the error that the missing terms make by the end"),
+        }
+    }
+}
+
 /// Why nothing could be picked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -118,6 +151,28 @@ pub enum ToleranceError {
     /// The series cannot be derived.
     #[error(transparent)]
     Derive(#[from] DeriveError),
+    /// The step that meets the tolerance is far below the motion's own time scale, or far too many
+    /// are needed.
+    #[error(
+        "the tolerance {tolerance:e} needs h = {step:.1e} even at K = {truncation}, {steps:.1e} steps ({scale}; at most {most:e} steps are picked): the bound behind it is {bound}. {advice}",
+        scale = scale_text(*.scale), most = MOST_STEPS, advice = advice(*.bound, *.along_run)
+    )]
+    StepTooSmall {
+        /// The tolerance asked for.
+        tolerance: f64,
+        /// The truncation that needs fewest operations.
+        truncation: usize,
+        /// The step it needs; 0 or not a number where none meets the tolerance.
+        step: f64,
+        /// The steps of the run.
+        steps: f64,
+        /// The time in which the group turns by 1.5 rad; infinite if it does not.
+        scale: f64,
+        /// What the step is limited by.
+        bound: Bound,
+        /// Whether it was found along a run, not over a region.
+        along_run: bool,
+    },
     /// Even the smallest truncation is too large.
     #[error(
         "S_{order} is too large to derive, so nothing is known of the error of any truncation: give truncation and step instead"
@@ -126,6 +181,27 @@ pub enum ToleranceError {
         /// The order.
         order: usize,
     },
+}
+
+fn scale_text(scale: f64) -> String {
+    if scale.is_finite() {
+        format!("the group turns by {TURN} rad in {scale:.1e}")
+    } else {
+        "nothing turns".to_owned()
+    }
+}
+
+fn advice(bound: Bound, along_run: bool) -> &'static str {
+    match (bound, along_run) {
+        (Bound::Error | Bound::Duration, _) => {
+            "Ask for a larger tolerance or a shorter run, or give truncation and step instead"
+        }
+        (_, false) => {
+            "Give a smaller region, or bounds for each coordinate that leave out where the motion is \
+             fast, or truncation and step instead"
+        }
+        (_, true) => "Give truncation and step instead, and see with `check` what they are worth",
+    }
 }
 
 /// Picks K and h.
@@ -160,14 +236,14 @@ pub fn choose(
     let sizes = Sizes::of(&flow, dim, target);
     let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
     let last = target.truncation.unwrap_or(*TRUNCATIONS.end()).min(series.truncation() - 2);
-    let mut best: Option<Choice> = None;
+    let mut best: Option<(Choice, Bound)> = None;
     for truncation in (first..=last).step_by(2) {
-        let step = sizes.step(&orders, truncation, target);
+        let (step, bound) = sizes.step(&orders, truncation, target);
         let candidate = Problem { truncation, ..problem.clone() };
         let operations = Plan::operations(&candidate, &series, limit)? as f64 / step;
-        if best.as_ref().is_none_or(|best| operations < best.operations) {
+        if best.as_ref().is_none_or(|(best, _)| operations < best.operations) {
             let place = truncation.div_ceil(2);
-            best = Some(Choice {
+            let choice = Choice {
                 tolerance: target.tolerance,
                 truncation,
                 step,
@@ -176,10 +252,26 @@ pub fn choose(
                 region: sizes.region.clone(),
                 along_run: target.region.is_none(),
                 operations,
-            });
+            };
+            best = Some((choice, bound));
         }
     }
-    best.ok_or(ToleranceError::TooLarge { order: first + 2 })
+    let (choice, bound) = best.ok_or(ToleranceError::TooLarge { order: first + 2 })?;
+    let scale = if sizes.turning > 0.0 { TURN / sizes.turning } else { f64::INFINITY };
+    let steps = target.duration / choice.step;
+    let possible = choice.step > 0.0 && choice.error.is_finite() && steps <= MOST_STEPS;
+    if !possible || choice.step < SMALLEST * scale.min(target.duration) {
+        return Err(ToleranceError::StepTooSmall {
+            tolerance: choice.tolerance,
+            truncation: choice.truncation,
+            step: choice.step,
+            steps,
+            scale,
+            bound,
+            along_run: choice.along_run,
+        });
+    }
+    Ok(choice)
 }
 
 fn check(target: &Target, dim: usize) -> Result<(), ToleranceError> {
@@ -296,14 +388,17 @@ impl Sizes {
         sum + last * ratio / (1.0 - ratio).max(0.1)
     }
 
-    /// The largest step that meets the target, so that the duration is a whole number of steps.
-    fn step(&self, orders: &[usize], truncation: usize, target: &Target) -> f64 {
-        let mut most = target.duration;
-        if self.ratio > 0.0 {
-            most = most.min((RATIO / self.ratio).sqrt());
+    /// The largest step that meets the target, so that the duration is a whole number of steps, and
+    /// what it is limited by.
+    fn step(&self, orders: &[usize], truncation: usize, target: &Target) -> (f64, Bound) {
+        let (mut most, mut bound) = (target.duration, Bound::Duration);
+        let ratio = (RATIO / self.ratio).sqrt();
+        if self.ratio > 0.0 && ratio < most {
+            (most, bound) = (ratio, Bound::Ratio);
         }
-        if self.turning > 0.0 {
-            most = most.min(TURN / self.turning);
+        let turn = TURN / self.turning;
+        if self.turning > 0.0 && turn < most {
+            (most, bound) = (turn, Bound::Turn);
         }
         let goal = SAFETY * target.tolerance;
         let (mut low, mut high) = (0.0, most);
@@ -316,8 +411,8 @@ impl Sizes {
                     low = middle;
                 }
             }
-            most = low;
+            (most, bound) = (low, Bound::Error);
         }
-        target.duration / (target.duration / most).ceil()
+        (target.duration / (target.duration / most).ceil(), bound)
     }
 }

@@ -1,13 +1,14 @@
 //! NumPy files: `.npz` with named arrays, `.npy` with one plain matrix.
 
-use std::io::Read;
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
-use npyz::npz::NpzArchive;
-use npyz::{DType, NpyFile, Order, TypeChar};
+use zip::ZipArchive;
 
 use super::columns::Columns;
 use crate::error::LearnError;
+use crate::npy::NpyHeader;
 
 /// An array of any shape, row-major.
 struct Array {
@@ -19,15 +20,22 @@ struct Array {
 /// (N, n) is the columns `mu_1` … `mu_n`; an array `g` of shape (N, d, d) is `g_11` … `g_dd`; an
 /// array `q` of shape (N, 4) is `q_w`, `q_x`, `q_y`, `q_z`. The same with `_next`.
 pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
-    let mut archive = NpzArchive::open(path).map_err(|e| format(path, &e))?;
-    let mut names: Vec<String> = archive.array_names().map(Into::into).collect();
+    let file = open(path)?;
+    let mut archive = ZipArchive::new(BufReader::new(file)).map_err(|e| damaged(path, &e))?;
+    let mut names = Vec::new();
+    for index in 0..archive.len() {
+        let entry = archive.by_index(index).map_err(|e| damaged(path, &e))?;
+        let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
+        names.extend(name.strip_suffix(".npy").map(String::from));
+    }
     names.sort();
     let mut columns = Vec::new();
     for name in names {
-        if let Some(file) = archive.by_name(&name).map_err(|e| format(path, &e))? {
-            let array = read_array(path, file)?;
-            spread(&name, &array, &mut columns);
-        }
+        let entry = archive.by_name(&format!("{name}.npy")).map_err(|e| damaged(path, &e))?;
+        // What the archive says of the size bounds what is read; the array must agree with it.
+        let total = entry.size();
+        let array = read_array(path, entry, total)?;
+        spread(&name, &array, &mut columns);
     }
     Columns::new(columns)
 }
@@ -36,10 +44,9 @@ pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
 /// after the step, then nothing, or the attitude before and after as matrices row by row
 /// (2d² columns), or as quaternions w, x, y, z (8 columns). `dim` and `size` are n and d.
 pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, LearnError> {
-    let bytes =
-        std::fs::read(path).map_err(|source| LearnError::File { path: path.into(), source })?;
-    let file = NpyFile::new(&bytes[..]).map_err(|e| format(path, &e))?;
-    let array = read_array(path, file)?;
+    let file = open(path)?;
+    let total = file.metadata().map_err(|source| unread(path, source))?.len();
+    let array = read_array(path, BufReader::new(file), total)?;
     let width = array.shape.get(1).copied().unwrap_or(0);
     let mut names = numbered("mu", dim);
     names.extend(numbered("mu_next", dim));
@@ -66,31 +73,36 @@ pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, 
     Columns::new(columns)
 }
 
-fn format(path: &Path, error: &std::io::Error) -> LearnError {
+fn open(path: &Path) -> Result<File, LearnError> {
+    File::open(path).map_err(|source| unread(path, source))
+}
+
+fn unread(path: &Path, source: std::io::Error) -> LearnError {
+    LearnError::File { path: path.into(), source }
+}
+
+fn damaged(path: &Path, error: &dyn std::fmt::Display) -> LearnError {
     LearnError::Format { path: path.into(), format: "NumPy", reason: error.to_string() }
 }
 
-/// Reads an array of 64- or 32-bit floats.
-fn read_array<R: Read>(path: &Path, file: NpyFile<R>) -> Result<Array, LearnError> {
-    let shape: Vec<usize> =
-        file.shape().iter().map(|&s| usize::try_from(s).unwrap_or(usize::MAX)).collect();
-    let fortran = file.order() == Order::Fortran;
-    let width = match file.dtype() {
-        DType::Plain(ty) if ty.type_char() == TypeChar::Float => ty.size_field(),
-        _ => 0,
-    };
-    let values = match width {
-        8 => file.into_vec::<f64>().map_err(|e| format(path, &e))?,
-        4 => {
-            let narrow = file.into_vec::<f32>().map_err(|e| format(path, &e))?;
-            narrow.into_iter().map(f64::from).collect()
-        }
-        _ => {
-            let reason = "arrays must be of 64- or 32-bit floats".into();
-            return Err(LearnError::Format { path: path.into(), format: "NumPy", reason });
-        }
-    };
-    let values = if fortran { row_major(&shape, &values) } else { values };
+/// Bytes read at a time.
+const PIECE: usize = 1 << 16;
+
+/// Reads an array of 64- or 32-bit floats that has `total` bytes with its header. Memory grows with
+/// what is there, not with what is claimed.
+fn read_array(path: &Path, mut reader: impl Read, total: u64) -> Result<Array, LearnError> {
+    let header = NpyHeader::read(&mut reader, total).map_err(|e| damaged(path, &e))?;
+    let mut missing = header.count() * header.width;
+    let mut values = Vec::new();
+    let mut piece = vec![0; PIECE.min(missing)];
+    while missing > 0 {
+        let take = piece.len().min(missing);
+        reader.read_exact(&mut piece[..take]).map_err(|e| damaged(path, &e))?;
+        header.decode(&piece[..take], &mut values);
+        missing -= take;
+    }
+    let shape = header.shape;
+    let values = if header.fortran { row_major(&shape, &values) } else { values };
     Ok(Array { shape, values })
 }
 

@@ -1,8 +1,12 @@
 //! Writing pairs of phase points, in the columns the reader looks for.
 
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use npyz::WriterBuilder;
+use zip::result::ZipError;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 use super::columns::Columns;
 use super::npy::{matrix, numbered};
@@ -10,6 +14,7 @@ use super::reduce::PhasePair;
 use crate::error::LearnError;
 use crate::function::entries;
 use crate::group::matrix_of;
+use crate::npy::npy_header;
 use coadjoint::LieGroup;
 
 /// Writes pairs as columns `mu_…`, `mu_next_…`, `g_…`, `g_next_…`, in the format of the ending:
@@ -48,13 +53,11 @@ pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     match ending.as_deref() {
         Some("csv") => write_csv(path, columns),
-        Some("npz") => write_npz(path, columns).map_err(|source| match source.kind() {
-            std::io::ErrorKind::InvalidData => LearnError::Format {
-                path: path.into(),
-                format: "NumPy",
-                reason: source.to_string(),
-            },
-            _ => LearnError::File { path: path.into(), source },
+        Some("npz") => write_npz(path, columns).map_err(|error| match error {
+            ZipError::Io(source) => LearnError::File { path: path.into(), source },
+            error => {
+                LearnError::Format { path: path.into(), format: "NumPy", reason: error.to_string() }
+            }
         }),
         #[cfg(feature = "parquet")]
         Some("parquet") => super::parquet::write(path, columns),
@@ -78,15 +81,20 @@ fn write_csv(path: &Path, columns: &Columns) -> Result<(), LearnError> {
     writer.flush().map_err(|source| LearnError::File { path: path.into(), source })
 }
 
-/// An array of shape (N,) per column.
-fn write_npz(path: &Path, columns: &Columns) -> std::io::Result<()> {
-    let mut archive = npyz::npz::NpzWriter::create(path)?;
-    let rows = [columns.rows() as u64];
+/// An array of shape (N,) per column, not compressed, as `numpy.savez` writes them.
+fn write_npz(path: &Path, columns: &Columns) -> zip::result::ZipResult<()> {
+    let mut archive = ZipWriter::new(BufWriter::new(File::create(path)?));
+    let rows = columns.rows() as u64;
     for (name, column) in columns.names().iter().zip(columns.values()) {
-        let array = archive.array(name, Default::default())?;
-        let mut writer = array.default_dtype().shape(&rows).begin_nd()?;
-        writer.extend(column.iter().copied())?;
-        writer.finish()?;
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(rows > u64::from(u32::MAX) / 16);
+        archive.start_file(format!("{name}.npy"), options)?;
+        archive.write_all(&npy_header(&[rows]))?;
+        for value in column {
+            archive.write_all(&value.to_le_bytes())?;
+        }
     }
+    archive.finish()?.flush()?;
     Ok(())
 }

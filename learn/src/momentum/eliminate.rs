@@ -59,6 +59,14 @@ where
     if pairs.is_empty() {
         return Err(LearnError::NoSamples);
     }
+    Basis::check_fit(group.dim(), options.degree, pairs.len())?;
+    if options.degree == 0 {
+        return Err(LearnError::InvalidOption {
+            option: "degree",
+            value: "0".into(),
+            requirement: "a generating function without terms moves nothing; give 2 or more".into(),
+        });
+    }
     let (dim, samples) = pairs.before.shape();
     // p is near both momenta.
     let mut seen = pairs.before.clone().resize_horizontally(2 * samples, 0.0);

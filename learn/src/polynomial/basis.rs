@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::LearnError;
+
 /// An affine map of each coordinate of the data to about [−1, 1]: u = (p − centre) / half_width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scaling {
@@ -38,6 +40,9 @@ impl Scaling {
     }
 }
 
+/// The most numbers of the matrix of a fit: a gigabyte.
+const LARGEST_FIT: usize = 1 << 27;
+
 /// Products of Chebyshev polynomials T_a(u₁) T_b(u₂) … of total degree 1 … d.
 ///
 /// The constant is left out: a generating function matters only through its gradient. Ordered by
@@ -67,7 +72,49 @@ impl Basis {
     /// C(dim + degree, degree) − 1.
     #[must_use]
     pub fn size(dim: usize, degree: usize) -> usize {
-        (1..=degree).fold(1_usize, |count, k| count.saturating_mul(dim + k) / k) - 1
+        Self::checked_size(dim, degree).unwrap_or(usize::MAX)
+    }
+
+    /// As [`Basis::size`]; `None` if there are more than an address can count.
+    #[must_use]
+    pub fn checked_size(dim: usize, degree: usize) -> Option<usize> {
+        // Each intermediate count is a binomial, so the division leaves no remainder.
+        let mut count = 1_u128;
+        for k in 1..=degree {
+            count = count.checked_mul(dim.checked_add(k)? as u128)? / k as u128;
+            if count > usize::MAX as u128 {
+                return None;
+            }
+        }
+        usize::try_from(count - 1).ok()
+    }
+
+    /// Refuses a fit of all terms up to `degree` to `samples` gradients whose matrix would be too
+    /// large, or whose degree is beyond 255, before anything is allocated.
+    ///
+    /// # Errors
+    /// [`LearnError::InvalidOption`] with the number of terms and the limit.
+    pub fn check_fit(dim: usize, degree: usize, samples: usize) -> Result<(), LearnError> {
+        let refused = |terms: String| LearnError::InvalidOption {
+            option: "degree",
+            value: degree.to_string(),
+            requirement: format!(
+                "in {dim} coordinates that is {terms} coefficients; with {samples} samples the fit \
+                 may have at most {} (its matrix {LARGEST_FIT} numbers), and the degree is at most \
+                 {}: give a lower degree",
+                LARGEST_FIT / samples.saturating_mul(dim).max(1),
+                u8::MAX
+            ),
+        };
+        let Some(terms) = Self::checked_size(dim, degree) else {
+            return Err(refused(format!("more than {}", usize::MAX)));
+        };
+        // The matrix has a row for each coordinate of each sample, and is square at least.
+        let rows = samples.saturating_mul(dim).max(terms);
+        if degree > usize::from(u8::MAX) || rows.saturating_mul(terms) > LARGEST_FIT {
+            return Err(refused(terms.to_string()));
+        }
+        Ok(())
     }
 
     /// The number of basis functions.
@@ -166,6 +213,22 @@ mod tests {
             assert_eq!(Basis::size(dim, degree), expected);
             assert_eq!(Basis::new(dim, degree).len(), expected);
         }
+    }
+
+    #[test]
+    fn fits_too_large_are_refused_by_number_and_limit() {
+        assert_eq!(Basis::checked_size(3, 50), Some(23_425));
+        // C(1003, 3) − 1.
+        assert_eq!(Basis::checked_size(3, 1000), Some(167_668_500));
+        assert_eq!(Basis::checked_size(500, 500), None);
+        assert_eq!(Basis::size(500, 500), usize::MAX);
+        assert!(Basis::check_fit(3, 8, 1000).is_ok());
+        for (degree, terms) in [(50, "23425"), (1000, "167668500"), (usize::MAX, "more than")] {
+            let said = Basis::check_fit(3, degree, 1000).unwrap_err().to_string();
+            assert!(said.contains(terms) && said.contains("at most 44739"), "{said}");
+        }
+        // Few terms, but of a degree that exponents cannot hold.
+        assert!(Basis::check_fit(1, 256, 10).is_err());
     }
 
     #[test]

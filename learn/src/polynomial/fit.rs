@@ -37,7 +37,8 @@ pub(crate) fn gradient_problem(
 /// norm s² of a column of the design matrix (0: plain least squares).
 ///
 /// # Errors
-/// [`LearnError::NotDetermined`] when the samples do not determine the coefficients.
+/// [`LearnError::NotDetermined`] when the samples do not determine the coefficients, and
+/// [`LearnError::InvalidOption`] for a degree with too many of them.
 pub fn fit_gradients(
     points: &DMatrix<f64>,
     gradients: &DMatrix<f64>,
@@ -45,6 +46,7 @@ pub fn fit_gradients(
     ridge: f64,
 ) -> Result<PolynomialModel, LearnError> {
     let (dim, samples) = points.shape();
+    Basis::check_fit(dim, degree, samples)?;
     let model = PolynomialModel::zero(Basis::new(dim, degree), Scaling::of(points));
     let terms = model.basis().len();
     let coefficients = gradient_problem(&model, points, gradients)

@@ -113,13 +113,7 @@ pub fn learn(
     request: &Request,
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<(ModelFile, Summary), LearnError> {
-    if !(request.step.is_finite() && request.step != 0.0) {
-        return Err(LearnError::InvalidOption {
-            option: "dt",
-            value: request.step.to_string(),
-            requirement: "give the time between the two states of a pair".into(),
-        });
-    }
+    check(request)?;
     visit(&request.group, &request.chart, Learner { request, progress })?
 }
 
@@ -140,7 +134,35 @@ pub fn learn_momenta(
             momenta::learn::<G, C>(self.0, &group, self.1, None)
         }
     }
+    check(request)?;
     visit(&request.group, &request.chart, Given(request, pairs))?
+}
+
+/// Refuses numbers that make no sense, whatever the data.
+fn check(request: &Request) -> Result<(), LearnError> {
+    if !(request.step.is_finite() && request.step != 0.0) {
+        return Err(LearnError::InvalidOption {
+            option: "dt",
+            value: request.step.to_string(),
+            requirement: "give the time between the two states of a pair".into(),
+        });
+    }
+    let not_finite = |value: &&f64| !value.is_finite();
+    if let Some(value) = request.start.iter().flatten().find(not_finite) {
+        return Err(LearnError::InvalidOption {
+            option: "start",
+            value: value.to_string(),
+            requirement: "every coordinate of the momentum must be a finite number".into(),
+        });
+    }
+    if !(request.ridge.is_finite() && request.ridge >= 0.0) {
+        return Err(LearnError::InvalidOption {
+            option: "ridge",
+            value: request.ridge.to_string(),
+            requirement: "give a finite number from 0".into(),
+        });
+    }
+    Ok(())
 }
 
 struct Learner<'a> {

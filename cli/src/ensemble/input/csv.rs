@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use ::csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
+use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
 
 use super::{Input, damaged, unread};
-use crate::ensemble::layout::{Layout, Shape};
+use crate::ensemble::layout::{Layout, Shape, Table};
 use crate::ensemble::rows::Rows;
 use crate::error::CliError;
 
@@ -18,8 +18,7 @@ pub struct CsvInput {
     layout: Layout,
     /// The cell of each column.
     places: Vec<usize>,
-    /// Cells of a whole row.
-    cells: usize,
+    table: Table,
     total: u64,
     /// The number of the next row, from 0.
     next: u64,
@@ -31,7 +30,7 @@ impl CsvInput {
     pub fn open(path: &Path, shape: Shape) -> Result<Self, CliError> {
         let mut reader = reader(path)?;
         let header = reader.headers().map_err(|error| damaged(path, error))?;
-        let header: Vec<String> = header.iter().map(Into::into).collect();
+        let header: Vec<String> = header.iter().map(|name| name.trim().into()).collect();
         let (layout, places) = Layout::find(shape, &header)?;
         let mut record = ByteRecord::new();
         let mut total = 0;
@@ -39,17 +38,18 @@ impl CsvInput {
         while counter.read_byte_record(&mut record).map_err(|error| damaged(path, error))? {
             total += 1;
         }
-        let cells = header.len();
-        Ok(Self { path: path.into(), reader, layout, places, cells, total, next: 0, record })
+        let table = Table::new(header, &places);
+        Ok(Self { path: path.into(), reader, layout, places, table, total, next: 0, record })
     }
 
     /// Adds the numbers of the record at hand, or says which cell is none.
     fn numbers(&self, values: &mut Vec<f64>) -> Result<(), String> {
-        if self.record.len() != self.cells {
-            return Err(format!("{} cells instead of {}", self.record.len(), self.cells));
+        let cells = self.table.header.len();
+        if self.record.len() != cells {
+            return Err(format!("{} cells instead of {cells}", self.record.len()));
         }
         for (&place, column) in self.places.iter().zip(0..) {
-            let cell = self.record.get(place).unwrap_or_default();
+            let cell = self.record.get(place).unwrap_or_default().trim_ascii();
             let number = std::str::from_utf8(cell).ok().and_then(|text| text.parse().ok());
             values.push(number.ok_or_else(|| {
                 let name = self.layout.names().swap_remove(column);
@@ -62,15 +62,20 @@ impl CsvInput {
 
 fn reader(path: &Path) -> Result<Reader<BufReader<File>>, CliError> {
     let file = File::open(path).map_err(unread(path))?;
+    // Not trimmed: cells that are no numbers are carried through as they are.
     // Flexible: a row with too few or too many cells is a bad row, not the end.
     let mut builder = ReaderBuilder::new();
-    let builder = builder.trim(Trim::All).comment(Some(b'#')).flexible(true);
+    let builder = builder.comment(Some(b'#')).flexible(true);
     Ok(builder.from_reader(BufReader::with_capacity(1 << 18, file)))
 }
 
 impl Input for CsvInput {
     fn layout(&self) -> Layout {
         self.layout
+    }
+
+    fn table(&self) -> Option<&Table> {
+        Some(&self.table)
     }
 
     fn total(&self) -> u64 {
@@ -107,6 +112,11 @@ impl Input for CsvInput {
                 return Err(damaged(&self.path, "it has become shorter while it was read"));
             }
             self.next += 1;
+            if self.places.len() < self.table.own.len() {
+                let others = self.table.own.iter().enumerate().filter(|(_, own)| own.is_none());
+                let cells = others.map(|(cell, _)| self.record.get(cell).unwrap_or_default());
+                rows.others.push(cells.collect());
+            }
             let length = rows.values.len();
             if let Err(reason) = self.numbers(&mut rows.values) {
                 rows.values.truncate(length);

@@ -7,7 +7,7 @@ mod parquet;
 
 use std::path::Path;
 
-use super::layout::{Layout, Shape};
+use super::layout::{Layout, Shape, Table};
 use super::rows::Rows;
 use crate::error::CliError;
 
@@ -15,6 +15,11 @@ use crate::error::CliError;
 pub trait Input {
     /// The columns.
     fn layout(&self) -> Layout;
+
+    /// All columns, where they have names and cells of any kind that can be carried through.
+    fn table(&self) -> Option<&Table> {
+        None
+    }
 
     /// The number of rows.
     fn total(&self) -> u64;

@@ -1,0 +1,121 @@
+//! What is refused with the number and the limit, and mistakes that are told once, at their place.
+
+use coadjoint_codegen::diagnostic::Diagnostics;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::lie::{LieAlgebra, LieAlgebraError};
+use coadjoint_codegen::number::integer;
+use coadjoint_codegen::system::{self, Options};
+use coadjoint_codegen::tolerance::{Bound, Region, Target, ToleranceError, choose};
+
+fn mistakes(text: &str) -> Diagnostics {
+    system::read(text, Options::default()).err().unwrap()
+}
+
+fn rendered(text: &str) -> String {
+    mistakes(text).render("file.toml", text)
+}
+
+#[test]
+fn too_many_generators_by_brackets_are_refused_before_anything_is_allocated() {
+    let names: Vec<String> = (0..1000).map(|i| format!("a{i}")).collect();
+    let limit = LieAlgebra::MOST_BY_BRACKETS;
+    let error = LieAlgebra::from_brackets("large", names.clone(), []).unwrap_err();
+    assert_eq!(error, LieAlgebraError::TooLarge { generators: 1000, limit });
+    let few = names[..limit].to_vec();
+    assert!(LieAlgebra::from_brackets("small enough", few, []).is_ok());
+    let list = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "hamiltonian = \"mu[0]^2\"\n[algebra]\ngenerators = [{list}]\nbrackets = [\"[a0, a1] = a2\"]\n"
+    );
+    let said = rendered(&text);
+    assert!(said.contains("1000 generators are known by their brackets alone"), "{said}");
+    assert!(said.contains("at most 256"), "{said}");
+}
+
+#[test]
+fn a_bracket_of_a_generator_with_itself_is_told_as_such() {
+    let text = "hamiltonian = \"mu[0]^2\"\n[algebra]\ngenerators = [\"A\", \"B\", \"C\"]\n\
+                brackets = [\"[A, B] = C\", \"[A, A] = C\"]\n";
+    let said = rendered(text);
+    assert!(said.contains("file.toml:4:27: error: [A, A] = 0 always"), "{said}");
+    assert!(!said.contains("twice"), "{said}");
+    let names = ["A", "B"].map(String::from).to_vec();
+    let brackets = [(0, 0, vec![(1, integer(1))])];
+    let error = LieAlgebra::from_brackets("wrong", names, brackets).unwrap_err();
+    assert_eq!(error, LieAlgebraError::SelfBracket { generator: "A".into(), index: 0 });
+    let entries = [(1, 1, 0, integer(1))];
+    let error = LieAlgebra::from_structure_constants("wrong", 2, entries).unwrap_err();
+    assert_eq!(error, LieAlgebraError::SelfBracket { generator: "e2".into(), index: 1 });
+}
+
+const BODY: &str = r#"name = "body"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = "x^2 + y^2/2"
+[algebra_of_comments] # with a " in it
+"#;
+
+#[test]
+fn a_missing_quote_is_one_mistake_at_the_quote_that_has_no_partner() {
+    for (whole, cut, place) in [
+        ("\"body\"", "\"body", "1:8"),
+        ("\"SO3\"", "\"SO3", "2:9"),
+        ("[\"x\", ", "[\"x, ", "3:16"),
+        ("\"z\"]", "\"z]", "3:26"),
+        ("y^2/2\"", "y^2/2", "4:15"),
+        ("\"body\"", "\"\"\"body\"", "1:8"),
+        ("\"body\"", "'body\"", "1:8"),
+    ] {
+        let text = BODY.replacen(whole, cut, 1);
+        assert_ne!(text, BODY);
+        let found = mistakes(&text);
+        let said = rendered(&text);
+        assert_eq!(found.len(), 1, "{said}");
+        assert!(
+            said.contains(&format!("file.toml:{place}: error: this quote has no partner")),
+            "{said}"
+        );
+    }
+    // Other mistakes are told as what they are.
+    let said = rendered(&BODY.replacen("name =", "name", 1));
+    assert!(said.contains("TOML") && !said.contains("partner"), "{said}");
+}
+
+/// The momentum grows as e^t, and with it what a missing term does.
+const ESCAPES: &str = r#"group = "SL2"
+hamiltonian = "mu[0]^2/2 + mu[1]*mu[2]"
+[initial]
+momentum = [1, 0.5, 0.5]
+"#;
+
+#[test]
+fn an_absurd_step_is_refused_with_the_bound_behind_it() {
+    let system = system::read(ESCAPES, Options::default()).unwrap();
+    let limit = TermLimit { terms: 20_000, products: 2_000_000 };
+    let pick = |duration, region: Option<f64>| {
+        let target = Target {
+            tolerance: 1e-8,
+            duration,
+            start: system.run.momentum.clone(),
+            region: region.map(Region::Ball),
+            truncation: Some(5),
+        };
+        choose(&system.problem, &target, limit)
+    };
+    for region in [None, Some(2.0)] {
+        // Within the time in which the motion stays bounded there is a step.
+        assert!(pick(1.0, region).unwrap().step > 1e-3);
+        // Beyond it none of any use; at last not even a number.
+        for duration in [100.0, 1e5] {
+            let error = pick(duration, region).unwrap_err();
+            let said = error.to_string();
+            let ToleranceError::StepTooSmall { bound, step, scale, along_run, .. } = error else {
+                panic!("{said}");
+            };
+            assert_eq!((bound, along_run), (Bound::Error, region.is_none()));
+            assert!(!(step > 1e-6 * scale), "{said}");
+            assert!(said.contains("the error that the missing terms make by the end"), "{said}");
+            assert!(said.contains("larger tolerance or a shorter run"), "{said}");
+        }
+    }
+}
