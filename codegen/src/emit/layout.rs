@@ -21,8 +21,8 @@ fn comments(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let mut result = String::with_capacity(text.len());
     for (number, line) in lines.iter().enumerate() {
-        let after = lines[number..].iter().map(|line| line.trim_start());
-        let documented = after.skip_while(|line| line.starts_with("///")).next();
+        let mut after = lines[number..].iter().map(|line| line.trim_start());
+        let documented = after.find(|line| !line.starts_with("///"));
         let is_let = documented.is_some_and(|line| line.starts_with("let "));
         match line.trim_start().strip_prefix("///") {
             Some(text) if is_let => {

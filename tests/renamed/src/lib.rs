@@ -6,12 +6,14 @@
 
 /// Free rigid body.
 #[::lie::lie_poisson(group = SO3, truncation = 3, crate = ::lie)]
+#[must_use]
 pub fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
 }
 
 /// A weight on the third axis.
 #[::lie::potential(group = SO3, crate = ::lie)]
+#[must_use]
 pub fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
     weight * g[2][2]
 }
