@@ -4,10 +4,7 @@ use std::cell::RefCell;
 use std::fmt;
 use std::time::Instant;
 
-use coadjoint::{
-    DirectProduct, Exponential, GeneratingFunction, LieGroup, Phase, SO3, Solver, StepError,
-    advance,
-};
+use coadjoint::{groups::DirectProduct, Exponential, GeneratingFunction, LieGroup, Phase, SO3, Solver, StepError, advance};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};

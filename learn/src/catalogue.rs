@@ -1,6 +1,6 @@
 //! Groups and charts by name.
 
-use coadjoint::{Cayley, Chart, Exponential, MatrixGroup, SE3, SO3};
+use coadjoint::{Cayley, Chart, Exponential, groups::MatrixGroup, SE3, SO3};
 use coadjoint_codegen::lie::{LieAlgebra, casimirs, catalogue};
 use nalgebra::DMatrix;
 use num_rational::BigRational;
@@ -51,7 +51,7 @@ pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Outp
 }
 
 /// The run-time group of an algebra, with its Casimirs up to degree 3.
-fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::TableError> {
+fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::groups::TableError> {
     let float = |value: &BigRational| value.to_f64().unwrap_or(f64::NAN);
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();

@@ -58,7 +58,7 @@ const _: () = {
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
         ///
         /// # Errors
         /// As `new`, and where a step from one of the momenta fails.
@@ -78,7 +78,7 @@ const _: () = {
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
 
@@ -592,7 +592,7 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for CayleyBody<T> {
+    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for CayleyBody<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
         }
@@ -601,7 +601,7 @@ const _: () = {
             ::coadjoint::plumbing::terms(Self::table())
         }
 
-        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
             ::coadjoint::plumbing::term(Self::table(), number)
         }
 
@@ -612,7 +612,7 @@ const _: () = {
         }
     }
 
-    impl ::coadjoint::Lanes for CayleyBody<f64> {
+    impl ::coadjoint::lanes::Lanes for CayleyBody<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
         > = CayleyBody<L>;

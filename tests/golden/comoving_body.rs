@@ -73,7 +73,7 @@ const _: () = {
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
         ///
         /// # Errors
         /// As `new`, and where a step from one of the momenta fails.
@@ -104,7 +104,7 @@ const _: () = {
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
 
@@ -627,7 +627,7 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for ComovingBody<T> {
+    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ComovingBody<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
         }
@@ -636,7 +636,7 @@ const _: () = {
             ::coadjoint::plumbing::terms(Self::table())
         }
 
-        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
             ::coadjoint::plumbing::term(Self::table(), number)
         }
 
@@ -647,7 +647,7 @@ const _: () = {
         }
     }
 
-    impl ::coadjoint::Lanes for ComovingBody<f64> {
+    impl ::coadjoint::lanes::Lanes for ComovingBody<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
         > = ComovingBody<L>;

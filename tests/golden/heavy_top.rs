@@ -72,7 +72,7 @@ const _: () = {
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
         ///
         /// # Errors
         /// As `new`, and where a step from one of the momenta fails.
@@ -104,7 +104,7 @@ const _: () = {
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
 
@@ -901,7 +901,7 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for HeavyTop<T> {
+    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for HeavyTop<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
         }
@@ -910,7 +910,7 @@ const _: () = {
             ::coadjoint::plumbing::terms(Self::table())
         }
 
-        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
             ::coadjoint::plumbing::term(Self::table(), number)
         }
 
@@ -921,7 +921,7 @@ const _: () = {
         }
     }
 
-    impl ::coadjoint::Lanes for HeavyTop<f64> {
+    impl ::coadjoint::lanes::Lanes for HeavyTop<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
         > = HeavyTop<L>;

@@ -61,7 +61,7 @@ const _: () = {
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::Tail`): as fast, as geometric, of the same order, and more accurate.
+        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
         ///
         /// # Errors
         /// As `new`, and where a step from one of the momenta fails.
@@ -82,7 +82,7 @@ const _: () = {
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
         }
 
@@ -132,7 +132,7 @@ const _: () = {
         #[inline]
         pub fn advance(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SL2<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SL2<T>>,
         ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
             ::coadjoint::advance(self, phase)
         }
@@ -144,7 +144,7 @@ const _: () = {
         /// As `advance`.
         pub fn advance_by(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SL2<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SL2<T>>,
             steps: u64,
         ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
             ::coadjoint::advance_by(self, phase, steps)
@@ -180,11 +180,11 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for ThreeWave<T> {
-        type Group = ::coadjoint::SL2<T>;
+        type Group = ::coadjoint::groups::SL2<T>;
         type Chart = ::coadjoint::Exponential;
         #[inline(always)]
-        fn group(&self) -> &::coadjoint::SL2<T> {
-            const { &<::coadjoint::SL2<T>>::new() }
+        fn group(&self) -> &::coadjoint::groups::SL2<T> {
+            const { &<::coadjoint::groups::SL2<T>>::new() }
         }
 
         #[inline]
@@ -401,7 +401,7 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::Adjustable for ThreeWave<T> {
+    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ThreeWave<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
         }
@@ -410,7 +410,7 @@ const _: () = {
             ::coadjoint::plumbing::terms(Self::table())
         }
 
-        fn term(&self, number: usize) -> ::coadjoint::Term<'_> {
+        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
             ::coadjoint::plumbing::term(Self::table(), number)
         }
 
@@ -421,7 +421,7 @@ const _: () = {
         }
     }
 
-    impl ::coadjoint::Lanes for ThreeWave<f64> {
+    impl ::coadjoint::lanes::Lanes for ThreeWave<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
         > = ThreeWave<L>;

@@ -1,6 +1,6 @@
 //! From codegen's exact objects to the runtime's numbers, for tests.
 
-use coadjoint::{Chart, LieGroup, MatrixGroup, PolynomialFunction, TableError};
+use coadjoint::{Chart, LieGroup, groups::MatrixGroup, generating::PolynomialFunction, groups::TableError};
 use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::Rational;

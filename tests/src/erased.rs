@@ -4,7 +4,7 @@ use std::any::Any;
 use std::fmt::{self, Debug};
 use std::rc::Rc;
 
-use coadjoint::{CayleyGroup, Coordinates, ElementError, LieGroup};
+use coadjoint::{groups::CayleyGroup, Coordinates, groups::ElementError, LieGroup};
 use nalgebra::{DMatrix, DVector};
 
 type Vector = DVector<f64>;

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::{Exponential, GeneratingFunction, MatrixGroup};
+use coadjoint::{Exponential, GeneratingFunction, groups::MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
 use coadjoint_codegen::poly::Polynomial;

@@ -1,10 +1,7 @@
 //! Several steps solved at once, in the lanes of one number: the same steps as one by one.
 
 use coadjoint::nalgebra::{Matrix6, Vector6};
-use coadjoint::{
-    AT_ONCE, Chart, Exponential, GeneratingFunction, Linearised, LinearisedOf, Phase, SE3,
-    StepError, advance, advance_by, lie_poisson, plumbing, solve,
-};
+use coadjoint::{solve::BLOCK, Chart, Exponential, GeneratingFunction, solve::Linearised, solve::LinearisedOf, Phase, SE3, StepError, advance, advance_by, lie_poisson, plumbing, solve::solve};
 
 /// A heavy body with a rotor: not homogeneous, no symmetry, and few terms, for code in lanes of narrow
 /// registers is slow to compile.

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use coadjoint::{Coordinates, Heisenberg, LieGroup, MatrixGroup, SE2, SE3, SO3, SU2};
+use coadjoint::{Coordinates, groups::Heisenberg, LieGroup, groups::MatrixGroup, SE2, SE3, SO3, SU2};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::catalogue::{GROUPS, source};

@@ -1,7 +1,7 @@
 //! The attribute on the runtime's closed-form groups.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Heisenberg, Monitor, Phase, Product, SE2, SO3, SU2, lie_poisson};
+use coadjoint::{groups::Heisenberg, Monitor, Phase, groups::Product, SE2, SO3, SU2, lie_poisson};
 use nalgebra::Vector3;
 
 /// A planar body in an ideal fluid.
@@ -128,7 +128,7 @@ fn a_product_moves_as_its_factors() {
     assert!((both.momentum.fixed_rows::<3>(0) - first.momentum).amax() < 1e-13);
     assert!((both.momentum.fixed_rows::<3>(3) - second.momentum).amax() < 1e-8);
     assert!(both.group_element.0.angle_to(&first.group_element) < 1e-13);
-    assert!(coadjoint::ensemble::advance_all(&step, &mut lanes, 200).is_empty());
+    assert!(coadjoint::lanes::ensemble::advance_all(&step, &mut lanes, 200).is_empty());
     step.advance_by(&mut scalar, 200).unwrap();
     for lane in lanes {
         assert_eq!(lane.momentum, scalar.momentum);

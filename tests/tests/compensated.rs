@@ -1,10 +1,7 @@
 //! Compensated accumulation on every group that has it: the same motion, and less rounding.
 
 use coadjoint::nalgebra::Vector6;
-use coadjoint::{
-    CompensatedGroup, CompensatedPhase, GeneratingFunction, LieGroup, Phase, Power, Product, SE3,
-    SO3, SU2, StepError, advance, advance_compensated, lie_poisson,
-};
+use coadjoint::{groups::CompensatedGroup, CompensatedPhase, GeneratingFunction, LieGroup, Phase, groups::Power, groups::Product, SE3, SO3, SU2, StepError, advance, advance_compensated, lie_poisson};
 
 #[lie_poisson(group = SE3, truncation = 5)]
 fn top(mu: [f64; 6]) -> f64 {

@@ -1,10 +1,6 @@
 //! Coefficients fitted to a motion: the same geometry, errors smaller by many orders.
 
-use coadjoint::{
-    Adjustable, F64x4, Fit, FitError, GeneratingFunction, Lanes, MAX_FITTED_TERMS, Part, Phase,
-    Reversed, SE3, SO3, StepError, Term, VectorOf, fit, laws, lie_poisson,
-    nalgebra::{SimdValue, Vector3},
-};
+use coadjoint::{generating::Adjustable, lanes::F64x4, tune::Fit, tune::FitError, GeneratingFunction, lanes::Lanes, tune::MAX_FITTED_TERMS, generating::TermOf as Part, Phase, generating::Reversed, SE3, SO3, StepError, generating::Term, generating::VectorOf, tune::fit, laws, lie_poisson, nalgebra::{SimdValue, Vector3}};
 
 #[lie_poisson(group = SO3, truncation = 5)]
 fn fifth(mu: [f64; 3], inertia: [f64; 3]) -> f64 {

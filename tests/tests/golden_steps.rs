@@ -123,8 +123,8 @@ fn compiled_steps_equal_the_interpreter() -> Result<(), StepError> {
 #[test]
 fn a_group_given_by_tables_keeps_momentum_and_steps_in_time() -> Result<(), StepError> {
     let step = three_wave::ThreeWave::new(0.1, 0.7)?;
-    let group = coadjoint::SL2::<f64>::new();
-    let mut phase = coadjoint::Phase::<coadjoint::SL2>::at_identity([0.3, 0.5, -0.4]);
+    let group = coadjoint::groups::SL2::<f64>::new();
+    let mut phase = coadjoint::Phase::<coadjoint::groups::SL2>::at_identity([0.3, 0.5, -0.4]);
     let before = phase.spatial_momentum(&group);
     for _ in 0..200 {
         step.advance(&mut phase)?;

@@ -1,10 +1,7 @@
 //! The gradient in two parts: the same solutions as by Newton's method with matrices, in every lane.
 
 use coadjoint::nalgebra::{SMatrix, SVector, SimdValue, Vector6};
-use coadjoint::{
-    AHEAD, Chart, F64x4, GeneratingFunction, LaneGroup, Lanes, LieGroup, Phase, SE3, StepError,
-    VectorOf, advance, advance_by, lie_poisson, plumbing, solve,
-};
+use coadjoint::{solve::LOOK_AHEAD, Chart, lanes::F64x4, GeneratingFunction, lanes::LaneGroup, lanes::Lanes, LieGroup, Phase, SE3, StepError, generating::VectorOf, advance, advance_by, lie_poisson, plumbing, solve::solve};
 
 #[lie_poisson(group = SE3, truncation = 7)]
 fn fluid(mu: [f64; 6]) -> f64 {

@@ -2,10 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{
-    Exponential, Kicked, LieGroup, Phase, PolynomialFunction, Prk4, Prk6, Rkn4, Rkn6, SO3,
-    Splitting, StepError, Strang,
-};
+use coadjoint::{Exponential, Kicked, LieGroup, Phase, generating::PolynomialFunction, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, SO3, steps::Splitting, StepError, steps::Strang};
 use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::lie::catalogue::lookup;
@@ -87,7 +84,7 @@ fn coefficients_sum_to_one() {
         let kicks: f64 = (0..=M::STAGES).map(|i| M::KICKS[i.min(M::STAGES - i)]).sum();
         let flows: f64 = (0..M::STAGES).map(|i| M::PARTS[i.min(M::STAGES - 1 - i)]).sum();
         assert!((kicks - 1.0).abs() < 1e-15 && (flows - 1.0).abs() < 1e-15);
-        assert!(M::PARTS.len() <= coadjoint::MAX_FLOWS);
+        assert!(M::PARTS.len() <= coadjoint::steps::MAX_FLOWS);
         assert_eq!(M::KICKS.len(), M::STAGES / 2 + 1);
         assert_eq!(M::PARTS.len(), M::STAGES.div_ceil(2));
     }

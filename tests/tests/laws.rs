@@ -2,11 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{OrderError, check, measured_order};
-use coadjoint::{
-    Aff1, Cayley, CayleyMatrixGroup, Chart, Coordinates, Exponential, Heisenberg, LieGroup,
-    MatrixGroup, Phase, Power, Product, SE2, SE3, SL2, SO3, SO3Matrix, SO4, SO5, SU2, U2, U3,
-    advance,
-};
+use coadjoint::{groups::Aff1, Cayley, groups::CayleyMatrixGroup, Chart, Coordinates, Exponential, groups::Heisenberg, LieGroup, groups::MatrixGroup, Phase, groups::Power, groups::Product, SE2, SE3, groups::SL2, SO3, SO3Matrix, groups::SO4, groups::SO5, SU2, groups::U2, groups::U3, advance};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::lie::{Chart as ChartName, LieAlgebra, RationalMatrix};

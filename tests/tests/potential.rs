@@ -2,9 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{
-    Kicked, LieGroup, Phase, Rkn4, Rkn6, SO3, Splitting, StepError, Strang, lie_poisson, potential,
-};
+use coadjoint::{Kicked, LieGroup, Phase, steps::Rkn4, steps::Rkn6, SO3, steps::Splitting, StepError, steps::Strang, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::{Rational, integer};

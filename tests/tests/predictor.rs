@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{FixedDimension, LieGroup, SE3, SO3, SU3};
+use coadjoint::{groups::FixedDimension, LieGroup, SE3, SO3, groups::SU3};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Plan, Predictor};

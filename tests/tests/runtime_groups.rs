@@ -2,10 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::{
-    Aff1Algebra, Phase, SL2Algebra, SO4, SO4Algebra, SO5Algebra, SU3Algebra, SU4Algebra,
-    StaticAlgebra, StepError, U2Algebra, U3Algebra, lie_poisson,
-};
+use coadjoint::{groups::Aff1Algebra, Phase, groups::SL2Algebra, groups::SO4, groups::SO4Algebra, groups::SO5Algebra, groups::SU3Algebra, groups::SU4Algebra, groups::StaticAlgebra, StepError, groups::U2Algebra, groups::U3Algebra, lie_poisson};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;

@@ -1,6 +1,6 @@
 //! The tail of the series, summed for a motion: smaller errors, the same geometry.
 
-use coadjoint::{F64x4, Lanes, Phase, Reversed, SO3, StepError, laws, lie_poisson};
+use coadjoint::{lanes::F64x4, lanes::Lanes, Phase, generating::Reversed, SO3, StepError, laws, lie_poisson};
 
 #[lie_poisson(group = SO3, truncation = 9)]
 fn ninth(mu: [f64; 3], inertia: [f64; 3]) -> f64 {

@@ -15,7 +15,7 @@ macro_rules! integrator {
         }
     }};
     (fitted, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {{
-        let fitted = coadjoint::fit($h, $series, [$momentum], $duration);
+        let fitted = coadjoint::tune::fit($h, $series, [$momentum], $duration);
         fitted.map_err(|_| RunError::NotConverged)?.integrator
     }};
     (plain, $h:expr, $series:expr, $momentum:expr, $duration:expr) => {{

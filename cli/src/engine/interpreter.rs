@@ -2,10 +2,7 @@
 
 use std::marker::PhantomData;
 
-use coadjoint::{
-    Adjustable, Chart, Coordinates, GeneratingFunction, LieGroup, MatrixOf, Part, Scalar, ScalarOf,
-    Solver, StepError, Tail, Term, VectorOf, hessian_by_differences,
-};
+use coadjoint::{generating::Adjustable, Chart, Coordinates, GeneratingFunction, LieGroup, generating::MatrixOf, generating::TermOf as Part, Scalar, generating::ScalarOf, Solver, StepError, tune::Tail, generating::Term, generating::VectorOf, generating::hessian_by_differences};
 use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 

@@ -2,9 +2,7 @@
 
 use std::cell::RefCell;
 
-use coadjoint::{
-    Chart, Kicked, Phase, Prk4, Prk6, Rkn4, Rkn6, Splitting as Sequence, StepError, Strang,
-};
+use coadjoint::{Chart, Kicked, Phase, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, steps::Splitting as Sequence, StepError, steps::Strang};
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::potential::Potential;

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use coadjoint::nalgebra::SimdValue;
-use coadjoint::{Cayley, CayleyMatrixGroup, Exponential, LaneGroup, Lanes, Scalar};
+use coadjoint::{Cayley, groups::CayleyMatrixGroup, Exponential, lanes::LaneGroup, lanes::Lanes, Scalar};
 
 use super::Interpreter;
 

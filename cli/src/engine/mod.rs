@@ -13,7 +13,7 @@ pub use polynomial::{Energy, FloatPolynomial};
 
 use std::ops::Range;
 
-use coadjoint::{CayleyMatrixGroup, DirectProduct, LieGroup, MatrixGroup};
+use coadjoint::{groups::CayleyMatrixGroup, groups::DirectProduct, LieGroup, groups::MatrixGroup};
 use nalgebra::DVector;
 
 /// Groups known at run time.

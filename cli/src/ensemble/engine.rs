@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use coadjoint::{
-    Cayley, CayleyMatrixGroup, Chart, Exponential, F64x8, GeneratingFunction, LaneGroup, Lanes,
-    MatrixGroup, Phase, SE3, SO3, ensemble,
-};
+use coadjoint::{Cayley, groups::CayleyMatrixGroup, Chart, Exponential, lanes::F64x8, GeneratingFunction, lanes::LaneGroup, lanes::Lanes, groups::MatrixGroup, Phase, SE3, SO3, lanes::ensemble};
 use coadjoint_codegen::graph::Number;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;

@@ -1,6 +1,6 @@
 //! Group elements put back bit by bit.
 
-use coadjoint::{CayleyMatrixGroup, DirectProduct, LieGroup, MatrixGroup};
+use coadjoint::{groups::CayleyMatrixGroup, groups::DirectProduct, LieGroup, groups::MatrixGroup};
 use nalgebra::DMatrix;
 
 use crate::engine::Group;

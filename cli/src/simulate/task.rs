@@ -1,6 +1,6 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use coadjoint::{Chart, GeneratingFunction, Solution, StepError, fit, reconstruct, solve};
+use coadjoint::{Chart, GeneratingFunction, solve::Solution, StepError, tune::fit, steps::reconstruct, solve::solve};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use nalgebra::DVector;

@@ -1,6 +1,6 @@
 //! Poisson-only data, the canonical momenta p eliminated by Newton's method.
 
-use coadjoint::{Chart, Coordinates, LieGroup, solve};
+use coadjoint::{Chart, Coordinates, LieGroup, solve::solve};
 use nalgebra::{DMatrix, DVector};
 
 use crate::data::MomentumPairs;

@@ -1,12 +1,8 @@
 //! The only place where the stress program touches the runtime: steps of any type behind one trait.
 
-use coadjoint::{
-    Chart, CompensatedGroup, CompensatedPhase, Coordinates, GeneratingFunction, Lanes, LieGroup,
-    Phase, PolynomialFunction, Scalar, ScalarOf, StepError, VectorOf, advance, advance_by,
-    advance_compensated, ensemble, solve,
-};
+use coadjoint::{Chart, groups::CompensatedGroup, CompensatedPhase, Coordinates, GeneratingFunction, lanes::Lanes, LieGroup, Phase, generating::PolynomialFunction, Scalar, generating::ScalarOf, StepError, generating::VectorOf, advance, advance_by, advance_compensated, lanes::ensemble, solve::solve};
 
-pub use coadjoint::{Cayley, Exponential, Heisenberg, MatrixFree, Power, SE2, SE3, SO3, SU2, SU3};
+pub use coadjoint::{Cayley, Exponential, groups::Heisenberg, solve::MatrixFree, groups::Power, SE2, SE3, SO3, SU2, groups::SU3};
 
 /// By which function steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +102,7 @@ impl<S: GeneratingFunction> Runner<S> {
     pub fn in_lanes(mut self) -> Self
     where
         S: Lanes + Sync,
-        S::Over<coadjoint::F64x8>: Sync,
+        S::Over<coadjoint::lanes::F64x8>: Sync,
         Phase<S::Group>: Send,
     {
         self.together = Some(|steps, states, count| {
