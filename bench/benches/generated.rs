@@ -7,7 +7,7 @@
 
 use std::hint::black_box;
 
-use coadjoint::{GeneratingFunction, Phase, SE3, SO3, advance, lie_poisson};
+use coadjoint::{GeneratingFunction, Integrator, Phase, SE3, SO3, advance, lie_poisson};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 #[lie_poisson(group = SO3, truncation = 7)]
@@ -30,7 +30,7 @@ fn heavy_top(mu: [f64; 6], inertia: [f64; 3], mgl: f64) -> f64 {
 const STEPS: u32 = 1000;
 
 /// Runs [`STEPS`] steps and returns the Newton iterations made.
-fn run<S: GeneratingFunction>(step: &S, start: &Phase<S::Group>) -> u32 {
+fn run<S: Integrator>(step: &S, start: &Phase<S::Group>) -> u32 {
     let mut phase = start.clone();
     let mut iterations = 0;
     for _ in 0..STEPS {
@@ -41,7 +41,7 @@ fn run<S: GeneratingFunction>(step: &S, start: &Phase<S::Group>) -> u32 {
     iterations
 }
 
-fn measure<S: GeneratingFunction>(
+fn measure<S: Integrator>(
     criterion: &mut Criterion,
     name: &str,
     h: f64,

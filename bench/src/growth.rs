@@ -4,7 +4,11 @@ use std::cell::RefCell;
 use std::fmt;
 use std::time::Instant;
 
-use coadjoint::{groups::DirectProduct, Exponential, GeneratingFunction, LieGroup, Phase, SO3, Solver, StepError, advance};
+use coadjoint::solve::{FixedPoint, Predict};
+use coadjoint::{
+    Exponential, GeneratingFunction, LieGroup, Phase, SO3, StepError, advance,
+    groups::DirectProduct,
+};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};
@@ -163,7 +167,6 @@ impl<'a> Interpreted<'a> {
 impl GeneratingFunction for Interpreted<'_> {
     type Group = DirectProduct<SO3>;
     type Chart = Exponential;
-    const SOLVER: Solver = Solver::FixedPoint;
 
     fn group(&self) -> &DirectProduct<SO3> {
         &self.group
@@ -176,8 +179,14 @@ impl GeneratingFunction for Interpreted<'_> {
     fn gradient(&self, p: &DVector<f64>) -> DVector<f64> {
         self.run(&self.integrator.gradient, p)
     }
+}
 
+impl Predict for Interpreted<'_> {
     fn predict(&self, mu: &DVector<f64>) -> DVector<f64> {
         self.run(&self.integrator.predictor, mu)
     }
+}
+
+impl coadjoint::Integrator for Interpreted<'_> {
+    type Method = FixedPoint;
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use coadjoint::{groups::ElementError, StepError, groups::TableError};
+use coadjoint::{StepError, groups::ElementError, groups::TableError};
 use coadjoint_codegen::emit::TooManyTerms;
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
 use coadjoint_codegen::tolerance::ToleranceError;

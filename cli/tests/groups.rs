@@ -3,7 +3,7 @@
 
 mod support;
 
-use coadjoint::{groups::Heisenberg, LieGroup, SE2, SE3, SO3, SU2};
+use coadjoint::{LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg};
 use coadjoint_codegen::lie::catalogue;
 use support::{json, root, run};
 

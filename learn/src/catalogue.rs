@@ -1,6 +1,6 @@
 //! Groups and charts by name.
 
-use coadjoint::{Cayley, Chart, Exponential, groups::MatrixGroup, SE3, SO3};
+use coadjoint::{Cayley, Chart, Exponential, SE3, SO3, groups::MatrixGroup};
 use coadjoint_codegen::lie::{LieAlgebra, casimirs, catalogue};
 use nalgebra::DMatrix;
 use num_rational::BigRational;

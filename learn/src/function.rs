@@ -2,7 +2,8 @@
 
 use core::marker::PhantomData;
 
-use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup};
+use coadjoint::solve::{ByDimension, NewtonModel, Predict};
+use coadjoint::{Chart, Coordinates, GeneratingFunction, Integrator, LieGroup};
 
 /// A smooth function f: 𝔤\* → ℝ in the coordinates dual to the basis, with its derivatives.
 ///
@@ -166,6 +167,31 @@ where
         let matrix = G::Vector::matrix_from_entries(dim, |i, j| hessian[i * dim + j]);
         (vector::<G>(&gradient), matrix)
     }
+}
+
+impl<G, C, M> Predict for Generating<G, C, M>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+}
+
+impl<G, C, M> NewtonModel for Generating<G, C, M>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+}
+
+impl<G, C, M> Integrator for Generating<G, C, M>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+    M: MomentumFunction,
+{
+    type Method = ByDimension<Self>;
 }
 
 /// The coordinates of `vector` as numbers in a row.

@@ -1,6 +1,6 @@
 //! What learning asks of a group beyond the runtime: reading elements from data.
 
-use coadjoint::{groups::CayleyMatrixGroup, Coordinates, LieGroup, groups::MatrixGroup, SE3, SO3};
+use coadjoint::{Coordinates, LieGroup, SE3, SO3, groups::CayleyMatrixGroup, groups::MatrixGroup};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// A group whose elements can be read from data.

@@ -3,7 +3,9 @@
 
 use std::path::PathBuf;
 
-use coadjoint::{Exponential, GeneratingFunction, LieGroup, Phase, SO3, advance, poisson_map};
+use coadjoint::{
+    Exponential, GeneratingFunction, Integrator, LieGroup, Phase, SO3, advance, poisson_map,
+};
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{Activation, DenseNetwork, Layer};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};
@@ -52,7 +54,7 @@ fn hat(v: &Vector3<f64>) -> Matrix3<f64> {
 
 /// D Φ B DΦᵀ = B∘Φ with B(μ)v = μ̂ v (MATH: B_jk = −Σ c_jk^l μ_l, on so(3)\* B = −μ̂ up to sign,
 /// and both sides carry the same sign); derivatives by central differences of step 1e-5.
-fn poisson_defect(map: &impl GeneratingFunction<Group = SO3>, mu: &Vector3<f64>) -> f64 {
+fn poisson_defect(map: &impl Integrator<Group = SO3>, mu: &Vector3<f64>) -> f64 {
     let h = 1e-5;
     let mut derivative = Matrix3::zeros();
     for j in 0..3 {

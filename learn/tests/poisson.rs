@@ -1,7 +1,7 @@
 //! Poisson maps from momenta alone: the boxes and bars of the Table 2.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Exponential, GeneratingFunction, LieGroup, SO3, poisson_map};
+use coadjoint::{Exponential, GeneratingFunction, Integrator, LieGroup, SO3, poisson_map};
 use coadjoint_learn::data::MomentumPairs;
 use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};
@@ -15,7 +15,7 @@ fn pairs(step: f64, count: usize, seed: u64) -> MomentumPairs {
     })
 }
 
-fn error(map: &impl GeneratingFunction<Group = SO3>, test: &MomentumPairs) -> f64 {
+fn error(map: &impl Integrator<Group = SO3>, test: &MomentumPairs) -> f64 {
     let mut sum = 0.0;
     for (before, after) in test.before.column_iter().zip(test.after.column_iter()) {
         let mu = Vector3::new(before[0], before[1], before[2]);

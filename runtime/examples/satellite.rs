@@ -8,7 +8,7 @@
 //! `cargo run --release -p coadjoint --example satellite`
 
 use coadjoint::nalgebra::{UnitQuaternion, Vector3};
-use coadjoint::{Kicked, LieGroup, Phase, steps::Rkn6, SO3, lie_poisson, potential};
+use coadjoint::{Kicked, LieGroup, Phase, SO3, lie_poisson, potential, steps::Rkn6};
 
 const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
 

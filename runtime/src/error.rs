@@ -7,7 +7,9 @@ use core::fmt;
 #[non_exhaustive]
 pub enum StepError {
     /// The equation J_L(∂S/∂p(p), p) = μ was not solved to the tolerance.
-    #[error("the step did not converge: relative residual {residual:.1e} after {iterations} iterations; {at}")]
+    #[error(
+        "the step did not converge: relative residual {residual:.1e} after {iterations} iterations; {at}"
+    )]
     NotConverged {
         /// Newton iterations, or evaluations of the fixed point.
         iterations: u32,
@@ -17,7 +19,9 @@ pub enum StepError {
         at: Circumstances,
     },
     /// The solution of x = s ∂S/∂p could not be followed from s = 0, the identity, to s = 1.
-    #[error("no step is connected with the identity: the solution of x = s ∂S/∂p was followed up to s = {reached:.3} only; {at}")]
+    #[error(
+        "no step is connected with the identity: the solution of x = s ∂S/∂p was followed up to s = {reached:.3} only; {at}"
+    )]
     NotFollowed {
         /// How far it was followed.
         reached: f64,
@@ -25,7 +29,9 @@ pub enum StepError {
         at: Circumstances,
     },
     /// The step lies outside the chart.
-    #[error("the step leaves the chart: it is {extent:.2} times as long as the chart reaches; {at}")]
+    #[error(
+        "the step leaves the chart: it is {extent:.2} times as long as the chart reaches; {at}"
+    )]
     OutsideChart {
         /// The length of x as a multiple of the chart's reach: the square root of
         /// [`Chart::extent`](crate::chart::Chart::extent).
@@ -43,13 +49,17 @@ pub enum StepError {
     #[error("the state is not finite: a coordinate of the momentum is NaN or infinite")]
     NonFiniteState,
     /// The group element is not on the group, or not finite, or would be after the step.
-    #[error("the group element is off the group by {defect:.1e} (NaN: not finite): start from one that is on it")]
+    #[error(
+        "the group element is off the group by {defect:.1e} (NaN: not finite): start from one that is on it"
+    )]
     OffGroup {
         /// [`LieGroup::element_defect`](crate::LieGroup::element_defect).
         defect: f64,
     },
     /// The state after the step is too large for its number type.
-    #[error("the state after the step is not finite: a coordinate of the momentum is too large for its number type")]
+    #[error(
+        "the state after the step is not finite: a coordinate of the momentum is too large for its number type"
+    )]
     Overflow,
     /// The step size is zero, infinite or not a number.
     #[error("step size {step} is not usable: give a finite step other than zero")]

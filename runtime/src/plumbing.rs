@@ -2,16 +2,16 @@
 
 use core::any::Any;
 
-use crate::generating::{Term, TermOf};
 use crate::error::StepError;
 use crate::generating::ScalarOf;
-use crate::solve::{Integrator, LOOK_AHEAD};
-use crate::step::phase::Phase;
-use crate::number::scalar::Scalar;
+use crate::generating::{Term, TermOf};
 pub use crate::number::lift::Lift;
+use crate::number::scalar::Scalar;
 pub use crate::solve::wide::{
     LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
 };
+use crate::solve::{Integrator, LOOK_AHEAD};
+use crate::step::phase::Phase;
 use nalgebra::SimdValue;
 use simba::simd::WideF64x4;
 
@@ -249,6 +249,8 @@ pub fn series_ratio<T: Scalar, const N: usize>(
         p.get(i).copied().unwrap_or(T::of(0.0))
     })
 }
+
+pub use crate::generating::series::{radius as radius_of, ratio as ratio_of};
 
 /// The error of a step, with a step size that works where there is one among halves, quarters, … of `step`.
 #[cold]

@@ -20,10 +20,15 @@
 pub struct CayleyBody<T = f64> {
     /// The step size h.
     step: T,
+    /// The parameters, as expressions of them stand in the coefficients.
+    symbols: [T; 0],
     /// The coefficients of the programs below, folded for h and the parameters.
     coefficients: [T; 258],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
+    /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
+    last: [T; 18],
+    radius: T,
 }
 
 #[allow(
@@ -53,8 +58,7 @@ const _: () = {
         /// `StepError::InvalidStep` for a step that is zero or not finite,
         /// `StepError::InvalidParameter` where a parameter expression is not finite.
         pub fn new(step: T) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(step, &[])?;
-            ::core::result::Result::Ok(Self::fold(step, &parts, &|_| T::of(1.0)))
+            Self::of_symbols(step, &[])
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
@@ -68,18 +72,46 @@ const _: () = {
                 Item = impl ::core::convert::Into<Vector<T>>,
             >,
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(step, &[])?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| Self::fold(
-                step,
-                &parts,
-                factor,
-            );
+            let symbols = [];
+            let parts = Self::parts(step, &symbols)?;
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, &parts, factor)
+            };
             let momenta = ::core::iter::Iterator::map(
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(
+                Self::TRUNCATION,
+                momenta,
+                &series,
+            )?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+        }
+
+        fn of_symbols(
+            step: T,
+            symbols: &[T; 0],
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            let parts = Self::parts(step, symbols)?;
+            ::core::result::Result::Ok(
+                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
+            )
+        }
+
+        /// The error of a step, with a step size that works where one is found.
+        #[cold]
+        fn advise(
+            &self,
+            error: ::coadjoint::StepError,
+            phase: &::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
+        ) -> ::coadjoint::StepError {
+            ::coadjoint::plumbing::advise(
+                error,
+                phase,
+                self.step,
+                |step| { Self::of_symbols(step, &self.symbols) },
+            )
         }
 
         fn parts(
@@ -97,6 +129,7 @@ const _: () = {
         /// The coefficients of Σ factor(k) S_k.
         fn fold(
             step: T,
+            symbols: &[T; 0],
             parts: &[T; 142],
             factor: &dyn ::core::ops::Fn(usize) -> T,
         ) -> Self {
@@ -107,12 +140,35 @@ const _: () = {
                 139,
                 258,
             >(Self::table(), parts, factor);
-            Self::with(step, coefficients)
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                142,
+                18,
+            >(Self::table(), parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            Self::with(step, *symbols, coefficients, last, radius)
         }
 
-        fn with(step: T, coefficients: [T; 258]) -> Self {
+        fn with(
+            step: T,
+            symbols: [T; 0],
+            coefficients: [T; 258],
+            last: [T; 18],
+            radius: T,
+        ) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self { step, coefficients, defect }
+            Self {
+                step,
+                symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            }
         }
 
         /// The step size h.
@@ -124,26 +180,30 @@ const _: () = {
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
         ///
         /// # Errors
-        /// `StepError`: no convergence, or a state that is not finite.
+        /// `StepError`: why there is no right step, and a step size that works where one is found.
         #[inline]
         pub fn advance(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SO3<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
         ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
-            ::coadjoint::advance(self, phase)
+            ::coadjoint::advance(self, phase).map_err(|error| self.advise(error, phase))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
         /// worst of them, and on error `phase` is left before the step that failed.
         ///
         /// # Errors
-        /// As `advance`.
+        /// `Stopped`: how many steps were made, and why the next was not.
         pub fn advance_by(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SO3<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
             steps: u64,
-        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
+        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::Stopped> {
             ::coadjoint::advance_by(self, phase, steps)
+                .map_err(|stopped| ::coadjoint::Stopped {
+                    error: self.advise(stopped.error, phase),
+                    ..stopped
+                })
         }
 
         /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
@@ -179,11 +239,11 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for CayleyBody<T> {
-        type Group = ::coadjoint::SO3<T>;
+        type Group = ::coadjoint::groups::SO3<T>;
         type Chart = ::coadjoint::Cayley;
         #[inline(always)]
-        fn group(&self) -> &::coadjoint::SO3<T> {
-            const { &<::coadjoint::SO3<T>>::new() }
+        fn group(&self) -> &::coadjoint::groups::SO3<T> {
+            const { &<::coadjoint::groups::SO3<T>>::new() }
         }
 
         #[inline]
@@ -341,6 +401,26 @@ const _: () = {
             (gradient, hessian)
         }
 
+        #[inline(always)]
+        fn radius(&self) -> T {
+            self.radius
+        }
+
+        #[cold]
+        fn series_ratio(&self, p: &Vector<T>) -> T {
+            ::coadjoint::plumbing::series_ratio::<
+                T,
+                3,
+            >(
+                Self::table(),
+                &self.last,
+                Self::TRUNCATION,
+                &::core::convert::Into::into(*p),
+            )
+        }
+    }
+
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for CayleyBody<T> {
         #[inline(always)]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
@@ -592,6 +672,11 @@ const _: () = {
         }
     }
 
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for CayleyBody<T> {}
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for CayleyBody<T> {
+        type Method = ::coadjoint::solve::Newton<Self>;
+    }
+
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for CayleyBody<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
@@ -608,7 +693,8 @@ const _: () = {
         fn adjusted(&self, corrections: &[T]) -> Self {
             let mut coefficients = self.coefficients;
             ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            Self::with(self.step, coefficients)
+            let last = [T::of(0.0); 18];
+            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
         }
     }
 
@@ -621,8 +707,11 @@ const _: () = {
         >(&self) -> CayleyBody<L> {
             CayleyBody {
                 step: L::splat(self.step),
+                symbols: self.symbols.map(L::splat),
                 coefficients: self.coefficients.map(L::splat),
                 defect: self.defect.map(L::splat),
+                last: self.last.map(L::splat),
+                radius: L::splat(self.radius),
             }
         }
     }

@@ -22,10 +22,15 @@
 pub struct ComovingBody<T = f64> {
     /// The step size h.
     step: T,
+    /// The parameters, as expressions of them stand in the coefficients.
+    symbols: [T; 5],
     /// The coefficients of the programs below, folded for h and the parameters.
     coefficients: [T; 73],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
+    /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
+    last: [T; 12],
+    radius: T,
 }
 
 #[allow(
@@ -59,7 +64,7 @@ const _: () = {
             inertia: [T; 2],
             mass: [T; 2],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(
+            Self::of_symbols(
                 step,
                 &[
                     (T::of(1.0) / inertia[0]),
@@ -68,8 +73,7 @@ const _: () = {
                     (T::of(1.0) / mass[1]),
                     ((T::of(1.0) / mass[0]) - (T::of(1.0) / mass[1])),
                 ],
-            )?;
-            ::core::result::Result::Ok(Self::fold(step, &parts, &|_| T::of(1.0)))
+            )
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
@@ -85,27 +89,52 @@ const _: () = {
                 Item = impl ::core::convert::Into<Vector<T>>,
             >,
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(
-                step,
-                &[
-                    (T::of(1.0) / inertia[0]),
-                    (T::of(1.0) / inertia[1]),
-                    (T::of(1.0) / mass[0]),
-                    (T::of(1.0) / mass[1]),
-                    ((T::of(1.0) / mass[0]) - (T::of(1.0) / mass[1])),
-                ],
-            )?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| Self::fold(
-                step,
-                &parts,
-                factor,
-            );
+            let symbols = [
+                (T::of(1.0) / inertia[0]),
+                (T::of(1.0) / inertia[1]),
+                (T::of(1.0) / mass[0]),
+                (T::of(1.0) / mass[1]),
+                ((T::of(1.0) / mass[0]) - (T::of(1.0) / mass[1])),
+            ];
+            let parts = Self::parts(step, &symbols)?;
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, &parts, factor)
+            };
             let momenta = ::core::iter::Iterator::map(
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(
+                Self::TRUNCATION,
+                momenta,
+                &series,
+            )?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+        }
+
+        fn of_symbols(
+            step: T,
+            symbols: &[T; 5],
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            let parts = Self::parts(step, symbols)?;
+            ::core::result::Result::Ok(
+                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
+            )
+        }
+
+        /// The error of a step, with a step size that works where one is found.
+        #[cold]
+        fn advise(
+            &self,
+            error: ::coadjoint::StepError,
+            phase: &::coadjoint::Phase<::coadjoint::groups::SE3<T>>,
+        ) -> ::coadjoint::StepError {
+            ::coadjoint::plumbing::advise(
+                error,
+                phase,
+                self.step,
+                |step| { Self::of_symbols(step, &self.symbols) },
+            )
         }
 
         fn parts(
@@ -134,6 +163,7 @@ const _: () = {
         /// The coefficients of Σ factor(k) S_k.
         fn fold(
             step: T,
+            symbols: &[T; 5],
             parts: &[T; 57],
             factor: &dyn ::core::ops::Fn(usize) -> T,
         ) -> Self {
@@ -144,12 +174,35 @@ const _: () = {
                 57,
                 73,
             >(Self::table(), parts, factor);
-            Self::with(step, coefficients)
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                57,
+                12,
+            >(Self::table(), parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            Self::with(step, *symbols, coefficients, last, radius)
         }
 
-        fn with(step: T, coefficients: [T; 73]) -> Self {
+        fn with(
+            step: T,
+            symbols: [T; 5],
+            coefficients: [T; 73],
+            last: [T; 12],
+            radius: T,
+        ) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self { step, coefficients, defect }
+            Self {
+                step,
+                symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            }
         }
 
         /// The step size h.
@@ -161,26 +214,30 @@ const _: () = {
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
         ///
         /// # Errors
-        /// `StepError`: no convergence, or a state that is not finite.
+        /// `StepError`: why there is no right step, and a step size that works where one is found.
         #[inline]
         pub fn advance(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SE3<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SE3<T>>,
         ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
-            ::coadjoint::advance(self, phase)
+            ::coadjoint::advance(self, phase).map_err(|error| self.advise(error, phase))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
         /// worst of them, and on error `phase` is left before the step that failed.
         ///
         /// # Errors
-        /// As `advance`.
+        /// `Stopped`: how many steps were made, and why the next was not.
         pub fn advance_by(
             &self,
-            phase: &mut ::coadjoint::Phase<::coadjoint::SE3<T>>,
+            phase: &mut ::coadjoint::Phase<::coadjoint::groups::SE3<T>>,
             steps: u64,
-        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
+        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::Stopped> {
             ::coadjoint::advance_by(self, phase, steps)
+                .map_err(|stopped| ::coadjoint::Stopped {
+                    error: self.advise(stopped.error, phase),
+                    ..stopped
+                })
         }
 
         /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
@@ -224,11 +281,11 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for ComovingBody<T> {
-        type Group = ::coadjoint::SE3<T>;
+        type Group = ::coadjoint::groups::SE3<T>;
         type Chart = ::coadjoint::Exponential;
         #[inline(always)]
-        fn group(&self) -> &::coadjoint::SE3<T> {
-            const { &<::coadjoint::SE3<T>>::new() }
+        fn group(&self) -> &::coadjoint::groups::SE3<T> {
+            const { &<::coadjoint::groups::SE3<T>>::new() }
         }
 
         #[inline]
@@ -440,6 +497,75 @@ const _: () = {
         }
 
         #[inline(always)]
+        fn frame(
+            &self,
+            motion: usize,
+            input: &Vector<T>,
+        ) -> ::core::option::Option<Vector<T>> {
+            let c = &self.coefficients;
+            match motion {
+                0usize => {
+                    ::core::option::Option::Some({
+                        let mu3 = input[2];
+                        // y₃
+                        let t1 = mu3 * c[69];
+                        <Vector<
+                            T,
+                        > as From<
+                            _,
+                        >>::from([
+                            T::of(0.0),
+                            T::of(0.0),
+                            t1,
+                            T::of(0.0),
+                            T::of(0.0),
+                            T::of(0.0),
+                        ])
+                    })
+                }
+                1usize => {
+                    ::core::option::Option::Some({
+                        let mu4 = input[3];
+                        // y₄
+                        let t1 = mu4 * c[70];
+                        let mu5 = input[4];
+                        // y₅
+                        let t2 = mu5 * c[71];
+                        let mu6 = input[5];
+                        // y₆
+                        let t3 = mu6 * c[72];
+                        <Vector<
+                            T,
+                        > as From<
+                            _,
+                        >>::from([T::of(0.0), T::of(0.0), T::of(0.0), t1, t2, t3])
+                    })
+                }
+                _ => ::core::option::Option::None,
+            }
+        }
+
+        #[inline(always)]
+        fn radius(&self) -> T {
+            self.radius
+        }
+
+        #[cold]
+        fn series_ratio(&self, p: &Vector<T>) -> T {
+            ::coadjoint::plumbing::series_ratio::<
+                T,
+                6,
+            >(
+                Self::table(),
+                &self.last,
+                Self::TRUNCATION,
+                &::core::convert::Into::into(*p),
+            )
+        }
+    }
+
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for ComovingBody<T> {
+        #[inline(always)]
         fn predict_increment(
             &self,
             input: &Vector<T>,
@@ -571,63 +697,21 @@ const _: () = {
                 <Vector<T> as From<_>>::from([t78, t82, t106, t86, t90, t110])
             })
         }
+    }
 
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ComovingBody<T> {
         #[inline(always)]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
         }
-
-        #[inline(always)]
-        fn frame(
-            &self,
-            part: usize,
-            input: &Vector<T>,
-        ) -> ::core::option::Option<Vector<T>> {
-            let c = &self.coefficients;
-            match part {
-                0usize => {
-                    ::core::option::Option::Some({
-                        let mu3 = input[2];
-                        // y₃
-                        let t1 = mu3 * c[69];
-                        <Vector<
-                            T,
-                        > as From<
-                            _,
-                        >>::from([
-                            T::of(0.0),
-                            T::of(0.0),
-                            t1,
-                            T::of(0.0),
-                            T::of(0.0),
-                            T::of(0.0),
-                        ])
-                    })
-                }
-                1usize => {
-                    ::core::option::Option::Some({
-                        let mu4 = input[3];
-                        // y₄
-                        let t1 = mu4 * c[70];
-                        let mu5 = input[4];
-                        // y₅
-                        let t2 = mu5 * c[71];
-                        let mu6 = input[5];
-                        // y₆
-                        let t3 = mu6 * c[72];
-                        <Vector<
-                            T,
-                        > as From<
-                            _,
-                        >>::from([T::of(0.0), T::of(0.0), T::of(0.0), t1, t2, t3])
-                    })
-                }
-                _ => ::core::option::Option::None,
-            }
-        }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ComovingBody<T> {
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ComovingBody<T> {
+        type Method = ::coadjoint::solve::Newton<Self>;
+    }
+
+    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable
+    for ComovingBody<T> {
         fn truncation(&self) -> usize {
             Self::TRUNCATION
         }
@@ -643,7 +727,8 @@ const _: () = {
         fn adjusted(&self, corrections: &[T]) -> Self {
             let mut coefficients = self.coefficients;
             ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            Self::with(self.step, coefficients)
+            let last = [T::of(0.0); 12];
+            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
         }
     }
 
@@ -656,8 +741,11 @@ const _: () = {
         >(&self) -> ComovingBody<L> {
             ComovingBody {
                 step: L::splat(self.step),
+                symbols: self.symbols.map(L::splat),
                 coefficients: self.coefficients.map(L::splat),
                 defect: self.defect.map(L::splat),
+                last: self.last.map(L::splat),
+                radius: L::splat(self.radius),
             }
         }
     }

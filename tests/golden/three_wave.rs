@@ -20,10 +20,15 @@
 pub struct ThreeWave<T = f64> {
     /// The step size h.
     step: T,
+    /// The parameters, as expressions of them stand in the coefficients.
+    symbols: [T; 1],
     /// The coefficients of the programs below, folded for h and the parameters.
     coefficients: [T; 63],
     /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
     defect: [T; 0],
+    /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
+    last: [T; 3],
+    radius: T,
 }
 
 #[allow(
@@ -56,8 +61,7 @@ const _: () = {
             step: T,
             s: T,
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(step, &[s])?;
-            ::core::result::Result::Ok(Self::fold(step, &parts, &|_| T::of(1.0)))
+            Self::of_symbols(step, &[s])
         }
 
         /// As `new`, with the tail of the series summed for motions that start with `momenta`
@@ -72,18 +76,46 @@ const _: () = {
                 Item = impl ::core::convert::Into<Vector<T>>,
             >,
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let parts = Self::parts(step, &[s])?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| Self::fold(
-                step,
-                &parts,
-                factor,
-            );
+            let symbols = [s];
+            let parts = Self::parts(step, &symbols)?;
+            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
+                Self::fold(step, &symbols, &parts, factor)
+            };
             let momenta = ::core::iter::Iterator::map(
                 ::core::iter::IntoIterator::into_iter(momenta),
                 ::core::convert::Into::into,
             );
-            let tail = ::coadjoint::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
+            let tail = ::coadjoint::tune::Tail::along(
+                Self::TRUNCATION,
+                momenta,
+                &series,
+            )?;
             ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+        }
+
+        fn of_symbols(
+            step: T,
+            symbols: &[T; 1],
+        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
+            let parts = Self::parts(step, symbols)?;
+            ::core::result::Result::Ok(
+                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
+            )
+        }
+
+        /// The error of a step, with a step size that works where one is found.
+        #[cold]
+        fn advise(
+            &self,
+            error: ::coadjoint::StepError,
+            phase: &::coadjoint::Phase<::coadjoint::groups::SL2<T>>,
+        ) -> ::coadjoint::StepError {
+            ::coadjoint::plumbing::advise(
+                error,
+                phase,
+                self.step,
+                |step| { Self::of_symbols(step, &self.symbols) },
+            )
         }
 
         fn parts(
@@ -101,6 +133,7 @@ const _: () = {
         /// The coefficients of Σ factor(k) S_k.
         fn fold(
             step: T,
+            symbols: &[T; 1],
             parts: &[T; 36],
             factor: &dyn ::core::ops::Fn(usize) -> T,
         ) -> Self {
@@ -111,12 +144,35 @@ const _: () = {
                 36,
                 63,
             >(Self::table(), parts, factor);
-            Self::with(step, coefficients)
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                36,
+                3,
+            >(Self::table(), parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            Self::with(step, *symbols, coefficients, last, radius)
         }
 
-        fn with(step: T, coefficients: [T; 63]) -> Self {
+        fn with(
+            step: T,
+            symbols: [T; 1],
+            coefficients: [T; 63],
+            last: [T; 3],
+            radius: T,
+        ) -> Self {
             let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self { step, coefficients, defect }
+            Self {
+                step,
+                symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            }
         }
 
         /// The step size h.
@@ -128,26 +184,30 @@ const _: () = {
         /// Advances (g, μ) by one step; on error `phase` is left as it was.
         ///
         /// # Errors
-        /// `StepError`: no convergence, or a state that is not finite.
+        /// `StepError`: why there is no right step, and a step size that works where one is found.
         #[inline]
         pub fn advance(
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SL2<T>>,
         ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
-            ::coadjoint::advance(self, phase)
+            ::coadjoint::advance(self, phase).map_err(|error| self.advise(error, phase))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
         /// worst of them, and on error `phase` is left before the step that failed.
         ///
         /// # Errors
-        /// As `advance`.
+        /// `Stopped`: how many steps were made, and why the next was not.
         pub fn advance_by(
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SL2<T>>,
             steps: u64,
-        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::StepError> {
+        ) -> ::core::result::Result<::coadjoint::StepReport<T>, ::coadjoint::Stopped> {
             ::coadjoint::advance_by(self, phase, steps)
+                .map_err(|stopped| ::coadjoint::Stopped {
+                    error: self.advise(stopped.error, phase),
+                    ..stopped
+                })
         }
 
         /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
@@ -295,6 +355,26 @@ const _: () = {
         }
 
         #[inline(always)]
+        fn radius(&self) -> T {
+            self.radius
+        }
+
+        #[cold]
+        fn series_ratio(&self, p: &Vector<T>) -> T {
+            ::coadjoint::plumbing::series_ratio::<
+                T,
+                3,
+            >(
+                Self::table(),
+                &self.last,
+                Self::TRUNCATION,
+                &::core::convert::Into::into(*p),
+            )
+        }
+    }
+
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for ThreeWave<T> {
+        #[inline(always)]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -394,11 +474,17 @@ const _: () = {
             };
             twice_even - last
         }
+    }
 
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ThreeWave<T> {
         #[inline(always)]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
         }
+    }
+
+    impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ThreeWave<T> {
+        type Method = ::coadjoint::solve::Newton<Self>;
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ThreeWave<T> {
@@ -417,7 +503,8 @@ const _: () = {
         fn adjusted(&self, corrections: &[T]) -> Self {
             let mut coefficients = self.coefficients;
             ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            Self::with(self.step, coefficients)
+            let last = [T::of(0.0); 3];
+            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
         }
     }
 
@@ -430,8 +517,11 @@ const _: () = {
         >(&self) -> ThreeWave<L> {
             ThreeWave {
                 step: L::splat(self.step),
+                symbols: self.symbols.map(L::splat),
                 coefficients: self.coefficients.map(L::splat),
                 defect: self.defect.map(L::splat),
+                last: self.last.map(L::splat),
+                radius: L::splat(self.radius),
             }
         }
     }

@@ -1,6 +1,8 @@
 //! From codegen's exact objects to the runtime's numbers, for tests.
 
-use coadjoint::{Chart, LieGroup, groups::MatrixGroup, generating::PolynomialFunction, groups::TableError};
+use coadjoint::{
+    Chart, LieGroup, generating::PolynomialFunction, groups::MatrixGroup, groups::TableError,
+};
 use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::Rational;

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::fmt::{self, Debug};
 use std::rc::Rc;
 
-use coadjoint::{groups::CayleyGroup, Coordinates, groups::ElementError, LieGroup};
+use coadjoint::{Coordinates, LieGroup, groups::CayleyGroup, groups::ElementError};
 use nalgebra::{DMatrix, DVector};
 
 type Vector = DVector<f64>;
@@ -118,10 +118,13 @@ erased! {
     dexp_transpose(x: vector, mu: vector) -> vector;
     dexp_transpose_with_derivative(x: vector, mu: vector) -> slope;
     dexp_inverse_transpose(x: vector, p: vector) -> vector;
+    exp_extent(x: vector) -> number;
+    element_defect(g: element) -> number;
     casimir_count() -> index;
     casimir(i: index, mu: vector) -> number;
     matrix_size() -> index;
     matrix_entry(g: element, i: index, j: index) -> number;
+    cayley_extent(x: vector) -> number;
     cayley_transport(x: vector, mu: vector) -> moved;
     cayley_inverse(g: element) -> maybe;
     dcay_transpose(x: vector, mu: vector) -> vector;
@@ -158,6 +161,8 @@ impl LieGroup for AnyGroup {
         dexp_transpose(x: vector, mu: vector) -> vector;
         dexp_transpose_with_derivative(x: vector, mu: vector) -> slope;
         dexp_inverse_transpose(x: vector, p: vector) -> vector;
+        exp_extent(x: vector) -> number;
+        element_defect(g: element) -> number;
         casimir_count() -> index;
         casimir(i: index, mu: vector) -> number;
         matrix_size() -> index;
@@ -175,6 +180,7 @@ impl LieGroup for AnyGroup {
 impl CayleyGroup for AnyGroup {
     pass_on! {
         cayley_transport(x: vector, mu: vector) -> moved;
+        cayley_extent(x: vector) -> number;
         cayley_inverse(g: element) -> maybe;
         dcay_transpose(x: vector, mu: vector) -> vector;
         dcay_transpose_with_derivative(x: vector, mu: vector) -> slope;

@@ -1,6 +1,6 @@
 //! A run of a reference system, and what it kept.
 
-use coadjoint::{LieGroup, groups::MatrixGroup, Phase, advance};
+use coadjoint::{LieGroup, Phase, advance, groups::MatrixGroup};
 use coadjoint_codegen::poly::Polynomial;
 use nalgebra::DVector;
 

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeMap;
 
+use coadjoint::Integrator;
+use coadjoint::solve::{ByDimension, NewtonModel, Predict};
 use coadjoint::{Exponential, GeneratingFunction, groups::MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
@@ -147,4 +149,10 @@ impl GeneratingFunction for Series {
         });
         (self.gradient(p), hessian)
     }
+}
+
+impl Predict for Series {}
+impl NewtonModel for Series {}
+impl Integrator for Series {
+    type Method = ByDimension<Self>;
 }

@@ -1,7 +1,11 @@
 //! Several steps solved at once, in the lanes of one number: the same steps as one by one.
 
 use coadjoint::nalgebra::{Matrix6, Vector6};
-use coadjoint::{solve::BLOCK, Chart, Exponential, GeneratingFunction, solve::Linearised, solve::LinearisedOf, Phase, SE3, StepError, advance, advance_by, lie_poisson, plumbing, solve::solve};
+use coadjoint::solve::{BlockModel, BlockNewton, LaggedModel, NewtonModel, Predict};
+use coadjoint::{
+    Chart, Exponential, GeneratingFunction, Integrator, Phase, SE3, StepError, advance, advance_by,
+    lie_poisson, plumbing, solve::BLOCK, solve::Linearised, solve::LinearisedOf, solve::solve,
+};
 
 /// A heavy body with a rotor: not homogeneous, no symmetry, and few terms, for code in lanes of narrow
 /// registers is slow to compile.
@@ -27,8 +31,6 @@ impl InLanes {
 impl GeneratingFunction for InLanes {
     type Group = SE3;
     type Chart = Exponential;
-    const IN_PARTS: bool = true;
-    const LINEARISES: bool = true;
 
     fn group(&self) -> &SE3 {
         self.step.group()
@@ -45,11 +47,25 @@ impl GeneratingFunction for InLanes {
     fn gradient_and_hessian(&self, p: &Vector6<f64>) -> (Vector6<f64>, Matrix6<f64>) {
         self.step.gradient_and_hessian(p)
     }
+}
 
+impl Predict for InLanes {
     fn predict_increment(&self, mu: &Vector6<f64>) -> Option<Vector6<f64>> {
         self.step.predict_increment(mu)
     }
+}
 
+impl NewtonModel for InLanes {
+    fn bend(&self, x: f64) -> f64 {
+        self.step.bend(x)
+    }
+
+    fn hessian_defect(&self, size: f64) -> f64 {
+        self.step.hessian_defect(size)
+    }
+}
+
+impl LaggedModel for InLanes {
     fn coarse_gradient(&self, p: &Vector6<f64>) -> Vector6<f64> {
         self.step.coarse_gradient(p)
     }
@@ -61,15 +77,9 @@ impl GeneratingFunction for InLanes {
     fn leading_product(&self, p: &Vector6<f64>, direction: &Vector6<f64>) -> Vector6<f64> {
         self.step.leading_product(p, direction)
     }
+}
 
-    fn bend(&self, x: f64) -> f64 {
-        self.step.bend(x)
-    }
-
-    fn hessian_defect(&self, size: f64) -> f64 {
-        self.step.hessian_defect(size)
-    }
-
+impl BlockModel for InLanes {
     fn linearise(&self, mu: &Vector6<f64>, pieces: u32, found: &mut LinearisedOf<Self>) -> bool {
         plumbing::linearise_in_lanes::<Gyrostat, _, 6>(&self.step.coefficients, mu, pieces, found);
         true
@@ -79,6 +89,10 @@ impl GeneratingFunction for InLanes {
         plumbing::refine_in_lanes::<Gyrostat, _, 6>(&self.step.coefficients, found);
         self.refines
     }
+}
+
+impl Integrator for InLanes {
+    type Method = BlockNewton<Self>;
 }
 
 /// |Δ(μ, g)|
@@ -147,7 +161,7 @@ fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
 fn steps_are_solved_to_second_order() -> Result<(), StepError> {
     let solved = |h: f64| -> Result<[f64; 3], StepError> {
         let step = InLanes::new(h)?;
-        let (group, chart) = (step.group(), step.chart());
+        let (group, chart) = (step.group(), Exponential);
         let mut found = Linearised::zeros(6);
         let mut worst = [0.0_f64; 3];
         for number in 0..4 {

@@ -1,7 +1,7 @@
 //! The attribute `lie_poisson`: bodies people write, all giving the same integrator.
 
 use coadjoint::nalgebra::Vector3;
-use coadjoint::{GeneratingFunction, Phase, SO3, StepError, lie_poisson};
+use coadjoint::{GeneratingFunction, Integrator, Phase, SO3, StepError, lie_poisson};
 
 /// Free rigid body, written out.
 #[lie_poisson(group = SO3, truncation = 5)]
@@ -44,7 +44,7 @@ const START: [f64; 3] = [2.0, 0.5, 1.0];
 
 fn end<S>(step: &S) -> Result<Vector3<f64>, StepError>
 where
-    S: GeneratingFunction<Group = SO3>,
+    S: Integrator<Group = SO3>,
 {
     let mut body = Phase::<SO3>::at_identity(START);
     for _ in 0..50 {

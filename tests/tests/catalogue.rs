@@ -4,7 +4,9 @@
 
 use std::path::Path;
 
-use coadjoint::{Coordinates, groups::Heisenberg, LieGroup, groups::MatrixGroup, SE2, SE3, SO3, SU2};
+use coadjoint::{
+    Coordinates, LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::MatrixGroup,
+};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::catalogue::{GROUPS, source};

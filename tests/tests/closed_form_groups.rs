@@ -1,7 +1,7 @@
 //! The attribute on the runtime's closed-form groups.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{groups::Heisenberg, Monitor, Phase, groups::Product, SE2, SO3, SU2, lie_poisson};
+use coadjoint::{Monitor, Phase, SE2, SO3, SU2, groups::Heisenberg, groups::Product, lie_poisson};
 use nalgebra::Vector3;
 
 /// A planar body in an ideal fluid.

@@ -2,7 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::{SVector, Vector3, Vector6};
-use coadjoint::{CompensatedPhase, GeneratingFunction, LieGroup, solve::MatrixFree, Phase, generating::Reversed, SE3, SO3, StepError, advance, advance_compensated, lanes::ensemble, laws, lie_poisson, poisson_map};
+use coadjoint::{
+    CompensatedPhase, GeneratingFunction, LieGroup, Phase, SE3, SO3, StepError, advance,
+    advance_compensated, generating::Reversed, lanes::ensemble, laws, lie_poisson, poisson_map,
+    solve::MatrixFree,
+};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_tests::reference::{end_state, numbers};
 

@@ -1,7 +1,11 @@
 //! Compensated accumulation on every group that has it: the same motion, and less rounding.
 
 use coadjoint::nalgebra::Vector6;
-use coadjoint::{groups::CompensatedGroup, CompensatedPhase, GeneratingFunction, LieGroup, Phase, groups::Power, groups::Product, SE3, SO3, SU2, StepError, advance, advance_compensated, lie_poisson};
+use coadjoint::{
+    CompensatedPhase, GeneratingFunction, Integrator, LieGroup, Phase, SE3, SO3, SU2, StepError,
+    advance, advance_compensated, groups::CompensatedGroup, groups::Power, groups::Product,
+    lie_poisson,
+};
 
 #[lie_poisson(group = SE3, truncation = 5)]
 fn top(mu: [f64; 6]) -> f64 {
@@ -34,7 +38,7 @@ fn coupled(mu: [f64; 9]) -> f64 {
 /// compensated; and how far the two end states are apart in momentum.
 fn drifts<S>(step: &S, start: &Phase<S::Group>, steps: u32) -> Result<[f64; 3], StepError>
 where
-    S: GeneratingFunction,
+    S: Integrator,
     S::Group: CompensatedGroup + LieGroup<Scalar = f64>,
 {
     let group = step.group();

@@ -1,6 +1,22 @@
 //! Coefficients fitted to a motion: the same geometry, errors smaller by many orders.
 
-use coadjoint::{generating::Adjustable, lanes::F64x4, tune::Fit, tune::FitError, GeneratingFunction, lanes::Lanes, tune::MAX_FITTED_TERMS, generating::TermOf as Part, Phase, generating::Reversed, SE3, SO3, StepError, generating::Term, generating::VectorOf, tune::fit, laws, lie_poisson, nalgebra::{SimdValue, Vector3}};
+use coadjoint::solve::{ByDimension, NewtonModel, Predict};
+use coadjoint::{
+    GeneratingFunction, Integrator, Phase, SE3, SO3, StepError,
+    generating::Adjustable,
+    generating::Reversed,
+    generating::Term,
+    generating::TermOf as Part,
+    generating::VectorOf,
+    lanes::F64x4,
+    lanes::Lanes,
+    laws, lie_poisson,
+    nalgebra::{SimdValue, Vector3},
+    tune::Fit,
+    tune::FitError,
+    tune::MAX_FITTED_TERMS,
+    tune::fit,
+};
 
 #[lie_poisson(group = SO3, truncation = 5)]
 fn fifth(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
@@ -155,6 +171,12 @@ impl GeneratingFunction for Endless {
     }
 }
 
+impl Predict for Endless {}
+impl NewtonModel for Endless {}
+impl Integrator for Endless {
+    type Method = ByDimension<Self>;
+}
+
 impl Adjustable for Endless {
     fn truncation(&self) -> usize {
         5
@@ -165,7 +187,7 @@ impl Adjustable for Endless {
     }
 
     fn term(&self, _: usize) -> Term<'_> {
-        Term { part: Part::Series, monomial: &[], order: 5 }
+        Term { of: Part::Series, monomial: &[], order: 5 }
     }
 
     fn adjusted(&self, _: &[f64]) -> Self {

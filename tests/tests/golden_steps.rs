@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{Chart, GeneratingFunction, Phase, SO3, StepError};
+use coadjoint::{Chart, Phase, SO3, StepError};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_tests::{from_function, golden};
 
@@ -35,7 +35,7 @@ fn against_interpreter<const N: usize, S>(
     step: f64,
     parameters: &[f64],
 ) where
-    S: GeneratingFunction,
+    S: coadjoint::Integrator,
     S::Group: coadjoint::LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
 {
     let symbols: Vec<f64> =

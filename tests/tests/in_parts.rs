@@ -1,7 +1,12 @@
 //! The gradient in two parts: the same solutions as by Newton's method with matrices, in every lane.
 
 use coadjoint::nalgebra::{SMatrix, SVector, SimdValue, Vector6};
-use coadjoint::{solve::LOOK_AHEAD, Chart, lanes::F64x4, GeneratingFunction, lanes::LaneGroup, lanes::Lanes, LieGroup, Phase, SE3, StepError, generating::VectorOf, advance, advance_by, lie_poisson, plumbing, solve::solve};
+use coadjoint::solve::{LaggedModel, Newton, NewtonModel, Predict};
+use coadjoint::{
+    Chart, GeneratingFunction, Integrator, LieGroup, Phase, SE3, StepError, advance, advance_by,
+    generating::VectorOf, lanes::F64x4, lanes::LaneGroup, lanes::Lanes, lie_poisson, plumbing,
+    solve::LOOK_AHEAD, solve::solve,
+};
 
 #[lie_poisson(group = SE3, truncation = 7)]
 fn fluid(mu: [f64; 6]) -> f64 {
@@ -31,7 +36,7 @@ struct WithMatrices<'a, S>(&'a S);
 
 impl<S, const N: usize> GeneratingFunction for WithMatrices<'_, S>
 where
-    S: GeneratingFunction,
+    S: LaggedModel + Integrator,
     S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
 {
     type Group = S::Group;
@@ -52,10 +57,31 @@ where
     fn gradient_and_hessian(&self, p: &VectorOf<S>) -> (VectorOf<S>, SMatrix<f64, N, N>) {
         self.0.gradient_and_hessian(p)
     }
+}
 
+impl<S, const N: usize> Predict for WithMatrices<'_, S>
+where
+    S: LaggedModel,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
     fn predict(&self, mu: &VectorOf<S>) -> VectorOf<S> {
         self.0.predict(mu)
     }
+}
+
+impl<S, const N: usize> NewtonModel for WithMatrices<'_, S>
+where
+    S: LaggedModel,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+}
+
+impl<S, const N: usize> Integrator for WithMatrices<'_, S>
+where
+    S: LaggedModel,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+    type Method = Newton<Self>;
 }
 
 /// Momenta in many directions, of this size.
@@ -68,15 +94,14 @@ fn momenta<const N: usize>(size: f64) -> impl Iterator<Item = SVector<f64, N>> {
 /// with matrices.
 fn errors<S, const N: usize>(step: &S, size: f64) -> Result<[f64; 3], StepError>
 where
-    S: GeneratingFunction,
+    S: LaggedModel + Integrator,
     S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
 {
-    assert!(step.in_parts());
     let mut worst = [0.0; 3];
     for mu in momenta::<N>(size) {
         let found = solve(step, &mu)?;
         let known = solve(&WithMatrices(step), &mu)?;
-        let pulled = step.chart().pull_back(step.group(), &found.x, &mu);
+        let pulled = S::Chart::default().pull_back(step.group(), &found.x, &mu);
         let errors = [
             (found.p - pulled).amax() / mu.amax(),
             (found.x - step.gradient(&found.p)).amax() / found.x.amax(),

@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{Exponential, Kicked, LieGroup, Phase, generating::PolynomialFunction, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, SO3, steps::Splitting, StepError, steps::Strang};
+use coadjoint::{
+    Exponential, Kicked, LieGroup, Phase, SO3, StepError, generating::PolynomialFunction,
+    steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, steps::Splitting, steps::Strang,
+};
 use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::lie::catalogue::lookup;

@@ -1,7 +1,10 @@
 //! SIMD lanes compute the bits of the scalar integrator.
 
 use coadjoint::nalgebra::SimdValue;
-use coadjoint::{lanes::F64x4, lanes::F64x8, lanes::LaneGroup, lanes::Lanes, Phase, SO3, StepError, lanes::ensemble, lie_poisson};
+use coadjoint::{
+    Phase, SO3, StepError, lanes::F64x4, lanes::F64x8, lanes::LaneGroup, lanes::Lanes,
+    lanes::ensemble, lie_poisson,
+};
 
 #[lie_poisson(group = SO3, truncation = 7)]
 fn rigid_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {

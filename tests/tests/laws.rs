@@ -2,7 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{OrderError, check, measured_order};
-use coadjoint::{groups::Aff1, Cayley, groups::CayleyMatrixGroup, Chart, Coordinates, Exponential, groups::Heisenberg, LieGroup, groups::MatrixGroup, Phase, groups::Power, groups::Product, SE2, SE3, groups::SL2, SO3, SO3Matrix, groups::SO4, groups::SO5, SU2, groups::U2, groups::U3, advance};
+use coadjoint::{
+    Cayley, Chart, Coordinates, Exponential, LieGroup, Phase, SE2, SE3, SO3, SU2, advance,
+    groups::Aff1, groups::CayleyMatrixGroup, groups::Heisenberg, groups::MatrixGroup,
+    groups::Power, groups::Product, groups::SL2, groups::SO4, groups::SO5, groups::U2, groups::U3,
+};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::lie::{Chart as ChartName, LieAlgebra, RationalMatrix};
@@ -194,7 +198,6 @@ type ThreeSO3 = Power<SO3, 3, 9>;
 laws_hold_for! {
     // Closed forms.
     so3: named("SO3"), Energy::Full, exp typed!(SO3), cayley typed!(SO3);
-    so3_matrices: named("SO3"), Energy::Full, exp typed!(SO3Matrix), cayley typed!(SO3Matrix);
     su2: named("SU2"), Energy::Full, exp typed!(SU2), cayley typed!(SU2);
     se2: named("SE2"), Energy::Full, exp typed!(SE2), cayley typed!(SE2);
     se3: named("SE3"), Energy::Full, exp typed!(SE3), cayley typed!(SE3);

@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{Kicked, LieGroup, Phase, steps::Rkn4, steps::Rkn6, SO3, steps::Splitting, StepError, steps::Strang, lie_poisson, potential};
+use coadjoint::{
+    Kicked, LieGroup, Phase, SO3, StepError, lie_poisson, potential, steps::Rkn4, steps::Rkn6,
+    steps::Splitting, steps::Strang,
+};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::{Rational, integer};

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{groups::FixedDimension, LieGroup, SE3, SO3, groups::SU3};
+use coadjoint::{LieGroup, SE3, SO3, groups::FixedDimension, groups::SU3};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Plan, Predictor};

@@ -2,7 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::{groups::Aff1Algebra, Phase, groups::SL2Algebra, groups::SO4, groups::SO4Algebra, groups::SO5Algebra, groups::SU3Algebra, groups::SU4Algebra, groups::StaticAlgebra, StepError, groups::U2Algebra, groups::U3Algebra, lie_poisson};
+use coadjoint::{
+    Phase, StepError, groups::Aff1Algebra, groups::SL2Algebra, groups::SO4, groups::SO4Algebra,
+    groups::SO5Algebra, groups::SU3Algebra, groups::SU4Algebra, groups::StaticAlgebra,
+    groups::U2Algebra, groups::U3Algebra, lie_poisson,
+};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;

@@ -6,7 +6,7 @@ use coadjoint::systems::{
     HeisenbergSpinRing, KirchhoffBody, KovalevskayaTop, LagrangeTop, ManakovBody, Su3Body,
     ThreeWaveInteraction, TodaLattice, ZeitlinVorticity3, zeitlin_vorticity_3, zeitlin_vorticity_5,
 };
-use coadjoint::{GeneratingFunction, LieGroup, Phase, StepError, advance};
+use coadjoint::{GeneratingFunction, Integrator, LieGroup, Phase, StepError, advance};
 use coadjoint_tests::moments::special_unitary;
 use coadjoint_tests::reference::{end_state, numbers};
 
@@ -17,7 +17,7 @@ fn error<S, const N: usize>(
     make: impl Fn(f64) -> Result<S, StepError>,
 ) -> Result<f64, StepError>
 where
-    S: GeneratingFunction<Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>>,
+    S: Integrator<Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>>,
 {
     let entry = end_state(system);
     let time: f64 = entry.time.parse().unwrap_or(f64::NAN);

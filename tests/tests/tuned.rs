@@ -1,6 +1,8 @@
 //! The tail of the series, summed for a motion: smaller errors, the same geometry.
 
-use coadjoint::{lanes::F64x4, lanes::Lanes, Phase, generating::Reversed, SO3, StepError, laws, lie_poisson};
+use coadjoint::{
+    Phase, SO3, StepError, generating::Reversed, lanes::F64x4, lanes::Lanes, laws, lie_poisson,
+};
 
 #[lie_poisson(group = SO3, truncation = 9)]
 fn ninth(mu: [f64; 3], inertia: [f64; 3]) -> f64 {

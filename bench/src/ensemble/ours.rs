@@ -1,6 +1,6 @@
 //! Our ensembles by [`advance_all`].
 
-use coadjoint::{lanes::F64x8, lanes::Lanes, Phase, SO3, StepError, lanes::ensemble::advance_all};
+use coadjoint::{Phase, SO3, StepError, lanes::F64x8, lanes::Lanes, lanes::ensemble::advance_all};
 
 use super::EnsembleMethod;
 use crate::{

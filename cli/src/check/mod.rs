@@ -6,7 +6,6 @@ mod report;
 use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -95,23 +94,11 @@ const LAWS: [(&str, &str, &str); 6] = [
 
 impl Trial<'_> {
     fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<Vec<Law>, CliError> {
-        match self.integrator.plan.solver {
-            Solver::Newton => self.solved::<G, C, false>(group),
-            Solver::FixedPoint => self.solved::<G, C, true>(group),
-        }
-    }
-
-    fn solved<G: Group, C: Chart<G>, const FIXED_POINT: bool>(
-        &self,
-        group: G,
-    ) -> Result<Vec<Law>, CliError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let points: Vec<_> =
             (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();
         let at = |source| CliError::Step { time: 0.0, source };
-        let map = |h| {
-            Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h).map_err(at)
-        };
+        let map = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h).map_err(at);
         let tried = laws::check(&map(self.step)?, Some(&map(-self.step)?), &points).map_err(at)?;
         let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
             let law = tried.iter().find(|law| law.name == known)?;
@@ -122,7 +109,7 @@ impl Trial<'_> {
         let start = random_phase(&group, self.size, &mut random);
         let expected = self.integrator.order() as f64;
         laws.push(order::measure(self.step, expected, &group, &start, |h, steps, state| {
-            let map = Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h)?;
+            let map = Interpreter::<G, C>::new(self.integrator, group.clone(), h)?;
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         }));
         if let Some(forces) = self.forces {

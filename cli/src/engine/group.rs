@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use coadjoint::{groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup, groups::TableError, groups::Terms};
+use coadjoint::{
+    groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup, groups::TableError,
+    groups::Terms,
+};
 use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;

@@ -2,9 +2,19 @@
 
 use std::marker::PhantomData;
 
-use coadjoint::{generating::Adjustable, Chart, Coordinates, GeneratingFunction, LieGroup, generating::MatrixOf, generating::TermOf as Part, Scalar, generating::ScalarOf, Solver, StepError, tune::Tail, generating::Term, generating::VectorOf, generating::hessian_by_differences};
+use coadjoint::generating::{
+    Adjustable, MatrixOf, ScalarOf, Term, TermOf, VectorOf, hessian_by_differences,
+};
+use coadjoint::plumbing;
+use coadjoint::solve::{
+    CandidateOf, FixedPoint, LaggedModel, LaggedNewton, Method, Newton, NewtonModel, Predict,
+    Settings,
+};
+use coadjoint::tune::Tail;
+use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
 use coadjoint_codegen::graph::{Id, Number, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
+use coadjoint_codegen::problem::Solver;
 
 /// What a program computed.
 struct Outputs<'s, T> {
@@ -30,10 +40,21 @@ fn fold_parts(integrator: &Integrator, step: f64) -> Result<Vec<f64>, StepError>
     Ok(integrator.coefficients.fold_parts(step, &symbols))
 }
 
-/// The truncated series of an integrator for one step size, on any group with its algebra; solved by
-/// the fixed point or by Newton's method.
+/// The terms of S_K and S_{K−2} with these coefficients, as (coefficient, order, monomial).
+fn of_last<'a>(
+    integrator: &'a Integrator,
+    last: &'a [f64],
+) -> impl Iterator<Item = (f64, usize, &'a [(u32, u32)])> {
+    let coefficients = &integrator.coefficients;
+    coefficients
+        .last_orders(integrator.problem.truncation)
+        .zip(last)
+        .map(|((_, order, base), &value)| (value, order, coefficients.monomials()[base].as_slice()))
+}
+
+/// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.
 #[derive(Clone, Debug)]
-pub struct Interpreter<'a, G, C, const FIXED_POINT: bool = false> {
+pub struct Interpreter<'a, G, C> {
     pub(super) integrator: &'a Integrator,
     pub(super) group: G,
     /// The folded coefficients C_m(h).
@@ -42,12 +63,14 @@ pub struct Interpreter<'a, G, C, const FIXED_POINT: bool = false> {
     pub(super) defect: Vec<f64>,
     /// Whether H_red is of degree two or less.
     pub(super) quadratic: bool,
+    /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is at most ½ in
+    /// every direction.
+    pub(super) last: Vec<f64>,
+    pub(super) radius: f64,
     pub(super) chart: PhantomData<C>,
 }
 
-impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
-    Interpreter<'a, G, C, FIXED_POINT>
-{
+impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
         Ok(Self::fold(integrator, group, &fold_parts(integrator, step)?, &|_| 1.0))
@@ -79,16 +102,24 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
         parts: &[f64],
         factor: &dyn Fn(usize) -> f64,
     ) -> Self {
-        Self::of_slots(integrator, group, integrator.coefficients.slots_of_parts(parts, factor))
+        let coefficients = &integrator.coefficients;
+        let truncation = integrator.problem.truncation;
+        let orders = coefficients.last_orders(truncation);
+        let last: Vec<f64> = orders.map(|(number, ..)| parts[number]).collect();
+        let radius = plumbing::radius_of(truncation, of_last(integrator, &last));
+        let slots = coefficients.slots_of_parts(parts, factor);
+        Self { last, radius, ..Self::of_slots(integrator, group, slots) }
     }
 
+    /// With these slots, of a series that is not judged by the ratio of its terms.
     fn of_slots(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
         let mut defect = vec![0.0; integrator.defect_len()];
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
         }
         let quadratic = integrator.problem.is_quadratic();
-        Self { integrator, group, slots, defect, quadratic, chart: PhantomData }
+        let (last, radius) = (Vec::new(), f64::MAX);
+        Self { integrator, group, slots, defect, quadratic, last, radius, chart: PhantomData }
     }
 
     /// Evaluates a program and hands its outputs to `read`.
@@ -146,13 +177,9 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool>
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> GeneratingFunction
-    for Interpreter<'_, G, C, FIXED_POINT>
-{
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
     type Group = G;
     type Chart = C;
-    const SOLVER: Solver = if FIXED_POINT { Solver::FixedPoint } else { Solver::Newton };
-    const IN_PARTS: bool = !FIXED_POINT;
 
     fn group(&self) -> &G {
         &self.group
@@ -174,19 +201,36 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     }
 
     #[inline(always)]
+    fn frame(&self, motion: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        self.integrator.frame.get(motion).map(|program| self.vector(program, mu))
+    }
+
+    fn radius(&self) -> ScalarOf<Self> {
+        Scalar::of(self.radius)
+    }
+
+    fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        let terms = of_last(self.integrator, &self.last);
+        let terms = terms.map(|(value, order, monomial)| (Scalar::of(value), order, monomial));
+        plumbing::ratio_of(self.integrator.problem.truncation, terms, |i| p[i])
+    }
+}
+
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> Predict for Interpreter<'_, G, C> {
+    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+        let flows = matches!(self.integrator.plan.predictor, Predictor::Flow(_));
+        flows.then(|| self.vector(&self.integrator.predictor, mu))
+    }
+
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
         match self.predict_increment(mu) {
-            Some(x) => self.chart().pull_back(&self.group, &x, mu),
+            Some(x) => C::default().pull_back(&self.group, &x, mu),
             None => self.vector(&self.integrator.predictor, mu),
         }
     }
+}
 
-    #[inline(always)]
-    fn frame(&self, part: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        self.integrator.frame.get(part).map(|program| self.vector(program, mu))
-    }
-
-    #[inline(always)]
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> NewtonModel for Interpreter<'_, G, C> {
     fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
         match &self.integrator.hessian {
             Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),
@@ -194,48 +238,11 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
         }
     }
 
-    #[inline(always)]
-    fn in_parts(&self) -> bool {
-        self.integrator.parts.is_some()
-    }
-
-    #[inline(always)]
-    fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
-        self.vector(
-            self.integrator.parts.as_ref().map_or(&self.integrator.gradient, |parts| &parts.coarse),
-            p,
-        )
-    }
-
-    #[inline(always)]
-    fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.parts {
-            Some(parts) => self.vector(&parts.fine, p),
-            None => VectorOf::<Self>::zeros(p.dim()),
-        }
-    }
-
-    #[inline(always)]
-    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.parts {
-            Some(parts) => self.product(&parts.leading, p, direction),
-            None => direction.left_multiply(&self.newton_model(p).1),
-        }
-    }
-
-    #[inline(always)]
-    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        let flows = matches!(self.integrator.plan.predictor, Predictor::Flow(_));
-        flows.then(|| self.vector(&self.integrator.predictor, mu))
-    }
-
-    #[inline(always)]
     fn bend(&self, x: ScalarOf<Self>) -> ScalarOf<Self> {
         // As generated code has it: a quarter of |x|² is ample for quadratic Hamiltonians.
         if self.quadratic { x * x * Scalar::of(0.25) } else { Scalar::of(1.0) }
     }
 
-    #[inline(always)]
     fn hessian_defect(&self, size: ScalarOf<Self>) -> ScalarOf<Self> {
         let mut sum = ScalarOf::<Self>::of(0.0);
         for &coefficient in self.defect.iter().rev() {
@@ -245,9 +252,107 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>, const FIXED_POINT: bool> Generati
     }
 }
 
-impl<G: LieGroup<Scalar = f64>, C: Chart<G>, const FIXED_POINT: bool> Adjustable
-    for Interpreter<'_, G, C, FIXED_POINT>
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> LaggedModel for Interpreter<'_, G, C> {
+    fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        let coarse = self.integrator.parts.as_ref().map(|parts| &parts.coarse);
+        self.vector(coarse.unwrap_or(&self.integrator.gradient), p)
+    }
+
+    fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+        match &self.integrator.parts {
+            Some(parts) => self.vector(&parts.fine, p),
+            None => VectorOf::<Self>::zeros(p.dim()),
+        }
+    }
+
+    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
+        match &self.integrator.parts {
+            Some(parts) => self.product(&parts.leading, p, direction),
+            None => direction.left_multiply(&self.newton_model(p).1),
+        }
+    }
+}
+
+/// The method that the plan of an integrator names.
+#[derive(Clone, Debug)]
+pub enum Planned<S: LaggedModel> {
+    /// Newton's method with matrices.
+    Newton(Newton<S>),
+    /// The quasi-Newton method with a lagged gradient.
+    Lagged(LaggedNewton<S>),
+    /// The fixed point.
+    FixedPoint,
+}
+
+impl<G: LieGroup<Scalar: Number>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
+    type Method = Planned<Self>;
+}
+
+// Not inlined: each is compiled once for a group and chart, wherever steps are made.
+impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Method<Interpreter<'a, G, C>>
+    for Planned<Interpreter<'a, G, C>>
 {
+    fn begin(generating: &Interpreter<'a, G, C>) -> Self {
+        let integrator = generating.integrator;
+        match (integrator.plan.solver, &integrator.parts) {
+            (Solver::FixedPoint, _) => Self::FixedPoint,
+            (Solver::Newton, None) => Self::Newton(Newton::begin(generating)),
+            (Solver::Newton, Some(_)) => Self::Lagged(LaggedNewton::begin(generating)),
+        }
+    }
+
+    #[inline(never)]
+    fn propose(
+        &mut self,
+        generating: &Interpreter<'a, G, C>,
+        mu: &G::Vector,
+        left: u64,
+        settings: Settings<G::Scalar>,
+    ) -> CandidateOf<Interpreter<'a, G, C>> {
+        match self {
+            Self::Newton(method) => method.propose(generating, mu, left, settings),
+            Self::Lagged(method) => method.propose(generating, mu, left, settings),
+            Self::FixedPoint => FixedPoint.propose(generating, mu, left, settings),
+        }
+    }
+
+    fn forget(&mut self) {
+        match self {
+            Self::Newton(method) => method.forget(),
+            Self::Lagged(method) => method.forget(),
+            Self::FixedPoint => {}
+        }
+    }
+
+    fn propose_from(
+        generating: &Interpreter<'a, G, C>,
+        mu: &G::Vector,
+        guess: G::Vector,
+        settings: Settings<G::Scalar>,
+    ) -> CandidateOf<Interpreter<'a, G, C>> {
+        // The solution is the same whatever the method; this one is compiled already.
+        let one = Scalar::of(1.0);
+        Self::propose_scaled(generating, mu, one, guess, settings)
+    }
+
+    #[inline(never)]
+    fn propose_scaled(
+        generating: &Interpreter<'a, G, C>,
+        mu: &G::Vector,
+        scale: G::Scalar,
+        guess: G::Vector,
+        settings: Settings<G::Scalar>,
+    ) -> CandidateOf<Interpreter<'a, G, C>> {
+        match generating.integrator.plan.solver {
+            Solver::Newton => Newton::propose_scaled(generating, mu, scale, guess, settings),
+            Solver::FixedPoint => {
+                FixedPoint::propose_scaled(generating, mu, scale, guess, settings)
+            }
+        }
+    }
+}
+
+impl<G: LieGroup<Scalar = f64>, C: Chart<G>> Adjustable for Interpreter<'_, G, C> {
     fn truncation(&self) -> usize {
         self.integrator.problem.truncation
     }
@@ -259,7 +364,7 @@ impl<G: LieGroup<Scalar = f64>, C: Chart<G>, const FIXED_POINT: bool> Adjustable
     fn term(&self, number: usize) -> Term<'_> {
         let coefficients = &self.integrator.coefficients;
         let monomial = coefficients.monomials().get(number).map_or(&[][..], Vec::as_slice);
-        Term { part: Part::Series, monomial, order: coefficients.order(number) }
+        Term { of: TermOf::Series, monomial, order: coefficients.order(number) }
     }
 
     fn adjusted(&self, corrections: &[f64]) -> Self {

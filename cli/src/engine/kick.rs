@@ -2,7 +2,10 @@
 
 use std::cell::RefCell;
 
-use coadjoint::{Chart, Kicked, Phase, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, steps::Splitting as Sequence, StepError, steps::Strang};
+use coadjoint::{
+    Chart, Kicked, Phase, StepError, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6,
+    steps::Splitting as Sequence, steps::Strang,
+};
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::potential::Potential;
@@ -70,7 +73,7 @@ impl Forces {
     ) -> Result<Step<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone());
         let torque = move |_: f64, g: &G::Element| torque.torque(g);
-        let flow = |part: f64| Interpreter::<G, C, false>::new(integrator, group.clone(), part);
+        let flow = |part: f64| Interpreter::<G, C>::new(integrator, group.clone(), part);
         let kicked = Kicked::<M, _, _>::new(step, torque, flow)?;
         Ok(Box::new(move |phase, time| kicked.advance(phase, time)))
     }

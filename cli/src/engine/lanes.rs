@@ -3,7 +3,9 @@
 use std::marker::PhantomData;
 
 use coadjoint::nalgebra::SimdValue;
-use coadjoint::{Cayley, groups::CayleyMatrixGroup, Exponential, lanes::LaneGroup, lanes::Lanes, Scalar};
+use coadjoint::{
+    Cayley, Exponential, Scalar, groups::CayleyMatrixGroup, lanes::LaneGroup, lanes::Lanes,
+};
 
 use super::Interpreter;
 
@@ -20,6 +22,8 @@ macro_rules! lanes {
                     slots: self.slots.clone(),
                     defect: self.defect.clone(),
                     quadratic: self.quadratic,
+                    last: self.last.clone(),
+                    radius: self.radius,
                     chart: PhantomData,
                 }
             }

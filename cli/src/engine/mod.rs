@@ -13,7 +13,7 @@ pub use polynomial::{Energy, FloatPolynomial};
 
 use std::ops::Range;
 
-use coadjoint::{groups::CayleyMatrixGroup, groups::DirectProduct, LieGroup, groups::MatrixGroup};
+use coadjoint::{LieGroup, groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup};
 use nalgebra::DVector;
 
 /// Groups known at run time.

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use coadjoint::{Cayley, groups::CayleyMatrixGroup, Chart, Exponential, lanes::F64x8, GeneratingFunction, lanes::LaneGroup, lanes::Lanes, groups::MatrixGroup, Phase, SE3, SO3, lanes::ensemble};
+use coadjoint::{
+    Cayley, Chart, Exponential, GeneratingFunction, Phase, SE3, SO3, groups::CayleyMatrixGroup,
+    groups::MatrixGroup, lanes::F64x8, lanes::LaneGroup, lanes::Lanes, lanes::ensemble,
+};
 use coadjoint_codegen::graph::Number;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;

@@ -1,6 +1,6 @@
 //! Group elements put back bit by bit.
 
-use coadjoint::{groups::CayleyMatrixGroup, groups::DirectProduct, LieGroup, groups::MatrixGroup};
+use coadjoint::{LieGroup, groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup};
 use nalgebra::DMatrix;
 
 use crate::engine::Group;

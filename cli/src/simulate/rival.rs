@@ -1,6 +1,6 @@
 //! An adaptive Runge–Kutta method on the same equations, as the paper's figures have it.
 
-use coadjoint::{LieGroup, groups::MatrixGroup, Phase};
+use coadjoint::{LieGroup, Phase, groups::MatrixGroup};
 use coadjoint_codegen::problem::Problem;
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,

@@ -1,8 +1,10 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use coadjoint::{Chart, GeneratingFunction, solve::Solution, StepError, tune::fit, steps::reconstruct, solve::solve};
+use coadjoint::{
+    Chart, GeneratingFunction, StepError, solve::Solution, solve::solve, steps::reconstruct,
+    tune::fit,
+};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Solver;
 use nalgebra::DVector;
 
 use super::header::Header;
@@ -76,20 +78,14 @@ impl<'a> Task<'a> {
                 },
             });
         }
-        match self.integrator.plan.solver {
-            Solver::Newton => self.flow::<G, C, false>(group),
-            Solver::FixedPoint => self.flow::<G, C, true>(group),
-        }
+        self.flow::<G, C>(group)
     }
 
-    /// The flow alone, by one of the solvers.
-    fn flow<G: Restore, C: Chart<G>, const FIXED_POINT: bool>(
-        &self,
-        group: G,
-    ) -> Result<Trajectory, CliError> {
+    /// The flow alone.
+    fn flow<G: Restore, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
         let Setup { schedule, tuned, fitted, momentum, .. } = self.setup;
         let h = schedule.step;
-        let series = |h| Interpreter::<G, C, FIXED_POINT>::new(self.integrator, group.clone(), h);
+        let series = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h);
         let step = match fitted {
             Some(duration) => {
                 let _phase = progress::phase("fitting the coefficients to the motion");
@@ -107,14 +103,14 @@ impl<'a> Task<'a> {
             step: &|_, phase| {
                 let solution = solve(&step, &phase.momentum)?;
                 let residual = residual(&step, &phase.momentum, &solution);
-                reconstruct(&step, phase, &solution.x);
+                reconstruct(&step, phase, &solution.x)?;
                 Ok(Some((solution.iterations, residual)))
             },
             side: &|_, part, phase| {
                 let step = series(part / f64::from(count))?;
                 for _ in 0..count {
                     let solution = solve(&step, &phase.momentum)?;
-                    reconstruct(&step, phase, &solution.x);
+                    reconstruct(&step, phase, &solution.x)?;
                 }
                 Ok(())
             },
@@ -128,8 +124,8 @@ fn at_start(source: StepError) -> CliError {
 
 /// What the solve leaves of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
 /// the step itself reports an estimate. NaN where anything is NaN.
-fn residual<G: Restore, C: Chart<G>, const FIXED_POINT: bool>(
-    step: &Interpreter<'_, G, C, FIXED_POINT>,
+fn residual<G: Restore, C: Chart<G>>(
+    step: &Interpreter<'_, G, C>,
     mu: &DVector<f64>,
     solution: &Solution<DVector<f64>, f64>,
 ) -> f64 {

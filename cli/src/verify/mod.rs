@@ -53,7 +53,7 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     });
     let chart = options.chart.map(Into::into).or(said);
     let read = Options { truncation, chart, ..Options::default() };
-    let System { problem, potential, run } = load::file(&system, read)?;
+    let System { problem, potential, run, .. } = load::file(&system, read)?;
     if potential.is_some() {
         return Err(CliError::Option(format!(
             "{}: a system with a potential is not judged: between its kicks the motion is free",

@@ -134,24 +134,25 @@ pub fn generating_function(
             }
         }
     });
-    let judged = (integrator.coefficients.last_terms(integrator.problem.truncation) > 0).then(|| {
-        quote! {
-            #[inline(always)]
-            fn radius(&self) -> T {
-                self.radius
-            }
+    let judged =
+        (integrator.coefficients.last_terms(integrator.problem.truncation) > 0).then(|| {
+            quote! {
+                #[inline(always)]
+                fn radius(&self) -> T {
+                    self.radius
+                }
 
-            #[cold]
-            fn series_ratio(&self, p: &#vector) -> T {
-                #krate::plumbing::series_ratio::<T, #last>(
-                    Self::table(),
-                    &self.last,
-                    Self::TRUNCATION,
-                    &::core::convert::Into::into(*p),
-                )
+                #[cold]
+                fn series_ratio(&self, p: &#vector) -> T {
+                    #krate::plumbing::series_ratio::<T, #last>(
+                        Self::table(),
+                        &self.last,
+                        Self::TRUNCATION,
+                        &::core::convert::Into::into(*p),
+                    )
+                }
             }
-        }
-    });
+        });
     quote! {
         #fine_part
 
@@ -200,7 +201,12 @@ pub fn generating_function(
 }
 
 /// `impl Integrator`: how steps are solved.
-fn method(integrator: &Integrator, krate: &TokenStream, name: &Ident, in_blocks: bool) -> TokenStream {
+fn method(
+    integrator: &Integrator,
+    krate: &TokenStream,
+    name: &Ident,
+    in_blocks: bool,
+) -> TokenStream {
     let method = |method: TokenStream| {
         quote! {
             impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
@@ -214,7 +220,8 @@ fn method(integrator: &Integrator, krate: &TokenStream, name: &Ident, in_blocks:
         (Solver::Newton, Some(_)) if !in_blocks => method(quote!(LaggedNewton<Self>)),
         (Solver::Newton, Some(_)) => {
             // Where registers are narrow, several steps at once take longer than one by one.
-            let (several, single) = (method(quote!(BlockNewton<Self>)), method(quote!(LaggedNewton<Self>)));
+            let (several, single) =
+                (method(quote!(BlockNewton<Self>)), method(quote!(LaggedNewton<Self>)));
             quote! {
                 #[cfg(target_feature = "avx2")]
                 #several

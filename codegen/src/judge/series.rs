@@ -196,9 +196,30 @@ impl Folded {
         self.first(&self.size, &p)
     }
 
-    /// |∂S_K/∂p| and |∂S_{K−2}/∂p|.
+    /// The sums of the absolute values of all monomials of ∂S_K/∂p and of ∂S_{K−2}/∂p.
     pub(super) fn last_two(&self, p: &[f64]) -> (f64, f64) {
-        (norm(&self.first(&self.last, p)), norm(&self.first(&self.before, p)))
+        let p: Vec<f64> = p.iter().map(|p| p.abs()).collect();
+        let sum = |coefficients: &[f64]| {
+            let sizes: Vec<f64> = coefficients.iter().map(|c| c.abs()).collect();
+            self.first(&sizes, &p).iter().sum::<f64>()
+        };
+        (sum(&self.last), sum(&self.before))
+    }
+
+    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| in every direction at |p| = r: each monomial c pᵐ of degree D counts with
+    /// D |c| Π (mᵢ/D)^{mᵢ/2} r^{D−1} (O. Kellogg, Math. Z. 27 (1928) 55).
+    pub(super) fn last_two_anywhere(&self, r: f64) -> (f64, f64) {
+        let sum = |coefficients: &[f64]| {
+            let terms = self.monomials.iter().zip(coefficients).filter(|(m, _)| !m.is_empty());
+            terms.fold(0.0, |sum, (factors, c)| {
+                let degree = f64::from(factors.iter().map(|f| f.1).sum::<u32>());
+                let share =
+                    |&(_, m): &(usize, u32)| (f64::from(m) / degree).powf(0.5 * f64::from(m));
+                let highest: f64 = factors.iter().map(share).product();
+                sum + degree * c.abs() * highest * r.powf(degree - 1.0)
+            })
+        };
+        (sum(&self.last), sum(&self.before))
     }
 
     /// For each degree d: a bound G on |∂S_d/∂p| / |p|^(d−1) and one on ‖Hess S_d‖ / |p|^(d−2), |.| being

@@ -134,16 +134,22 @@ impl Step<'_> {
         inside(self.geometry, x, self.limits)
     }
 
-    /// |∂S_K| / |∂S_{K−2}| at p̂; `None` where the series has one term, or p̂ cannot be found.
+    /// The ratio of the last two terms of the series: at p̂, of the sums of the absolute values of all monomials of
+    /// their gradients; or of the bounds on these for all momenta as long as μ, if that is less. `None` where the
+    /// series has one term, or p̂ cannot be found.
     #[must_use]
     pub fn series_ratio(&self, x: &[f64]) -> Option<f64> {
         let p = self.pull_back(x).ok()?;
         let p: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
         let (last, before) = self.folded.series.last_two(&p);
-        if last == 0.0 {
-            return Some(0.0);
+        if !self.folded.series.has_two() {
+            return None;
         }
-        self.folded.series.has_two().then_some(last / before)
+        // Nothing to compare with is no ratio.
+        let ratio = |last: f64, before: f64| if before > 0.0 { last / before } else { 0.0 * last };
+        let length = self.momentum.iter().map(|m| m.to_f64() * m.to_f64()).sum::<f64>().sqrt();
+        let (last_anywhere, before_anywhere) = self.folded.series.last_two_anywhere(length);
+        Some(ratio(last, before).min(ratio(last_anywhere, before_anywhere)))
     }
 
     /// Where the right solution leads, frame motions included.

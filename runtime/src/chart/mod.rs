@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-use crate::linear::coordinates::Coordinates;
 use crate::group::{CayleyGroup, LieGroup};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Matrix;

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use crate::chart::Chart;
-use crate::linear::coordinates::Coordinates;
-use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
+use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf, series};
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 use crate::table::TableError;
 
@@ -34,6 +34,19 @@ pub struct PolynomialFunction<G, C> {
     /// Where the factors of each term end in `factors`.
     ends: Vec<usize>,
     factors: Vec<(usize, u32)>,
+    /// Where it is a truncated series, how that is judged.
+    series: Option<TruncatedSeries>,
+}
+
+/// The last two terms of a truncated series.
+#[derive(Clone, Debug)]
+struct TruncatedSeries {
+    /// K.
+    truncation: usize,
+    /// The terms of S_K and S_{K−2} as (coefficient, order, monomial).
+    last: Vec<(f64, usize, Vec<(u32, u32)>)>,
+    /// Up to which |p| their ratio is at most ½ in every direction.
+    radius: f64,
 }
 
 impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
@@ -54,6 +67,7 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
             coefficients: Vec::new(),
             ends: Vec::new(),
             factors: Vec::new(),
+            series: None,
         };
         for (c, mut factors) in terms {
             factors.retain(|f| f.1 > 0);
@@ -75,6 +89,30 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
         Ok(result)
     }
 
+    /// The truncated series with these terms (order k of the S_k they belong to, c, [(i, power), …]): steps are then
+    /// judged by the ratio of its last two terms, too.
+    ///
+    /// # Errors
+    /// As [`PolynomialFunction::new`].
+    pub fn of_series(
+        group: G,
+        chart: C,
+        terms: impl IntoIterator<Item = (usize, f64, Vec<(usize, u32)>)>,
+    ) -> Result<Self, TableError> {
+        let terms: Vec<_> = terms.into_iter().collect();
+        let truncation = terms.iter().map(|term| term.0).max().unwrap_or(0);
+        let last = terms.iter().filter(|term| truncation > 1 && term.0 + 2 >= truncation);
+        let last: Vec<_> = last
+            .map(|(order, c, factors)| {
+                let factors = factors.iter().map(|&(i, power)| (i as u32, power));
+                (*c, *order, factors.collect())
+            })
+            .collect();
+        let function = Self::new(group, chart, terms.into_iter().map(|(_, c, f)| (c, f)))?;
+        let radius = series::radius(truncation, by_reference(&last));
+        Ok(Self { series: Some(TruncatedSeries { truncation, last, radius }), ..function })
+    }
+
     fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {
         let mut start = 0;
         self.coefficients.iter().zip(&self.ends).map(move |(&c, &end)| {
@@ -83,6 +121,13 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
             (c, factors)
         })
     }
+}
+
+/// Terms as the functions of a series read them.
+fn by_reference(
+    last: &[(f64, usize, Vec<(u32, u32)>)],
+) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> {
+    last.iter().map(|(c, order, monomial)| (*c, *order, monomial.as_slice()))
 }
 
 /// p^power
@@ -128,6 +173,18 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
             }
         }
         x
+    }
+
+    fn radius(&self) -> ScalarOf<Self> {
+        Scalar::of(self.series.as_ref().map_or(f64::MAX, |series| series.radius))
+    }
+
+    fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+        let Some(TruncatedSeries { truncation, last, .. }) = &self.series else {
+            return Scalar::of(0.0);
+        };
+        let terms = by_reference(last).map(|(c, order, monomial)| (Scalar::of(c), order, monomial));
+        series::ratio(*truncation, terms, |i| p[i])
     }
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {

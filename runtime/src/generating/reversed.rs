@@ -1,8 +1,8 @@
 //! The inverse map of a generating function.
 
-use crate::linear::coordinates::Coordinates;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 
 /// The generating function −S: its map is the inverse of that of S.
 ///

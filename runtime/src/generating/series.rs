@@ -13,7 +13,7 @@ const DEGREES: usize = 64;
 ///
 /// Each monomial c·pᵐ of degree D counts with D |c| max |pᵐ| over the unit sphere, which bounds its gradient there
 /// (O. Kellogg, Math. Z. 27 (1928) 55); the maximum is Π (mᵢ/D)^{mᵢ/2}.
-pub(crate) fn radius<'a, T: Scalar>(
+pub fn radius<'a, T: Scalar>(
     truncation: usize,
     terms: impl Iterator<Item = (T, usize, &'a [(u32, u32)])>,
 ) -> T {
@@ -80,7 +80,7 @@ fn half_power(n: u32) -> f64 {
 
 /// The ratio of S_K and S_{K−2} at p, given their terms as (coefficient, order, monomial): of the sums of the
 /// absolute values of all monomials of their gradients.
-pub(crate) fn ratio<'a, T: Scalar>(
+pub fn ratio<'a, T: Scalar>(
     truncation: usize,
     terms: impl Iterator<Item = (T, usize, &'a [(u32, u32)])>,
     p: impl Fn(usize) -> T,

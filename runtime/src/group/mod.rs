@@ -11,8 +11,8 @@ pub(crate) mod su2;
 
 use core::fmt::Debug;
 
-use crate::linear::coordinates::Coordinates;
 use crate::group::element_error::ElementError;
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// A Lie group G with a chosen basis e₁…eₙ of its Lie algebra 𝔤.

@@ -8,10 +8,10 @@ use nalgebra::{
 };
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
-use crate::number::scalar::Scalar;
 use crate::group::se3::SE3;
 use crate::group::so3::kernel;
+use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::number::scalar::Scalar;
 
 /// The Euclidean group of the plane, elements as a rotation (unit complex number) and a
 /// translation.

@@ -8,12 +8,12 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, Quaternion, Translation3, Vector3, V
 
 use crate::group::compensated::{CompensatedGroup, kahan};
 use crate::group::element_error::{ElementError, finite, fixed};
-use crate::group::{FixedDimension, LieGroup};
-use crate::number::scalar::Scalar;
 use crate::group::so3::{
     SO3, cross, dexp_with_derivative, difference, dot, kernel, plus, quaternion, rotate_back,
     rotation_from, scaled, sum,
 };
+use crate::group::{FixedDimension, LieGroup};
+use crate::number::scalar::Scalar;
 
 /// The Euclidean group SE(3), elements as a rotation (unit quaternion) and a translation.
 ///

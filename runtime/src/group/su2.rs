@@ -6,9 +6,9 @@ use nalgebra::{Matrix3, Quaternion, SimdBool, UnitQuaternion, Vector3};
 
 use crate::group::compensated::CompensatedGroup;
 use crate::group::element_error::{ElementError, finite, fixed, within};
+use crate::group::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
-use crate::group::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
 
 /// The group SU(2), elements as unit quaternions; q and −q are different here.
 ///

@@ -11,17 +11,17 @@ pub use tables::DynamicLaneTables;
 use nalgebra::{SVector, SimdValue};
 pub use simba::simd::{AutoF64x4 as F64x4, AutoF64x8 as F64x8};
 
-use crate::linear::coordinates::Coordinates;
-use crate::solve::{Integrator, MatrixFree, Predict};
-use crate::group::{FixedDimension, LieGroup};
 use crate::group::heisenberg::Heisenberg;
-use crate::step::phase::Phase;
 use crate::group::product::{Power, Product};
-use crate::number::scalar::Scalar;
 use crate::group::se2::SE2;
 use crate::group::se3::SE3;
 use crate::group::so3::SO3;
 use crate::group::su2::SU2;
+use crate::group::{FixedDimension, LieGroup};
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
+use crate::solve::{Integrator, MatrixFree, Predict};
+use crate::step::phase::Phase;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group that exists over lanes and is known to the compiler: nothing but its type is needed.

@@ -5,9 +5,11 @@ use core::marker::PhantomData;
 use nalgebra::{DVector, SimdValue};
 
 use super::LaneGroup;
-use crate::table::{BasisEntry, CayleyTables, DynamicTables, StructureConstant, TableGroup, Tables, monomial};
-use crate::step::phase::Phase;
 use crate::number::scalar::Scalar;
+use crate::step::phase::Phase;
+use crate::table::{
+    BasisEntry, CayleyTables, DynamicTables, StructureConstant, TableGroup, Tables, monomial,
+};
 
 /// The tables of a [`MatrixGroup`](crate::MatrixGroup) with coordinates in `DVector<L>`.
 #[derive(Clone, Debug)]

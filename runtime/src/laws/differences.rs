@@ -4,13 +4,13 @@ use alloc::vec::Vec;
 
 use super::Vector;
 use crate::chart::Chart;
-use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
-use crate::solve::Integrator;
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
+use crate::solve::Integrator;
+use crate::solve::solve;
 use crate::step::phase::Phase;
 use crate::step::{advance, poisson_map};
-use crate::solve::solve;
 
 /// Weights of the central difference of eighth order at ±1, ±2, ±3, ±4 steps
 /// (B. Fornberg, Math. Comp. 51 (1988) 699, table 1).

@@ -9,14 +9,14 @@ mod order;
 
 use alloc::vec::Vec;
 
-use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating::GeneratingFunction;
-use crate::solve::Integrator;
+use crate::generating::Reversed;
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
+use crate::solve::Integrator;
 use crate::step::phase::Phase;
 use crate::step::{advance, poisson_map};
-use crate::generating::Reversed;
 
 pub use differences::{poisson_defect, symplectic_defect, symplectic_defect_of};
 pub use order::{OrderError, measured_order};

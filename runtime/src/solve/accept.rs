@@ -77,8 +77,9 @@ fn rescue<S: Integrator + ?Sized>(
     let known = solved(&candidate, settings).all();
     let candidate = match known || <ScalarOf<S> as SimdValue>::LANES > 1 {
         true => candidate,
-        false => follow(generating, mu, settings)
-            .map_err(|reached| refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at }))?,
+        false => follow(generating, mu, settings).map_err(|reached| {
+            refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
+        })?,
     };
     let (group, chart) = (generating.group(), S::Chart::default());
     if !solved(&candidate, settings).all() {

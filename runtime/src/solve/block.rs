@@ -68,7 +68,8 @@ impl<V: Coordinates<T>, T: Scalar> Linearised<V, V::Matrix, T> {
 pub trait BlockModel: LaggedModel {
     /// Linearises the next steps from `mu`. They are guessed by following the flow in so many substeps (for every
     /// four of them): the more, the better, and the more work. `false` where this cannot be, or does not pay.
-    fn linearise(&self, mu: &VectorOf<Self>, substeps: u32, found: &mut LinearisedOf<Self>) -> bool;
+    fn linearise(&self, mu: &VectorOf<Self>, substeps: u32, found: &mut LinearisedOf<Self>)
+    -> bool;
 
     /// Re-evaluates ∂S/∂p at the current iterates, reusing the Jacobian: takes the gradient of S at P(x, start), given
     /// `found` with an x for each `start`, and leaves that gradient in `x` and the `shift` that it brings. `false` where
@@ -300,8 +301,7 @@ impl<S: BlockModel + ?Sized> Block<S> {
         let mut mu = mu.clone();
         let mut needed = false;
         for k in self.next..self.count {
-            let Followed { x, distance: Distance { gone, left } } =
-                self.follow(generating, k, &mu);
+            let Followed { x, distance: Distance { gone, left } } = self.follow(generating, k, &mu);
             needed |= !left.simd_le(self.yardstick.tolerance).all();
             self.before[k] = Distance { gone: gone + self.yardstick.smallest, left };
             let end = chart.transport(group, &x, &mu).1;

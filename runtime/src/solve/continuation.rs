@@ -9,9 +9,9 @@ use nalgebra::{SimdBool, SimdPartialOrd};
 
 use super::accept::NEAR;
 use super::{CandidateOf, Integrator, Method, Settings};
+use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
-use crate::chart::Chart;
 use crate::number::scalar::Scalar;
 
 /// The first stretch of s, and the longest.

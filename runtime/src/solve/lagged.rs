@@ -263,7 +263,12 @@ pub(super) fn lagged_newton<S: LaggedModel + ?Sized>(
         open = open & !remaining.simd_le(tolerance) & !failed;
         if open.none() {
             if failed.none() {
-                return Candidate { x: solved, moved: way, residual: remaining, iterations: iteration };
+                return Candidate {
+                    x: solved,
+                    moved: way,
+                    residual: remaining,
+                    iterations: iteration,
+                };
             }
             break;
         }

@@ -242,7 +242,9 @@ pub(super) fn careful_newton<S: GeneratingFunction + ?Sized>(
         let correction = VectorOf::<S>::solve(&VectorOf::<S>::factor(dim, jacobian), residual);
         let relative = correction.largest_entry() * yardstick.inverse_scale;
         let done = size.simd_le(yardstick.tolerance) & relative.simd_le(rounding)
-            | size.simd_le(rounding) & relative.simd_le(rounding) & relative.simd_ge(quarter * previous);
+            | size.simd_le(rounding)
+                & relative.simd_le(rounding)
+                & relative.simd_ge(quarter * previous);
         if done.all() {
             let residual = size.simd_min(yardstick.tolerance);
             return Candidate { x, moved: way, residual, iterations: iteration };

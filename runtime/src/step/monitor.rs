@@ -4,10 +4,10 @@ use core::fmt::Debug;
 
 use nalgebra::{SimdComplexField, SimdPartialOrd};
 
-use crate::linear::coordinates::Coordinates;
 use crate::group::LieGroup;
-use crate::step::phase::Phase;
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
+use crate::step::phase::Phase;
 
 /// The largest drifts seen so far, each relative to its scale. NaN where a state was not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]

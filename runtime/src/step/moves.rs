@@ -1,8 +1,8 @@
 //! What a step moves: a phase point, a compensated one, or a momentum alone.
 
 use crate::group::LieGroup;
-use crate::number::scalar::Scalar;
 use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
 use crate::step::phase::Phase;
 
 /// Something that a group increment moves.

@@ -6,8 +6,8 @@ use super::action::Matrix;
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::linear::coordinates::Coordinates;
 use crate::group::{CayleyGroup, LieGroup};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// Tables of an algebra with xξx ∈ 𝔤 for x, ξ ∈ 𝔤.

@@ -31,7 +31,8 @@ pub(super) const fn elliptic_form(
     let ideal = if n > MAX_DIM { 0 } else { nilpotent_ideal(n, structure, ad) };
     let size = ideal.count_ones() as usize;
     let small = size <= 3 && n - size <= 3;
-    let traceless = small && traceless(n, structure, ideal, true) && traceless(n, structure, ideal, false);
+    let traceless =
+        small && traceless(n, structure, ideal, true) && traceless(n, structure, ideal, false);
     // One form serves both blocks where they agree, or where one of them is zero; else the sum does, if no
     // form is indefinite.
     let agreement = agreement(n, structure, ad, ideal, traceless);
@@ -205,7 +206,8 @@ pub(super) const fn cayley_form(
     let mut i = 0;
     while i < n * n {
         let (a, b) = (i / n, i % n);
-        let skip = (holds(ideal, a) && is_null(n, entries, a)) || (holds(ideal, b) && is_null(n, entries, b));
+        let skip = (holds(ideal, a) && is_null(n, entries, a))
+            || (holds(ideal, b) && is_null(n, entries, b));
         form[i] = if skip { 0.0 } else { factor * matrix_product(entries, a, b, false) };
         i += 1;
     }

@@ -5,9 +5,9 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 use super::algebra::{BasisEntry, Tables};
 use super::fixed::{StaticAlgebra, StaticTables};
 use super::linear;
-use crate::linear::coordinates::Coordinates;
 use crate::group::element_error::ElementError;
 use crate::group::{FixedDimension, LieGroup};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// A Lie group given by the tables of its Lie algebra: structure constants, and a matrix basis

@@ -8,8 +8,8 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::linear::coordinates::Coordinates;
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// Square roots taken at most; more than enough for any finite element near which log exists.

@@ -5,9 +5,9 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 use super::algebra::Tables;
 use super::group::{Element, TableGroup};
 use super::linear;
-use crate::linear::coordinates::Coordinates;
-use crate::group::element_error::{ElementError, within};
 use crate::group::LieGroup;
+use crate::group::element_error::{ElementError, within};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 impl<K: Tables> TableGroup<K> {

@@ -21,14 +21,14 @@
 use core::array::from_fn;
 
 use crate::chart::Chart;
-use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 use crate::linear::normal_equations::NormalEquations;
-use crate::step::{about_onwards, poisson_map};
 use crate::number::scalar::Scalar;
 use crate::solve::{Integrator, Predict, solve_from};
+use crate::step::{about_onwards, poisson_map};
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
 const STEPS: usize = 9;

@@ -1,7 +1,7 @@
 //! What the group tests share: random vectors, and the laws of one group.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
-use coadjoint::{groups::CayleyGroup, Coordinates, LieGroup};
+use coadjoint::{Coordinates, LieGroup, groups::CayleyGroup};
 
 /// A small deterministic generator (xorshift64*); numbers in (−1, 1).
 pub struct Random(u64);

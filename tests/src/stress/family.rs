@@ -20,8 +20,6 @@ pub struct Model {
     pub velocity: Vec<Polynomial>,
     /// Whether H is homogeneous quadratic, so that |μ| may be of any size.
     pub homogeneous: bool,
-    /// K.
-    pub truncation: usize,
     /// The values of the symbols.
     pub symbols: Vec<f64>,
     /// Whether steps with h|Ω| < 1.5 must be accepted.
@@ -108,7 +106,11 @@ fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Terms> {
             if !(c.abs() > least && c.abs() < most) {
                 return None;
             }
-            terms.push((c, factors.into_iter().map(|(i, e)| (i as usize, e)).collect()));
+            terms.push((
+                *k as usize,
+                c,
+                factors.into_iter().map(|(i, e)| (i as usize, e)).collect(),
+            ));
         }
     }
     Some(terms)
@@ -192,7 +194,6 @@ impl Recipe<'_> {
                     judge,
                     velocity: h.gradient(algebra.dim()),
                     homogeneous: h.factors().all(|(f, _)| f.iter().map(|f| f.1).sum::<u32>() == 2),
-                    truncation,
                     symbols: Vec::new(),
                     must_accept: self.must_accept && truncation >= 5,
                     steps: Box::new(move |step| {

@@ -110,7 +110,6 @@ fn model(
         judge,
         velocity: energy.gradient(dim),
         homogeneous,
-        truncation: problem.truncation,
         symbols,
         must_accept: must,
         steps,

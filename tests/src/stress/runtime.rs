@@ -1,8 +1,16 @@
 //! The only place where the stress program touches the runtime: steps of any type behind one trait.
 
-use coadjoint::{Chart, groups::CompensatedGroup, CompensatedPhase, Coordinates, GeneratingFunction, lanes::Lanes, LieGroup, Phase, generating::PolynomialFunction, Scalar, generating::ScalarOf, StepError, generating::VectorOf, advance, advance_by, advance_compensated, lanes::ensemble, solve::solve};
+use coadjoint::{
+    Chart, CompensatedPhase, Coordinates, GeneratingFunction, Integrator, LieGroup, Phase, Scalar,
+    StepError, advance, advance_by, advance_compensated, generating::PolynomialFunction,
+    generating::ScalarOf, generating::VectorOf, groups::CompensatedGroup, lanes::Lanes,
+    lanes::ensemble, solve::solve,
+};
 
-pub use coadjoint::{Cayley, Exponential, groups::Heisenberg, solve::MatrixFree, groups::Power, SE2, SE3, SO3, SU2, groups::SU3};
+pub use coadjoint::{
+    Cayley, Exponential, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::Power, groups::SU3,
+    solve::MatrixFree,
+};
 
 /// By which function steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,13 +79,13 @@ type Compensated<S> = fn(&S, PhaseOf<S>) -> (PhaseOf<S>, Result<(), StepError>);
 type Together<S> = fn(&S, &mut [PhaseOf<S>], u64) -> Vec<(usize, String)>;
 
 /// A generating function with what its group can do.
-pub struct Runner<S: GeneratingFunction> {
+pub struct Runner<S: Integrator> {
     steps: S,
     compensated: Option<Compensated<S>>,
     together: Option<Together<S>>,
 }
 
-impl<S: GeneratingFunction> Runner<S> {
+impl<S: Integrator> Runner<S> {
     /// With `advance` and `advance_by`.
     pub fn new(steps: S) -> Self {
         Self { steps, compensated: None, together: None }
@@ -138,7 +146,7 @@ fn entries<T: Scalar, V: Coordinates<T>>(v: &V) -> Vec<f64> {
     (0..v.dim()).map(|i| v[i].largest_lane()).collect()
 }
 
-impl<S: GeneratingFunction> Steps for Runner<S> {
+impl<S: Integrator> Steps for Runner<S> {
     fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String> {
         match solve(&self.steps, &self.vector(mu)) {
             Ok(solution) => Ok(entries(&solution.x)),
@@ -151,7 +159,9 @@ impl<S: GeneratingFunction> Steps for Runner<S> {
         let before = self.state(&phase);
         let result = match way {
             Way::One => advance(&self.steps, &mut phase).map(drop),
-            Way::Many(steps) => advance_by(&self.steps, &mut phase, steps).map(drop),
+            Way::Many(steps) => advance_by(&self.steps, &mut phase, steps)
+                .map(drop)
+                .map_err(|stopped| stopped.error),
             Way::Compensated => {
                 let (after, result) = (self.compensated?)(&self.steps, phase);
                 phase = after;
@@ -184,8 +194,8 @@ impl<S: GeneratingFunction> Steps for Runner<S> {
     }
 }
 
-/// S given by terms (c, \[(coordinate, power), …\]).
-pub type Terms = Vec<(f64, Vec<(usize, u32)>)>;
+/// S given by terms (order, c, \[(coordinate, power), …\]).
+pub type Terms = Vec<(usize, f64, Vec<(usize, u32)>)>;
 
 /// The polynomial as a generating function.
 ///
@@ -196,5 +206,5 @@ pub fn polynomial<G: LieGroup, C: Chart<G>>(
     chart: C,
     terms: Terms,
 ) -> PolynomialFunction<G, C> {
-    PolynomialFunction::new(group, chart, terms).expect("terms of the group's dimension")
+    PolynomialFunction::of_series(group, chart, terms).expect("terms of the group's dimension")
 }

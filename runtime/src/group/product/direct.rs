@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::linear::coordinates::Coordinates;
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, LieGroup};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// The direct product of any number of groups, known at run time.
@@ -204,9 +204,10 @@ impl<T: Scalar, G: LieGroup<Scalar = T>> LieGroup for DirectProduct<G> {
 
     #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
-        self.factors.iter().zip(g).fold(T::of(0.0), |defect, (factor, g)| {
-            defect.worse(factor.group.element_defect(g))
-        })
+        self.factors
+            .iter()
+            .zip(g)
+            .fold(T::of(0.0), |defect, (factor, g)| defect.worse(factor.group.element_defect(g)))
     }
 
     fn casimir_count(&self) -> usize {

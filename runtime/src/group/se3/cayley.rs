@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, Matrix6, Vector6};
 
 use super::{SE3, V, isometry, join, split, unrotate};
 use crate::group::CayleyGroup;
-use crate::number::scalar::Scalar;
 use crate::group::so3::{SO3, cross, dot};
+use crate::number::scalar::Scalar;
 
 /// (1 + ω̂/2)⁻¹ y (1 + |ω|²/4) = y + ½ y×ω + ¼ (ω·y) ω
 #[inline(always)]

@@ -6,10 +6,10 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 
 use super::least_squares::least_squares;
 use super::motion::{Point, Step};
-use crate::generating::{Adjustable, Term, TermOf};
-use crate::linear::coordinates::Coordinates;
 use crate::generating::VectorOf;
+use crate::generating::{Adjustable, Term, TermOf};
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 use crate::solve::Predict;
 
 /// Directions in the space of coefficients that change the values by less than this are left alone:

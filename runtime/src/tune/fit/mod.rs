@@ -21,11 +21,11 @@ use nalgebra::ComplexField;
 
 use self::coefficients::{free_terms, missed, residual};
 use self::motion::{Point, follow};
-use crate::generating::Adjustable;
-use crate::linear::coordinates::Coordinates;
 use crate::error::StepError;
-use crate::generating::{GeneratingFunction, VectorOf};
+use crate::generating::Adjustable;
+use crate::generating::VectorOf;
 use crate::group::LieGroup;
+use crate::linear::coordinates::Coordinates;
 use crate::solve::{Integrator, Predict};
 
 /// Coefficients that a fit is made for at most: elimination takes their third power.
@@ -100,6 +100,12 @@ pub enum FitError {
         /// The terms to be fitted.
         terms: usize,
     },
+}
+
+impl From<crate::Stopped> for FitError {
+    fn from(stopped: crate::Stopped) -> Self {
+        Self::Step(stopped.error)
+    }
 }
 
 /// The integrator that `series` makes, its coefficients fitted to the motions that start with

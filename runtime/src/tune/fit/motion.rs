@@ -7,8 +7,8 @@ use super::FitError;
 use crate::chart::Chart;
 use crate::generating::VectorOf;
 use crate::group::LieGroup;
-use crate::step::about_onwards;
 use crate::solve::{Integrator, Method, Predict, Settings, judge};
+use crate::step::about_onwards;
 
 /// A point of the Lagrangian submanifold of the exact flow over a step.
 #[derive(Clone, Debug)]
