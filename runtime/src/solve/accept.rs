@@ -7,17 +7,13 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
 use super::continuation::follow;
-use super::{Candidate, CandidateOf, Integrator, Settings};
+use super::{Candidate, CandidateOf, Integrator, NEAR, Settings};
 use crate::chart::Chart;
 use crate::error::{Circumstances, StepError};
 use crate::generating::series::LARGEST_RATIO;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-
-/// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
-/// (tried by the program `stress`, not proven).
-pub(super) const NEAR: f64 = 0.05;
 
 /// A verdict on a step of `S`.
 type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;

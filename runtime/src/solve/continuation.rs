@@ -7,8 +7,7 @@
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 
-use super::accept::NEAR;
-use super::{CandidateOf, Integrator, Method, Settings};
+use super::{CandidateOf, Integrator, Method, NEAR, Settings};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;

@@ -2,8 +2,7 @@
 
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::accept::NEAR;
-use super::{Candidate, CandidateOf, Method, Predict, Settings, Yardstick};
+use super::{Candidate, CandidateOf, Method, NEAR, Predict, Settings, Yardstick};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;

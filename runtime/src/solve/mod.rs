@@ -156,6 +156,10 @@ pub fn solve_from<S: Integrator + ?Sized>(
 /// (tried by the program `stress`); beyond it, what is left is measured by another correction.
 const TRUSTED: f64 = 1e-3;
 
+/// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
+/// (tried by the program `stress`, not proven).
+const NEAR: f64 = 0.05;
+
 /// What sizes are measured by.
 #[derive(Clone, Copy, Debug)]
 struct Yardstick<T> {

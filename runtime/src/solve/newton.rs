@@ -2,8 +2,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use super::accept::NEAR;
-use super::{Candidate, CandidateOf, Method, Settings, Yardstick};
+use super::{Candidate, CandidateOf, Method, NEAR, Settings, Yardstick};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;

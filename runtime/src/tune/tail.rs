@@ -20,6 +20,8 @@
 
 use core::array::from_fn;
 
+use nalgebra::SimdBool;
+
 use crate::chart::Chart;
 use crate::error::StepError;
 use crate::generating::{ScalarOf, VectorOf};
@@ -32,8 +34,10 @@ use crate::step::{about_onwards, poisson_map};
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
 const STEPS: usize = 9;
-/// Of so many momenta one is looked at.
+/// Stride between the momenta that are fitted to; those half-way between are held back to judge the fit.
 const SPACING: usize = 4;
+/// What the fit may leave of the squares of the errors at the momenta held back: a quarter is half the error.
+const HELD_BACK: f64 = 0.25;
 /// Terms with a factor: the last of them.
 const TERMS: usize = 3;
 /// Short steps in an exact one: what they leave out is 2^{K+1} times less.
@@ -81,6 +85,13 @@ impl<T: Scalar> Tail<T> {
         Self { truncation, factors: from_fn(|_| T::of(1.0)) }
     }
 
+    /// Whether all factors are one: nothing better than the plain series was found.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        let one = T::of(1.0);
+        self.factors.iter().all(|factor| factor.simd_eq(one).all())
+    }
+
     /// The factor of S_k.
     #[inline]
     #[must_use]
@@ -91,7 +102,8 @@ impl<T: Scalar> Tail<T> {
 
     /// The tail for motions that start with `momenta`, at three of the first nine steps of each.
     /// `series` makes the generating function Σ factor(k) S_k for given factors. Where the terms do not
-    /// fall fast enough to tell, and for K < 5, all factors are one.
+    /// fall fast enough to tell, where the errors at steps held back are not halved, and for K < 5, all factors are
+    /// one: the series is then the plain one ([`Tail::is_plain`]).
     ///
     /// # Errors
     /// Those of the steps.
@@ -116,15 +128,19 @@ impl<T: Scalar> Tail<T> {
             series(&|k| T::of(if Some(k) == order { 1.0 } else { 0.0 }))
         });
         let mut equations = NormalEquations::<T, TERMS>::default();
+        let mut held_back = NormalEquations::<T, TERMS>::default();
         for start in momenta {
             // Tells whether steps can be made from there.
             let mut mu = poisson_map(&whole, &start)?;
             for step in 0..STEPS {
-                if step % SPACING == 0
+                if step % (SPACING / 2) == 0
                     && let Some(ExactStep { x, p, end }) = exact_step(&short, &mu)
                 {
                     let left_out = x.clone().minus(&whole.gradient(&p));
-                    equations.add(&terms.each_ref().map(|term| term.gradient(&p)), &left_out, &x);
+                    let columns = terms.each_ref().map(|term| term.gradient(&p));
+                    let fitted = step % SPACING == 0;
+                    let to = if fitted { &mut equations } else { &mut held_back };
+                    to.add(&columns, &left_out, &x);
                     mu = end;
                 } else {
                     mu = about_onwards(&whole, &mu)?;
@@ -133,7 +149,8 @@ impl<T: Scalar> Tail<T> {
         }
         let shares = equations.solution();
         let size = shares.iter().fold(T::of(0.0), |size, share| size + share.simd_abs());
-        let tells = size.simd_lt(T::of(FAR));
+        let better = held_back.leaves_at_most(&shares, T::of(HELD_BACK));
+        let tells = size.simd_lt(T::of(FAR)) & better;
         let one = T::of(1.0);
         Ok(Self { factors: shares.map(|share| (one + share).select(tells, one)), ..none })
     }
