@@ -7,7 +7,7 @@
 
 use std::hint::black_box;
 
-use coadjoint::{GeneratingFunction, Integrator, Phase, SE3, SO3, advance, lie_poisson};
+use coadjoint::{Integrator, Phase, SE3, SO3, advance, lie_poisson};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 #[lie_poisson(group = SO3, truncation = 7)]

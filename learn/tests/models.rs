@@ -3,9 +3,7 @@
 
 use std::path::PathBuf;
 
-use coadjoint::{
-    Exponential, GeneratingFunction, Integrator, LieGroup, Phase, SO3, advance, poisson_map,
-};
+use coadjoint::{Exponential, Integrator, LieGroup, Phase, SO3, advance, poisson_map};
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{Activation, DenseNetwork, Layer};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};

@@ -1,7 +1,7 @@
 //! The attribute `lie_poisson`: bodies people write, all giving the same integrator.
 
 use coadjoint::nalgebra::Vector3;
-use coadjoint::{GeneratingFunction, Integrator, Phase, SO3, StepError, lie_poisson};
+use coadjoint::{Integrator, Phase, SO3, StepError, lie_poisson};
 
 /// Free rigid body, written out.
 #[lie_poisson(group = SO3, truncation = 5)]

@@ -2,9 +2,8 @@
 
 use coadjoint::nalgebra::Vector6;
 use coadjoint::{
-    CompensatedPhase, GeneratingFunction, Integrator, LieGroup, Phase, SE3, SO3, SU2, StepError,
-    advance, advance_compensated, groups::CompensatedGroup, groups::Power, groups::Product,
-    lie_poisson,
+    CompensatedPhase, Integrator, LieGroup, Phase, SE3, SO3, SU2, StepError, advance,
+    advance_compensated, groups::CompensatedGroup, groups::Power, groups::Product, lie_poisson,
 };
 
 #[lie_poisson(group = SE3, truncation = 5)]

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
+use coadjoint::solve::Predict;
 use coadjoint::{GeneratingFunction, Phase};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
