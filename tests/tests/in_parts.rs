@@ -7,7 +7,8 @@ use coadjoint::nalgebra::{SMatrix, SVector, Vector6};
 use coadjoint::solve::{LOOK_AHEAD, LaggedModel, Newton, NewtonModel, Predict, Settings, solve};
 use coadjoint::steps::advance_by_with;
 use coadjoint::{
-    Chart, GeneratingFunction, Integrator, LieGroup, Phase, SE3, StepError, advance, lie_poisson,
+    Chart, GeneratingFunction, Integrator, LieGroup, Phase, SE3, StepError, advance, advance_by,
+    lie_poisson,
 };
 
 #[lie_poisson(group = SE3, truncation = 7)]
