@@ -38,13 +38,16 @@ pub struct PolynomialFunction<G, C> {
     series: Option<TruncatedSeries>,
 }
 
+/// A term as (coefficient, order, monomial).
+type Term = (f64, usize, Vec<(u32, u32)>);
+
 /// The last two terms of a truncated series.
 #[derive(Clone, Debug)]
 struct TruncatedSeries {
     /// K.
     truncation: usize,
     /// The terms of S_K and S_{K−2} as (coefficient, order, monomial).
-    last: Vec<(f64, usize, Vec<(u32, u32)>)>,
+    last: Vec<Term>,
     /// Up to which |p| their ratio is at most ½ in every direction.
     radius: f64,
 }
@@ -124,9 +127,7 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
 }
 
 /// Terms as the functions of a series read them.
-fn by_reference(
-    last: &[(f64, usize, Vec<(u32, u32)>)],
-) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> {
+fn by_reference(last: &[Term]) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> {
     last.iter().map(|(c, order, monomial)| (*c, *order, monomial.as_slice()))
 }
 

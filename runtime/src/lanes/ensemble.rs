@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::{F64x8, LaneGroup, Lanes};
 use crate::error::{StepError, Stopped};
+use crate::generating::GeneratingFunction;
 use crate::solve::{Integrator, Method, Settings};
 use crate::step::phase::Phase;
 use crate::step::{STEPS_PER_BLOCK, block};
@@ -95,11 +96,14 @@ fn advance_pack<S: Lanes>(
     }
 }
 
+/// A phase point in every lane.
+type LanePhase<S> = Phase<<<S as GeneratingFunction>::Group as LaneGroup>::Over<F64x8>>;
+
 /// The states in lanes, the first of those that go on in lanes left over; none if no state goes on.
 fn pack<S: Lanes>(
     states: &[Phase<S::Group>],
     stopped: &[bool; WIDTH],
-) -> Option<Aligned<Phase<<S::Group as LaneGroup>::Over<F64x8>>>> {
+) -> Option<Aligned<LanePhase<S>>> {
     let going = || states.iter().enumerate().filter(|(lane, _)| !stopped[*lane]);
     let (_, lead) = going().next()?;
     let mut lanes = Aligned(<S::Group as LaneGroup>::splat::<F64x8>(lead));

@@ -9,6 +9,7 @@ mod moves;
 pub(crate) mod phase;
 pub(crate) mod splitting;
 
+#[cfg(feature = "ensemble")]
 pub(crate) use march::{STEPS_PER_BLOCK, block};
 
 use nalgebra::{SimdBool, SimdPartialOrd};

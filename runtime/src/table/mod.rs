@@ -13,6 +13,7 @@ mod linear;
 mod logarithm;
 mod membership;
 
+#[cfg(feature = "alloc")]
 pub(crate) use algebra::monomial;
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables};
 pub use catalogue::*;

@@ -276,7 +276,7 @@ fn judge_all_but_branch(
         Inside::Yes => {}
     }
     match step.series_ratio(x) {
-        Some(ratio) if !(ratio <= 0.5 + 1e-9) => {
+        Some(ratio) if ratio.is_nan() || ratio > 0.5 + 1e-9 => {
             return note(tally, Wrong::Series, format!("a ratio of {ratio:.3}"));
         }
         _ => {}
@@ -313,7 +313,7 @@ fn judge_outcome(
         return;
     }
     if !outcome.after.is_finite() {
-        tally.note(Wrong::NotFinite, || example(format!("{}", outcome.after.text)));
+        tally.note(Wrong::NotFinite, || example(outcome.after.text.clone()));
         return;
     }
     // Where it should be after one step, two, …
