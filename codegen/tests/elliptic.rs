@@ -1,4 +1,5 @@
 //! The quadratic forms that bound eigenvalues, against eigenvalues computed numerically.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::lie::{LieAlgebra, QuadraticForm};

@@ -1,4 +1,5 @@
 //! What is refused with the number and the limit, and mistakes that are told once, at their place.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;

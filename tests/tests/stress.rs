@@ -1,4 +1,5 @@
 //! A short run of the stress program: no accepted step is wrong, and none is refused that must not be.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_tests::stress::{Options, report, run};
 
