@@ -2,8 +2,8 @@
 //!
 //! | group | elements | dimension |
 //! |---|---|---|
-//! | [`SO3`](crate::SO3), [`SU2`](crate::SU2) | unit quaternions | 3 |
-//! | [`SE2`](crate::SE2), [`SE3`](crate::SE3) | rotation and translation | 3, 6 |
+//! | [`SO3`], [`SU2`] | unit quaternions | 3 |
+//! | [`SE2`], [`SE3`] | rotation and translation | 3, 6 |
 //! | [`Heisenberg`] | three numbers | 3 |
 //! | [`SO4`], [`SO5`], [`SU3`], [`SU4`], [`U2`], [`U3`], [`SL2`], [`Aff1`] | matrices | 2 to 15 |
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |

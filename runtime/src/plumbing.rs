@@ -284,7 +284,7 @@ pub trait FinePart<C, const SLOTS: usize, const N: usize> {
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], input: &[T; N]) -> [T; N];
 }
 
-/// [`FineTermOf::fine`] at several points: in the lanes of one number if coefficients are `f64`.
+/// [`FinePart::fine`] at several points: in the lanes of one number if coefficients are `f64`.
 #[inline(always)]
 pub fn fine_parts<C, P, P64, const SLOTS: usize, const N: usize>(
     c: &[C; SLOTS],

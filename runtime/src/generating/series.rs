@@ -8,7 +8,7 @@ pub(crate) const LARGEST_RATIO: f64 = 0.5;
 /// Degrees that the bound on all directions knows of; a series that goes beyond is judged at each momentum.
 const DEGREES: usize = 64;
 
-/// The |p| up to which the ratio is at most [`LARGEST_RATIO`] in every direction, given the terms of S_K and S_{K−2} as
+/// The |p| up to which the ratio is at most one half in every direction, given the terms of S_K and S_{K−2} as
 /// (coefficient, order, monomial).
 ///
 /// Each monomial c·pᵐ of degree D counts with D |c| max |pᵐ| over the unit sphere, which bounds its gradient there

@@ -11,7 +11,7 @@ use crate::table::{
     BasisEntry, CayleyTables, DynamicTables, StructureConstant, TableGroup, Tables, monomial,
 };
 
-/// The tables of a [`MatrixGroup`](crate::MatrixGroup) with coordinates in `DVector<L>`.
+/// The tables of a [`MatrixGroup`](crate::groups::MatrixGroup) with coordinates in `DVector<L>`.
 #[derive(Clone, Debug)]
 pub struct DynamicLaneTables<const CAYLEY: bool, L> {
     tables: DynamicTables<CAYLEY>,

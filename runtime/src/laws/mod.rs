@@ -163,7 +163,7 @@ where
 }
 
 /// C(Φ(μ)) = C(μ) for the Casimirs the group knows, relative to the scale of
-/// [`Drift::casimirs`](crate::Drift::casimirs).
+/// [`Drift::casimirs`](crate::steps::Drift::casimirs).
 ///
 /// # Errors
 /// [`StepError`] where the map cannot be made.

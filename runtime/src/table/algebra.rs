@@ -16,9 +16,9 @@ pub type CasimirTerm = (f64, &'static [(usize, u32)]);
 
 /// A Lie algebra as tables, with the types its coordinates and matrices are stored in.
 ///
-/// Implemented by [`StaticTables`](crate::StaticTables) (tables in the program, no allocation)
+/// Implemented by [`StaticTables`](crate::groups::StaticTables) (tables in the program, no allocation)
 /// and `DynamicTables` (tables known at run time). Everything a group does follows from this; see
-/// [`TableGroup`](crate::TableGroup).
+/// [`TableGroup`](crate::groups::TableGroup).
 pub trait Tables: Clone + Debug {
     /// The number type of coordinates.
     type Scalar: Scalar;
@@ -60,7 +60,7 @@ pub trait Tables: Clone + Debug {
     /// See [`LieGroup::exp_extent`](crate::LieGroup::exp_extent).
     fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
-    /// See [`CayleyGroup::cayley_extent`](crate::CayleyGroup::cayley_extent).
+    /// See [`CayleyGroup::cayley_extent`](crate::groups::CayleyGroup::cayley_extent).
     fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
     /// How many Casimirs are known.

@@ -16,7 +16,7 @@ use crate::number::scalar::Scalar;
 /// Elements are d×d matrices in the representation of the basis; where only brackets are known,
 /// the n×n matrices of Ad_g. All of [`LieGroup`] to rounding for any ‖x‖: (d^R exp)ᵀ and Ad\* of
 /// exp act on the momentum by series with sub-steps, exp of the matrix by scaling and squaring.
-/// Use it through [`StaticMatrixGroup`](crate::StaticMatrixGroup) (tables in the program, no
+/// Use it through [`StaticMatrixGroup`](crate::groups::StaticMatrixGroup) (tables in the program, no
 /// allocation) or `MatrixGroup` (tables known at run time, feature `alloc`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TableGroup<K> {

@@ -45,7 +45,7 @@ pub struct Tally {
     pub accepted: u64,
     /// Steps that were refused.
     pub refused: u64,
-    /// Wrong ones by [`KINDS`].
+    /// Wrong ones by `KINDS`.
     pub wrong: [u64; KINDS.len()],
     /// Accepted ones of which the judge cannot tell.
     pub unsure: u64,
