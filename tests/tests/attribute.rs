@@ -115,7 +115,10 @@ fn a_state_that_is_not_finite_is_refused_and_kept() -> Result<(), StepError> {
 
     // So large a momentum that the step leaves the chart: an error, and the state is as before.
     let mut fast = Phase::<SO3>::at_identity([2e3, 5e2, 1e3]);
-    assert!(matches!(step.advance(&mut fast), Err(StepError::NotConverged { .. })));
+    let refused = step.advance(&mut fast).unwrap_err();
+    // The error says a step that works.
+    let usable = refused.circumstances().and_then(|at| at.usable_step).unwrap();
+    assert!(Indexed::new(usable, INERTIA)?.advance(&mut fast.clone()).is_ok(), "{refused}");
     assert_eq!(fast.momentum, Vector3::new(2e3, 5e2, 1e3));
     Ok(())
 }

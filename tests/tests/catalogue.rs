@@ -15,7 +15,7 @@ use nalgebra::DVector;
 /// With `BLESS=1` the files are written anew.
 #[test]
 fn tables_in_the_runtime_are_those_of_the_catalogue() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/catalogue");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/table/catalogue");
     for (name, what, basis) in GROUPS {
         let text = source(&lookup(name).unwrap(), what, basis).unwrap();
         let path = folder.join(format!("{}.rs", name.to_lowercase()));

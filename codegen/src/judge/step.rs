@@ -146,7 +146,12 @@ impl Step<'_> {
             return None;
         }
         // Nothing to compare with is no ratio.
-        let ratio = |last: f64, before: f64| if before > 0.0 { last / before } else { 0.0 * last };
+        // A term below rounding of coordinates of order one is what cancels (in a spherical body, say).
+        let negligible = 16.0 * f64::EPSILON;
+        let compares = |last: f64, before: f64| before > 0.0 && !(last <= negligible);
+        let ratio = |last: f64, before: f64| {
+            if compares(last, before) { last / before } else { 0.0 * last }
+        };
         let length = self.momentum.iter().map(|m| m.to_f64() * m.to_f64()).sum::<f64>().sqrt();
         let (last_anywhere, before_anywhere) = self.folded.series.last_two_anywhere(length);
         Some(ratio(last, before).min(ratio(last_anywhere, before_anywhere)))

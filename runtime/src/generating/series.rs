@@ -40,8 +40,9 @@ pub fn radius<'a, T: Scalar>(
     };
     let within = |r: T| {
         let (last, before) = (polynomial(&last, r), polynomial(&before, r));
-        // Without a term to compare with there is no ratio.
-        let bounded = last.simd_le(T::of(LARGEST_RATIO) * before) | before.simd_le(zero);
+        // Without a term to compare with there is no ratio, and rounding's own is none.
+        let nothing = before.simd_le(zero) | last.simd_le(negligible());
+        let bounded = last.simd_le(T::of(LARGEST_RATIO) * before) | nothing;
         bounded & last.simd_le(unlimited)
     };
     if polynomial(&last, T::of(1.0)).largest_lane() == 0.0 {
@@ -59,6 +60,12 @@ pub fn radius<'a, T: Scalar>(
         r = longer(r, factor, &within);
     }
     r
+}
+
+/// A last term that adds no more than rounding to coordinates of order one: what is left of a term that cancels (of a
+/// spherical body, say) is of this size, and its ratio means nothing.
+fn negligible<T: Scalar>() -> T {
+    T::of(16.0) * T::epsilon()
 }
 
 /// r times the factor where that is within.
@@ -102,8 +109,8 @@ pub fn ratio<'a, T: Scalar>(
             before += sum;
         }
     }
-    // Nothing against nothing is no ratio; NaN stays.
+    // Nothing against nothing is no ratio, nor is that of roundings; NaN stays.
     let zero = T::of(0.0);
-    let compared = before.simd_gt(zero) | last.simd_ne(last);
+    let compared = before.simd_gt(zero) & last.simd_gt(negligible()) | last.simd_ne(last);
     (last / before).select(compared, zero * last)
 }

@@ -83,7 +83,8 @@ pub trait LieGroup: Clone + Debug {
 
     /// How far x goes into the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
     /// it. The chart reaches to one. NaN where x is not finite. The elliptic part alone counts: nilpotent
-    /// directions have no limit; elements that tell x from x + 2π (SU(2)'s own) have twice the range.
+    /// directions have no limit; elements that tell x from x + 2π (SU(2)'s own) reach to nine tenths
+    /// of the full turn, where the equation of a step becomes singular.
     fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
     /// How far g is from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm

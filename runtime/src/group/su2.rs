@@ -126,8 +126,9 @@ impl<T: Scalar> LieGroup for SU2<T> {
 
     #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        // The elements tell x from x + 2π: a full turn.
-        dot(x, x) * T::of(0.25 / (core::f64::consts::PI * core::f64::consts::PI))
+        // The elements tell x from x + 2π. At the full turn itself the equation of a step is singular: nine tenths.
+        let reach = 0.9 * 2.0 * core::f64::consts::PI;
+        dot(x, x) * T::of(1.0 / (reach * reach))
     }
 
     #[inline(always)]

@@ -84,7 +84,7 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
 
     let Yardstick { inverse_scale, tolerance, .. } = Yardstick::of(mu, settings);
     // Rounding of many coordinates may stay above that: then it no longer halves.
-    let rounding = ScalarOf::<S>::of(32.0) * ScalarOf::<S>::epsilon();
+    let rounding = ScalarOf::<S>::of((4.0 * dim as f64).min(32.0)) * ScalarOf::<S>::epsilon();
     let half = ScalarOf::<S>::of(0.5);
 
     let mut p = guess.clone();

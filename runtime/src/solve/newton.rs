@@ -225,7 +225,8 @@ pub(super) fn careful_newton<S: GeneratingFunction + ?Sized>(
     let (quarter, none) = (ScalarOf::<S>::of(0.25), ScalarOf::<S>::of(f64::MAX));
     let yardstick = Yardstick::of(mu, settings);
     // Rounding of many coordinates may stay above the tolerance: then corrections no longer shrink.
-    let rounding = ScalarOf::<S>::of(4.0 * dim as f64) * yardstick.tolerance;
+    let rounding = ScalarOf::<S>::of(2.0 * dim as f64) * ScalarOf::<S>::epsilon();
+    let rounding = rounding.simd_max(yardstick.tolerance);
 
     let mut p = guess;
     let mut way = ScalarOf::<S>::of(0.0);
