@@ -56,7 +56,9 @@ fn large_systems_are_emitted_without_a_hessian_and_in_proportion() {
         assert_eq!(ring.plan.solver, Solver::FixedPoint);
         assert!(ring.hessian.is_none());
         let code = emit::file(&ring, &emit::Options::for_problem("ring"));
-        assert!(code.contains(&format!("Power<::coadjoint::groups::SO3<T>, {sites}, {}>", 3 * sites)));
+        assert!(
+            code.contains(&format!("Power<::coadjoint::groups::SO3<T>, {sites}, {}>", 3 * sites))
+        );
         assert!(code.contains("Solver::FixedPoint") && !code.contains("gradient_and_hessian"));
         code.len() as f64
     };

@@ -15,7 +15,8 @@ pub(super) const MAX_DIM: usize = 128;
 /// Basis vectors that span a nilpotent ideal R leave the eigenvalues alone, since R acts as zero on the
 /// composition factors of 𝔤. On 𝔤/R and on R, blocks of at most three dimensions with trace zero have
 /// (Im λ)² = −½ tr A² where λ is imaginary; for larger ones Bendixson's theorem gives
-/// (Im λ)² ≤ ½ ‖½(A − Aᵀ)‖² in Frobenius' norm.
+/// (Im λ)² ≤ ½ ‖½(A − Aᵀ)‖² in Frobenius' norm. Where the algebra is not unimodular (tr ad_x)² is added: momenta, and
+/// rounding with them, grow by its exponential.
 pub(super) const fn elliptic_form(
     n: usize,
     structure: &[StructureConstant],
@@ -53,7 +54,22 @@ pub(super) const fn elliptic_form(
         }
         at += 1;
     }
+    let mut at = 0;
+    while at < n * n {
+        form[at] += trace(n, ad, at / n) * trace(n, ad, at % n);
+        at += 1;
+    }
     ideal
+}
+
+/// tr ad_a.
+const fn trace(n: usize, ad: &[f64], a: usize) -> f64 {
+    let (mut sum, mut j) = (0.0, 0);
+    while j < n {
+        sum += ad[(a * n + j) * n + j];
+        j += 1;
+    }
+    sum
 }
 
 /// How the forms of the two blocks compare.

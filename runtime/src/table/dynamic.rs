@@ -552,10 +552,11 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
         for &(i, j, k, c) in &self.structure {
             ad[(k, j)] += x[i] * c;
         }
+        let trace = ad.trace();
         let Some(schur) = Schur::try_new(ad, f64::EPSILON, 100 * self.dim) else { return bound };
         let eigenvalues: DVector<Complex<f64>> = schur.complex_eigenvalues();
         let largest = eigenvalues.iter().fold(0.0_f64, |worst, z| worst.worse(z.im.abs()));
-        bound.min(largest * largest / (PI * PI))
+        bound.min((largest * largest + trace * trace) / (PI * PI))
     }
 
     fn cayley_extent(&self, x: &DVector<f64>) -> f64 {
