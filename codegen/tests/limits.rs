@@ -114,7 +114,7 @@ fn an_absurd_step_is_refused_with_the_bound_behind_it() {
                 panic!("{said}");
             };
             assert_eq!((bound, along_run), (Bound::Error, region.is_none()));
-            assert!(!(step > 1e-6 * scale), "{said}");
+            assert!(step.is_nan() || step <= 1e-6 * scale, "{said}");
             assert!(said.contains("the error that the missing terms make by the end"), "{said}");
             assert!(said.contains("larger tolerance or a shorter run"), "{said}");
         }
