@@ -32,7 +32,13 @@ fn macro_build_script_and_interpreter_agree() -> Result<(), StepError> {
     let slots = integrator.coefficients.fold(h, &[]);
     for p in [Vector3::new(2.0, 0.5, 1.0), Vector3::new(-0.3, 1.7, 0.2)] {
         let mut interpreted = [0.0; 3];
-        integrator.gradient.run(p.as_slice(), &slots, &mut Vec::new(), &mut interpreted);
+        coadjoint_codegen::graph::run(
+            &integrator.gradient,
+            p.as_slice(),
+            &slots,
+            &mut Vec::new(),
+            &mut interpreted,
+        );
         let (a, b) = (by_macro.gradient(&p), by_script.gradient(&p));
         assert!((a - b).amax() < 1e-15, "{a} {b}");
         assert!((a - Vector3::from(interpreted)).amax() < 1e-15, "{a} {interpreted:?}");

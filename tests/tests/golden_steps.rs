@@ -45,7 +45,7 @@ fn against_interpreter<const N: usize, S>(
     let mut scratch = Vec::new();
     let mut run = |program: &coadjoint_codegen::graph::Program, p: &SVector<f64, N>| {
         let mut outputs = vec![f64::NAN; program.outputs().len()];
-        program.run(p.as_slice(), &slots, &mut scratch, &mut outputs);
+        coadjoint_codegen::graph::run(program, p.as_slice(), &slots, &mut scratch, &mut outputs);
         outputs
     };
     for point in 0..5 {

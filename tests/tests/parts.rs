@@ -34,7 +34,7 @@ fn parts_compute_what_the_interpreter_does() {
     let slots = integrator.coefficients.fold(h, &[]);
     let run = |program: &Program, p: &SVector<f64, DIM>| {
         let mut outputs = vec![0.0; program.outputs().len()];
-        program.run(p.as_slice(), &slots, &mut Vec::new(), &mut outputs);
+        coadjoint_codegen::graph::run(program, p.as_slice(), &slots, &mut Vec::new(), &mut outputs);
         outputs
     };
     for shift in [0.3, 1.9] {

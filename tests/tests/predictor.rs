@@ -20,7 +20,13 @@ where
     let mut scratch = Vec::new();
     let mut run = |program: &Program, p: &SVector<f64, N>| {
         let mut outputs = SVector::<f64, N>::zeros();
-        program.run(p.as_slice(), &slots, &mut scratch, outputs.as_mut_slice());
+        coadjoint_codegen::graph::run(
+            program,
+            p.as_slice(),
+            &slots,
+            &mut scratch,
+            outputs.as_mut_slice(),
+        );
         outputs
     };
     let mu = SVector::<f64, N>::from_fn(|i, _| (1.3 + i as f64).sin());

@@ -12,7 +12,7 @@ use coadjoint::solve::{
 };
 use coadjoint::tune::Tail;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
-use coadjoint_codegen::graph::{Id, Number, Program};
+use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_codegen::problem::Solver;
 
@@ -70,7 +70,7 @@ pub struct Interpreter<'a, G, C> {
     pub(super) chart: PhantomData<C>,
 }
 
-impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
+impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
         Ok(Self::fold(integrator, group, &fold_parts(integrator, step)?, &|_| 1.0))
@@ -131,7 +131,7 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
         read: impl FnOnce(Outputs<'_, G::Scalar>) -> R,
     ) -> R {
         let mut scratch = Vec::new();
-        program.evaluate(input, |i| G::Scalar::of(self.slots[i]), &mut scratch);
+        graph::evaluate(program, input, |i| G::Scalar::of(self.slots[i]), &mut scratch);
         read(Outputs { nodes: &scratch, ids: program.outputs() })
     }
 
@@ -177,7 +177,7 @@ impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Interpreter<'a, G, C> {
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
     type Group = G;
     type Chart = C;
 
@@ -216,7 +216,7 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> GeneratingFunction for Interprete
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> Predict for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Predict for Interpreter<'_, G, C> {
     fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
         let flows = matches!(self.integrator.plan.predictor, Predictor::Flow(_));
         flows.then(|| self.vector(&self.integrator.predictor, mu))
@@ -230,7 +230,7 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> Predict for Interpreter<'_, G, C>
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> NewtonModel for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> NewtonModel for Interpreter<'_, G, C> {
     fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
         match &self.integrator.hessian {
             Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),
@@ -252,7 +252,7 @@ impl<G: LieGroup<Scalar: Number>, C: Chart<G>> NewtonModel for Interpreter<'_, G
     }
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> LaggedModel for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> LaggedModel for Interpreter<'_, G, C> {
     fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
         let coarse = self.integrator.parts.as_ref().map(|parts| &parts.coarse);
         self.vector(coarse.unwrap_or(&self.integrator.gradient), p)
@@ -284,12 +284,12 @@ pub enum Planned<S: LaggedModel> {
     FixedPoint,
 }
 
-impl<G: LieGroup<Scalar: Number>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
     type Method = Planned<Self>;
 }
 
 // Not inlined: each is compiled once for a group and chart, wherever steps are made.
-impl<'a, G: LieGroup<Scalar: Number>, C: Chart<G>> Method<Interpreter<'a, G, C>>
+impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G, C>>
     for Planned<Interpreter<'a, G, C>>
 {
     fn begin(generating: &Interpreter<'a, G, C>) -> Self {

@@ -6,6 +6,7 @@ use coadjoint::{
     Chart, Kicked, Phase, StepError, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6,
     steps::Splitting as Sequence, steps::Strang,
 };
+use coadjoint_codegen::graph;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::potential::Potential;
@@ -108,7 +109,7 @@ impl<'a, G: Group> Torque<'a, G> {
         entries.clear();
         entries.extend((0..size * size).map(entry));
         let mut result = vec![0.0; self.group.dim()];
-        self.kick.torque.run(entries, &self.slots, scratch, &mut result);
+        graph::run(&self.kick.torque, entries, &self.slots, scratch, &mut result);
         DVector::from_vec(result)
     }
 }

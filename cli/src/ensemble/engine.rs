@@ -6,7 +6,7 @@ use coadjoint::{
     Cayley, Chart, Exponential, GeneratingFunction, Phase, SE3, SO3, groups::CayleyMatrixGroup,
     groups::MatrixGroup, lanes::F64x8, lanes::LaneGroup, lanes::Lanes, lanes::ensemble,
 };
-use coadjoint_codegen::graph::Number;
+use coadjoint_codegen::graph::Arithmetic;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_learn::{DataGroup, matrix_of};
@@ -87,7 +87,7 @@ where
     Interpreter<'a, G, C>: Lanes<Group = G> + Sync,
     <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
     Phase<G>: Send + Sync,
-    G::Scalar: Number,
+    G::Scalar: Arithmetic,
 {
     let step = Interpreter::<G, C>::new(integrator, group, step)
         .map_err(|source| CliError::Step { time: 0.0, source })?;
@@ -114,7 +114,7 @@ impl EnsembleGroup for CayleyMatrixGroup {}
 
 impl<'a, G, C> Engine for Interpreter<'a, G, C>
 where
-    G: EnsembleGroup<Scalar: Number>,
+    G: EnsembleGroup<Scalar: Arithmetic>,
     C: Chart<G>,
     Self: Lanes<Group = G> + Sync,
     <Self as Lanes>::Over<F64x8>: Sync,

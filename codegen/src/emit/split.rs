@@ -10,7 +10,7 @@ use quote::{format_ident, quote};
 
 use super::scope::Scope;
 use super::writer::{Body, Writer};
-use crate::graph::{Node, Program, operands};
+use crate::graph::{Node, Program};
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride,
 /// and inlines into a step for lanes, which makes use of wider registers.
@@ -88,7 +88,7 @@ pub fn split(program: &Program, scope: &Scope) -> Option<Body> {
 
 /// The part of every node: as many operations in each, in their order. `None` for a single part.
 fn assign(nodes: &[Node]) -> Option<Vec<usize>> {
-    let is_operation = |node: &Node| operands(node).next().is_some();
+    let is_operation = |node: &Node| node.operands().next().is_some();
     let operations = nodes.iter().filter(|node| is_operation(node)).count();
     if operations <= LARGE {
         return None;
@@ -106,17 +106,17 @@ fn assign(nodes: &[Node]) -> Option<Vec<usize>> {
 fn handed_on(program: &Program, part_of: &[usize]) -> BTreeSet<usize> {
     let nodes = program.nodes();
     let read_elsewhere = nodes.iter().zip(part_of).flat_map(|(node, part)| {
-        operands(node).map(|id| id.index()).filter(move |&operand| part_of[operand] != *part)
+        node.operands().map(|id| id.index()).filter(move |&operand| part_of[operand] != *part)
     });
     let outputs = program.outputs().iter().map(|id| id.index());
     read_elsewhere
         .chain(outputs)
-        .filter(|&index| operands(&nodes[index]).next().is_some())
+        .filter(|&index| nodes[index].operands().next().is_some())
         .collect()
 }
 
 /// The inputs that these nodes read.
 fn inputs(part: &[Node], nodes: &[Node]) -> BTreeSet<usize> {
-    let read = part.iter().flat_map(operands).map(|id| id.index());
+    let read = part.iter().flat_map(Node::operands).map(|id| id.index());
     read.filter(|&index| matches!(nodes[index], Node::Input(_))).collect()
 }

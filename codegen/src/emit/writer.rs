@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::scope::Scope;
-use crate::graph::{Id, Node, Program, operands};
+use crate::graph::{Id, Node, Program};
 
 /// The statements of a program, and the expressions of its outputs.
 ///
@@ -51,6 +51,11 @@ impl<'a> Writer<'a> {
                 self.read[index] = quote!(T::of(0.0));
                 return;
             }
+            Node::Constant(bits) => {
+                let value = Literal::f64_unsuffixed(f64::from_bits(bits));
+                self.read[index] = quote!(T::of(#value));
+                return;
+            }
             Node::Slot(i) => {
                 let i = Literal::u32_unsuffixed(i);
                 let lifted = self.scope.lifted;
@@ -74,8 +79,32 @@ impl<'a> Writer<'a> {
                 let (x, y, z) = (operand(a), operand(b), operand(c));
                 (self.next_name(), quote!(#x.times_plus(#y, #z)))
             }
+            Node::Sub(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                (self.next_name(), quote!(#x - #y))
+            }
+            Node::Div(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                (self.next_name(), quote!(#x / #y))
+            }
+            Node::Neg(a) => {
+                let x = operand(a);
+                (self.next_name(), quote!(-#x))
+            }
+            Node::Abs(a) => {
+                let x = operand(a);
+                (self.next_name(), quote!(#x.simd_abs()))
+            }
+            Node::Sqrt(a) => {
+                let x = operand(a);
+                (self.next_name(), quote!(#x.simd_sqrt()))
+            }
+            Node::Select(a, b, c, d) => {
+                let (w, x, y, z) = (operand(a), operand(b), operand(c), operand(d));
+                (self.next_name(), quote!(#y.select(#w.simd_le(#x), #z)))
+            }
         };
-        self.operations += usize::from(operands(node).next().is_some());
+        self.operations += usize::from(node.operands().next().is_some());
         // The file printer turns these into plain comments.
         let about = (!self.about[index].is_empty()).then(|| {
             let text = format!(" {}", self.about[index].join(", "));

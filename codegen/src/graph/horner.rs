@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
 
-use super::node::{Graph, Id};
+use coadjoint_program::{Graph, Id};
 
 /// Above this many variables a polynomial is split by the first variable of its terms, so that the
 /// work grows with the terms and not with terms times variables.

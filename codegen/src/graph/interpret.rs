@@ -1,59 +1,57 @@
-//! The plain interpreter: the oracle of the tests, and what the command line runs.
+//! The programs of a generating function, evaluated in any numbers that add and multiply.
+//!
+//! Where emitted Rust has no fused products, this has its bits; [`Program::run`] always fuses.
 
 use std::ops::{Add, Mul};
 
+use coadjoint_program::{Node, Program};
 use num_traits::Zero;
 
-use super::node::{Node, Program};
+/// Numbers that add and multiply: `f64`, `f32`, or a pack of lanes.
+pub trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Zero {}
 
-/// What the interpreter computes with: `f64`, `f32`, or a pack of lanes.
-pub trait Number: Copy + Add<Output = Self> + Mul<Output = Self> + Zero {}
+impl<T: Copy + Add<Output = T> + Mul<Output = T> + Zero> Arithmetic for T {}
 
-impl<T: Copy + Add<Output = T> + Mul<Output = T> + Zero> Number for T {}
-
-impl Program {
-    /// Evaluates the program: `inputs` are the coordinates, `slots` the folded coefficients;
-    /// results go to `outputs` in order. `scratch` is reused between calls to avoid allocation.
-    ///
-    /// Missing inputs and slots read as 0.
-    pub fn run<T: Number>(
-        &self,
-        inputs: &[T],
-        slots: &[T],
-        scratch: &mut Vec<T>,
-        outputs: &mut [T],
-    ) {
-        let read = |list: &[T], i: usize| list.get(i).copied().unwrap_or(T::zero());
-        self.evaluate(|i| read(inputs, i), |i| read(slots, i), scratch);
-        for (output, id) in outputs.iter_mut().zip(self.outputs()) {
-            *output = scratch[id.index()];
-        }
+/// Evaluates every node into `scratch`, where [`Program::outputs`] then point. For programs of sums and products, as
+/// [`lower`](super::lower) makes them; other operations read as 0.
+///
+/// Always inlined, so that lanes get the instruction set of the caller.
+#[inline(always)]
+pub fn evaluate<T: Arithmetic>(
+    program: &Program,
+    input: impl Fn(usize) -> T,
+    slot: impl Fn(usize) -> T,
+    scratch: &mut Vec<T>,
+) {
+    scratch.clear();
+    scratch.reserve(program.nodes().len());
+    for node in program.nodes() {
+        let value = match *node {
+            Node::Input(i) => input(i as usize),
+            Node::Slot(i) => slot(i as usize),
+            Node::Add(a, b) => scratch[a.index()] + scratch[b.index()],
+            Node::Mul(a, b) => scratch[a.index()] * scratch[b.index()],
+            Node::TimesPlus(a, b, c) => {
+                scratch[a.index()] * scratch[b.index()] + scratch[c.index()]
+            }
+            _ => T::zero(),
+        };
+        scratch.push(value);
     }
+}
 
-    /// Evaluates every node into `scratch`, where [`Program::outputs`] then point.
-    ///
-    /// Always inlined, so that lanes get the instruction set of the caller.
-    #[inline(always)]
-    pub fn evaluate<T: Number>(
-        &self,
-        input: impl Fn(usize) -> T,
-        slot: impl Fn(usize) -> T,
-        scratch: &mut Vec<T>,
-    ) {
-        scratch.clear();
-        scratch.reserve(self.nodes().len());
-        for node in self.nodes() {
-            let value = match *node {
-                Node::Zero => T::zero(),
-                Node::Input(i) => input(i as usize),
-                Node::Slot(i) => slot(i as usize),
-                Node::Add(a, b) => scratch[a.index()] + scratch[b.index()],
-                Node::Mul(a, b) => scratch[a.index()] * scratch[b.index()],
-                Node::TimesPlus(a, b, c) => {
-                    scratch[a.index()] * scratch[b.index()] + scratch[c.index()]
-                }
-            };
-            scratch.push(value);
-        }
+/// Evaluates a program on `inputs` with these folded coefficients; results go to `outputs` in order. `scratch` is reused
+/// between calls. Missing inputs and slots read as 0.
+pub fn run<T: Arithmetic>(
+    program: &Program,
+    inputs: &[T],
+    slots: &[T],
+    scratch: &mut Vec<T>,
+    outputs: &mut [T],
+) {
+    let read = |list: &[T], i: usize| list.get(i).copied().unwrap_or(T::zero());
+    evaluate(program, |i| read(inputs, i), |i| read(slots, i), scratch);
+    for (output, id) in outputs.iter_mut().zip(program.outputs()) {
+        *output = scratch[id.index()];
     }
 }

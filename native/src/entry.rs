@@ -1,0 +1,104 @@
+//! Calling machine code: the one place where it happens.
+//!
+//! A step that was compiled when the program runs is reached by a pointer, which no type system can vouch for. What
+//! makes it sound stands here: the code was printed or built from the same [`Kernel`] whose sizes are checked before each
+//! call, it reads and writes nothing but these slices, and it stays loaded as long as the entry lives.
+#![allow(unsafe_code)]
+
+use std::sync::Arc;
+
+use coadjoint_program::{Kernel, Outcome, WIDTH};
+
+/// Up to `steps` steps of one trajectory: (slots, g, μ, steps, report) ↦ steps made. The report is two numbers: the largest
+/// number of corrections and the largest residual.
+pub type AdvanceFunction =
+    unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *mut f64) -> u64;
+
+/// The same for [`WIDTH`] trajectories side by side: (slots, g, μ, steps, live, steps made). Number i of trajectory r is
+/// at `i * WIDTH + r`; `live` holds a byte for each lane, 0 for those that stay.
+pub type LanesFunction =
+    unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *const u8, *mut u64);
+
+/// A compiled step, ready to be called from any thread.
+#[derive(Clone)]
+pub struct Entry {
+    dim: usize,
+    element: usize,
+    slots: usize,
+    advance: AdvanceFunction,
+    lanes: LanesFunction,
+    /// Keeps the code where it is.
+    _code: Arc<dyn Send + Sync>,
+}
+
+impl std::fmt::Debug for Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Entry").field("dim", &self.dim).finish_non_exhaustive()
+    }
+}
+
+impl Entry {
+    /// An entry to code that lives as long as `code`.
+    ///
+    /// # Safety
+    /// Both functions must be compiled from `kernel`, be pure but for the slices they are given, and be valid as long
+    /// as `code` is not dropped.
+    #[must_use]
+    pub unsafe fn new(
+        kernel: &Kernel,
+        advance: AdvanceFunction,
+        lanes: LanesFunction,
+        code: Arc<dyn Send + Sync>,
+    ) -> Self {
+        let (dim, element, slots) = (kernel.dim(), kernel.element(), kernel.slots());
+        Self { dim, element, slots, advance, lanes, _code: code }
+    }
+
+    /// As [`Kernel::advance`]; no step where a slice is shorter than the kernel asks for.
+    pub fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
+        if slots.len() < self.slots || g.len() < self.element || mu.len() < self.dim {
+            return Outcome::default();
+        }
+        let mut report = [0.0; 2];
+        // SAFETY: the slices are as long as the code reads and writes, and `&mut` is exclusive.
+        let made = unsafe {
+            (self.advance)(
+                slots.as_ptr(),
+                g.as_mut_ptr(),
+                mu.as_mut_ptr(),
+                steps,
+                report.as_mut_ptr(),
+            )
+        };
+        Outcome { steps: made, corrections: report[0] as u32, residual: report[1] }
+    }
+
+    /// As [`Kernel::advance_lanes`]; no step where a slice is shorter than the kernel asks for.
+    pub fn advance_lanes(
+        &self,
+        slots: &[f64],
+        g: &mut [f64],
+        mu: &mut [f64],
+        steps: u64,
+        live: [bool; WIDTH],
+    ) -> [u64; WIDTH] {
+        let mut made = [0; WIDTH];
+        let short = g.len() < self.element * WIDTH || mu.len() < self.dim * WIDTH;
+        if short || slots.len() < self.slots {
+            return made;
+        }
+        let live = live.map(u8::from);
+        // SAFETY: the slices are as long as the code reads and writes, and `&mut` is exclusive.
+        unsafe {
+            (self.lanes)(
+                slots.as_ptr(),
+                g.as_mut_ptr(),
+                mu.as_mut_ptr(),
+                steps,
+                live.as_ptr(),
+                made.as_mut_ptr(),
+            );
+        }
+        made
+    }
+}

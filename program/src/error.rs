@@ -1,0 +1,53 @@
+//! What can be wrong with programs that are put together.
+
+use core::fmt;
+
+/// Why nodes are no program, or programs no step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramError {
+    /// An operand of this node does not come before it.
+    Order {
+        /// The node's place.
+        node: usize,
+    },
+    /// This node reads an input beyond the number of inputs.
+    Input {
+        /// The node's place.
+        node: usize,
+        /// How many inputs there are.
+        inputs: usize,
+    },
+    /// This output is no node of the program.
+    Output {
+        /// Its number.
+        output: usize,
+    },
+    /// A program of a step has other numbers of inputs and outputs than the step's dimensions ask for.
+    Shape {
+        /// Which program.
+        program: &'static str,
+        /// Inputs and outputs it must have.
+        expected: (usize, usize),
+        /// Inputs and outputs it has.
+        found: (usize, usize),
+    },
+}
+
+impl fmt::Display for ProgramError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Order { node } => write!(f, "node {node} reads a node that comes after it"),
+            Self::Input { node, inputs } => {
+                write!(f, "node {node} reads an input beyond the {inputs} there are")
+            }
+            Self::Output { output } => write!(f, "output {output} is no node of the program"),
+            Self::Shape { program, expected, found } => write!(
+                f,
+                "the program '{program}' has {} inputs and {} outputs, where the step has {} and {}",
+                found.0, found.1, expected.0, expected.1
+            ),
+        }
+    }
+}
+
+impl core::error::Error for ProgramError {}

@@ -1,0 +1,59 @@
+//! The interpreter: a program evaluated node by node.
+
+use alloc::vec::Vec;
+
+use crate::node::Node;
+use crate::number::Number;
+use crate::program::Program;
+
+impl Program {
+    /// Evaluates every node into `scratch`, where [`Program::outputs`] then point; `input` and `slot` give inputs and
+    /// folded coefficients by number. `scratch` is reused between calls and does not shrink.
+    ///
+    /// Always inlined, so that lanes get the instruction set of the caller.
+    #[inline(always)]
+    pub fn evaluate<T: Number>(
+        &self,
+        input: impl Fn(usize) -> T,
+        slot: impl Fn(usize) -> T,
+        scratch: &mut Vec<T>,
+    ) {
+        scratch.clear();
+        scratch.reserve(self.nodes().len());
+        for node in self.nodes() {
+            let at = |id: crate::Id| scratch[id.index()];
+            let value = match *node {
+                Node::Zero => T::of(0.0),
+                Node::Constant(bits) => T::of(f64::from_bits(bits)),
+                Node::Input(i) => input(i as usize),
+                Node::Slot(i) => slot(i as usize),
+                Node::Add(a, b) => at(a).add(at(b)),
+                Node::Sub(a, b) => at(a).sub(at(b)),
+                Node::Mul(a, b) => at(a).mul(at(b)),
+                Node::TimesPlus(a, b, c) => at(a).times_plus(at(b), at(c)),
+                Node::Div(a, b) => at(a).div(at(b)),
+                Node::Neg(a) => at(a).neg(),
+                Node::Abs(a) => at(a).abs(),
+                Node::Sqrt(a) => at(a).sqrt(),
+                Node::Select(a, b, c, d) => at(a).select(at(b), at(c), at(d)),
+            };
+            scratch.push(value);
+        }
+    }
+
+    /// Evaluates the program on `inputs` with these folded coefficients; results go to `outputs` in order. Missing
+    /// inputs and slots read as 0.
+    pub fn run<T: Number>(
+        &self,
+        inputs: &[T],
+        slots: &[T],
+        scratch: &mut Vec<T>,
+        outputs: &mut [T],
+    ) {
+        let read = |list: &[T], i: usize| list.get(i).copied().unwrap_or(T::of(0.0));
+        self.evaluate(|i| read(inputs, i), |i| read(slots, i), scratch);
+        for (output, id) in outputs.iter_mut().zip(self.outputs()) {
+            *output = scratch[id.index()];
+        }
+    }
+}

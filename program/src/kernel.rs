@@ -1,0 +1,148 @@
+//! A whole step as programs, and the short loop that drives them.
+//!
+//! Every target prints or evaluates the same programs and has the same loop:
+//!
+//! ```text
+//! for each step
+//!     (p, k) = guess(μ)
+//!     way = 0
+//!     do   (p, x, left, moved) = correct(p, μ, k);  way = way + moved
+//!     while not left ≤ tolerance, and way ≤ near, and there are corrections left
+//!     if accept(μ, x, left, way) is not 1: stop before this step
+//!     (g, μ) = transport(g, μ, x)
+//! after each BLOCK steps and at the end
+//!     (g, μ) = frame(g, μ, steps of the block)      where there is a comoving frame
+//!     if sound(g, μ) is not 1: back to the start of the block, stop
+//! ```
+//!
+//! A refused step leaves the state as it was; whoever drives the kernel may then follow the solution by other means or
+//! say why there is none.
+
+use crate::error::ProgramError;
+use crate::program::Program;
+
+/// Steps after which a comoving frame moves on and the state is checked.
+pub const BLOCK: u64 = 256;
+
+/// The programs of a step. n is the dimension, m how many numbers make a group element, k how many constants a solve has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Programs {
+    /// μ (n) ↦ a first guess of p (n), and the constants of the solve (k).
+    pub guess: Program,
+    /// p (n), μ (n), constants (k) ↦ the next p (n), x (n), a bound on what is left of the equation (1), the length of
+    /// the correction (1), both relative to the largest coordinate of μ.
+    pub correct: Program,
+    /// μ (n), x (n), what is left (1), the way from the guess (1) ↦ 1 if the step is right, else 0.
+    pub accept: Program,
+    /// g (m), μ (n), x (n) ↦ g·τ(x) (m), Ad\*_{τ(x)⁻¹} μ (n).
+    pub transport: Program,
+    /// g (m), μ (n), a number of steps (1) ↦ both moved on by the comoving frame.
+    pub frame: Option<Program>,
+    /// g (m), μ (n) ↦ 1 if finite and on the group, else 0.
+    pub sound: Program,
+    /// g (m), μ (n) ↦ what is conserved: energy, Casimirs, spatial momentum.
+    pub watch: Program,
+    /// g (m) ↦ the matrix of g, row by row.
+    pub matrix: Program,
+}
+
+/// A step of a system on its group, for every target: programs that fit together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kernel {
+    dim: usize,
+    element: usize,
+    constants: usize,
+    slots: usize,
+    tolerance: f64,
+    near: f64,
+    corrections: u32,
+    programs: Programs,
+}
+
+impl Kernel {
+    /// A step of these programs: n coordinates, m numbers in a group element. A solve ends where what is left is at most
+    /// `tolerance`; it is given up after so many corrections, or where it is farther than `near` from its guess.
+    ///
+    /// # Errors
+    /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for.
+    pub fn new(
+        dim: usize,
+        element: usize,
+        tolerance: f64,
+        near: f64,
+        corrections: u32,
+        programs: Programs,
+    ) -> Result<Self, ProgramError> {
+        let (n, m) = (dim, element);
+        let constants = programs.guess.outputs().len().saturating_sub(n);
+        let watched = programs.watch.outputs().len();
+        let entries = programs.matrix.outputs().len();
+        let shapes = [
+            ("guess", &programs.guess, (n, n + constants)),
+            ("correct", &programs.correct, (n + n + constants, n + n + 2)),
+            ("accept", &programs.accept, (n + n + 2, 1)),
+            ("transport", &programs.transport, (m + n + n, m + n)),
+            ("sound", &programs.sound, (m + n, 1)),
+            ("watch", &programs.watch, (m + n, watched)),
+            ("matrix", &programs.matrix, (m, entries)),
+        ];
+        let frame = programs.frame.iter().map(|frame| ("frame", frame, (m + n + 1, m + n)));
+        let mut slots = 0;
+        for (name, program, expected) in shapes.into_iter().chain(frame) {
+            let found = (program.inputs(), program.outputs().len());
+            if found != expected {
+                return Err(ProgramError::Shape { program: name, expected, found });
+            }
+            slots = slots.max(program.slots());
+        }
+        Ok(Self { dim, element, constants, slots, tolerance, near, corrections, programs })
+    }
+
+    /// n, the dimension of the group.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// m, how many numbers make a group element.
+    #[must_use]
+    pub fn element(&self) -> usize {
+        self.element
+    }
+
+    /// k, how many constants a solve has.
+    #[must_use]
+    pub fn constants(&self) -> usize {
+        self.constants
+    }
+
+    /// How many folded coefficients the programs read.
+    #[must_use]
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// What may be left of the equation of a solved step, relative to the largest coordinate of μ.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// How far the solution may be from its first guess, relative to the largest coordinate of μ.
+    #[must_use]
+    pub fn near(&self) -> f64 {
+        self.near
+    }
+
+    /// Corrections at most.
+    #[must_use]
+    pub fn corrections(&self) -> u32 {
+        self.corrections
+    }
+
+    /// The programs.
+    #[must_use]
+    pub fn programs(&self) -> &Programs {
+        &self.programs
+    }
+}

@@ -1,0 +1,31 @@
+//! Straight-line programs: what a step of a Lie–Poisson integrator computes, for every target.
+//!
+//! - [`Graph`] grows nodes, equal ones once; [`Program`] is a finished one, in an order of evaluation.
+//! - [`Kernel`] is a whole step as programs: guess, correction, acceptance, transport, and the loop that drives them.
+//! - [`Kernel::advance`] and [`Kernel::advance_lanes`] are the interpreter, the reference for all targets.
+//!
+//! A fused product is an operation of the program, so that targets agree to the bit.
+#![no_std]
+
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("coadjoint-program needs one of its features `std` (the default) and `libm`");
+
+mod dispatch;
+mod drive;
+mod error;
+mod evaluate;
+mod kernel;
+mod node;
+mod number;
+mod program;
+
+pub use drive::{Outcome, Scratch, WIDTH};
+pub use error::ProgramError;
+pub use kernel::{BLOCK, Kernel, Programs};
+pub use node::{Cost, Graph, Id, Node};
+pub use number::{Lanes, Number};
+pub use program::Program;

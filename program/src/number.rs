@@ -1,0 +1,151 @@
+//! What programs are evaluated in: numbers, and several numbers at once.
+
+/// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
+pub trait Number: Copy {
+    /// The same number in all lanes.
+    fn of(value: f64) -> Self;
+    /// a + b
+    fn add(self, b: Self) -> Self;
+    /// a − b
+    fn sub(self, b: Self) -> Self;
+    /// a · b
+    fn mul(self, b: Self) -> Self;
+    /// a · b + c, rounded once.
+    fn times_plus(self, b: Self, c: Self) -> Self;
+    /// a / b
+    fn div(self, b: Self) -> Self;
+    /// −a
+    fn neg(self) -> Self;
+    /// |a|
+    fn abs(self) -> Self;
+    /// √a
+    fn sqrt(self) -> Self;
+    /// `then` where self ≤ b, else `otherwise`.
+    fn select(self, b: Self, then: Self, otherwise: Self) -> Self;
+}
+
+#[cfg(feature = "std")]
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    a.mul_add(b, c)
+}
+
+#[cfg(not(feature = "std"))]
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    libm::fma(a, b, c)
+}
+
+#[cfg(feature = "std")]
+#[inline(always)]
+fn root(a: f64) -> f64 {
+    a.sqrt()
+}
+
+#[cfg(not(feature = "std"))]
+#[inline(always)]
+fn root(a: f64) -> f64 {
+    libm::sqrt(a)
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        self + b
+    }
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        self - b
+    }
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        self * b
+    }
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        fused(self, b, c)
+    }
+    #[inline(always)]
+    fn div(self, b: Self) -> Self {
+        self / b
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        -self
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::from_bits(self.to_bits() & (u64::MAX >> 1))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        root(self)
+    }
+    #[inline(always)]
+    fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
+        if self <= b { then } else { otherwise }
+    }
+}
+
+/// L numbers side by side; each lane has the bits that it would have alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub struct Lanes<const L: usize>(pub [f64; L]);
+
+impl<const L: usize> Lanes<L> {
+    #[inline(always)]
+    fn each(f: impl Fn(usize) -> f64) -> Self {
+        let mut result = [0.0; L];
+        for (lane, value) in result.iter_mut().enumerate() {
+            *value = f(lane);
+        }
+        Self(result)
+    }
+}
+
+impl<const L: usize> Number for Lanes<L> {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self([value; L])
+    }
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self::each(|l| self.0[l] + b.0[l])
+    }
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self::each(|l| self.0[l] - b.0[l])
+    }
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        Self::each(|l| self.0[l] * b.0[l])
+    }
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        Self::each(|l| fused(self.0[l], b.0[l], c.0[l]))
+    }
+    #[inline(always)]
+    fn div(self, b: Self) -> Self {
+        Self::each(|l| self.0[l] / b.0[l])
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::each(|l| -self.0[l])
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::each(|l| Number::abs(self.0[l]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::each(|l| root(self.0[l]))
+    }
+    #[inline(always)]
+    fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
+        Self::each(|l| if self.0[l] <= b.0[l] { then.0[l] } else { otherwise.0[l] })
+    }
+}
