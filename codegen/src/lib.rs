@@ -56,6 +56,7 @@ pub mod pass;
 pub mod poly;
 pub mod potential;
 pub mod problem;
+pub mod step;
 #[cfg(feature = "system")]
 pub mod system;
 pub mod tolerance;

@@ -35,6 +35,7 @@ impl Program {
                 Node::Neg(a) => at(a).neg(),
                 Node::Abs(a) => at(a).abs(),
                 Node::Sqrt(a) => at(a).sqrt(),
+                Node::Round(a) => at(a).round(),
                 Node::Select(a, b, c, d) => at(a).select(at(b), at(c), at(d)),
             };
             scratch.push(value);

@@ -48,6 +48,8 @@ pub enum Node {
     Abs(Id),
     /// √a
     Sqrt(Id),
+    /// The integer nearest to a, the even one of two.
+    Round(Id),
     /// c if a ≤ b, else d; d where a or b is not a number.
     Select(Id, Id, Id, Id),
 }
@@ -57,7 +59,9 @@ impl Node {
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
         let list = match *self {
             Self::Zero | Self::Constant(_) | Self::Input(_) | Self::Slot(_) => [None; 4],
-            Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) => [Some(a), None, None, None],
+            Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) | Self::Round(a) => {
+                [Some(a), None, None, None]
+            }
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
                 [Some(a), Some(b), None, None]
             }
@@ -79,6 +83,7 @@ impl Node {
             Self::Neg(a) => Self::Neg(rename(a)),
             Self::Abs(a) => Self::Abs(rename(a)),
             Self::Sqrt(a) => Self::Sqrt(rename(a)),
+            Self::Round(a) => Self::Round(rename(a)),
             Self::Select(a, b, c, d) => Self::Select(rename(a), rename(b), rename(c), rename(d)),
             leaf @ (Self::Zero | Self::Constant(_) | Self::Input(_) | Self::Slot(_)) => leaf,
         }
@@ -282,6 +287,14 @@ impl Graph {
         }
     }
 
+    /// The integer nearest to a, the even one of two.
+    pub fn round(&mut self, a: Id) -> Id {
+        match self.is_zero(a) {
+            true => a,
+            false => self.intern(Node::Round(a)),
+        }
+    }
+
     /// `then` if a ≤ b, else `otherwise`; that also where a or b is not a number.
     pub fn select(&mut self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
         match then == otherwise {
@@ -334,6 +347,7 @@ impl Graph {
                 Node::Neg(a) => self.neg(ids[a.index()]),
                 Node::Abs(a) => self.abs(ids[a.index()]),
                 Node::Sqrt(a) => self.sqrt(ids[a.index()]),
+                Node::Round(a) => self.round(ids[a.index()]),
                 Node::Select(a, b, c, d) => {
                     let [a, b, c, d] = [a, b, c, d].map(|operand| ids[operand.index()]);
                     self.select(a, b, c, d)

@@ -20,6 +20,8 @@ pub trait Number: Copy {
     fn abs(self) -> Self;
     /// √a
     fn sqrt(self) -> Self;
+    /// The integer nearest to a, the even one of two.
+    fn round(self) -> Self;
     /// `then` where self ≤ b, else `otherwise`.
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self;
 }
@@ -46,6 +48,18 @@ fn root(a: f64) -> f64 {
 #[inline(always)]
 fn root(a: f64) -> f64 {
     libm::sqrt(a)
+}
+
+#[cfg(feature = "std")]
+#[inline(always)]
+fn nearest(a: f64) -> f64 {
+    a.round_ties_even()
+}
+
+#[cfg(not(feature = "std"))]
+#[inline(always)]
+fn nearest(a: f64) -> f64 {
+    libm::rint(a)
 }
 
 impl Number for f64 {
@@ -84,6 +98,10 @@ impl Number for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         root(self)
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        nearest(self)
     }
     #[inline(always)]
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
@@ -143,6 +161,10 @@ impl<const L: usize> Number for Lanes<L> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self::each(|l| root(self.0[l]))
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self::each(|l| nearest(self.0[l]))
     }
     #[inline(always)]
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self {

@@ -99,6 +99,10 @@ impl<'a> Writer<'a> {
                 let x = operand(a);
                 (self.next_name(), quote!(#x.simd_sqrt()))
             }
+            Node::Round(a) => {
+                let x = operand(a);
+                (self.next_name(), quote!(#x.simd_round()))
+            }
             Node::Select(a, b, c, d) => {
                 let (w, x, y, z) = (operand(a), operand(b), operand(c), operand(d));
                 (self.next_name(), quote!(#y.select(#w.simd_le(#x), #z)))

@@ -1,0 +1,188 @@
+//! Entire functions of t by their power series, with as many terms as a stated domain needs.
+
+use crate::graph::{Graph, Id};
+
+/// More terms than any domain asks for.
+const MOST: usize = 64;
+
+/// Σ cₖ tᵏ for 0 ≤ t ≤ `reach`, where terms below `accuracy` times the first are left out.
+///
+/// In pairs and pairs of pairs (G. Estrin, 1960), since a chain of fused products is as slow as it is long.
+pub fn series(
+    graph: &mut Graph,
+    t: Id,
+    reach: f64,
+    accuracy: f64,
+    coefficient: impl Fn(usize) -> f64,
+) -> Id {
+    let first = coefficient(0).abs();
+    let mut power = 1.0;
+    let mut count = 1;
+    for k in 1..MOST {
+        power *= reach;
+        if coefficient(k).abs() * power > accuracy * first {
+            count = k + 1;
+        }
+    }
+    let mut list: Vec<Id> = (0..count).map(|k| graph.constant(coefficient(k))).collect();
+    let mut power = t;
+    while list.len() > 1 {
+        list = list
+            .chunks(2)
+            .map(|pair| match *pair {
+                [low, high] => graph.times_plus(high, power, low),
+                _ => pair[0],
+            })
+            .collect();
+        if list.len() > 1 {
+            power = graph.mul(power, power);
+        }
+    }
+    list[0]
+}
+
+/// (−1)ᵏ/n!
+fn alternating(k: usize, n: usize) -> f64 {
+    let factorial: f64 = (2..=n).map(|i| i as f64).product();
+    if k.is_multiple_of(2) { 1.0 / factorial } else { -1.0 / factorial }
+}
+
+/// For what a step conserves and solves.
+const ROUNDING: f64 = 1e-17;
+
+/// For derivatives, which only Newton's method uses.
+const NEWTON: f64 = 1e-10;
+
+/// The functions of θ² = t that rotations need, for angles up to a limit.
+#[derive(Clone, Copy, Debug)]
+pub struct Angle {
+    /// t = θ².
+    pub t: Id,
+    /// The largest t.
+    pub reach: f64,
+}
+
+impl Angle {
+    /// cos(θ/2)
+    pub fn half_cosine(self, graph: &mut Graph) -> Id {
+        self.exact(graph, |k| 0.25_f64.powi(k as i32) * alternating(k, 2 * k))
+    }
+
+    /// sin(θ/2)/θ
+    pub fn half_sine(self, graph: &mut Graph) -> Id {
+        self.exact(graph, |k| 0.5 * 0.25_f64.powi(k as i32) * alternating(k, 2 * k + 1))
+    }
+
+    /// b = (1 − cos θ)/θ²
+    pub fn b(self, graph: &mut Graph) -> Id {
+        self.exact(graph, |k| alternating(k, 2 * k + 2))
+    }
+
+    /// c = (θ − sin θ)/θ³
+    pub fn c(self, graph: &mut Graph) -> Id {
+        self.exact(graph, |k| alternating(k, 2 * k + 3))
+    }
+
+    /// db/dt, to what `accuracy` asks for.
+    pub fn b_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+        let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 4);
+        series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
+    }
+
+    /// dc/dt, to what `accuracy` asks for.
+    pub fn c_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+        let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 5);
+        series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
+    }
+
+    /// d²b/dt², for Newton's method.
+    pub fn b_curvature(self, graph: &mut Graph) -> Id {
+        let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6);
+        series(graph, self.t, self.reach, NEWTON, coefficient)
+    }
+
+    /// d²c/dt², for Newton's method.
+    pub fn c_curvature(self, graph: &mut Graph) -> Id {
+        let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7);
+        series(graph, self.t, self.reach, NEWTON, coefficient)
+    }
+
+    fn exact(self, graph: &mut Graph, coefficient: impl Fn(usize) -> f64) -> Id {
+        series(graph, self.t, self.reach, ROUNDING, coefficient)
+    }
+}
+
+/// What a function is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// The equation of a step, or what it conserves.
+    Rounding,
+    /// A derivative for Newton's method.
+    Newton,
+}
+
+impl Accuracy {
+    /// What may be left out, relative to the first term.
+    pub fn left_out(self) -> f64 {
+        match self {
+            Self::Rounding => ROUNDING,
+            Self::Newton => NEWTON,
+        }
+    }
+}
+
+/// The functions of an angle of any size: t = θ² up to 2⁵⁰.
+#[derive(Clone, Copy, Debug)]
+pub struct WideAngle {
+    /// cos(θ/2)
+    pub half_cosine: Id,
+    /// sin(θ/2)/θ
+    pub half_sine: Id,
+    /// (1 − cos θ)/θ²
+    pub b: Id,
+    /// (θ − sin θ)/θ³
+    pub c: Id,
+}
+
+impl WideAngle {
+    /// The functions at t.
+    pub fn new(graph: &mut Graph, t: Id) -> Self {
+        // 2π in two pieces, so that a fused product takes whole turns off without rounding.
+        const TURN: f64 = std::f64::consts::TAU;
+        const REST: f64 = 2.449_293_598_294_706_4e-16;
+        /// Below this t the quotients by θ and θ² are taken from their series.
+        const SMALL: f64 = 1.0;
+        let (half, one, two) = (graph.constant(0.5), graph.constant(1.0), graph.constant(2.0));
+        let angle = graph.sqrt(t);
+        let halved = graph.mul(half, angle);
+        let per_turn = graph.constant(1.0 / TURN);
+        let turns = graph.mul(halved, per_turn);
+        let turns = graph.round(turns);
+        let turns = graph.neg(turns);
+        let (turn, rest) = (graph.constant(TURN), graph.constant(REST));
+        let reduced = graph.times_plus(turns, turn, halved);
+        let reduced = graph.times_plus(turns, rest, reduced);
+        // With 2r in place of θ: |2r| ≤ 2π.
+        let four = graph.constant(4.0);
+        let square = graph.mul(reduced, reduced);
+        let square = graph.mul(four, square);
+        let near = Angle { t: square, reach: 4.0 * 9.88 };
+        let half_cosine = near.half_cosine(graph);
+        let sine = near.half_sine(graph);
+        let sine = graph.mul(sine, reduced);
+        let sine = graph.mul(two, sine);
+        let small = graph.constant(SMALL);
+        let short = Angle { t, reach: SMALL };
+        let [short_sine, short_c] = [short.half_sine(graph), short.c(graph)];
+        let long_sine = graph.div(sine, angle);
+        let half_sine = graph.select(t, small, short_sine, long_sine);
+        let b = graph.mul(half_sine, half_sine);
+        let b = graph.mul(two, b);
+        let whole = graph.mul(half_sine, half_cosine);
+        let whole = graph.mul(two, whole);
+        let long_c = graph.sub(one, whole);
+        let long_c = graph.div(long_c, t);
+        let c = graph.select(t, small, short_c, long_c);
+        Self { half_cosine, half_sine, b, c }
+    }
+}

@@ -1,0 +1,152 @@
+//! A whole step as straight-line programs, ready for any target.
+//!
+//! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
+//! chart: closed forms for SO(3), SU(2), SE(2) and SE(3), series by tables for all others, products factor by factor. The
+//! test that accepts a step is the runtime's (`docs/guarantee.md`), with sufficient conditions in place of
+//! eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other means.
+
+mod entire;
+mod motion;
+mod part;
+mod plane;
+mod product;
+mod programs;
+mod rotation;
+mod tables;
+mod vector;
+
+use coadjoint_program::{Kernel, ProgramError};
+
+use crate::integrator::Integrator;
+use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::problem::Solver;
+use motion::Motion;
+use part::Part;
+use plane::Plane;
+use product::Product;
+use rotation::Rotation;
+use tables::Tables;
+
+/// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
+/// for.
+pub const REACH: f64 = 1.5;
+
+/// Why a step is not made of straight-line programs.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// Its equation is solved by the fixed point, with as many iterations as it takes.
+    #[error(
+        "{dimension} dimensions are solved by the fixed point, which has no straight-line programs; use the interpreter"
+    )]
+    FixedPoint {
+        /// The dimension of the group.
+        dimension: usize,
+    },
+    /// A comoving frame moves by any angle, for which series by tables have no fixed length.
+    #[error(
+        "the comoving frame of {group} has no straight-line programs; use the interpreter, or `frame = \"fixed\"`"
+    )]
+    Frame {
+        /// The group.
+        group: String,
+    },
+    /// The matrices of the basis are linearly dependent.
+    #[error("the matrices of {group} are linearly dependent")]
+    Dependent {
+        /// The group.
+        group: String,
+    },
+    /// The programs do not fit together.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+}
+
+/// A step as programs, with what is needed to fold its coefficients and to read group elements.
+pub struct Step {
+    kernel: Kernel,
+    group: Product,
+    /// Folded coefficients of the integrator; after them come those of the bound on the Hessian, and the square of the
+    /// radius of the series.
+    base: usize,
+    /// (degree, slot, weight) of the bound on the Hessian.
+    bound: Vec<(usize, usize, f64)>,
+    bound_len: usize,
+}
+
+impl Step {
+    /// The programs of a step; series by tables hold up to `reach` (see [`REACH`]).
+    ///
+    /// # Errors
+    /// [`StepError`] where the step has no straight-line programs.
+    pub fn build(integrator: &Integrator, reach: f64) -> Result<Self, StepError> {
+        let problem = &integrator.problem;
+        if integrator.plan.solver == Solver::FixedPoint || integrator.hessian.is_none() {
+            return Err(StepError::FixedPoint { dimension: problem.algebra.dim() });
+        }
+        let parts: Result<Vec<Box<dyn Part>>, StepError> = problem
+            .algebra
+            .factors()
+            .iter()
+            .map(|factor| part(factor, problem.chart, reach))
+            .collect();
+        let group = Product(parts?);
+        let base = integrator.coefficients.slots().len();
+        let bound_len = integrator.defect_len();
+        let bound = integrator.defect.iter();
+        let bound = bound.map(|term| (term.degree as usize, term.slot, term.weight)).collect();
+        let kernel = programs::kernel(integrator, &group, base, bound_len)?;
+        Ok(Self { kernel, group, base, bound, bound_len })
+    }
+
+    /// The programs.
+    #[must_use]
+    pub fn kernel(&self) -> &Kernel {
+        &self.kernel
+    }
+
+    /// All numbers that the programs read as folded coefficients: those of the integrator for the step size, as
+    /// [`Coefficients::fold`](crate::integrator::Coefficients::fold) has them, and what follows from them. `radius` is
+    /// the |μ| up to which the series is taken seriously.
+    #[must_use]
+    pub fn slots(&self, folded: &[f64], radius: f64) -> Vec<f64> {
+        let mut slots: Vec<f64> =
+            (0..self.base).map(|i| folded.get(i).copied().unwrap_or(0.0)).collect();
+        let mut bound = vec![0.0; self.bound_len];
+        for &(degree, slot, weight) in &self.bound {
+            bound[degree] += slots[slot].abs() * weight;
+        }
+        slots.extend(bound);
+        slots.push(radius * radius);
+        slots
+    }
+
+    /// The numbers of the group element with this matrix, row by row; factors are its diagonal blocks.
+    #[must_use]
+    pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        self.group.element_of(matrix)
+    }
+}
+
+/// The formulas of a group that is no product.
+fn part(algebra: &LieAlgebra, chart: Chart, reach: f64) -> Result<Box<dyn Part>, StepError> {
+    let is = |name: &str| {
+        catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
+    };
+    if is("SO3") {
+        return Ok(Box::new(Rotation { chart, double_cover: false }));
+    }
+    if is("SU2") {
+        return Ok(Box::new(Rotation { chart, double_cover: true }));
+    }
+    if is("SE3") {
+        return Ok(Box::new(Motion { chart }));
+    }
+    if is("SE2") {
+        return Ok(Box::new(Plane { chart }));
+    }
+    match Tables::new(algebra, chart, reach) {
+        Some(tables) => Ok(Box::new(tables)),
+        None => Err(StepError::Dependent { group: algebra.name().to_owned() }),
+    }
+}

@@ -1,0 +1,54 @@
+//! A group with a chart, as formulas over nodes.
+
+use crate::graph::{Graph, Id};
+use crate::step::vector::Matrix;
+
+/// A factor of a group, with the chart of a step: what programs of a step are built of.
+///
+/// Coordinates x and μ have n entries, a group element m numbers. Conventions are those of the runtime's `LieGroup`.
+pub trait Part {
+    /// n, the dimension.
+    fn dim(&self) -> usize;
+
+    /// m, how many numbers make a group element.
+    fn element(&self) -> usize;
+
+    /// (d^R τ_x)ᵀ μ
+    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id>;
+
+    /// (d^R τ_x)ᵀ μ and its derivative in x, which Newton's method alone uses.
+    fn pull_back_with_derivative(
+        &self,
+        graph: &mut Graph,
+        x: &[Id],
+        mu: &[Id],
+    ) -> (Vec<Id>, Matrix);
+
+    /// g·τ(x) and Ad\*_{τ(x)⁻¹} μ.
+    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved;
+
+    /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
+    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
+
+    /// How far x goes into the chart and the reach of these formulas; at most 1 where both hold, not a number where x is
+    /// not finite.
+    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id;
+
+    /// How far g is from the group; not a number where g is not finite.
+    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id;
+
+    /// The matrix of g.
+    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix;
+
+    /// The numbers of the element with this matrix, row by row.
+    fn element_of(&self, matrix: &[f64]) -> Vec<f64>;
+}
+
+/// A state moved on.
+#[derive(Clone, Debug)]
+pub struct Moved {
+    /// The group element.
+    pub g: Vec<Id>,
+    /// The momentum.
+    pub mu: Vec<Id>,
+}

@@ -1,0 +1,330 @@
+//! SO(3) and SU(2), elements as unit quaternions (w, i, j, k).
+
+use crate::graph::{Graph, Id};
+use crate::lie::Chart;
+use crate::step::entire::{Accuracy, Angle, WideAngle};
+use crate::step::part::{Moved, Part};
+use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, sum, three};
+
+/// The largest θ² of a step on SO(3): a half turn, and what is beyond it by rounding.
+const HALF_TURN: f64 = 9.88;
+
+/// The rotations of space, or their double cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rotation {
+    /// The chart.
+    pub chart: Chart,
+    /// Whether elements tell x from x + 2π.
+    pub double_cover: bool,
+}
+
+/// b, c and their derivatives at θ², for (d^R exp_x)ᵀ.
+pub struct Dexp {
+    pub b: Id,
+    pub c: Id,
+    pub b_slope: Id,
+    pub c_slope: Id,
+}
+
+impl Dexp {
+    /// The four functions.
+    pub fn new(graph: &mut Graph, angle: Angle, slopes: Accuracy) -> Self {
+        Self {
+            b: angle.b(graph),
+            c: angle.c(graph),
+            b_slope: angle.b_slope(graph, slopes),
+            c_slope: angle.c_slope(graph, slopes),
+        }
+    }
+}
+
+/// μ + b μ×x + c (μ×x)×x
+pub fn dexp_transpose(graph: &mut Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
+    let once = cross(graph, mu, x);
+    let twice = cross(graph, &once, x);
+    let near = plus(graph, mu, b, &once);
+    plus(graph, &near, c, &twice)
+}
+
+/// [`dexp_transpose`] and its derivative in x.
+pub fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3, Matrix) {
+    let once = cross(graph, mu, x);
+    let twice = cross(graph, &once, x);
+    let near = plus(graph, mu, k.b, &once);
+    let value = plus(graph, &near, k.c, &twice);
+    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
+    // with (μ×v)×x = v (μ·x) − μ (v·x).
+    let two = graph.constant(2.0);
+    let along = scaled(graph, k.b_slope, &once);
+    let along = plus(graph, &along, k.c_slope, &twice);
+    let along = scaled(graph, two, &along);
+    let minus_c = graph.neg(k.c);
+    let along = plus(graph, &along, minus_c, mu);
+    let turn = scaled(graph, k.b, mu);
+    let turn = plus(graph, &turn, k.c, &once);
+    let across = dot(graph, mu, x);
+    let diagonal = graph.mul(k.c, across);
+    let constant = turned(graph, &turn, diagonal);
+    let derivative = Matrix::new(3, 3, |i, j| graph.times_plus(along[i], x[j], constant.at(i, j)));
+    (value, derivative)
+}
+
+/// The matrix of v ↦ turn × v + diagonal·v.
+pub fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
+    let back = minus(graph, turn);
+    let rows =
+        [[diagonal, back[2], turn[1]], [turn[2], diagonal, back[0]], [back[1], turn[0], diagonal]];
+    Matrix::new(3, 3, |i, j| rows[i][j])
+}
+
+/// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
+pub fn rotate_back(graph: &mut Graph, w: Id, u: &V3, v: &V3) -> V3 {
+    let two = graph.constant(2.0);
+    let once = cross(graph, v, u);
+    let twice = scaled(graph, two, &once);
+    let bent = cross(graph, &twice, u);
+    let turned = plus(graph, v, w, &twice);
+    sum(graph, &turned, &bent)
+}
+
+/// The product of unit quaternions, pulled back onto the unit sphere to first order, so that rounding does not
+/// accumulate in the norm over many steps.
+pub fn compose(graph: &mut Graph, a: &[Id], w: Id, u: &V3) -> Vec<Id> {
+    let vector = three(a, 1);
+    let back = dot(graph, &vector, u);
+    let back = graph.neg(back);
+    let real = graph.times_plus(a[0], w, back);
+    let turned = cross(graph, &vector, u);
+    let turned = plus(graph, &turned, a[0], u);
+    let imaginary = plus(graph, &turned, w, &vector);
+    let product = [real, imaginary[0], imaginary[1], imaginary[2]];
+    let norm = dot(graph, &product, &product);
+    let (factor, half) = (graph.constant(1.5), graph.constant(-0.5));
+    let factor = graph.times_plus(half, norm, factor);
+    product.iter().map(|&entry| graph.mul(entry, factor)).collect()
+}
+
+/// The matrix of R(q).
+pub fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
+    let (w, back) = (q[0], three(q, 1));
+    let back = minus(graph, &back);
+    let (zero, one) = (graph.zero(), graph.constant(1.0));
+    let columns = [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
+        .map(|unit| rotate_back(graph, w, &back, &unit));
+    Matrix::new(3, 3, |i, j| columns[j][i])
+}
+
+/// The unit quaternion of a rotation matrix, row by row with `stride` numbers a row (S. Shepperd, J. Guidance 1, 1978).
+pub fn quaternion_of(matrix: &[f64], stride: usize) -> Vec<f64> {
+    let m = |i: usize, j: usize| matrix.get(i * stride + j).copied().unwrap_or(0.0);
+    let trace = m(0, 0) + m(1, 1) + m(2, 2);
+    let squares = [trace, m(0, 0), m(1, 1), m(2, 2)];
+    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+    let q = match largest {
+        0 => [1.0 + trace, m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)],
+        axis => {
+            let (i, j, k) = (axis - 1, axis % 3, (axis + 1) % 3);
+            let mut q = [m(k, j) - m(j, k), 0.0, 0.0, 0.0];
+            q[1 + i] = 1.0 + m(i, i) - m(j, j) - m(k, k);
+            q[1 + j] = m(j, i) + m(i, j);
+            q[1 + k] = m(k, i) + m(i, k);
+            q
+        }
+    };
+    let norm = q.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    q.iter().map(|entry| entry / norm).collect()
+}
+
+impl Rotation {
+    /// The largest θ² that formulas reach.
+    fn reach(self) -> f64 {
+        // At the full turn itself the equation of a step is singular: nine tenths.
+        if self.double_cover { (1.8 * std::f64::consts::PI).powi(2) } else { HALF_TURN }
+    }
+
+    fn angle(self, graph: &mut Graph, x: &V3) -> Angle {
+        Angle { t: dot(graph, x, x), reach: self.reach() }
+    }
+
+    /// τ(x) as a quaternion.
+    pub fn increment(self, graph: &mut Graph, x: &V3) -> (Id, V3) {
+        match self.chart {
+            Chart::Exponential => {
+                let angle = self.angle(graph, x);
+                let (w, s) = (angle.half_cosine(graph), angle.half_sine(graph));
+                (w, scaled(graph, s, x))
+            }
+            Chart::Cayley if self.double_cover => {
+                // (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
+                let (quarter, one, two) =
+                    (graph.constant(0.25), graph.constant(1.0), graph.constant(2.0));
+                let a = scaled(graph, quarter, x);
+                let n = dot(graph, &a, &a);
+                let below = graph.add(one, n);
+                let factor = graph.div(one, below);
+                let above = graph.sub(one, n);
+                let w = graph.mul(above, factor);
+                let factor = graph.mul(two, factor);
+                (w, scaled(graph, factor, &a))
+            }
+            Chart::Cayley => {
+                // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
+                let (half, one) = (graph.constant(0.5), graph.constant(1.0));
+                let a = scaled(graph, half, x);
+                let n = dot(graph, &a, &a);
+                let below = graph.add(one, n);
+                let below = graph.sqrt(below);
+                let w = graph.div(one, below);
+                (w, scaled(graph, w, &a))
+            }
+        }
+    }
+}
+
+/// 1 + |a|² and (1 − |a|²)μ + 2(a·μ)a + 2 μ×a, a = x/4: with them (d^R cay_x)ᵀ μ on SU(2) is the second by the square of
+/// the first.
+fn doubled(graph: &mut Graph, a: &V3, mu: &V3) -> (Id, V3) {
+    let (one, two) = (graph.constant(1.0), graph.constant(2.0));
+    let n = dot(graph, a, a);
+    let along = dot(graph, a, mu);
+    let turned = cross(graph, mu, a);
+    let bent = plus(graph, &turned, along, a);
+    let rest = graph.sub(one, n);
+    let rest = scaled(graph, rest, mu);
+    (graph.add(one, n), plus(graph, &rest, two, &bent))
+}
+
+impl Part for Rotation {
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn element(&self) -> usize {
+        4
+    }
+
+    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        let (x, mu) = (three(x, 0), three(mu, 0));
+        match self.chart {
+            Chart::Exponential => {
+                let angle = self.angle(graph, &x);
+                let (b, c) = (angle.b(graph), angle.c(graph));
+                dexp_transpose(graph, b, c, &x, &mu).to_vec()
+            }
+            Chart::Cayley => self.pull_back_with_derivative(graph, &x, &mu).0,
+        }
+    }
+
+    fn pull_back_with_derivative(
+        &self,
+        graph: &mut Graph,
+        x: &[Id],
+        mu: &[Id],
+    ) -> (Vec<Id>, Matrix) {
+        let (x, mu) = (three(x, 0), three(mu, 0));
+        let (half, quarter, one) = (graph.constant(0.5), graph.constant(0.25), graph.constant(1.0));
+        match self.chart {
+            Chart::Exponential => {
+                let angle = self.angle(graph, &x);
+                let k = Dexp::new(graph, angle, Accuracy::Newton);
+                let (value, derivative) = dexp_with_derivative(graph, &k, &x, &mu);
+                (value.to_vec(), derivative)
+            }
+            Chart::Cayley if self.double_cover => {
+                let a = scaled(graph, quarter, &x);
+                let (m, y) = doubled(graph, &a, &mu);
+                let square = graph.mul(m, m);
+                let factor = graph.div(one, square);
+                let value = scaled(graph, factor, &y);
+                // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
+                let diagonal = dot(graph, &a, &mu);
+                let turn = turned(graph, &mu, diagonal);
+                let weight = graph.mul(half, factor);
+                let shrink = graph.div(one, m);
+                let derivative = Matrix::new(3, 3, |i, j| {
+                    let back = graph.neg(mu[i]);
+                    let slope = graph.times_plus(a[i], mu[j], turn.at(i, j));
+                    let slope = graph.times_plus(back, a[j], slope);
+                    let along = graph.mul(value[i], a[j]);
+                    let along = graph.mul(along, shrink);
+                    let along = graph.neg(along);
+                    graph.times_plus(slope, weight, along)
+                });
+                (value.to_vec(), derivative)
+            }
+            Chart::Cayley => {
+                // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
+                let square = dot(graph, &x, &x);
+                let below = graph.times_plus(square, quarter, one);
+                let factor = graph.div(one, below);
+                let once = cross(graph, &mu, &x);
+                let value = plus(graph, &mu, half, &once);
+                let value = scaled(graph, factor, &value);
+                let half_factor = graph.mul(half, factor);
+                let turn = scaled(graph, half_factor, &mu);
+                let along = scaled(graph, half_factor, &value);
+                let along = minus(graph, &along);
+                let zero = graph.zero();
+                let turn = turned(graph, &turn, zero);
+                let derivative =
+                    Matrix::new(3, 3, |i, j| graph.times_plus(along[i], x[j], turn.at(i, j)));
+                (value.to_vec(), derivative)
+            }
+        }
+    }
+
+    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+        let (x, mu) = (three(x, 0), three(mu, 0));
+        let (w, u) = self.increment(graph, &x);
+        let moved = rotate_back(graph, w, &u, &mu);
+        Moved { g: compose(graph, g, w, &u), mu: moved.to_vec() }
+    }
+
+    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+        let (y, mu) = (three(y, 0), three(mu, 0));
+        let t = dot(graph, &y, &y);
+        let angle = WideAngle::new(graph, t);
+        let u = scaled(graph, angle.half_sine, &y);
+        let moved = rotate_back(graph, angle.half_cosine, &u, &mu);
+        Some(Moved { g: compose(graph, g, angle.half_cosine, &u), mu: moved.to_vec() })
+    }
+
+    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+        let square = dot(graph, x, x);
+        let limit = match (self.chart, self.double_cover) {
+            (Chart::Exponential, false) => std::f64::consts::PI.powi(2),
+            (Chart::Exponential, true) => self.reach(),
+            (Chart::Cayley, false) => 4.0,
+            (Chart::Cayley, true) => 16.0,
+        };
+        let scale = graph.constant(1.0 / limit);
+        graph.mul(square, scale)
+    }
+
+    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+        let (norm, one) = (dot(graph, g, g), graph.constant(1.0));
+        let off = graph.sub(norm, one);
+        graph.abs(off)
+    }
+
+    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix {
+        if !self.double_cover {
+            return rotation_matrix(graph, g);
+        }
+        // w − i(xσ₁ + yσ₂ + zσ₃) as the real matrix ((a, −b), (b, a)).
+        let (w, [x, y, z]) = (g[0], three(g, 1));
+        let [mx, my, mz] = minus(graph, &[x, y, z]);
+        let rows = [[w, my, z, x], [y, w, x, mz], [mz, mx, w, my], [mx, z, y, w]];
+        Matrix::new(4, 4, |i, j| rows[i][j])
+    }
+
+    fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        if !self.double_cover {
+            return quaternion_of(matrix, 3);
+        }
+        let m = |i: usize, j: usize| matrix.get(i * 4 + j).copied().unwrap_or(0.0);
+        let q = [m(0, 0), -m(2, 1), m(1, 0), -m(2, 0)];
+        let norm = q.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        q.iter().map(|entry| entry / norm).collect()
+    }
+}

@@ -1,0 +1,458 @@
+//! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
+
+use num_traits::ToPrimitive;
+
+use crate::graph::{Graph, Id};
+use crate::lie::{Chart, LieAlgebra, RationalMatrix};
+use crate::number::Rational;
+use crate::step::part::{Moved, Part};
+use crate::step::vector::{Matrix, finite, largest, solve};
+
+/// What series may leave out: below rounding, and for derivatives, which Newton's method alone uses.
+const ROUNDING: f64 = 1e-17;
+const NEWTON: f64 = 1e-10;
+
+/// How far ½‖X‖ may go with the Cayley map: 1 − X/2 stays far from singular.
+const CAYLEY_REACH: f64 = 0.9;
+
+/// A group by tables.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    chart: Chart,
+    dim: usize,
+    size: usize,
+    /// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
+    structure: Vec<(usize, usize, usize, f64)>,
+    /// The matrices of the basis, as entries.
+    basis: Vec<Vec<(usize, usize, f64)>>,
+    /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ.
+    dual: Vec<Vec<(usize, usize, f64)>>,
+    /// The norm of ad_x and of X up to which series are exact to rounding.
+    reach: f64,
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+impl Tables {
+    /// The group of this algebra; its series hold up to this norm of ad_x and of the matrix of x. `None` where its
+    /// matrices are not linearly independent.
+    pub fn new(algebra: &LieAlgebra, chart: Chart, reach: f64) -> Option<Self> {
+        let dim = algebra.dim();
+        let mut structure = Vec::new();
+        for c in algebra.structure() {
+            for (i, j, value) in [(c.i, c.j, float(&c.value)), (c.j, c.i, -float(&c.value))] {
+                if !structure.iter().any(|&(a, b, k, _)| (a, b, k) == (i, j, c.k)) {
+                    structure.push((i, j, c.k, value));
+                }
+            }
+        }
+        let adjoint;
+        let matrices = match algebra.basis() {
+            Some(matrices) => matrices,
+            None => {
+                adjoint = (0..dim).map(|i| adjoint_matrix(algebra, i)).collect::<Vec<_>>();
+                &adjoint
+            }
+        };
+        let size = matrices.first().map_or(dim, RationalMatrix::rows);
+        let entries = |matrix: &RationalMatrix| {
+            let entries = matrix.entries().map(|(i, j, value)| (i, j, float(value)));
+            entries.filter(|entry| entry.2 != 0.0).collect::<Vec<_>>()
+        };
+        let basis = matrices.iter().map(entries).collect();
+        let dual = match chart {
+            Chart::Cayley => dual_of(matrices)?.iter().map(entries).collect(),
+            Chart::Exponential => Vec::new(),
+        };
+        Some(Self { chart, dim, size, structure, basis, dual, reach })
+    }
+
+    /// ad_xᵀ as a matrix.
+    fn ad_transpose(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
+        let mut matrix = Matrix::zeros(graph, self.dim, self.dim);
+        for &(i, j, k, c) in &self.structure {
+            let c = graph.constant(c);
+            let value = graph.times_plus(c, x[i], matrix.at(j, k));
+            matrix.set(j, k, value);
+        }
+        matrix
+    }
+
+    /// Entry (j, i): Σₖ cᵢⱼᵏ vₖ, the derivative of ad_xᵀ v in x.
+    fn ad_slope(&self, graph: &mut Graph, v: &[Id]) -> Matrix {
+        let mut matrix = Matrix::zeros(graph, self.dim, self.dim);
+        for &(i, j, k, c) in &self.structure {
+            let c = graph.constant(c);
+            let value = graph.times_plus(c, v[k], matrix.at(j, i));
+            matrix.set(j, i, value);
+        }
+        matrix
+    }
+
+    /// The matrix of x.
+    fn represent(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
+        let mut matrix = Matrix::zeros(graph, self.size, self.size);
+        for (entries, &x) in self.basis.iter().zip(x) {
+            for &(i, j, value) in entries {
+                let value = graph.constant(value);
+                let value = graph.times_plus(value, x, matrix.at(i, j));
+                matrix.set(i, j, value);
+            }
+        }
+        matrix
+    }
+
+    /// φ(A)μ with φ(A) = (exp A − 1)/A, A = ad_xᵀ, by its Taylor series.
+    fn phi(&self, graph: &mut Graph, a: &Matrix, mu: &[Id]) -> Vec<Id> {
+        let mut term = mu.to_vec();
+        let mut sum = mu.to_vec();
+        for k in 1..=terms(self.reach, ROUNDING) {
+            let factor = graph.constant(1.0 / (k + 1) as f64);
+            term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
+            if term.iter().all(|&entry| graph.is_zero(entry)) {
+                break;
+            }
+            sum = sum.iter().zip(&term).map(|(&a, &b)| graph.add(a, b)).collect();
+        }
+        sum
+    }
+
+    /// The derivative of φ(ad_xᵀ)μ in x.
+    fn phi_slope(&self, graph: &mut Graph, a: &Matrix, mu: &[Id]) -> Matrix {
+        let one = graph.constant(1.0);
+        let mut term = mu.to_vec();
+        let mut slope = Matrix::zeros(graph, self.dim, self.dim);
+        let mut sum = slope.clone();
+        for k in 1..=terms(self.reach, NEWTON) {
+            let factor = graph.constant(1.0 / (k + 1) as f64);
+            let carried = a.times(graph, &slope);
+            let own = self.ad_slope(graph, &term);
+            let both = carried.plus(graph, one, &own);
+            slope = Matrix::new(self.dim, self.dim, |i, j| graph.mul(both.at(i, j), factor));
+            term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
+            if slope.is_zero(graph) {
+                break;
+            }
+            sum = sum.plus(graph, one, &slope);
+        }
+        sum
+    }
+
+    /// exp X by its Taylor series in powers of a power (M. Paterson and L. Stockmeyer, SIAM J. Comput. 2, 1973).
+    fn exponential(&self, graph: &mut Graph, x: &Matrix) -> Matrix {
+        let degree = terms(self.reach, ROUNDING) + 1;
+        let stride = (degree as f64).sqrt().round() as usize;
+        let identity = self.identity(graph);
+        let mut powers = vec![identity];
+        while powers.len() <= stride {
+            let next = match powers.len() {
+                1 => x.clone(),
+                count => powers[count - 1].times(graph, x),
+            };
+            powers.push(next);
+        }
+        let (high, low) = (powers[stride].clone(), &powers[..stride]);
+        let mut sum: Option<Matrix> = None;
+        for block in (0..=degree / stride).rev() {
+            let mut total = match sum {
+                Some(sum) => sum.times(graph, &high),
+                None => Matrix::zeros(graph, self.size, self.size),
+            };
+            // Small coefficients first.
+            for (i, power) in low.iter().enumerate().rev() {
+                let inverse = 1.0 / factorial(block * stride + i);
+                let coefficient = graph.constant(inverse);
+                total = total.plus(graph, coefficient, power);
+            }
+            sum = Some(total);
+        }
+        sum.unwrap_or_else(|| self.identity(graph))
+    }
+
+    fn identity(&self, graph: &mut Graph) -> Matrix {
+        let (zero, one) = (graph.zero(), graph.constant(1.0));
+        Matrix::new(self.size, self.size, |i, j| if i == j { one } else { zero })
+    }
+
+    /// (1 + s·X/2)⁻¹, s = ±1.
+    fn resolvent(&self, graph: &mut Graph, x: &Matrix, s: f64) -> Matrix {
+        let half = graph.constant(0.5 * s);
+        let identity = self.identity(graph);
+        let matrix = identity.plus(graph, half, x);
+        let columns: Vec<Vec<Id>> = (0..self.size)
+            .map(|j| {
+                let unit: Vec<Id> = (0..self.size).map(|i| identity.at(i, j)).collect();
+                solve(graph, &matrix, &unit)
+            })
+            .collect();
+        Matrix::new(self.size, self.size, |i, j| columns[j][i])
+    }
+
+    /// Σ μₖ Dₖ, with ⟨Σ μₖ Dₖ, ξ⟩ = ⟨μ, ξ⟩.
+    fn functional(&self, graph: &mut Graph, mu: &[Id]) -> Matrix {
+        let mut matrix = Matrix::zeros(graph, self.size, self.size);
+        for (entries, &mu) in self.dual.iter().zip(mu) {
+            for &(i, j, value) in entries {
+                let value = graph.constant(value);
+                let value = graph.times_plus(value, mu, matrix.at(i, j));
+                matrix.set(i, j, value);
+            }
+        }
+        matrix
+    }
+
+    /// The coordinates ⟨Z, Eᵢ⟩.
+    fn coordinates(&self, graph: &mut Graph, z: &Matrix) -> Vec<Id> {
+        let coordinate = |entries: &Vec<(usize, usize, f64)>| {
+            let mut sum = graph.zero();
+            for &(i, j, value) in entries {
+                let value = graph.constant(value);
+                sum = graph.times_plus(value, z.at(i, j), sum);
+            }
+            sum
+        };
+        self.basis.iter().map(coordinate).collect()
+    }
+
+    /// Aᵀ W Bᵀ
+    fn between(&self, graph: &mut Graph, a: &Matrix, w: &Matrix, b: &Matrix) -> Matrix {
+        let a = Matrix::new(self.size, self.size, |i, j| a.at(j, i));
+        let b = Matrix::new(self.size, self.size, |i, j| b.at(j, i));
+        a.times(graph, w).times(graph, &b)
+    }
+}
+
+/// How many terms after the first φ takes, where A has this norm and what is left out is to be below `accuracy`.
+fn terms(norm: f64, accuracy: f64) -> usize {
+    let mut term = 1.0;
+    for k in 1..200 {
+        term *= norm / (k + 1) as f64;
+        // Derivatives have a factor of k more.
+        if term * (k as f64) < accuracy {
+            return k;
+        }
+    }
+    200
+}
+
+fn factorial(n: usize) -> f64 {
+    (2..=n).map(|i| i as f64).product()
+}
+
+/// The matrix of ad_{eᵢ}: entry (k, j) is cᵢⱼᵏ.
+fn adjoint_matrix(algebra: &LieAlgebra, i: usize) -> RationalMatrix {
+    let n = algebra.dim();
+    let entries = algebra.structure().iter().flat_map(|c| {
+        let own = (c.i == i).then(|| (c.k, c.j, c.value.clone()));
+        let other = (c.j == i).then(|| (c.k, c.i, -c.value.clone()));
+        own.into_iter().chain(other)
+    });
+    let mut seen = std::collections::BTreeMap::new();
+    for (row, column, value) in entries {
+        seen.insert((row, column), value);
+    }
+    RationalMatrix::from_entries(n, n, seen.into_iter().map(|((i, j), value)| (i, j, value)))
+}
+
+/// Matrices Dₖ in the span of the Eₗ with ⟨Dₖ, Eₗ⟩ = δₖₗ; `None` where these are linearly dependent.
+fn dual_of(basis: &[RationalMatrix]) -> Option<Vec<RationalMatrix>> {
+    use num_traits::{One, Zero};
+    let n = basis.len();
+    let product = |a: &RationalMatrix, b: &RationalMatrix| {
+        a.entries().fold(Rational::zero(), |sum, (i, j, value)| sum + value * b.get(i, j))
+    };
+    // [G | 1], to be reduced to [1 | G⁻¹].
+    let mut rows: Vec<Vec<Rational>> = (0..n)
+        .map(|k| {
+            let gram = (0..n).map(|l| product(&basis[k], &basis[l]));
+            let unit = (0..n).map(|l| if k == l { Rational::one() } else { Rational::zero() });
+            gram.chain(unit).collect()
+        })
+        .collect();
+    for pivot in 0..n {
+        let found = (pivot..n).find(|&row| !rows[row][pivot].is_zero())?;
+        rows.swap(pivot, found);
+        let scale = rows[pivot][pivot].clone();
+        rows[pivot].iter_mut().for_each(|entry| *entry = &*entry / &scale);
+        for row in 0..n {
+            if row != pivot && !rows[row][pivot].is_zero() {
+                let factor = rows[row][pivot].clone();
+                let own = rows[pivot].clone();
+                for (entry, value) in rows[row].iter_mut().zip(own) {
+                    *entry = &*entry - &factor * value;
+                }
+            }
+        }
+    }
+    let size = basis.first().map_or((0, 0), |matrix| (matrix.rows(), matrix.columns()));
+    let dual = rows.iter().map(|row| {
+        let zero = RationalMatrix::zero(size.0, size.1);
+        row[n..].iter().zip(basis).fold(zero, |sum, (weight, matrix)| sum.plus(matrix, weight))
+    });
+    Some(dual.collect())
+}
+
+impl Part for Tables {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn element(&self) -> usize {
+        self.size * self.size
+    }
+
+    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        match self.chart {
+            Chart::Exponential => {
+                let a = self.ad_transpose(graph, x);
+                self.phi(graph, &a, mu)
+            }
+            Chart::Cayley => {
+                // p: ξ ↦ ⟨μ, (1 − X/2)⁻¹ ξ (1 + X/2)⁻¹⟩
+                let x = self.represent(graph, x);
+                let (left, right) =
+                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
+                let w = self.functional(graph, mu);
+                let z = self.between(graph, &left, &w, &right);
+                self.coordinates(graph, &z)
+            }
+        }
+    }
+
+    fn pull_back_with_derivative(
+        &self,
+        graph: &mut Graph,
+        x: &[Id],
+        mu: &[Id],
+    ) -> (Vec<Id>, Matrix) {
+        match self.chart {
+            Chart::Exponential => {
+                let a = self.ad_transpose(graph, x);
+                (self.phi(graph, &a, mu), self.phi_slope(graph, &a, mu))
+            }
+            Chart::Cayley => {
+                let x = self.represent(graph, x);
+                let (left, right) =
+                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
+                let w = self.functional(graph, mu);
+                let z = self.between(graph, &left, &w, &right);
+                let value = self.coordinates(graph, &z);
+                // Along Eⱼ: L′ = ½ L Eⱼ L and R′ = −½ R Eⱼ R, so that Z′ = ½ (Lᵀ Eⱼᵀ Z − Z Eⱼᵀ Rᵀ).
+                let half = graph.constant(0.5);
+                let minus = graph.constant(-1.0);
+                let columns: Vec<Vec<Id>> = (0..self.dim)
+                    .map(|j| {
+                        let unit: Vec<Id> = (0..self.dim)
+                            .map(|i| graph.constant(f64::from(u8::from(i == j))))
+                            .collect();
+                        let e = self.represent(graph, &unit);
+                        let e = Matrix::new(self.size, self.size, |i, j| e.at(j, i));
+                        let l = Matrix::new(self.size, self.size, |i, j| left.at(j, i));
+                        let r = Matrix::new(self.size, self.size, |i, j| right.at(j, i));
+                        let first = l.times(graph, &e).times(graph, &z);
+                        let second = z.times(graph, &e).times(graph, &r);
+                        let change = first.plus(graph, minus, &second);
+                        let change = self.coordinates(graph, &change);
+                        change.iter().map(|&entry| graph.mul(half, entry)).collect()
+                    })
+                    .collect();
+                (value, Matrix::new(self.dim, self.dim, |i, j| columns[j][i]))
+            }
+        }
+    }
+
+    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        match self.chart {
+            Chart::Exponential => {
+                let a = self.ad_transpose(graph, x);
+                // exp(A)μ = μ + A φ(A) μ
+                let p = self.phi(graph, &a, mu);
+                let change = a.apply(graph, &p);
+                let mu = mu.iter().zip(change).map(|(&mu, change)| graph.add(mu, change)).collect();
+                let x = self.represent(graph, x);
+                let increment = self.exponential(graph, &x);
+                Moved { g: own.times(graph, &increment).entries().to_vec(), mu }
+            }
+            Chart::Cayley => {
+                let x = self.represent(graph, x);
+                let half = graph.constant(0.5);
+                let minus = graph.constant(-0.5);
+                let identity = self.identity(graph);
+                let (left, right) =
+                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
+                let forward = identity.plus(graph, half, &x);
+                let back = identity.plus(graph, minus, &x);
+                let increment = left.times(graph, &forward);
+                let inverse = right.times(graph, &back);
+                let w = self.functional(graph, mu);
+                let z = self.between(graph, &increment, &w, &inverse);
+                let mu = self.coordinates(graph, &z);
+                Moved { g: own.times(graph, &increment).entries().to_vec(), mu }
+            }
+        }
+    }
+
+    fn move_frame(&self, _: &mut Graph, _: &[Id], _: &[Id], _: &[Id]) -> Option<Moved> {
+        // Frames move on by any angle, which series of a fixed length cannot follow.
+        None
+    }
+
+    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+        let rest = finite(graph, x);
+        let matrix = self.represent(graph, x);
+        let rows = |graph: &mut Graph, matrix: &Matrix| {
+            let rows: Vec<Id> = (0..matrix.rows())
+                .map(|i| {
+                    let mut sum = graph.zero();
+                    for j in 0..matrix.entries().len() / matrix.rows().max(1) {
+                        let entry = graph.abs(matrix.at(i, j));
+                        sum = graph.add(sum, entry);
+                    }
+                    sum
+                })
+                .collect();
+            largest(graph, &rows)
+        };
+        let size = match self.chart {
+            Chart::Cayley => {
+                let norm = rows(graph, &matrix);
+                let scale = graph.constant(0.5 / CAYLEY_REACH);
+                graph.mul(norm, scale)
+            }
+            Chart::Exponential => {
+                let a = self.ad_transpose(graph, x);
+                let scale = graph.constant(1.0 / self.reach);
+                // Where the series ends by itself there is no limit.
+                let squared = a.times(graph, &a);
+                let inside = match squared.is_zero(graph) {
+                    true => graph.zero(),
+                    false => rows(graph, &a),
+                };
+                let squared = matrix.times(graph, &matrix);
+                let cubed = squared.times(graph, &matrix);
+                let own = match cubed.is_zero(graph) {
+                    true => graph.zero(),
+                    false => rows(graph, &matrix),
+                };
+                let norm = graph.max(inside, own);
+                graph.mul(norm, scale)
+            }
+        };
+        graph.add(size, rest)
+    }
+
+    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+        finite(graph, g)
+    }
+
+    fn matrix(&self, _: &mut Graph, g: &[Id]) -> Matrix {
+        Matrix::new(self.size, self.size, |i, j| g[i * self.size + j])
+    }
+
+    fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        matrix.to_vec()
+    }
+}

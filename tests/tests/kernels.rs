@@ -1,0 +1,222 @@
+//! Steps as programs make the runtime's steps, to rounding, on every group and chart; lanes have the bits of scalars.
+#![allow(clippy::unwrap_used)]
+
+use coadjoint::generating::PolynomialFunction;
+use coadjoint::groups::{CayleyMatrixGroup, MatrixGroup};
+use coadjoint::{Cayley, Chart, Exponential, LieGroup, Phase, advance};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie;
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::system::{Options, read};
+use coadjoint_program::{Scratch, WIDTH};
+use coadjoint_tests::bridge::{matrix_group, series_function};
+use nalgebra::{DMatrix, DVector};
+
+/// Groups with a Hamiltonian on each.
+const SYSTEMS: [(&str, &str); 13] = [
+    ("SO3", "a^2/3 + b^2/4 + c^2/5"),
+    ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7"),
+    ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9"),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*f/8"),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + 2*d + e/2 + f/3"),
+    ("Heisenberg", "a^2/2 + b^2/3 + c^2/5 + a*c/4"),
+    ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9"),
+    ("Aff1", "a^2/5 + b^2/6"),
+    ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8"),
+    ("SU3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + g^2/9 + h^2/10"),
+    ("SO3^2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*e/10"),
+    ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),
+    ("SO3", "a^2/3 + b^2/4 + c^2/5 + a^4/50 + a*b*c/9"),
+];
+
+const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
+
+fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
+    let dim = lie::catalogue::lookup(group).unwrap().dim();
+    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "group = {group:?}\nchart = {chart:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n"
+    );
+    let options = Options { truncation: Some(truncation), ..Options::default() };
+    Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
+}
+
+fn momentum(n: usize, size: f64) -> Vec<f64> {
+    (0..n).map(|i| size * (1.3 + 2.1 * i as f64).sin()).collect()
+}
+
+fn compare<G, C>(
+    name: &str,
+    integrator: &Integrator,
+    group: G,
+    runtime: &PolynomialFunction<G, C>,
+    h: f64,
+) where
+    G: LieGroup<Scalar = f64, Vector = DVector<f64>>,
+    C: Chart<G>,
+{
+    let step = Step::build(integrator, REACH).unwrap();
+    let kernel = step.kernel();
+    let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
+    let n = kernel.dim();
+    let mut phase = Phase::<G>::new(group.identity(), DVector::from_vec(momentum(n, 0.9)));
+    let size = group.matrix_size();
+    let matrix = |phase: &Phase<G>| -> Vec<f64> {
+        let entry = |at: usize| group.matrix_entry(&phase.group_element, at / size, at % size);
+        (0..size * size).map(entry).collect()
+    };
+    let mut g = step.element_of(&matrix(&phase));
+    let mut mu = phase.momentum.as_slice().to_vec();
+    const STEPS: u64 = 20;
+    let outcome = kernel.advance(&slots, &mut g, &mut mu, STEPS);
+    assert_eq!(outcome.steps, STEPS, "{name}: refused");
+    assert!(outcome.corrections <= 4, "{name}: {} corrections", outcome.corrections);
+    for _ in 0..STEPS {
+        advance(runtime, &mut phase).unwrap();
+    }
+    let scale = phase.momentum.amax();
+    for (found, wanted) in mu.iter().zip(&phase.momentum) {
+        assert!((found - wanted).abs() < 4e-14 * scale, "{name}: μ {found} for {wanted}");
+    }
+    let mut found = vec![0.0; size * size];
+    kernel.programs().matrix.run(&g, &[], &mut Vec::new(), &mut found);
+    let wanted = matrix(&phase);
+    let largest = wanted.iter().fold(1.0_f64, |a, b| a.max(b.abs()));
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found - wanted).abs() < 1e-13 * largest, "{name}: g {found} for {wanted}");
+    }
+    lanes(name, &step, &slots);
+    watched(name, &step, &slots, &momentum(n, 0.9), &mu, &g);
+}
+
+/// Lanes have the bits of scalars; one that is refused changes no neighbour.
+fn lanes(name: &str, step: &Step, slots: &[f64]) {
+    let kernel = step.kernel();
+    let (n, m) = (kernel.dim(), kernel.element());
+    let rows = (kernel.programs().matrix.outputs().len() as f64).sqrt() as usize;
+    let identity = step.element_of(DMatrix::<f64>::identity(rows, rows).as_slice());
+    // The last lane is driven far too hard.
+    let start = |lane: usize| match lane {
+        7 => momentum(n, 1e8),
+        lane => momentum(n, 0.2 + 0.1 * lane as f64),
+    };
+    let (mut g, mut mu) = (vec![0.0; m * WIDTH], vec![0.0; n * WIDTH]);
+    for lane in 0..WIDTH {
+        for i in 0..m {
+            g[i * WIDTH + lane] = identity[i];
+        }
+        for i in 0..n {
+            mu[i * WIDTH + lane] = start(lane)[i];
+        }
+    }
+    let mut live = [true; WIDTH];
+    live[3] = false;
+    let made = kernel.advance_lanes(slots, &mut g, &mut mu, 300, live);
+    for lane in 0..WIDTH {
+        let (mut own_g, mut own_mu) = (identity.clone(), start(lane));
+        let steps = if live[lane] { 300 } else { 0 };
+        let outcome = kernel.advance(slots, &mut own_g, &mut own_mu, steps);
+        assert_eq!(made[lane], outcome.steps, "{name}, lane {lane}");
+        for (i, value) in own_g.iter().enumerate() {
+            assert_eq!(value.to_bits(), g[i * WIDTH + lane].to_bits(), "{name}, lane {lane}");
+        }
+        for (i, value) in own_mu.iter().enumerate() {
+            assert_eq!(value.to_bits(), mu[i * WIDTH + lane].to_bits(), "{name}, lane {lane}");
+        }
+    }
+}
+
+/// Energy and Casimirs at the end are what they were.
+fn watched(name: &str, step: &Step, slots: &[f64], start: &[f64], mu: &[f64], g: &[f64]) {
+    let kernel = step.kernel();
+    let count = kernel.programs().watch.outputs().len();
+    let (mut before, mut after) = (vec![0.0; count], vec![0.0; count]);
+    let mut scratch = Scratch::default();
+    kernel.watch(slots, g, start, &mut scratch, &mut before);
+    kernel.watch(slots, g, mu, &mut scratch, &mut after);
+    assert!((before[0] - after[0]).abs() < 1e-4 * before[0].abs(), "{name}: energy");
+    for (before, after) in before.iter().zip(&after).skip(1) {
+        assert!((before - after).abs() < 1e-13 * before.abs().max(1.0), "{name}: Casimir");
+    }
+}
+
+#[test]
+fn programs_make_the_steps_of_the_runtime() {
+    let mut tried = 0;
+    for (group, hamiltonian) in SYSTEMS {
+        for truncation in [3, 5, 7] {
+            if truncation == 7 && group.starts_with("SU3") {
+                continue;
+            }
+            for chart in ["exp", "cayley"] {
+                let algebra = lie::catalogue::lookup(group).unwrap();
+                let cayley = chart == "cayley";
+                if cayley && lie::Chart::Cayley.check(&algebra).is_err() {
+                    continue;
+                }
+                let name = format!("{group}, {chart}, K = {truncation}");
+                let integrator = integrator(group, hamiltonian, chart, truncation);
+                let own = matrix_group(&algebra).unwrap();
+                let h = 0.2;
+                if cayley {
+                    let own: CayleyMatrixGroup = own.into_cayley().unwrap();
+                    let runtime =
+                        series_function(own.clone(), Cayley, &integrator.series, h).unwrap();
+                    compare(&name, &integrator, own, &runtime, h);
+                } else {
+                    let own: MatrixGroup = own;
+                    let runtime =
+                        series_function(own.clone(), Exponential, &integrator.series, h).unwrap();
+                    compare(&name, &integrator, own, &runtime, h);
+                }
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 40, "{tried}");
+}
+
+#[test]
+fn what_is_driven_too_hard_is_refused_and_stays() {
+    let integrator = integrator("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", 5);
+    let step = Step::build(&integrator, REACH).unwrap();
+    let slots = step.slots(&integrator.coefficients.fold(0.5, &[]), f64::MAX);
+    for start in [vec![1e9, 1e8, 1e9], vec![f64::NAN, 1.0, 1.0], vec![1.0, f64::INFINITY, 1.0]] {
+        let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], start.clone());
+        let outcome = step.kernel().advance(&slots, &mut g, &mut mu, 10);
+        assert_eq!(outcome.steps, 0);
+        assert_eq!(g, [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(mu.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), start.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+    }
+    // Beyond the radius of the series.
+    let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 0.5);
+    let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.5, 0.3, 0.1]);
+    assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 10).steps, 0);
+    let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.3, 0.1]);
+    assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 10).steps, 10);
+}
+
+#[test]
+fn a_frame_moves_as_far_as_it_spins() {
+    // A body that spins many turns a step: the motion about its axis is in the frame.
+    let text = "group = \"SO3\"\nframe = \"comoving\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/3.2 + c^2/4\"\n";
+    let options = Options { truncation: Some(7), ..Options::default() };
+    let problem = read(text, options).unwrap().problem;
+    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
+    assert!(!integrator.frame.is_empty());
+    let step = Step::build(&integrator, REACH).unwrap();
+    let advance = |h: f64, steps: u64| {
+        let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
+        let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.2, 1.0]);
+        assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, steps).steps, steps);
+        (g, mu)
+    };
+    // Long and short steps to the same time.
+    let ((g, mu), (h, nu)) = (advance(2.0, 300), advance(0.25, 2400));
+    for (a, b) in mu.iter().zip(&nu) {
+        assert!((a - b).abs() < 1e-6, "{mu:?} {nu:?}");
+    }
+    let aligned = g.iter().zip(&h).map(|(a, b)| a * b).sum::<f64>();
+    assert!((aligned.abs() - 1.0).abs() < 1e-6, "{g:?} {h:?}");
+}
