@@ -244,7 +244,7 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Keep the state in this file, so that the same command goes on where it was stopped
-    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Write the checkpoint after so many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 20.0)]
