@@ -116,10 +116,7 @@ const LAWS: [(&str, &str, &str); 6] = [
 ];
 
 impl Trial<'_> {
-    fn laws<G: Group, C: Chart<G>>(
-        &self,
-        group: G,
-    ) -> Result<(Vec<Law>, Option<Steep>), CliError> {
+    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), CliError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let points: Vec<_> =
             (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();

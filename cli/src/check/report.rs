@@ -8,12 +8,7 @@ use super::{Law, Steep, Trial};
 use crate::arguments::Format;
 
 /// The text to print.
-pub fn report(
-    trial: &Trial<'_>,
-    laws: &[Law],
-    warning: Option<&Steep>,
-    format: Format,
-) -> String {
+pub fn report(trial: &Trial<'_>, laws: &[Law], warning: Option<&Steep>, format: Format) -> String {
     let problem = &trial.integrator.problem;
     match format {
         Format::Json => {

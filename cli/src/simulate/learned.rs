@@ -50,6 +50,9 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
     if found != expected {
         return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
     }
+    if let Some(bad) = options.start.iter().find(|value| !value.is_finite()) {
+        return Err(CliError::Option(format!("--start: {bad} is no finite number")));
+    }
     let schedule = schedule(time, model.step)?;
     let setup = Setup {
         file: path.into(),

@@ -14,8 +14,8 @@ use super::names::columns;
 use super::restore::Restore;
 use super::samples::Samples;
 use super::sink::Sink;
-use super::target::Target;
 use super::subject::Subject;
+use super::target::Target;
 use super::trajectory::{Moment, Recorder, Trajectory};
 use super::warning::Warning;
 use crate::error::CliError;
@@ -238,11 +238,8 @@ impl<'a, G: Restore> March<'a, G> {
         let schedule = &self.subject.setup.schedule;
         let (from, n) = (schedule.time(state.n), state.n + 1);
         let made = (stepper.step)(from, &mut state.phase);
-        let made = made.map_err(|source| CliError::Run {
-            time: from,
-            step: n,
-            what: source.to_string(),
-        })?;
+        let made =
+            made.map_err(|source| CliError::Run { time: from, step: n, what: source.to_string() })?;
         if let Some((iterations, residual)) = made.solve {
             let noted = state.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(n, what))?;

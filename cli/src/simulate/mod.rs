@@ -31,6 +31,7 @@ use crate::arguments::SimulateOptions;
 use crate::engine::{Energy, Forces, cayley_group, matrix_group, product_group};
 use crate::error::CliError;
 use crate::{load, progress};
+pub use header::text_hash;
 pub use schedule::schedule;
 use setup::Setup;
 use target::{Place, Target};
@@ -48,7 +49,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = std::fs::read_to_string(path)
         .map_err(|source| CliError::Read { path: path.clone(), source })?;
-    let hash = header::text_hash(&text);
+    let hash = text_hash(&text);
     let read = |truncation| {
         let (chart, solver) = (source.chart.map(Into::into), source.solver.map(Into::into));
         let parameters = Parameters::Substituted;

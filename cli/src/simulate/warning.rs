@@ -43,9 +43,11 @@ impl Warning {
                 "{option}: nothing better than the plain series was found, by steps that were held back; the plain \
                  series was used"
             ),
-            Self::NoAttitude => "learned from momenta alone: the attitude is not known and not written, since the \
+            Self::NoAttitude => {
+                "learned from momenta alone: the attitude is not known and not written, since the \
                                  data leave it open up to a rotation about the momentum"
-                .to_owned(),
+                    .to_owned()
+            }
         }
     }
 
