@@ -1,4 +1,9 @@
-//! Steps that were once accepted and are wrong: each is refused, or right.
+//! What was once wrong in the library: steps that solved nothing, and more. Each is refused, or right.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use coadjoint::generating::PolynomialFunction;
 use coadjoint::{
@@ -142,4 +147,62 @@ fn repeated_factors_are_powers_in_every_term() -> Result<(), Box<dyn std::error:
         assert_eq!(hessian, expected);
     }
     Ok(())
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+#[test]
+fn the_feature_of_build_scripts_is_named() {
+    for page in ["codegen/src/build_script.rs", "codegen/src/lib.rs"] {
+        let text = std::fs::read_to_string(root().join(page)).unwrap();
+        assert!(text.contains("features = [\"system\"]"), "{page}");
+    }
+}
+
+/// The build script of the runtime, built and run as cargo does.
+#[test]
+fn without_std_or_libm_one_sentence_says_what_is_missing() {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("runtime-build-script");
+    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let built = Command::new(compiler)
+        .args(["--edition", "2024", "-o"])
+        .arg(&program)
+        .arg(root().join("runtime/build.rs"))
+        .env("CARGO_PKG_VERSION", "0.0.0")
+        .status();
+    assert!(built.unwrap().success());
+    let said = |feature: &str| {
+        let mut command = Command::new(&program);
+        command.env_remove("CARGO_FEATURE_STD").env_remove("CARGO_FEATURE_LIBM");
+        let output = command.env(feature, "1").output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let without = said("CARGO_FEATURE_ALLOC");
+    assert_eq!(without.matches("cargo::error=").count(), 1, "{without}");
+    assert!(without.contains("`std`") && without.contains("`libm`"), "{without}");
+    for feature in ["CARGO_FEATURE_STD", "CARGO_FEATURE_LIBM"] {
+        assert!(!said(feature).contains("cargo::error"));
+    }
+}
+
+/// Numbers of steps are of 64 bits; addresses may have 32.
+#[test]
+fn no_number_of_steps_is_cut_to_the_width_of_an_address() {
+    let mut folders = vec![root().join("runtime/src")];
+    let mut files = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            files += 1;
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(!text.contains("steps as usize"), "{}", path.display());
+        }
+    }
+    assert!(files > 50);
 }

@@ -87,7 +87,7 @@ impl Steep {
     /// For people.
     pub fn text(self) -> String {
         format!(
-            "the series hardly converges at the points tried: its last two terms have the ratio {:.2}, above {STEEP}; \
+            "the series hardly converges at the points tried: its last two terms have the ratio {:.3}, above {STEEP}; \
              take a smaller step",
             self.ratio
         )

@@ -15,7 +15,7 @@ pub fn warning(outcome: &Outcome) -> Option<String> {
     (ratio != 0.0).then(|| {
         format!(
             "the series hardly converges for some rows: at a start or an end its last two terms have the ratio \
-             {ratio:.2}, above {STEEP}; the motion may be inaccurate: take a smaller step"
+             {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step"
         )
     })
 }

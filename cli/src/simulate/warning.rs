@@ -36,7 +36,7 @@ impl Warning {
         match self {
             Self::Steep(Steep { step, time, ratio }) => format!(
                 "the series hardly converges: from step {step}, at time {}, its last two terms have the ratio \
-                 {ratio:.2}, above {STEEP}; the motion may be inaccurate: take a smaller step",
+                 {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step",
                 shortest(*time)
             ),
             Self::FellBack { option } => format!(

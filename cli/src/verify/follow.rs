@@ -83,6 +83,15 @@ impl<'a> Follower<'a> {
             number += 1;
             let mut grid = true;
             let place = format!("row {number}, time {}", row[time]);
+            if last.is_none()
+                && row[time] == 0.0
+                && let Some(start) = table.numbers("initial_momentum")
+                && start != columns.momentum(&row)
+            {
+                found.blame(format!(
+                    "{place}: the momentum is not that which the file names as the start"
+                ));
+            }
             self.judge_energy(&place, columns, &row, &mut found);
             if let Some(last) = &last {
                 let steps = (row[time] - last[time]) / self.step;
@@ -102,13 +111,6 @@ impl<'a> Follower<'a> {
                 };
                 let state = |row: &[f64]| (columns.momentum(row), columns.element(row));
                 self.judge_row(&place, &state(last), &state(&row), (count, rest), &mut found);
-            } else if let Some(start) = table.numbers("initial_momentum")
-                && row[time] == 0.0
-                && start != columns.momentum(&row)
-            {
-                found.blame(format!(
-                    "{place}: the momentum is not that which the file names as the start"
-                ));
             }
             // A row beside the grid is where a step of its own led: the motion goes on from the grid.
             if grid {
@@ -194,7 +196,6 @@ impl<'a> Follower<'a> {
             found.blame(format!("{place}: a number is not finite"));
             return;
         }
-        self.judge_invariants(place, before, after, steps, found);
         let mut motion = Motion::new(&before.0);
         let mut twins = (steps > PROVEN).then(|| Twins::new(&before.0));
         for (size, count) in [(self.step, steps), (rest, u64::from(rest != 0.0))] {
@@ -213,6 +214,7 @@ impl<'a> Follower<'a> {
                 }
             }
         }
+        self.judge_invariants(place, before, after, (&motion, steps), found);
         let moved = steps > 0 || rest != 0.0;
         let deviations = match twins {
             Some(twins) => match compare(&motion, &twins, before, after) {
@@ -240,16 +242,23 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// What must be conserved from one state to another.
+    /// What must be conserved from one state to another by this motion. Rounding is relative to numbers that may be
+    /// larger on the way than what is left of them, by as much as the group's element stretches.
     fn judge_invariants(
         &self,
         place: &str,
         before: &State,
         after: &State,
-        steps: u64,
+        (motion, steps): (&Motion, u64),
         found: &mut Found,
     ) {
-        let most = DRIFT * (steps + 1) as f64;
+        let entries = self.invariants.matrix_size().pow(2);
+        let element = matrix(motion, entries);
+        let stretch = element.clone().try_inverse().map(|inverse| {
+            let size = element.nrows().max(1) as f64;
+            (element.norm() * inverse.norm() / size).max(1.0)
+        });
+        let most = DRIFT * (steps + 1) as f64 * stretch.unwrap_or(f64::NAN);
         for (index, drift) in self.invariants.casimir_drifts(&before.0, &after.0).enumerate() {
             found.casimir = maximum(found.casimir, drift);
             if !(drift <= most) {

@@ -47,6 +47,11 @@ impl Invariants {
         }
     }
 
+    /// The number of rows of the matrices of the group.
+    pub fn matrix_size(&self) -> usize {
+        self.factors.iter().map(|factor| factor.size).sum()
+    }
+
     /// The energy of a momentum, and the sum of the absolute values of its terms.
     pub fn energy(&self, mu: &[f64]) -> (f64, f64) {
         (self.hamiltonian.evaluate(mu), self.hamiltonian.magnitude(mu))
