@@ -14,7 +14,7 @@ use crate::reproduce::ReproduceOptions;
 /// Momentum-preserving integrators from a Hamiltonian.
 ///
 /// FILE is a system file in TOML: a Hamiltonian, a group, and what to run. Exit codes: 0 fine,
-/// 1 a failure while running, 2 bad input.
+/// 1 a failure while running, 2 bad input, 3 not verified, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "coadjoint", version)]
 pub struct Arguments {
@@ -244,7 +244,7 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Keep the state in this file, so that the same command goes on where it was stopped
-    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Write the checkpoint after so many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 20.0)]
@@ -303,7 +303,8 @@ pub struct EnsembleOptions {
 /// Options of `verify`.
 #[derive(Args, Debug)]
 pub struct VerifyOptions {
-    /// The system file and the output; the output alone, where it names its system
+    /// The system file and the output, .csv, .npy, .parquet or the .json of simulate's report; the output
+    /// alone, where it names its system. Exit code 1: a row is wrong; 3: a row could not be judged
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
     pub files: Vec<PathBuf>,
     /// The states that an ensemble started from

@@ -122,13 +122,16 @@ pub enum CliError {
         /// The list of reasons.
         list: Option<PathBuf>,
     },
+    /// Nothing can be said of some rows; what was found has been printed.
+    #[error("{0}")]
+    NotJudged(String),
     /// Laws that do not hold; the table has been printed.
     #[error("{0}")]
     Laws(String),
 }
 
 impl CliError {
-    /// 2 for bad input, 130 for an interruption, 1 for everything else.
+    /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_)
@@ -153,6 +156,7 @@ impl CliError {
             | Self::Run { .. }
             | Self::Rival(_)
             | Self::Laws(_) => 1,
+            Self::NotJudged(_) => 3,
             Self::Interrupted(_) => 130,
         }
     }

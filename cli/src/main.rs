@@ -2,7 +2,7 @@
 //!
 //! This crate only wires: reading and derivation are in `coadjoint-codegen`, groups and steps in
 //! `coadjoint`, learning in `coadjoint-learn`. Exit codes: 0 fine, 1 a failure while running (or a law
-//! that does not hold), 2 bad input.
+//! that does not hold), 2 bad input, 3 not verified (`verify` alone), 130 interrupted.
 
 #[macro_use]
 mod output;

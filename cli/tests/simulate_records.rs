@@ -292,26 +292,36 @@ fn setup_shows_progress_on_a_terminal() {
 
     use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
-    let terminal = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
-    grantpt(&terminal).unwrap();
-    unlockpt(&terminal).unwrap();
-    let name = ptsname(&terminal, Vec::new()).unwrap().into_string().unwrap();
-    let other = std::fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
-    command.current_dir(root()).env("TERM", "xterm").stdout(Stdio::null()).stderr(other);
-    command.args(["simulate", "examples/heavy_top.toml", "--truncation", "9", "--time", "0.5"]);
-    let mut child = command.spawn().unwrap();
-    drop(command);
-    let mut shown = Vec::new();
-    let mut piece = [0; 4096];
-    let mut terminal = std::fs::File::from(terminal);
-    // An error once nobody writes any more.
-    while let Ok(length @ 1..) = terminal.read(&mut piece) {
-        shown.extend_from_slice(&piece[..length]);
+    let body = "examples/heavy_top.toml";
+    let simulate = ["simulate", body, "--truncation", "9", "--time", "0.5"];
+    let emit = ["emit", body, "--truncation", "9"];
+    for (arguments, words) in [
+        (&simulate[..], &["deriving the series, K = 9"][..]),
+        (&emit, &["deriving S for K = 9", "writing the module"]),
+    ] {
+        let terminal = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+        grantpt(&terminal).unwrap();
+        unlockpt(&terminal).unwrap();
+        let name = ptsname(&terminal, Vec::new()).unwrap().into_string().unwrap();
+        let other = std::fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
+        command.current_dir(root()).env("TERM", "xterm").stdout(Stdio::null()).stderr(other);
+        command.args(arguments);
+        let mut child = command.spawn().unwrap();
+        drop(command);
+        let mut shown = Vec::new();
+        let mut piece = [0; 4096];
+        let mut terminal = std::fs::File::from(terminal);
+        // An error once nobody writes any more.
+        while let Ok(length @ 1..) = terminal.read(&mut piece) {
+            shown.extend_from_slice(&piece[..length]);
+        }
+        assert!(child.wait().unwrap().success());
+        let shown = String::from_utf8_lossy(&shown);
+        for word in words {
+            assert!(shown.contains(word), "{word}: {shown}");
+        }
     }
-    assert!(child.wait().unwrap().success());
-    let shown = String::from_utf8_lossy(&shown);
-    assert!(shown.contains("deriving the series, K = 9"), "{shown}");
     // Not on a pipe.
     let (_, _, error) = run(&["simulate", BODY, "--time", "1"]);
     assert_eq!(error, "");

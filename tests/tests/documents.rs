@@ -74,6 +74,19 @@ fn every_measurement_is_listed() {
     }
 }
 
+/// Every test that the page of defects names is there.
+#[test]
+fn every_defect_has_its_test() {
+    let page = read("docs/measurements/defects.md");
+    let mut count = 0;
+    for word in page.split('`').filter(|word| word.contains(".rs::")) {
+        let (file, name) = word.split_once("::").unwrap();
+        assert!(read(file).contains(&format!("fn {name}(")), "{word}");
+        count += 1;
+    }
+    assert!(count > 50, "{count}");
+}
+
 #[test]
 fn every_example_is_listed() {
     let overview = read("examples/README.md");

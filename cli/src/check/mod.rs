@@ -12,7 +12,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::arguments::CheckOptions;
-use crate::engine::{Forces, Group, Interpreter, cayley_group, product_group};
+use crate::engine::{
+    Forces, Group, Interpreter, STEEP, Steepness, advise, cayley_group, product_group,
+};
 use crate::error::CliError;
 use crate::load;
 
@@ -59,16 +61,37 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
         points: options.points,
         seed: options.seed,
     };
-    let laws = match integrator.problem.chart {
+    let (laws, warning) = match integrator.problem.chart {
         lie::Chart::Exponential => trial.laws::<_, Exponential>(group)?,
         lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?)?,
     };
-    out!("{}", report::report(&trial, &laws, options.format));
+    if let Some(warning) = &warning {
+        eprintln!("warning: {}", warning.text());
+    }
+    out!("{}", report::report(&trial, &laws, warning.as_ref(), options.format));
     let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
     if failed.is_empty() {
         return Ok(());
     }
     Err(CliError::Laws(format!("these laws do not hold: {}", failed.join(", "))))
+}
+
+/// The series hardly converges at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steep {
+    /// The largest ratio of its last two terms.
+    pub ratio: f64,
+}
+
+impl Steep {
+    /// For people.
+    pub fn text(self) -> String {
+        format!(
+            "the series hardly converges at the points tried: its last two terms have the ratio {:.3}, above {STEEP}; \
+             take a smaller step",
+            self.ratio
+        )
+    }
 }
 
 /// What is tried: a system, a step size, and points of a size.
@@ -93,13 +116,24 @@ const LAWS: [(&str, &str, &str); 6] = [
 ];
 
 impl Trial<'_> {
-    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<Vec<Law>, CliError> {
+    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), CliError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let points: Vec<_> =
             (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();
         let at = |source| CliError::Step { time: 0.0, source };
-        let map = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h).map_err(at);
-        let tried = laws::check(&map(self.step)?, Some(&map(-self.step)?), &points).map_err(at)?;
+        let make = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h);
+        let map = |h| make(h).map_err(at);
+        let there = map(self.step)?;
+        let steepness = Steepness::new(&there);
+        let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
+        let ratio = ratios.fold(0.0, worse);
+        let steep = (ratio > STEEP).then_some(Steep { ratio });
+        let tried = laws::check(&there, Some(&map(-self.step)?), &points).map_err(|error| {
+            let works = |step: &Interpreter<'_, G, C>| {
+                points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
+            };
+            at(advise(error, self.step, |h| make(h).is_ok_and(|step| works(&step))))
+        })?;
         let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
             let law = tried.iter().find(|law| law.name == known)?;
             let (value, bound, pass) = (law.value, law.bound, law.pass());
@@ -115,7 +149,7 @@ impl Trial<'_> {
         if let Some(forces) = self.forces {
             laws.extend(self.kicked::<G, C>(forces, &group, &points, &start).map_err(at)?);
         }
-        Ok(laws)
+        Ok((laws, steep))
     }
 
     /// The laws that are left to the whole step where a potential breaks the symmetry.

@@ -4,25 +4,27 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Law, Trial};
+use super::{Law, Steep, Trial};
 use crate::arguments::Format;
 
 /// The text to print.
-pub fn report(trial: &Trial<'_>, laws: &[Law], format: Format) -> String {
+pub fn report(trial: &Trial<'_>, laws: &[Law], warning: Option<&Steep>, format: Format) -> String {
     let problem = &trial.integrator.problem;
     match format {
         Format::Json => {
             let list: Vec<Value> = laws
                 .iter()
                 .map(|law| {
-                    // JSON has no infinity: null is an order beyond measure.
-                    let value = law.value.is_finite().then_some(law.value);
-                    json!({
+                    let mut object = json!({
                         "name": law.name,
-                        "value": value,
                         "bound": law.bound,
                         "pass": law.pass,
-                    })
+                    });
+                    // JSON has no infinity: an order beyond measure, or what is no number, has no key.
+                    if law.value.is_finite() {
+                        object["value"] = json!(law.value);
+                    }
+                    object
                 })
                 .collect();
             let object = json!({
@@ -32,6 +34,11 @@ pub fn report(trial: &Trial<'_>, laws: &[Law], format: Format) -> String {
                 "truncation": problem.truncation,
                 "step": trial.step,
                 "laws": list,
+                "warnings": warning.iter().map(|steep| json!({
+                    "kind": "series_ratio",
+                    "ratio": steep.ratio,
+                    "text": steep.text(),
+                })).collect::<Vec<_>>(),
             });
             format!("{object:#}\n")
         }
@@ -49,6 +56,9 @@ pub fn report(trial: &Trial<'_>, laws: &[Law], format: Format) -> String {
                 trial.points,
                 trial.seed
             );
+            if let Some(warning) = warning {
+                let _ = writeln!(out, "  warning: {}", warning.text());
+            }
             for law in laws {
                 let order = law.name.starts_with("order");
                 let (relation, value, bound) = if order {

@@ -41,7 +41,7 @@ fn fold_parts(integrator: &Integrator, step: f64) -> Result<Vec<f64>, StepError>
 }
 
 /// The terms of S_K and S_{K−2} with these coefficients, as (coefficient, order, monomial).
-fn of_last<'a>(
+pub(super) fn of_last<'a>(
     integrator: &'a Integrator,
     last: &'a [f64],
 ) -> impl Iterator<Item = (f64, usize, &'a [(u32, u32)])> {
@@ -77,13 +77,13 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     }
 
     /// Folds the coefficients for the step size, with the tail of the series summed for motions
-    /// that start with this momentum.
+    /// that start with this momentum; and that tail, which is plain where nothing better was found.
     pub fn tuned(
         integrator: &'a Integrator,
         group: G,
         step: f64,
         momentum: &G::Vector,
-    ) -> Result<Self, StepError>
+    ) -> Result<(Self, Tail<f64>), StepError>
     where
         G: LieGroup<Scalar = f64> + Clone,
     {
@@ -92,7 +92,7 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
             |factor: &dyn Fn(usize) -> f64| Self::fold(integrator, group.clone(), &parts, factor);
         let truncation = integrator.problem.truncation;
         let tail = Tail::along(truncation, [momentum.clone()], series)?;
-        Ok(series(&|k| tail.factor(k)))
+        Ok((series(&|k| tail.factor(k)), tail))
     }
 
     /// The coefficients of Σ factor(k) S_k.

@@ -50,6 +50,21 @@ impl Forces {
         }
     }
 
+    /// The longest flow of a step, as a share of it.
+    pub fn longest_flow(&self) -> f64 {
+        let parts = match self.splitting {
+            Splitting::Strang => Strang::PARTS,
+            Splitting::Rkn4 => Rkn4::PARTS,
+            Splitting::Rkn6 => Rkn6::PARTS,
+            Splitting::Prk4 => Prk4::PARTS,
+            Splitting::Prk6 => Prk6::PARTS,
+        };
+        parts.iter().copied().fold(0.0, |longest: f64, part| match part.abs() > longest.abs() {
+            true => part,
+            false => longest,
+        })
+    }
+
     /// The step of flows and kicks.
     pub fn step<'a, G: Group + 'a, C: Chart<G> + 'a>(
         &'a self,

@@ -1,15 +1,19 @@
 //! The step the command line runs: the interpreter of the expression graph on a group of tables.
 
+mod advise;
 mod group;
 mod interpreter;
 mod kick;
 mod lanes;
 mod polynomial;
+mod steep;
 
+pub use advise::advise;
 pub use group::{cayley_group, matrix_group, product_group};
 pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};
 pub use polynomial::{Energy, FloatPolynomial};
+pub use steep::{STEEP, Steepness};
 
 use std::ops::Range;
 

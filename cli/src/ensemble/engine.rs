@@ -1,10 +1,13 @@
 //! Advancing rows of states: in lanes, on the group's closed forms where it has them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
+use coadjoint::lanes::ensemble::{self, Failure};
 use coadjoint::{
-    Cayley, Chart, Exponential, GeneratingFunction, Phase, SE3, SO3, groups::CayleyMatrixGroup,
-    groups::MatrixGroup, lanes::F64x8, lanes::LaneGroup, lanes::Lanes, lanes::ensemble,
+    Cayley, Chart, Exponential, GeneratingFunction, Phase, SE3, SO3, StepError,
+    groups::CayleyMatrixGroup, groups::MatrixGroup, lanes::F64x8, lanes::LaneGroup, lanes::Lanes,
 };
 use coadjoint_codegen::graph::Arithmetic;
 use coadjoint_codegen::integrator::Integrator;
@@ -15,7 +18,7 @@ use rayon::prelude::*;
 
 use super::layout::{Attitude, Layout, Shape};
 use super::rows::{Rejected, Rows};
-use crate::engine::{Interpreter, matrix_group};
+use crate::engine::{Interpreter, STEEP, Steepness, advise, matrix_group};
 use crate::error::CliError;
 
 /// How far an attitude may be from the group, as for `coadjoint learn`: far above rounding in
@@ -29,14 +32,17 @@ pub struct Drift {
     pub spatial_momentum: f64,
     /// Of the Casimirs, each relative to itself (absolute where it is 0).
     pub casimirs: f64,
+    /// The largest ratio of the last two terms of the series at a start or an end, where it is worth a warning; else 0.
+    pub ratio: f64,
 }
 
 impl Drift {
-    /// The larger of each.
+    /// The larger of each; what is no number is larger than any.
     pub fn max(self, other: Self) -> Self {
         Self {
-            spatial_momentum: self.spatial_momentum.max(other.spatial_momentum),
-            casimirs: self.casimirs.max(other.casimirs),
+            spatial_momentum: larger(self.spatial_momentum, other.spatial_momentum),
+            casimirs: larger(self.casimirs, other.casimirs),
+            ratio: larger(self.ratio, other.ratio),
         }
     }
 }
@@ -50,9 +56,14 @@ pub trait Engine: Sync {
     fn casimirs(&self) -> usize;
 
     /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
-    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads.
-    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows) -> Drift;
+    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads. `made` is
+    /// told, again and again, how many steps every row has made.
+    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows, made: &dyn Fn(u64)) -> Drift;
 }
+
+/// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
+/// forgets everything at the end of so many steps, so that cutting a run there changes no bit.
+const STRETCH: u64 = 256;
 
 /// The engine of a system.
 pub fn engine<'a>(
@@ -84,14 +95,112 @@ fn on<'a, G, C>(
 where
     G: EnsembleGroup + 'a,
     C: Chart<G> + 'a,
-    Interpreter<'a, G, C>: Lanes<Group = G> + Sync,
+    Interpreter<'a, G, C>: Lanes<Group = G> + Send + Sync,
     <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
     Phase<G>: Send + Sync,
     G::Scalar: Arithmetic,
 {
-    let step = Interpreter::<G, C>::new(integrator, group, step)
+    let stepper = Interpreter::<G, C>::new(integrator, group, step)
         .map_err(|source| CliError::Step { time: 0.0, source })?;
-    Ok(Box::new(step))
+    Ok(Box::new(Steps { integrator, stepper, step, shorter: Mutex::default() }))
+}
+
+/// Steps of a system on a group.
+struct Steps<'a, G, C> {
+    integrator: &'a Integrator,
+    stepper: Interpreter<'a, G, C>,
+    step: f64,
+    /// Those of half the size, of a quarter, …, as far as they were needed to advise.
+    shorter: Mutex<Vec<Interpreter<'a, G, C>>>,
+}
+
+impl<'a, G: EnsembleGroup<Scalar: Number>, C: Chart<G>> Steps<'a, G, C>
+where
+    Interpreter<'a, G, C>: Lanes<Group = G>,
+{
+    /// The error of the next step of a state, with a step size that works there.
+    fn advise(&self, error: StepError, state: &Phase<G>) -> StepError {
+        // A thread that panicked has left whole steppers, if any.
+        let mut shorter = self.shorter.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut place = 0;
+        advise(error, self.step, |h| {
+            if shorter.len() == place {
+                let group = self.stepper.group().clone();
+                let Ok(stepper) = Interpreter::new(self.integrator, group, h) else { return false };
+                shorter.push(stepper);
+            }
+            place += 1;
+            coadjoint::advance(&shorter[place - 1], &mut state.clone()).is_ok()
+        })
+    }
+
+    /// The drifts of one row.
+    fn drift(&self, before: &Phase<G>, after: &Phase<G>) -> Drift {
+        use coadjoint::Coordinates;
+
+        let group = self.stepper.group();
+        let relative = |difference: f64, size: f64| {
+            if size > 0.0 { difference.abs() / size } else { difference.abs() }
+        };
+        let (start, end) = (before.spatial_momentum(group), after.spatial_momentum(group));
+        let difference = (0..group.dim()).map(|i| (end[i] - start[i]).abs()).fold(0.0, larger);
+        let casimirs = (0..group.casimir_count()).map(|index| {
+            let start = group.casimir(index, &before.momentum);
+            relative(group.casimir(index, &after.momentum) - start, start.abs())
+        });
+        let steepness = Steepness::new(&self.stepper);
+        let ratios = [before, after].map(|phase| steepness.ratio(&phase.momentum));
+        Drift {
+            spatial_momentum: relative(difference, before.momentum.largest_entry()),
+            casimirs: casimirs.fold(0.0, larger),
+            ratio: ratios.into_iter().filter(|&ratio| ratio > STEEP).fold(0.0, larger),
+        }
+    }
+}
+
+impl<'a, G, C> Steps<'a, G, C>
+where
+    G: EnsembleGroup<Scalar: Number>,
+    C: Chart<G>,
+    Interpreter<'a, G, C>: Lanes<Group = G> + Send + Sync,
+    <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
+    Phase<G>: Send + Sync,
+{
+    /// Makes the steps of all states; why those stopped that did, by their places.
+    fn march(
+        &self,
+        states: &mut [Phase<G>],
+        steps: u64,
+        made: &dyn Fn(u64),
+    ) -> BTreeMap<usize, Failure> {
+        let mut failed: BTreeMap<usize, Failure> = BTreeMap::new();
+        let mut going: Vec<usize> = (0..states.len()).collect();
+        let mut moving = states.to_vec();
+        let mut done = 0;
+        while done < steps && !going.is_empty() {
+            let stretch = STRETCH.min(steps - done);
+            let stopped = ensemble::advance_all(&self.stepper, &mut moving, stretch);
+            let mut goes_on = vec![true; moving.len()];
+            for failure in &stopped {
+                goes_on[failure.index] = false;
+                let error = self.advise(failure.error, &moving[failure.index]);
+                let place = going[failure.index];
+                failed.insert(place, Failure { index: place, step: done + failure.step, error });
+            }
+            if !stopped.is_empty() {
+                let mut kept = goes_on.iter();
+                going.retain(|_| kept.next() == Some(&true));
+                let mut kept = goes_on.iter();
+                moving.retain(|_| kept.next() == Some(&true));
+            }
+            done += stretch;
+            made(done);
+        }
+        for (place, state) in going.into_iter().zip(moving) {
+            states[place] = state;
+        }
+        failed
+    }
 }
 
 /// A group whose elements can be read from rows and written to them.
@@ -112,27 +221,30 @@ impl EnsembleGroup for SE3<f64> {}
 impl EnsembleGroup for MatrixGroup {}
 impl EnsembleGroup for CayleyMatrixGroup {}
 
-impl<'a, G, C> Engine for Interpreter<'a, G, C>
+impl<'a, G, C> Engine for Steps<'a, G, C>
 where
     G: EnsembleGroup<Scalar: Arithmetic>,
     C: Chart<G>,
-    Self: Lanes<Group = G> + Sync,
-    <Self as Lanes>::Over<F64x8>: Sync,
+    Interpreter<'a, G, C>: Lanes<Group = G> + Send + Sync,
+    <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
     Phase<G>: Send + Sync,
+    Self: Sync,
 {
     fn shape(&self) -> Shape {
-        let quaternions = G::quaternion_of(&self.group().identity()).is_some();
-        Shape { dim: self.group().dim(), matrix_size: self.group().matrix_size(), quaternions }
+        let group = self.stepper.group();
+        let quaternions = G::quaternion_of(&group.identity()).is_some();
+        Shape { dim: group.dim(), matrix_size: group.matrix_size(), quaternions }
     }
 
     fn casimirs(&self) -> usize {
-        self.group().casimir_count()
+        self.stepper.group().casimir_count()
     }
 
-    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows) -> Drift {
+    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows, made: &dyn Fn(u64)) -> Drift {
+        let group = self.stepper.group();
         let width = layout.width();
         let read: Vec<_> =
-            rows.values.par_chunks(width).map(|row| phase(self.group(), layout, row)).collect();
+            rows.values.par_chunks(width).map(|row| phase(group, layout, row)).collect();
         let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
         let mut places = Vec::with_capacity(read.len());
         let mut states = Vec::with_capacity(read.len());
@@ -148,12 +260,10 @@ where
             }
         }
         let before = states.clone();
-        let failures = ensemble::advance_all(self, &mut states, steps);
-        let mut failed = vec![false; states.len()];
-        for failure in failures {
-            failed[failure.index] = true;
+        let failed = self.march(&mut states, steps, made);
+        for (place, failure) in &failed {
             rows.rejected.push(Rejected {
-                row: rows.first + places[failure.index] as u64,
+                row: rows.first + places[*place] as u64,
                 step: failure.step + 1,
                 reason: failure.error.to_string(),
             });
@@ -162,14 +272,16 @@ where
         let drifts: Vec<Option<Drift>> = before
             .par_iter()
             .zip(&states)
-            .zip(&failed)
-            .map(|((before, after), failed)| (!failed).then(|| drift(self.group(), before, after)))
+            .enumerate()
+            .map(|(place, (before, after))| {
+                (!failed.contains_key(&place)).then(|| self.drift(before, after))
+            })
             .collect();
         let mut largest = Drift::default();
         for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
             let Some(drift) = drift else { continue };
             let row = &mut rows.values[place * width..(place + 1) * width];
-            write(self.group(), layout, state, row);
+            write(group, layout, state, row);
             if let Err(reason) = check(layout, row, drift) {
                 row.fill(f64::NAN);
                 let row = rows.first + place as u64;
@@ -254,25 +366,6 @@ fn write<G: EnsembleGroup>(group: &G, layout: &Layout, phase: &Phase<G>, row: &m
     }
 }
 
-/// The drifts of one row.
-fn drift<G: EnsembleGroup>(group: &G, before: &Phase<G>, after: &Phase<G>) -> Drift {
-    use coadjoint::Coordinates;
-
-    let relative = |difference: f64, size: f64| {
-        if size > 0.0 { difference.abs() / size } else { difference.abs() }
-    };
-    let (start, end) = (before.spatial_momentum(group), after.spatial_momentum(group));
-    let difference = (0..group.dim()).map(|i| (end[i] - start[i]).abs()).fold(0.0, larger);
-    let casimirs = (0..group.casimir_count()).map(|index| {
-        let start = group.casimir(index, &before.momentum);
-        relative(group.casimir(index, &after.momentum) - start, start.abs())
-    });
-    Drift {
-        spatial_momentum: relative(difference, before.momentum.largest_entry()),
-        casimirs: casimirs.fold(0.0, larger),
-    }
-}
-
 /// The larger of two numbers; what is no number is larger than any.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
@@ -286,7 +379,7 @@ mod tests {
     fn what_is_not_finite_is_never_an_end_state() {
         let shape = Shape { dim: 3, matrix_size: 3, quaternions: true };
         let layout = Layout { shape, attitude: Attitude::Quaternion };
-        let fine = Drift { spatial_momentum: 1e-16, casimirs: 0.0 };
+        let fine = Drift { spatial_momentum: 1e-16, casimirs: 0.0, ratio: 0.0 };
         let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];
         assert_eq!(check(&layout, &row, fine), Ok(()));
         for (place, value, expected) in
@@ -298,7 +391,7 @@ mod tests {
         }
         for wrong in [
             Drift { spatial_momentum: f64::NAN, ..fine },
-            Drift { casimirs: f64::INFINITY, ..fine },
+            Drift { casimirs: f64::INFINITY, ..fine }.max(fine),
         ] {
             assert!(check(&layout, &row, wrong).unwrap_err().contains("not finite"));
         }

@@ -33,6 +33,9 @@ pub struct Journal {
     pub spatial_momentum: u64,
     /// The largest drift of Casimirs so far, as bits.
     pub casimirs: u64,
+    /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
+    #[serde(default)]
+    pub ratio: u64,
     /// Whether all is written and only names are to be changed.
     pub complete: bool,
 }
@@ -89,6 +92,7 @@ impl Journal {
         Drift {
             spatial_momentum: f64::from_bits(self.spatial_momentum),
             casimirs: f64::from_bits(self.casimirs),
+            ratio: f64::from_bits(self.ratio),
         }
     }
 
@@ -97,6 +101,7 @@ impl Journal {
         let drift = self.drift().max(drift);
         self.spatial_momentum = drift.spatial_momentum.to_bits();
         self.casimirs = drift.casimirs.to_bits();
+        self.ratio = drift.ratio.to_bits();
     }
 }
 

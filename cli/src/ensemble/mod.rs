@@ -88,6 +88,9 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
             .map_err(|error| CliError::Option(format!("--threads {threads}: {error}")))?;
     }
     let outcome = run::run(job)?;
+    if let Some(text) = report::warning(&outcome) {
+        eprintln!("warning: {text}");
+    }
     let text =
         report::report(&outcome, &integrator, step, steps, engine.casimirs(), options.format);
     out!("{text}");

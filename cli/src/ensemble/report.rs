@@ -7,6 +7,18 @@ use serde_json::json;
 
 use super::run::Outcome;
 use crate::arguments::Format;
+use crate::engine::STEEP;
+
+/// What there is to be said of the series, if anything is.
+pub fn warning(outcome: &Outcome) -> Option<String> {
+    let ratio = outcome.drift.ratio;
+    (ratio != 0.0).then(|| {
+        format!(
+            "the series hardly converges for some rows: at a start or an end its last two terms have the ratio \
+             {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step"
+        )
+    })
+}
 
 /// The text to print.
 pub fn report(
@@ -38,6 +50,11 @@ pub fn report(
                 "spatial_momentum": drift.spatial_momentum,
                 "casimirs": drift.casimirs,
             },
+            "warnings": warning(outcome).iter().map(|text| json!({
+                "kind": "series_ratio",
+                "ratio": drift.ratio,
+                "text": text,
+            })).collect::<Vec<_>>(),
             "seconds": outcome.seconds,
         });
         return format!("{value:#}\n");
@@ -51,6 +68,9 @@ pub fn report(
     );
     if outcome.resumed > 0 {
         let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
+    }
+    if let Some(text) = warning(outcome) {
+        let _ = writeln!(out, "  warning: {text}");
     }
     let _ = writeln!(out, "  failed           {:>10}", outcome.failed);
     for rejected in &outcome.first {

@@ -144,8 +144,9 @@ fn advance(
     }
     let position = (journal.rows > 0).then_some(journal.position);
     job.input.seek(job.range.start + journal.rows, position)?;
-    let bar = progress::bar(count, "trajectories");
-    bar.set_position(journal.rows);
+    let steps = job.steps.max(1);
+    let bar = progress::bar(count.saturating_mul(steps), "trajectories");
+    bar.set_position(journal.rows.saturating_mul(steps));
     let mut rows = Rows::default();
     let mut first = Vec::new();
     let mut noted = Instant::now();
@@ -153,7 +154,10 @@ fn advance(
         let take = piece(layout.width(), job.steps).min(count - journal.rows);
         rows.clear(job.range.start + journal.rows + 1);
         job.input.read(take as usize, &mut rows)?;
-        let drift = job.engine.advance(layout, job.steps, &mut rows);
+        let made = |made: u64| {
+            bar.set_position(journal.rows.saturating_mul(steps).saturating_add(take * made));
+        };
+        let drift = job.engine.advance(layout, job.steps, &mut rows, &made);
         output.append(&form.encode(layout, table.as_ref(), &rows))?;
         for rejected in &rows.rejected {
             let reason = rejected.reason.replace('"', "'");
@@ -166,7 +170,7 @@ fn advance(
         journal.position = job.input.position();
         journal.output = output.length();
         journal.rejected_bytes = list.length();
-        bar.set_position(journal.rows);
+        bar.set_position(journal.rows.saturating_mul(steps));
         if noted.elapsed() > NOTED && journal.rows < count {
             output.sync()?;
             list.sync()?;

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use coadjoint::nalgebra::Vector3;
+use coadjoint::{LieGroup, SU2};
 use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, casimirs, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
@@ -124,22 +126,45 @@ impl Facts {
         known.into_iter().find(|(name, _)| self.is_like(name)).map(|(_, formula)| formula)
     }
 
-    /// Where exp is a chart.
-    pub fn exp_domain(&self) -> &'static str {
+    /// Whether tr ad_x is zero for every x.
+    fn is_unimodular(&self) -> bool {
+        let mut traces: BTreeMap<usize, Rational> = BTreeMap::new();
+        for c in self.algebra.structure().iter().filter(|c| c.j == c.k) {
+            *traces.entry(c.i).or_default() += &c.value;
+        }
+        traces.values().all(Zero::is_zero)
+    }
+
+    /// Where exp is a chart, as the runtime has it.
+    pub fn exp_domain(&self) -> String {
         const GENERAL: &str = "|Im λ| < π for every eigenvalue λ of ad_x";
         if self.nilpotent {
-            "all x: the algebra is nilpotent"
-        } else if self.algebra.name() == "SU2" {
-            "|Im λ| < 2π for every eigenvalue λ of ad_x, that is |x| < 2π: a full turn, twice as far as on SO3"
-        } else if self.is_like("SO3") {
-            "|Im λ| < π for every eigenvalue λ of ad_x, that is |x| < π: a half turn"
-        } else if self.is_like("SE3") {
-            "|Im λ| < π for every eigenvalue λ of ad_x, that is |ω| < π for x = (ω, v)"
-        } else if self.is_like("SE2") {
-            "|Im λ| < π for every eigenvalue λ of ad_x, that is |x1| < π"
-        } else {
-            GENERAL
+            return "all x: the algebra is nilpotent".to_owned();
         }
+        if self.algebra.name() == "SU2" {
+            let unit = SU2::<f64>::new().exp_extent(&Vector3::x());
+            let reach = unit.sqrt().recip();
+            return format!(
+                "|x| < {reach:.2} on its own elements (the type SU2): {:.1} of a full turn, {:.1} times as far as on \
+                 SO3; |x| < π by tables, as the command runs it",
+                reach / std::f64::consts::TAU,
+                reach / std::f64::consts::PI
+            );
+        }
+        let known = [
+            ("SO3", "that is |x| < π: a half turn"),
+            ("SE3", "that is |ω| < π for x = (ω, v)"),
+            ("SE2", "that is |x1| < π"),
+        ];
+        if let Some((_, meaning)) = known.into_iter().find(|(name, _)| self.is_like(name)) {
+            return format!("{GENERAL}, {meaning}");
+        }
+        if !self.is_unimodular() {
+            return format!(
+                "{GENERAL}, and |tr ad_x| < π (the group is not unimodular: a step may stretch by e^π at most)"
+            );
+        }
+        GENERAL.to_owned()
     }
 
     /// Where Cayley's map is a chart, or why it is none.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::sink::{Extent, failed};
 use super::target::beside;
 use super::trajectory::{Drift, Tally};
+use super::warning::Steep;
 use crate::error::CliError;
 
 /// The state of a run. Records that it counts are on the disk before it is. Numbers are kept as bits.
@@ -29,6 +30,8 @@ pub struct Checkpoint {
     pub iterations: u64,
     /// The largest residual.
     pub residual: Option<u64>,
+    /// The first step of a series that hardly converges: its number, and time and ratio as bits.
+    pub steep: Option<[u64; 3]>,
     /// Bytes of the file of records.
     pub bytes: u64,
     /// Records in it.
@@ -91,6 +94,11 @@ impl Checkpoint {
             drift: Drift { spatial_momentum, casimirs, energy },
             iterations: self.iterations,
             residual: self.residual.map(f64::from_bits),
+            steep: self.steep.map(|[step, time, ratio]| Steep {
+                step,
+                time: f64::from_bits(time),
+                ratio: f64::from_bits(ratio),
+            }),
         }
     }
 
@@ -100,6 +108,7 @@ impl Checkpoint {
         self.drift = [spatial_momentum, casimirs, energy].map(f64::to_bits);
         self.iterations = tally.iterations;
         self.residual = tally.residual.map(f64::to_bits);
+        self.steep = tally.steep.map(|s| [s.step, s.time.to_bits(), s.ratio.to_bits()]);
     }
 
     /// How much of the file of records is vouched for.

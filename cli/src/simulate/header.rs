@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::system::Splitting;
+use coadjoint_learn::ModelFile;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
@@ -63,6 +64,24 @@ impl Header {
             list.push(("at", json!(times.text())));
         }
         Self(list)
+    }
+
+    /// The description of a run of a learned map.
+    pub fn of_model(setup: &Setup, model: &ModelFile) -> Self {
+        let schedule = &setup.schedule;
+        Self(vec![
+            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
+            ("model", json!(setup.file.display().to_string())),
+            ("model_sha256", json!(setup.hash)),
+            ("kind", json!(model.model.name())),
+            ("group", json!(model.group)),
+            ("chart", json!(model.chart)),
+            ("step", json!(schedule.step)),
+            ("steps", json!(schedule.steps)),
+            ("time", json!(schedule.end)),
+            ("initial_momentum", json!(setup.momentum.as_slice())),
+            ("every", json!(setup.every)),
+        ])
     }
 
     /// Only the entries with these names.

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::time::Instant;
 
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::problem::Problem;
 use nalgebra::DVector;
 
 use super::checkpoint::{Checkpoint, bits, numbers};
@@ -15,17 +14,24 @@ use super::names::columns;
 use super::restore::Restore;
 use super::samples::Samples;
 use super::sink::Sink;
+use super::subject::Subject;
 use super::target::Target;
-use super::task::Task;
 use super::trajectory::{Moment, Recorder, Trajectory};
+use super::warning::Warning;
 use crate::error::CliError;
 use crate::progress;
 
-/// Iterations and residual of the solve of a step, where there was one.
-type Solved = Option<(u32, f64)>;
+/// How a step of the grid went.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Made {
+    /// Iterations and residual of the solve, where there was one.
+    pub solve: Option<(u32, f64)>,
+    /// The ratio of the last two terms of the series, where it may be worth a warning; else 0.
+    pub ratio: f64,
+}
 
 /// A step of the grid, from the time given.
-type GridStep<'s, G> = dyn Fn(f64, &mut Phase<G>) -> Result<Solved, StepError> + 's;
+type GridStep<'s, G> = dyn Fn(f64, &mut Phase<G>) -> Result<Made, StepError> + 's;
 
 /// A step of another length, from the time given: (time, length, state).
 type SideStep<'s, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 's;
@@ -41,7 +47,7 @@ pub struct Stepper<'s, G: Restore> {
 /// A run on a group.
 pub struct March<'a, G> {
     /// What is run.
-    pub task: &'a Task<'a>,
+    pub subject: &'a Subject<'a>,
     /// The group.
     pub group: &'a G,
 }
@@ -65,10 +71,11 @@ struct State<'a, G: Restore> {
 impl<'a, G: Restore> March<'a, G> {
     /// Makes the steps that are left.
     pub fn run(&self, stepper: &Stepper<'_, G>) -> Result<Trajectory, CliError> {
-        let schedule = &self.task.setup.schedule;
+        let subject = self.subject;
+        let schedule = &subject.setup.schedule;
         let mut state = self.begin()?;
         let outcome = self.go(&mut state, stepper);
-        let target = self.task.setup.out.as_ref();
+        let target = subject.setup.out.as_ref();
         let rows = match (outcome, state.sink.take()) {
             (Ok(()), None) => None,
             (Ok(()), Some(sink)) => {
@@ -94,9 +101,10 @@ impl<'a, G: Restore> March<'a, G> {
         };
         let end = (schedule.steps, schedule.end);
         let State { recorder, phase, moment, .. } = state;
-        let mut trajectory =
-            recorder.finish(self.task.label(), self.task.header(), end, &phase, &moment);
-        trajectory.truncation = Some(self.task.integrator.problem.truncation);
+        let (label, header) = (subject.label.clone(), subject.header.clone());
+        let mut trajectory = recorder.finish(label, header, end, &phase, &moment);
+        trajectory.truncation = subject.truncation;
+        trajectory.warnings.splice(0..0, subject.warnings.iter().cloned());
         trajectory.announcement = schedule.announcement();
         trajectory.out = target.zip(rows).map(|(target, rows)| (target.path.clone(), rows));
         Ok(trajectory)
@@ -104,12 +112,10 @@ impl<'a, G: Restore> March<'a, G> {
 
     /// The state at the start, or where a checkpoint was made.
     fn begin(&self) -> Result<State<'a, G>, CliError> {
-        let (task, group) = (self.task, self.group);
-        let setup = task.setup;
+        let (subject, group) = (self.subject, self.group);
+        let setup = subject.setup;
         let start = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
-        let mut recorder =
-            Recorder::new(group, task.watched(), &start, task.integrator, setup.sampled);
-        let problem = &task.integrator.problem;
+        let mut recorder = Recorder::new(group, subject.watched, &start, setup.sampled);
         let found = match &setup.checkpoint {
             Some((path, _)) => Checkpoint::read(path, &self.identity())?.map(|found| (path, found)),
             None => None,
@@ -118,7 +124,8 @@ impl<'a, G: Restore> March<'a, G> {
         let Some((path, found)) = found else {
             let moment = recorder.visit(&start).map_err(|what| self.stuck(0, what))?;
             recorder.sample(0.0, &start, &moment);
-            let begin = |target| Sink::begin(target, task.header(), names(&recorder, problem));
+            let header = || subject.header.clone();
+            let begin = |target| Sink::begin(target, header(), self.names(&recorder));
             let sink = setup.out.as_ref().map(begin).transpose()?;
             let phase = start;
             let state =
@@ -154,7 +161,7 @@ impl<'a, G: Restore> March<'a, G> {
             if found.complete && !target.part().exists() && target.path.exists() {
                 return Ok(Sink::done(target, extent));
             }
-            Sink::resume(target, task.header(), names(&recorder, problem), extent)
+            Sink::resume(target, subject.header.clone(), self.names(&recorder), extent)
         };
         let sink = setup.out.as_ref().map(resume).transpose()?;
         if found.complete {
@@ -173,7 +180,7 @@ impl<'a, G: Restore> March<'a, G> {
     }
 
     fn go(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
-        let setup = self.task.setup;
+        let setup = self.subject.setup;
         let schedule = &setup.schedule;
         if state.complete {
             return Ok(());
@@ -185,7 +192,9 @@ impl<'a, G: Restore> March<'a, G> {
         }
         let mut shown = Instant::now();
         while state.n < schedule.steps {
-            self.step(state, stepper)?;
+            if let Some(warning) = self.step(state, stepper)? {
+                bar.suspend(|| eprintln!("warning: {}", warning.text()));
+            }
             self.record(state, stepper)?;
             if shown.elapsed() >= progress::INTERVAL {
                 bar.set_position(state.n);
@@ -220,28 +229,30 @@ impl<'a, G: Restore> March<'a, G> {
         Ok(())
     }
 
-    /// Makes a step of the grid.
-    fn step(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
-        let schedule = &self.task.setup.schedule;
+    /// Makes a step of the grid; what there is to be said of it.
+    fn step(
+        &self,
+        state: &mut State<'a, G>,
+        stepper: &Stepper<'_, G>,
+    ) -> Result<Option<Warning>, CliError> {
+        let schedule = &self.subject.setup.schedule;
         let (from, n) = (schedule.time(state.n), state.n + 1);
-        let solved = (stepper.step)(from, &mut state.phase);
-        let solved = solved.map_err(|source| CliError::Run {
-            time: from,
-            step: n,
-            what: source.to_string(),
-        })?;
-        if let Some((iterations, residual)) = solved {
+        let made = (stepper.step)(from, &mut state.phase);
+        let made =
+            made.map_err(|source| CliError::Run { time: from, step: n, what: source.to_string() })?;
+        if let Some((iterations, residual)) = made.solve {
             let noted = state.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(n, what))?;
         }
+        let warning = state.recorder.steep(n, from, made.ratio);
         state.moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;
         state.n = n;
-        Ok(())
+        Ok(warning)
     }
 
     /// Writes the records at this grid point, and at the times nearer to it than to others.
     fn record(&self, state: &mut State<'a, G>, stepper: &Stepper<'_, G>) -> Result<(), CliError> {
-        let setup = self.task.setup;
+        let setup = self.subject.setup;
         let (schedule, n) = (&setup.schedule, state.n);
         let here = schedule.time(n);
         let chosen =
@@ -304,9 +315,12 @@ impl<'a, G: Restore> March<'a, G> {
             None => (&state.phase, &state.moment),
         };
         let Moment { energy, drift } = *moment;
-        let last = [energy, drift.spatial_momentum, drift.casimirs, drift.energy];
+        let (before, after) = (energy, energy.map(|_| drift.energy));
+        let drifts = [drift.spatial_momentum, drift.casimirs];
+        let last = before.into_iter().chain(drifts).chain(after);
         let momentum = phase.momentum.iter().copied();
-        let entries = state.recorder.entries(phase);
+        let written = self.subject.watched.attitude;
+        let entries = written.then(|| state.recorder.entries(phase)).into_iter().flatten();
         sink.row(std::iter::once(time).chain(momentum).chain(entries).chain(last))
     }
 
@@ -322,7 +336,7 @@ impl<'a, G: Restore> March<'a, G> {
             rows: extent.rows,
             times: state.times,
             samples: state.recorder.samples.as_ref().map(Samples::to_bits).unwrap_or_default(),
-            complete: state.n == self.task.setup.schedule.steps,
+            complete: state.n == self.subject.setup.schedule.steps,
             ..Checkpoint::default()
         };
         checkpoint.set_tally(&state.recorder.tally);
@@ -333,8 +347,8 @@ impl<'a, G: Restore> March<'a, G> {
 
     /// What a checkpoint must agree in.
     fn identity(&self) -> BTreeMap<String, String> {
-        let setup = self.task.setup;
-        let mut identity = self.task.header().identity();
+        let setup = self.subject.setup;
+        let mut identity = self.subject.header.identity();
         // It follows from the time and the step, whose names say more.
         identity.remove("steps");
         let out = setup.out.as_ref();
@@ -346,11 +360,11 @@ impl<'a, G: Restore> March<'a, G> {
 
     /// A number that is not finite, after `step` steps.
     fn stuck(&self, step: u64, what: String) -> CliError {
-        CliError::Run { time: self.task.setup.schedule.time(step), step, what }
+        CliError::Run { time: self.subject.setup.schedule.time(step), step, what }
     }
 
     fn interrupted(&self, step: u64) -> CliError {
-        let setup = self.task.setup;
+        let setup = self.subject.setup;
         let again = match &setup.checkpoint {
             Some((path, _)) => {
                 format!("; the same command goes on from {}", path.display())
@@ -364,8 +378,10 @@ impl<'a, G: Restore> March<'a, G> {
             schedule.steps
         ))
     }
-}
 
-fn names<G: Restore>(recorder: &Recorder<'_, G>, problem: &Problem) -> Vec<String> {
-    columns(&problem.coordinates, recorder.blocks())
+    /// The names of the columns of records.
+    fn names(&self, recorder: &Recorder<'_, G>) -> Vec<String> {
+        let watched = &self.subject.watched;
+        columns(watched.coordinates, recorder.recorded(), watched.energy.is_some())
+    }
 }

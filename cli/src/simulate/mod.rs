@@ -4,6 +4,7 @@ mod checkpoint;
 mod element;
 mod header;
 mod interrupt;
+mod learned;
 mod march;
 mod names;
 mod number;
@@ -15,49 +16,32 @@ mod samples;
 mod schedule;
 mod setup;
 mod sink;
+mod subject;
 mod target;
 mod task;
 mod times;
 mod trajectory;
+mod warning;
 
 use coadjoint::{Cayley, Exponential};
 use coadjoint_codegen::lie;
-use coadjoint_codegen::system::{self, Parameters, System};
+use coadjoint_codegen::system::{self, Parameters, System, Units};
 
 use crate::arguments::SimulateOptions;
 use crate::engine::{Energy, Forces, cayley_group, matrix_group, product_group};
 use crate::error::CliError;
-use crate::{load, model, progress};
+use crate::{load, progress};
+pub use header::text_hash;
 pub use schedule::schedule;
 use setup::Setup;
 use target::{Place, Target};
 use task::Task;
-
-/// Follows a learned map, which has its own step.
-fn learned(path: &std::path::Path, options: &SimulateOptions) -> Result<(), CliError> {
-    let missing = |option: &str| {
-        CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
-    };
-    if options.accuracy.step.is_some() || options.accuracy.tolerance.is_some() {
-        let what = "a learned model has a step of its own: leave out --step and --tolerance";
-        return Err(CliError::Option(what.to_owned()));
-    }
-    if options.start.is_empty() {
-        return Err(missing("start"));
-    }
-    model::simulate(&model::Run {
-        model: path.into(),
-        start: options.start.clone(),
-        time: options.time.ok_or_else(|| missing("time"))?,
-        every: options.every.unwrap_or(1),
-        out: options.out.clone(),
-    })
-}
+use trajectory::Trajectory;
 
 /// Runs every truncation asked for.
 pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if let Some(path) = &options.input.model {
-        return learned(path, options);
+        return learned::run(path, options);
     }
     let out = setup::check_names(options)?;
     let source = options.input.source();
@@ -65,7 +49,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = std::fs::read_to_string(path)
         .map_err(|source| CliError::Read { path: path.clone(), source })?;
-    let hash = header::text_hash(&text);
+    let hash = text_hash(&text);
     let read = |truncation| {
         let (chart, solver) = (source.chart.map(Into::into), source.solver.map(Into::into));
         let parameters = Parameters::Substituted;
@@ -156,14 +140,19 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if let (Some(path), Some(heading)) = (&options.plot, &heading) {
         plot::draw(path, &plot::picture(heading, &runs))?;
     }
-    let report = report::report(&runs, &units, options.format);
+    print(&runs, &units, options, out.as_ref());
+    Ok(())
+}
+
+/// Prints the report.
+fn print(runs: &[Trajectory], units: &Units, options: &SimulateOptions, out: Option<&Target>) {
+    let report = report::report(runs, units, options.format);
     // Records on the standard output are not mixed with the report.
     if out.is_some_and(|out| out.place == Place::Standard) {
         eprint!("{report}");
     } else {
         out!("{report}");
     }
-    Ok(())
 }
 
 /// Where the records of each system go. Several truncations go to a file each; the names are announced.

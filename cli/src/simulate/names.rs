@@ -4,11 +4,14 @@ use super::element::Block;
 
 /// What a record ends with.
 const LAST: [&str; 4] = ["energy", "spatial_momentum_drift", "casimir_drift", "energy_drift"];
+/// The same where no energy is known.
+const LAST_WITHOUT_ENERGY: [&str; 2] = ["spatial_momentum_drift", "casimir_drift"];
 
 /// `time`, the coordinates of the momentum as the system file names them (`mu_1`, … where it names none),
 /// the entries of the blocks of g, row by row, as `g_11`, … by their places in the whole matrix
-/// (`g_1_12` in matrices of more than nine rows), the energy and the three drifts.
-pub fn columns(coordinates: &[String], blocks: &[Block]) -> Vec<String> {
+/// (`g_1_12` in matrices of more than nine rows), the energy and the three drifts; without energy the other two.
+pub fn columns(coordinates: &[String], blocks: &[Block], energy: bool) -> Vec<String> {
+    let last: &[&str] = if energy { &LAST } else { &LAST_WITHOUT_ENERGY };
     let size = blocks.last().map_or(0, |block| block.range.end);
     let separator = if size > 9 { "_" } else { "" };
     let elements: Vec<String> = blocks
@@ -20,7 +23,7 @@ pub fn columns(coordinates: &[String], blocks: &[Block]) -> Vec<String> {
         })
         .collect();
     let taken =
-        |name: &String| name == "time" || LAST.contains(&name.as_str()) || elements.contains(name);
+        |name: &String| name == "time" || last.contains(&name.as_str()) || elements.contains(name);
     let momentum = coordinates.iter().enumerate().map(|(i, name)| {
         if *name == format!("mu[{i}]") {
             format!("mu_{}", i + 1)
@@ -33,7 +36,7 @@ pub fn columns(coordinates: &[String], blocks: &[Block]) -> Vec<String> {
     let mut names = vec!["time".to_owned()];
     names.extend(momentum);
     names.extend(elements.iter().cloned());
-    names.extend(LAST.map(str::to_owned));
+    names.extend(last.iter().map(|&name| name.to_owned()));
     names
 }
 
@@ -47,7 +50,10 @@ mod tests {
         let blocks =
             [Block { range: 0..1, kind: Kind::Real }, Block { range: 1..2, kind: Kind::Real }];
         let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
-        let found = columns(&names(&["mu[0]", "energy", "x"]), &blocks);
+        let found = columns(&names(&["mu[0]", "energy", "x"]), &blocks, true);
         assert_eq!(found[..6], names(&["time", "mu_1", "momentum_energy", "x", "g_11", "g_22"]));
+        assert_eq!(found[6..], names(&LAST));
+        let found = columns(&names(&["energy"]), &[], false);
+        assert_eq!(found, names(&["time", "energy", "spatial_momentum_drift", "casimir_drift"]));
     }
 }

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::element::{lines, matrix, split};
 use super::number::shortest;
 use super::trajectory::Trajectory;
+use super::warning::Warning;
 use crate::arguments::Format;
 
 /// Larger group elements are given by their blocks only.
@@ -29,7 +30,10 @@ pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
 
 /// What there is no number for has no key: no value is null.
 fn object(run: &Trajectory, units: &Units) -> Value {
-    let mut drift = json!({ "energy": run.drift.energy });
+    let mut drift = json!({});
+    if run.energy.is_some() {
+        drift["energy"] = json!(run.drift.energy);
+    }
     // What is not conserved has no drift.
     if run.momenta > 0 {
         drift["spatial_momentum"] = json!(run.drift.spatial_momentum);
@@ -37,7 +41,6 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     if run.casimirs > 0 || !run.potential {
         drift["casimirs"] = json!(run.drift.casimirs);
     }
-    let [start, end] = run.energy;
     let mut object = json!({
         "method": run.label,
         "run": run.header.object(),
@@ -46,11 +49,14 @@ fn object(run: &Trajectory, units: &Units) -> Value {
         "coordinates": run.coordinates,
         "momentum": run.momentum,
         "group_element_blocks": blocks(run),
-        "energy": { "start": start, "end": end },
         "drift": drift,
         "conserved_momenta": run.momenta,
         "conserved_casimirs": run.casimirs,
+        "warnings": run.warnings.iter().map(Warning::object).collect::<Vec<_>>(),
     });
+    if let Some([start, end]) = run.energy {
+        object["energy"] = json!({ "start": start, "end": end });
+    }
     let mut given = serde_json::Map::new();
     given.extend(units.time.as_ref().map(|unit| ("time".to_owned(), json!(unit))));
     for (i, name) in run.coordinates.iter().enumerate() {
@@ -65,7 +71,7 @@ fn object(run: &Trajectory, units: &Units) -> Value {
         }
     }
     let size = run.blocks.last().map_or(0, |block| block.range.end);
-    if size <= WIDEST {
+    if (1..=WIDEST).contains(&size) {
         object["group_element"] = json!(dense(run, size));
     }
     if let Some(solver) = run.solver {
@@ -116,6 +122,9 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some(line) = &run.announcement {
         let _ = writeln!(out, "  {line}");
     }
+    for warning in &run.warnings {
+        let _ = writeln!(out, "  warning: {}", warning.text());
+    }
     for (i, (name, value)) in run.coordinates.iter().zip(&run.momentum).enumerate() {
         let value = with_unit(&format!("{:>24}", shortest(*value)), units.coordinate(i));
         let _ = writeln!(out, "  {name:<10} {value}");
@@ -123,7 +132,9 @@ fn text(run: &Trajectory, units: &Units) -> String {
     for line in lines(&run.blocks, &run.element) {
         let _ = writeln!(out, "  {line}");
     }
-    let _ = writeln!(out, "  energy     {:>24}", shortest(run.energy[1]));
+    if let Some([_, energy]) = run.energy {
+        let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
+    }
     let drift = run.drift;
     let _ = writeln!(out, "  largest relative drift");
     let _ = match (run.potential, run.momenta) {
@@ -143,7 +154,9 @@ fn text(run: &Trajectory, units: &Units) -> String {
         (true, 0) => writeln!(out, "    Casimirs         none that the kicks keep"),
         (_, count) => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
     };
-    let _ = writeln!(out, "    energy           {:>10.1e}", drift.energy);
+    if run.energy.is_some() {
+        let _ = writeln!(out, "    energy           {:>10.1e}", drift.energy);
+    }
     if let Some(solver) = run.solver {
         let _ = writeln!(
             out,

@@ -49,7 +49,7 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
     };
     let end = setup.schedule.end;
     let name = format!("RK45, tolerance {tolerance:e}");
-    let mut recorder = Recorder::new(group, task.watched(), &start, integrator, setup.sampled);
+    let mut recorder = Recorder::new(group, task.watched(), &start, setup.sampled);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
     let moment = recorder.visit(&start).map_err(|what| failed(0.0, what))?;
     recorder.sample(0.0, &start, &moment);

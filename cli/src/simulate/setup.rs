@@ -67,22 +67,11 @@ impl Setup {
         // Times alone are recorded alone; a step count in the file is then no request.
         let every = match (options.every, &at) {
             (None, Some(_)) => None,
-            (every, _) => Some(every.or(run.every).unwrap_or(1) as u64),
+            (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
         };
-        if every == Some(0) {
-            return refuse("--every counts steps from 1; try --every 1");
-        }
         if momentum.len() != dim {
             return refuse("the momentum does not fit the group");
         }
-        let interval = options.checkpoint_interval;
-        let checkpoint = options.checkpoint.clone().map(|path| {
-            let interval = Duration::try_from_secs_f64(interval).map_err(|_| {
-                let what = "--checkpoint-interval must be a number of seconds, 0 or more";
-                CliError::Option(what.to_owned())
-            })?;
-            Ok::<_, CliError>((path, interval))
-        });
         Ok(Self {
             file,
             hash: hash.to_owned(),
@@ -91,7 +80,7 @@ impl Setup {
             at,
             out,
             sampled: options.plot.is_some(),
-            checkpoint: checkpoint.transpose()?,
+            checkpoint: checkpoint(options)?,
             tuned: options.tuned,
             fitted: options.fitted,
             momentum: DVector::from_vec(momentum),
@@ -111,6 +100,30 @@ impl Setup {
                 .map_err(|source| CliError::Element { file: self.file.clone(), source }),
         }
     }
+}
+
+/// Every how many steps a record is written.
+///
+/// # Errors
+/// Where it is 0.
+pub fn every(steps: usize) -> Result<u64, CliError> {
+    match steps {
+        0 => Err(CliError::Option("--every counts steps from 1; try --every 1".to_owned())),
+        steps => Ok(steps as u64),
+    }
+}
+
+/// Where the state is kept, and how often, if it is.
+///
+/// # Errors
+/// Where the interval is no duration.
+pub fn checkpoint(options: &SimulateOptions) -> Result<Option<(PathBuf, Duration)>, CliError> {
+    let Some(path) = options.checkpoint.clone() else { return Ok(None) };
+    let interval = Duration::try_from_secs_f64(options.checkpoint_interval).map_err(|_| {
+        let what = "--checkpoint-interval must be a number of seconds, 0 or more";
+        CliError::Option(what.to_owned())
+    })?;
+    Ok(Some((path, interval)))
 }
 
 /// Refuses names of files that cannot be what they are to be, before anything is computed.

@@ -1,19 +1,21 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
 use coadjoint::{
-    Chart, GeneratingFunction, StepError, solve::Solution, solve::solve, steps::reconstruct,
+    Chart, GeneratingFunction, Phase, StepError, solve::Solution, solve::solve, steps::reconstruct,
     tune::fit,
 };
 use coadjoint_codegen::integrator::Integrator;
 use nalgebra::DVector;
 
 use super::header::Header;
-use super::march::{March, Stepper};
+use super::march::{Made, March, Stepper};
 use super::number::largest;
 use super::restore::Restore;
 use super::setup::Setup;
+use super::subject::Subject;
 use super::trajectory::{Trajectory, Watched};
-use crate::engine::{Energy, Forces, Interpreter};
+use super::warning::Warning;
+use crate::engine::{Energy, Forces, Interpreter, Steepness, advise};
 use crate::error::CliError;
 use crate::progress;
 
@@ -38,7 +40,22 @@ impl<'a> Task<'a> {
     /// What is watched.
     pub fn watched(&self) -> Watched<'a> {
         let symmetries = self.forces.map(|forces| forces.symmetries.as_slice());
-        Watched { energy: self.energy, symmetries }
+        let problem = &self.integrator.problem;
+        let (algebra, coordinates) = (&problem.algebra, problem.coordinates.as_slice());
+        Watched { algebra, coordinates, energy: Some(self.energy), attitude: true, symmetries }
+    }
+
+    /// The run as its driver knows it.
+    fn subject(&self, warnings: Vec<Warning>) -> Subject<'a> {
+        warnings.iter().for_each(|warning| eprintln!("warning: {}", warning.text()));
+        Subject {
+            setup: self.setup,
+            label: self.label(),
+            header: self.header(),
+            truncation: Some(self.integrator.problem.truncation),
+            watched: self.watched(),
+            warnings,
+        }
     }
 
     /// What the run is.
@@ -68,51 +85,89 @@ impl<'a> Task<'a> {
 
     /// Advances from the initial state to the end.
     pub fn integrate<G: Restore, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
-        let h = self.setup.schedule.step;
-        if let Some(forces) = self.forces {
-            let step = forces.step::<G, C>(self.integrator, &group, h).map_err(at_start)?;
-            return March { task: self, group: &group }.run(&Stepper {
-                step: &|time, phase| step(phase, time).map(|()| None),
-                side: &|time, part, phase| {
-                    forces.step::<G, C>(self.integrator, &group, part)?(phase, time)
-                },
-            });
+        match self.forces {
+            Some(forces) => self.kicked::<G, C>(&group, forces),
+            None => self.flow::<G, C>(&group),
         }
-        self.flow::<G, C>(group)
+    }
+
+    /// Flows and kicks.
+    fn kicked<G: Restore, C: Chart<G>>(
+        &self,
+        group: &G,
+        forces: &Forces,
+    ) -> Result<Trajectory, CliError> {
+        let h = self.setup.schedule.step;
+        let make = |h| forces.step::<G, C>(self.integrator, group, h);
+        let step = make(h).map_err(at_start)?;
+        let longest = h * forces.longest_flow();
+        let flow = Interpreter::<G, C>::new(self.integrator, group.clone(), longest);
+        let flow = flow.map_err(at_start)?;
+        let steepness = Steepness::new(&flow);
+        let subject = self.subject(Vec::new());
+        March { subject: &subject, group }.run(&Stepper {
+            step: &|time, phase| {
+                let ratio = steepness.ratio(&phase.momentum);
+                step(phase, time).map_err(|error| {
+                    let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
+                    advise(error, h, works)
+                })?;
+                Ok(Made { solve: None, ratio })
+            },
+            side: &|time, part, phase| make(part)?(phase, time),
+        })
     }
 
     /// The flow alone.
-    fn flow<G: Restore, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
+    fn flow<G: Restore, C: Chart<G>>(&self, group: &G) -> Result<Trajectory, CliError> {
         let Setup { schedule, tuned, fitted, momentum, .. } = self.setup;
         let h = schedule.step;
         let series = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h);
+        let mut warnings = Vec::new();
         let step = match fitted {
             Some(duration) => {
                 let _phase = progress::phase("fitting the coefficients to the motion");
                 let fit = fit(h, series, [momentum.clone()], *duration);
-                fit.map_err(|error| CliError::Option(format!("--fitted: {error}")))?.integrator
+                let fit = fit.map_err(|error| CliError::Option(format!("--fitted: {error}")))?;
+                // What is no number is not better either.
+                if !fit.unseen.lt(&fit.before) {
+                    warnings.push(Warning::FellBack { option: "--fitted" });
+                }
+                fit.integrator
             }
             None if *tuned => {
                 let _phase = progress::phase("summing the tail of the series");
-                Interpreter::tuned(self.integrator, group.clone(), h, momentum).map_err(at_start)?
+                let tuned = Interpreter::tuned(self.integrator, group.clone(), h, momentum);
+                let (step, tail) = tuned.map_err(at_start)?;
+                if tail.is_plain() {
+                    warnings.push(Warning::FellBack { option: "--tuned" });
+                }
+                step
             }
             None => series(h).map_err(at_start)?,
         };
         let count = if *tuned || fitted.is_some() { SIDE_STEPS } else { 1 };
-        March { task: self, group: &group }.run(&Stepper {
+        let steepness = Steepness::new(&step);
+        let subject = self.subject(warnings);
+        let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
+            let solution = solve(step, &phase.momentum)?;
+            let residual = residual(step, &phase.momentum, &solution);
+            reconstruct(step, phase, &solution.x)?;
+            Ok((solution, residual))
+        };
+        March { subject: &subject, group }.run(&Stepper {
             step: &|_, phase| {
-                let solution = solve(&step, &phase.momentum)?;
-                let residual = residual(&step, &phase.momentum, &solution);
-                reconstruct(&step, phase, &solution.x)?;
-                Ok(Some((solution.iterations, residual)))
+                let (solution, residual) = one(&step, phase).map_err(|error| {
+                    advise(error, h, |h| {
+                        series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok())
+                    })
+                })?;
+                let ratio = steepness.ratio(&solution.p);
+                Ok(Made { solve: Some((solution.iterations, residual)), ratio })
             },
             side: &|_, part, phase| {
                 let step = series(part / f64::from(count))?;
-                for _ in 0..count {
-                    let solution = solve(&step, &phase.momentum)?;
-                    reconstruct(&step, phase, &solution.x)?;
-                }
-                Ok(())
+                (0..count).try_for_each(|_| one(&step, phase).map(drop))
             },
         })
     }

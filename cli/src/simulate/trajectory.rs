@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use coadjoint::Phase;
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie::LieAlgebra;
 use nalgebra::DVector;
 
 use super::element::{Block, blocks};
 use super::header::Header;
 use super::number::{largest, maximum};
 use super::samples::Samples;
-use crate::engine::{Energy, Group};
+use super::warning::{Steep, Warning};
+use crate::engine::{Energy, Group, STEEP};
 
 /// The largest differences from the start so far, each relative to the largest value at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,8 +50,8 @@ pub struct Record {
 /// What is measured at a moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
-    /// H_red(μ), plus V(g) where there is a potential.
-    pub energy: f64,
+    /// H_red(μ), plus V(g) where there is a potential; none where no energy is known.
+    pub energy: Option<f64>,
     /// The differences at this moment.
     pub drift: Drift,
 }
@@ -84,14 +85,16 @@ pub struct Trajectory {
     pub time: f64,
     /// A line about the step, where another was used than was asked for.
     pub announcement: Option<String>,
+    /// What the user should know of the run.
+    pub warnings: Vec<Warning>,
     /// The momentum at the end.
     pub momentum: Vec<f64>,
     /// The blocks of the group's matrices; all other entries are 0.
     pub blocks: Vec<Block>,
     /// The entries of the blocks at the end, row by row.
     pub element: Vec<f64>,
-    /// The energy at the start and at the end.
-    pub energy: [f64; 2],
+    /// The energy at the start and at the end; none of a learned map.
+    pub energy: Option<[f64; 2]>,
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
     /// How many Casimirs were watched.
@@ -109,8 +112,14 @@ pub struct Trajectory {
 /// What is watched of a run.
 #[derive(Clone, Copy)]
 pub struct Watched<'a> {
-    /// The energy.
-    pub energy: &'a Energy,
+    /// The algebra.
+    pub algebra: &'a LieAlgebra,
+    /// Names of the momentum's coordinates.
+    pub coordinates: &'a [String],
+    /// The energy, where it is known.
+    pub energy: Option<&'a Energy>,
+    /// Whether attitudes mean something; maps learned from momenta alone have none.
+    pub attitude: bool,
     /// Where a potential breaks the symmetry, the ξ with ⟨J_L, ξ⟩ conserved.
     pub symmetries: Option<&'a [DVector<f64>]>,
 }
@@ -124,13 +133,14 @@ pub struct Tally {
     pub iterations: u64,
     /// The largest residual, where residuals were measured.
     pub residual: Option<f64>,
+    /// The first step before which the last terms of the series had a ratio worth a warning.
+    pub steep: Option<Steep>,
 }
 
 /// Watches a run.
 pub struct Recorder<'a, G: Group> {
     group: &'a G,
     watched: Watched<'a>,
-    coordinates: &'a [String],
     blocks: Vec<Block>,
     start: Invariants,
     /// What the energy's drift is measured against.
@@ -148,26 +158,19 @@ pub struct Recorder<'a, G: Group> {
 struct Invariants {
     momenta: DVector<f64>,
     casimirs: Vec<f64>,
-    energy: f64,
+    energy: Option<f64>,
 }
 
 impl<'a, G: Group> Recorder<'a, G> {
     /// Measures drifts against `phase`; keeps moments for pictures if `sampled`.
-    pub fn new(
-        group: &'a G,
-        watched: Watched<'a>,
-        phase: &Phase<G>,
-        integrator: &'a Integrator,
-        sampled: bool,
-    ) -> Self {
-        let algebra = &integrator.problem.algebra;
+    pub fn new(group: &'a G, watched: Watched<'a>, phase: &Phase<G>, sampled: bool) -> Self {
+        let algebra = watched.algebra;
         Self {
             group,
             watched,
-            coordinates: &integrator.problem.coordinates,
             blocks: blocks(algebra, group.blocks()),
             start: invariants(group, &watched, phase),
-            energy_scale: watched.energy.magnitude(group, phase),
+            energy_scale: watched.energy.map_or(0.0, |energy| energy.magnitude(group, phase)),
             momentum_scale: largest(phase.spatial_momentum(group).iter().copied()),
             casimir_scales: casimir_scales(group, &phase.momentum),
             tally: Tally::default(),
@@ -180,6 +183,11 @@ impl<'a, G: Group> Recorder<'a, G> {
         &self.blocks
     }
 
+    /// The blocks that records hold: all, or none where attitudes mean nothing.
+    pub fn recorded(&self) -> &[Block] {
+        if self.watched.attitude { &self.blocks } else { &[] }
+    }
+
     /// Takes note of how a solve went.
     ///
     /// # Errors
@@ -189,6 +197,17 @@ impl<'a, G: Group> Recorder<'a, G> {
         let most = maximum(self.tally.residual.unwrap_or(0.0), residual);
         self.tally.residual = Some(most);
         finite("the residual of the solve", residual)
+    }
+
+    /// Takes note of the ratio of the last terms of the series in the step from this time; what there is to be said
+    /// the first time that it is large.
+    pub fn steep(&mut self, step: u64, time: f64, ratio: f64) -> Option<Warning> {
+        if self.tally.steep.is_some() || ratio <= STEEP {
+            return None;
+        }
+        let steep = Steep { step, time, ratio };
+        self.tally.steep = Some(steep);
+        Some(Warning::Steep(steep))
     }
 
     /// Measures this moment, and takes its drift into account.
@@ -206,14 +225,14 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// # Errors
     /// What is not finite.
     pub fn measure(&self, phase: &Phase<G>) -> Result<Moment, String> {
-        for (name, value) in self.coordinates.iter().zip(phase.momentum.iter()) {
+        for (name, value) in self.watched.coordinates.iter().zip(phase.momentum.iter()) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
         if let Some(bad) = self.entries(phase).find(|entry| !entry.is_finite()) {
             finite("an entry of the group element", bad)?;
         }
         let now = invariants(self.group, &self.watched, phase);
-        finite("the energy", now.energy)?;
+        finite("the energy", now.energy.unwrap_or(0.0))?;
         for (number, casimir) in now.casimirs.iter().enumerate() {
             finite(&format_args!("Casimir {}", number + 1), *casimir)?;
         }
@@ -223,7 +242,10 @@ impl<'a, G: Group> Recorder<'a, G> {
         let drift = Drift {
             spatial_momentum: relative(largest(momenta), self.momentum_scale),
             casimirs: largest(casimirs.map(|((c, d), scale)| relative(c - d, *scale))),
-            energy: relative(now.energy - start.energy, self.energy_scale),
+            energy: match (now.energy, start.energy) {
+                (Some(now), Some(start)) => relative(now - start, self.energy_scale),
+                _ => 0.0,
+            },
         };
         finite("the drift of the spatial momentum", drift.spatial_momentum)?;
         finite("the drift of the Casimirs", drift.casimirs)?;
@@ -234,7 +256,8 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Keeps a moment for pictures, if they are asked for.
     pub fn sample(&mut self, time: f64, phase: &Phase<G>, moment: &Moment) {
         if let Some(samples) = &mut self.samples {
-            samples.offer(time, phase.momentum.as_slice(), moment.energy, moment.drift);
+            let energy = moment.energy.unwrap_or(0.0);
+            samples.offer(time, phase.momentum.as_slice(), energy, moment.drift);
         }
     }
 
@@ -258,19 +281,20 @@ impl<'a, G: Group> Recorder<'a, G> {
         phase: &Phase<G>,
         moment: &Moment,
     ) -> Trajectory {
-        let Tally { drift, iterations, residual } = self.tally;
+        let Tally { drift, iterations, residual, steep } = self.tally;
         let mean_iterations = iterations as f64 / steps.max(1) as f64;
         Trajectory {
             label,
             header,
             truncation: None,
-            coordinates: self.coordinates.to_vec(),
+            coordinates: self.watched.coordinates.to_vec(),
             steps,
             time,
             announcement: None,
+            warnings: steep.map(Warning::Steep).into_iter().collect(),
             momentum: phase.momentum.iter().copied().collect(),
-            element: self.entries(phase).collect(),
-            energy: [self.start.energy, moment.energy],
+            element: if self.watched.attitude { self.entries(phase).collect() } else { Vec::new() },
+            energy: self.start.energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
             casimirs: self.group.casimir_count(),
             potential: self.watched.symmetries.is_some(),
@@ -278,7 +302,7 @@ impl<'a, G: Group> Recorder<'a, G> {
             solver: residual.map(|max_residual| Solver { mean_iterations, max_residual }),
             out: None,
             records: self.samples.map(Samples::finish).unwrap_or_default(),
-            blocks: self.blocks,
+            blocks: if self.watched.attitude { self.blocks } else { Vec::new() },
         }
     }
 }
@@ -301,7 +325,7 @@ fn invariants<G: Group>(group: &G, watched: &Watched<'_>, phase: &Phase<G>) -> I
     Invariants {
         momenta,
         casimirs: (0..count).map(|i| group.casimir(i, &phase.momentum)).collect(),
-        energy: watched.energy.value(group, phase),
+        energy: watched.energy.map(|energy| energy.value(group, phase)),
     }
 }
 

@@ -1,15 +1,16 @@
 //! Following the motion from row to row by the right solution of each step.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use coadjoint_codegen::judge::{Branch, Judge, Motion, Stop};
-use coadjoint_codegen::lie::casimirs;
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
-use serde_json::{Map, Value, json};
+use coadjoint_codegen::judge::{Branch, Inside, Judge, Motion, Setting, Stop};
+use nalgebra::DVector;
 
+use super::found::{Found, maximum};
+use super::invariants::{DRIFT, Invariants};
 use super::record::Columns;
 use super::table::Table;
+use super::twins::{Twins, matrix};
 use crate::error::CliError;
 
 /// The unit roundoff of what is judged.
@@ -18,74 +19,30 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 const SLACK: f64 = 1e-6;
 /// Steps between two rows at most: beyond, the bound on what rounding does says nothing.
 const FARTHEST: u64 = 100_000;
-/// Casimirs may drift by this much a step, relative to the sum of the absolute values of their terms.
-const DRIFT: f64 = 64.0 * f64::EPSILON;
+/// Up to so many steps the bounds on what rounding does are multiplied; over more of them that says nothing.
+const PROVEN: u64 = 3;
+/// Where rounding may do more than this, relative to the numbers, nothing is said of them.
+const VAGUE: f64 = 1e-3;
+/// The ratio of the last two terms of the series up to which a step is accepted, and what rounding may add.
+const LARGEST_RATIO: f64 = 0.5 * (1.0 + 1e-9);
 
 /// Steps of one size, in doubled precision.
 pub struct Follower<'a> {
     judge: &'a Judge,
     step: f64,
     symbols: Vec<f64>,
-    casimirs: Vec<Polynomial>,
+    invariants: Invariants,
 }
 
-/// What was found.
-#[derive(Clone, Debug, Default)]
-pub struct Found {
-    /// Rows that were reached from another.
-    rows: u64,
-    /// Steps made.
-    steps: u64,
-    /// The largest deviation over its bound, of momenta and of group elements.
-    momentum: f64,
-    element: f64,
-    /// The largest drift of a Casimir from row to row, relative to its terms.
-    casimir: f64,
-    /// Rows that could not be judged.
-    untold: u64,
-    /// What is wrong with the first wrong row.
-    pub wrong: Option<String>,
-}
+/// A state of a file.
+type State = (Vec<f64>, Option<Vec<f64>>);
 
-impl Found {
-    /// For people.
-    pub fn lines(&self) -> Vec<String> {
-        let mut lines = vec![
-            format!("{} rows by {} steps in doubled precision", self.rows, self.steps),
-            format!("worst momentum: {:.2e} of its bound", self.momentum),
-            format!("worst group element: {:.2e} of its bound", self.element),
-            format!("worst drift of a Casimir from row to row: {:.2e}", self.casimir),
-        ];
-        if self.untold > 0 {
-            lines.push(format!("{} rows could not be judged", self.untold));
-        }
-        let closing = if self.wrong.is_some() { "wrong" } else { "no row is wrong" };
-        lines.push(closing.to_owned());
-        lines
-    }
-
-    /// For programs.
-    pub fn object(&self) -> Map<String, Value> {
-        let list = [
-            ("rows", json!(self.rows)),
-            ("steps", json!(self.steps)),
-            ("momentum", json!(self.momentum)),
-            ("group_element", json!(self.element)),
-            ("casimir", json!(self.casimir)),
-            ("not_judged", json!(self.untold)),
-            ("wrong", json!(self.wrong)),
-        ];
-        list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-    }
-
-    fn blame(&mut self, what: String) {
-        self.wrong.get_or_insert(what);
-    }
-}
-
-/// The larger of two numbers; NaN where one is.
-fn maximum(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+/// What stops the judge of a step.
+enum Trouble {
+    /// The step is wrong.
+    Wrong(String),
+    /// Nothing can be said of it.
+    Unknown(String),
 }
 
 impl<'a> Follower<'a> {
@@ -95,13 +52,12 @@ impl<'a> Follower<'a> {
     /// Where a parameter is not finite.
     pub fn new(
         judge: &'a Judge,
-        problem: &Problem,
+        invariants: Invariants,
         step: f64,
         symbols: Vec<f64>,
     ) -> Result<Self, CliError> {
         judge.at(step, &symbols).map_err(|error| CliError::Option(error.to_string()))?;
-        let casimirs = casimirs(&problem.algebra, 2).unwrap_or_default();
-        Ok(Self { judge, step, symbols, casimirs })
+        Ok(Self { judge, step, symbols, invariants })
     }
 
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
@@ -110,7 +66,7 @@ impl<'a> Follower<'a> {
     /// Where the file cannot be read.
     pub fn rows(
         &self,
-        mut table: Table,
+        table: &mut Table,
         columns: &Columns,
         file: &Path,
     ) -> Result<Found, CliError> {
@@ -126,11 +82,21 @@ impl<'a> Follower<'a> {
         while let Some(row) = table.next_row()? {
             number += 1;
             let mut grid = true;
+            let place = format!("row {number}, time {}", row[time]);
+            if last.is_none()
+                && row[time] == 0.0
+                && let Some(start) = table.numbers("initial_momentum")
+                && start != columns.momentum(&row)
+            {
+                found.blame(format!(
+                    "{place}: the momentum is not that which the file names as the start"
+                ));
+            }
+            self.judge_energy(&place, columns, &row, &mut found);
             if let Some(last) = &last {
                 let steps = (row[time] - last[time]) / self.step;
                 let whole = steps.round();
                 grid = (steps - whole).abs() <= SLACK * whole.max(1.0);
-                let place = format!("row {number}, time {}", row[time]);
                 if !(steps >= -SLACK) || whole > FARTHEST as f64 {
                     let what = format!(
                         "{place}: {steps} steps of {} after the last row; give the run's --step",
@@ -143,27 +109,45 @@ impl<'a> Follower<'a> {
                 } else {
                     (steps.floor() as u64, self.step * (steps - steps.floor()))
                 };
-                self.compare(&place, columns, last, &row, (count, rest), &mut found);
+                let state = |row: &[f64]| (columns.momentum(row), columns.element(row));
+                self.judge_row(&place, &state(last), &state(&row), (count, rest), &mut found);
             }
             // A row beside the grid is where a step of its own led: the motion goes on from the grid.
             if grid {
                 last = Some(row);
             }
         }
+        if number == 0 {
+            found.pass_over("the file has no rows".to_owned());
+        }
+        self.judge_end(table, number, &mut found);
         Ok(found)
     }
 
-    /// Rows of end states, each with its start.
+    /// What the file says of its end must be true.
+    fn judge_end(&self, table: &Table, rows: u64, found: &mut Found) {
+        found.part = table.value("part").cloned();
+        if let Some(said) = table.value("complete").and_then(|text| text.split(' ').next())
+            && let Ok(said) = said.parse::<u64>()
+            && said != rows
+        {
+            found.blame(format!("there are {rows} rows, and the file says that it has {said}"));
+        }
+        if table.value("complete").is_some_and(|text| text == "false") {
+            found.part.get_or_insert_with(|| "it was not completed".to_owned());
+        }
+    }
+
+    /// Rows of end states, each with its start; those in `refused` have none, by what the run says.
     ///
     /// # Errors
     /// Where a file cannot be read, or has fewer rows than the other.
     pub fn pairs(
         &self,
-        mut starts: Table,
-        before: &Columns,
-        mut ends: Table,
-        columns: &Columns,
+        (starts, before): (&mut Table, &Columns),
+        (ends, columns): (&mut Table, &Columns),
         steps: u64,
+        refused: &BTreeSet<u64>,
         file: &Path,
     ) -> Result<Found, CliError> {
         let mut found = Found::default();
@@ -176,103 +160,203 @@ impl<'a> Follower<'a> {
                     file.display()
                 )));
             };
+            if columns.is_refused(&end) && refused.contains(&number) {
+                found.refused += 1;
+                continue;
+            }
             let place = format!("row {number}");
-            self.judge_row(
-                &place,
-                (before.momentum(&start), before.element(&start)),
-                (columns.momentum(&end), columns.element(&end)),
-                (steps, 0.0),
-                &mut found,
-            );
+            let before = (before.momentum(&start), before.element(&start));
+            let after = (columns.momentum(&end), columns.element(&end));
+            self.judge_row(&place, &before, &after, (steps, 0.0), &mut found);
+        }
+        if starts.next_row()?.is_some() {
+            found.blame(format!("the input has more than the {number} rows of the output"));
+        }
+        if number == 0 {
+            found.pass_over("the file has no rows".to_owned());
         }
         Ok(found)
-    }
-
-    fn compare(
-        &self,
-        place: &str,
-        columns: &Columns,
-        last: &[f64],
-        row: &[f64],
-        steps: (u64, f64),
-        found: &mut Found,
-    ) {
-        let state = |row: &[f64]| (columns.momentum(row), columns.element(row));
-        self.judge_row(place, state(last), state(row), steps, found);
     }
 
     /// From one state to another in so many steps, and one more of another size if that is not 0.
     fn judge_row(
         &self,
         place: &str,
-        before: (Vec<f64>, Option<Vec<f64>>),
-        after: (Vec<f64>, Option<Vec<f64>>),
+        before: &State,
+        after: &State,
         (steps, rest): (u64, f64),
         found: &mut Found,
     ) {
         found.rows += 1;
         found.steps += steps + u64::from(rest != 0.0);
-        let finite = |state: &(Vec<f64>, Option<Vec<f64>>)| {
-            state.0.iter().chain(state.1.iter().flatten()).all(|v| v.is_finite())
+        let finite = |state: &State| {
+            state.0.iter().chain(state.1.iter().flatten()).all(|value| value.is_finite())
         };
-        if !finite(&before) || !finite(&after) {
+        if !finite(before) || !finite(after) {
             found.blame(format!("{place}: a number is not finite"));
             return;
         }
         let mut motion = Motion::new(&before.0);
+        let mut twins = (steps > PROVEN).then(|| Twins::new(&before.0));
         for (size, count) in [(self.step, steps), (rest, u64::from(rest != 0.0))] {
             let Ok(mut setting) = self.judge.at(size, &self.symbols) else { return };
-            for done in 0..count {
-                match motion.step(&mut setting, None, UNIT) {
+            for done in 1..=count {
+                match advance(&mut motion, twins.as_mut(), &mut setting) {
                     Ok(()) => {}
-                    Err(Stop::Branch(Branch::Folds(s))) => {
-                        found.blame(format!(
-                            "{place}: step {} of {count} has no right solution: its continuation \
-                             folds at s = {s:.4}",
-                            done + 1
-                        ));
+                    Err(Trouble::Wrong(what)) => {
+                        found.blame(format!("{place}: step {done} of {count} {what}"));
                         return;
                     }
-                    Err(_) => {
-                        found.untold += 1;
+                    Err(Trouble::Unknown(what)) => {
+                        found.pass_over(format!("{place}: step {done} of {count}: {what}"));
                         return;
                     }
                 }
             }
         }
-        let deviation = if steps == 0 && rest == 0.0 {
-            if before.0 == after.0 { 0.0 } else { f64::INFINITY }
-        } else {
-            motion.momentum_deviation(&after.0)
-        };
-        found.momentum = maximum(found.momentum, deviation);
-        if !(deviation <= 1.0) {
-            let what = format!("{place}: the momentum is off by {deviation:.2e} times its bound");
-            found.blame(what);
-        }
-        if let (Some(g), Some(moved)) = (&before.1, &after.1)
-            && (steps > 0 || rest != 0.0)
-        {
-            let deviation = motion.element_deviation(g, moved);
-            found.element = maximum(found.element, deviation);
-            if !(deviation <= 1.0) {
-                found.blame(format!(
-                    "{place}: the group element is off by {deviation:.2e} times its bound"
-                ));
+        self.judge_invariants(place, before, after, (&motion, steps), found);
+        let moved = steps > 0 || rest != 0.0;
+        let deviations = match twins {
+            Some(twins) => match compare(&motion, &twins, before, after) {
+                Ok(deviations) => deviations,
+                Err(why) => return found.pass_over(format!("{place}: {why}")),
+            },
+            None if moved => {
+                let element = before.1.as_ref().zip(after.1.as_ref());
+                let element = element.map(|(g, next)| motion.element_deviation(g, next));
+                (motion.momentum_deviation(&after.0), element)
             }
+            None => (if before.0 == after.0 { 0.0 } else { f64::INFINITY }, None),
+        };
+        let (momentum, element) = deviations;
+        found.momentum = maximum(found.momentum, momentum);
+        if !(momentum <= 1.0) {
+            found.blame(format!("{place}: the momentum is off by {momentum:.2e} times its bound"));
         }
-        for (index, casimir) in self.casimirs.iter().enumerate() {
-            let (one, other) = (casimir.evaluate(&before.0), casimir.evaluate(&after.0));
-            let sizes = casimir.factors().map(|(factors, value)| {
-                let term = Polynomial::from_factors(before.0.len(), [(factors, value)]);
-                maximum(term.evaluate(&before.0).abs(), term.evaluate(&after.0).abs())
-            });
-            let whole: f64 = sizes.sum();
-            let drift = if one == other { 0.0 } else { (one - other).abs() / whole };
-            found.casimir = maximum(found.casimir, drift);
-            if !(drift <= DRIFT * (steps.max(1) as f64)) {
-                found.blame(format!("{place}: Casimir {} drifts by {drift:.2e}", index + 1));
+        if let Some(element) = element {
+            found.element = maximum(found.element, element);
+            if !(element <= 1.0) {
+                let what = format!("the group element is off by {element:.2e} times its bound");
+                found.blame(format!("{place}: {what}"));
             }
         }
     }
+
+    /// What must be conserved from one state to another by this motion. Rounding is relative to numbers that may be
+    /// larger on the way than what is left of them, by as much as the group's element stretches.
+    fn judge_invariants(
+        &self,
+        place: &str,
+        before: &State,
+        after: &State,
+        (motion, steps): (&Motion, u64),
+        found: &mut Found,
+    ) {
+        let entries = self.invariants.matrix_size().pow(2);
+        let element = matrix(motion, entries);
+        let stretch = element.clone().try_inverse().map(|inverse| {
+            let size = element.nrows().max(1) as f64;
+            (element.norm() * inverse.norm() / size).max(1.0)
+        });
+        let most = DRIFT * (steps + 1) as f64 * stretch.unwrap_or(f64::NAN);
+        for (index, drift) in self.invariants.casimir_drifts(&before.0, &after.0).enumerate() {
+            found.casimir = maximum(found.casimir, drift);
+            if !(drift <= most) {
+                found.blame(format!("{place}: Casimir {} drifts by {drift:.2e}", index + 1));
+            }
+        }
+        let (Some(g), Some(next)) = (&before.1, &after.1) else { return };
+        match self.invariants.spatial_drift((g, &before.0), (next, &after.0)) {
+            None => found.blame(format!("{place}: the group element has no inverse")),
+            Some(drift) => {
+                found.spatial = maximum(found.spatial, drift);
+                if !(drift <= most) {
+                    found.blame(format!("{place}: the spatial momentum drifts by {drift:.2e}"));
+                }
+            }
+        }
+    }
+
+    /// The energy that a row holds must be that of its momentum.
+    fn judge_energy(&self, place: &str, columns: &Columns, row: &[f64], found: &mut Found) {
+        let Some(said) = columns.energy.map(|column| row[column]) else { return };
+        let (energy, size) = self.invariants.energy(&columns.momentum(row));
+        if !((said - energy).abs() <= DRIFT * size) {
+            found.blame(format!("{place}: the energy is {energy}, and the file says {said}"));
+        }
+    }
+}
+
+/// The deviations of momentum and element over what rounding may have done in many steps.
+///
+/// # Errors
+/// Where that is so much that nothing can be said.
+fn compare(
+    motion: &Motion,
+    twins: &Twins,
+    before: &State,
+    after: &State,
+) -> Result<(f64, Option<f64>), String> {
+    let over = |error: f64, size: f64, bound: f64| match error {
+        0.0 => Ok(0.0),
+        _ if !(bound <= VAGUE) => {
+            Err(format!("rounding may do as much as {bound:.1e} in so many steps"))
+        }
+        error => Ok(error / (size * bound)),
+    };
+    let vector = |values: &[f64]| DVector::from_column_slice(values);
+    let here = vector(&motion.momentum());
+    let error = (&here - vector(&after.0)).norm();
+    let (Some(g), Some(next)) = (&before.1, &after.1) else {
+        return Ok((over(error, here.norm(), twins.bounds(1.0).momentum)?, None));
+    };
+    let whole = matrix(motion, g.len());
+    let inverse = whole.clone().try_inverse().ok_or("the group element has no inverse")?;
+    let bounds = twins.bounds(whole.norm() * inverse.norm());
+    let led = vector(&motion.element_from(g));
+    let apart = (&led - vector(next)).norm();
+    let element = over(apart, vector(g).norm() * whole.norm(), bounds.element)?;
+    Ok((over(error, here.norm(), bounds.momentum)?, Some(element)))
+}
+
+/// One step by its right solution, which must lie inside the chart and be of a series that means something.
+fn advance(
+    motion: &mut Motion,
+    twins: Option<&mut Twins>,
+    setting: &mut Setting<'_>,
+) -> Result<(), Trouble> {
+    let stop = |stop: Stop| match stop {
+        Stop::Branch(Branch::Folds(s)) => {
+            Trouble::Wrong(format!("has no right solution: its continuation folds at s = {s:.4}"))
+        }
+        Stop::Branch(_) => Trouble::Unknown("its right solution was not found".to_owned()),
+        Stop::Judge(error) => Trouble::Unknown(error.to_string()),
+    };
+    let step = motion.here(setting).map_err(|error| stop(Stop::Judge(error)))?;
+    let right = step.right_solution().map_err(|branch| stop(Stop::Branch(branch)))?;
+    let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+    match step.inside(&x) {
+        Inside::Yes => {}
+        Inside::No(size) => {
+            let what = format!("lies outside the chart: an eigenvalue has the size {size:.3}");
+            return Err(Trouble::Wrong(what));
+        }
+        Inside::CannotTell => {
+            return Err(Trouble::Unknown("it lies at the limit of the chart".to_owned()));
+        }
+    }
+    if let Some(ratio) = step.series_ratio(&x)
+        && !(ratio <= LARGEST_RATIO)
+    {
+        let what = format!("is of a series whose last two terms have the ratio {ratio:.3}");
+        return Err(Trouble::Wrong(what));
+    }
+    let Some(twins) = twins else {
+        return motion.step(setting, Some(right), UNIT).map_err(stop);
+    };
+    let (momentum, _) = step.momentum();
+    let size = DVector::from_iterator(x.len(), momentum.iter().map(|m| m.to_f64())).norm();
+    let end = step.end(&right, UNIT).map_err(|error| stop(Stop::Judge(error)))?;
+    motion.step(setting, Some(right), UNIT).map_err(stop)?;
+    twins.step(setting, (&end, size), motion, UNIT).map_err(stop)
 }

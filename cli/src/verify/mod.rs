@@ -3,29 +3,38 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
 mod follow;
+mod found;
+mod invariants;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod record;
+mod report;
 mod table;
+mod twins;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::system::{Options, System};
-use num_traits::ToPrimitive;
+use coadjoint_codegen::system::{self, Options, System};
+use serde_json::Value;
 
 use crate::arguments::{Format, VerifyOptions};
 use crate::error::CliError;
-use crate::load;
+use crate::progress;
+use crate::simulate::text_hash;
 use follow::Follower;
+use found::Found;
+use invariants::Invariants;
 use record::Columns;
 use table::Table;
 
 /// Judges the file and prints what was found.
 ///
 /// # Errors
-/// Bad input, and [`CliError::Laws`] where a row is wrong.
+/// Bad input, [`CliError::Laws`] where a row is wrong, and [`CliError::NotJudged`] where nothing can be said of one.
 pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     let (system, output) = match options.files.as_slice() {
         [output] => (None, output),
@@ -36,17 +45,57 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
             ));
         }
     };
-    let table = Table::open(output)?;
-    let system = system_of(system, &table, output)?;
-    for name in ["tuned", "fitted"] {
-        if table.value(name).is_some_and(|value| value != "false") {
-            return Err(CliError::Option(format!(
-                "{}: the run was {name}: its generating function is not the exact series, and \
-                 cannot be derived from the system file",
-                output.display()
-            )));
+    let mut all = Vec::new();
+    for table in Table::open(output)? {
+        all.push(judge(options, system, table, output)?);
+    }
+    match options.format {
+        Format::Text => all.iter().flat_map(Found::lines).for_each(|line| outln!("{line}")),
+        Format::Json => {
+            let mut values: Vec<Value> =
+                all.iter().map(|found| Value::Object(found.object())).collect();
+            let value = if values.len() == 1 { values.remove(0) } else { Value::Array(values) };
+            outln!("{value:#}");
         }
     }
+    if let Some(what) = all.iter().find_map(|found| found.wrong.as_ref()) {
+        return Err(CliError::Laws(format!("{}: {what}", output.display())));
+    }
+    let unjudged: u64 = all.iter().map(|found| found.unjudged).sum();
+    match all.iter().find_map(|found| found.why.as_ref()) {
+        None => Ok(()),
+        Some(why) => Err(CliError::NotJudged(format!(
+            "{}: not verified: {unjudged} rows could not be judged, the first because of {why}",
+            output.display()
+        ))),
+    }
+}
+
+/// Judges one table.
+fn judge(
+    options: &VerifyOptions,
+    named: Option<&PathBuf>,
+    mut table: Table,
+    output: &Path,
+) -> Result<Found, CliError> {
+    let refuse = |what: &str| Err(CliError::Option(format!("{}: {what}", output.display())));
+    for name in ["tuned", "fitted"] {
+        if table.value(name).is_some_and(|value| value != "false") {
+            return refuse(&format!(
+                "the run was {name}: its generating function is not the exact series, and cannot be derived from the \
+                 system file"
+            ));
+        }
+    }
+    if table.value("model").is_some() {
+        return refuse("the run is of a learned map: there is no exact series to judge it by");
+    }
+    if table.value("splitting").is_some() {
+        return refuse(
+            "a system with a potential is not judged: between its kicks the motion is free",
+        );
+    }
+    let (system, text) = system_of(named, &table, output)?;
     let step = options.step.or_else(|| table.number("step"));
     let truncation = options.truncation.or_else(|| table.number("truncation").map(|k| k as usize));
     let said = table.value("chart").map(|name| match name.as_str() {
@@ -55,12 +104,13 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     });
     let chart = options.chart.map(Into::into).or(said);
     let read = Options { truncation, chart, ..Options::default() };
-    let System { problem, potential, run, .. } = load::file(&system, read)?;
+    let System { problem, potential, run, .. } = system::read(&text, read).map_err(|mistakes| {
+        CliError::Input(mistakes.render(&system.display().to_string(), &text))
+    })?;
     if potential.is_some() {
-        return Err(CliError::Option(format!(
-            "{}: a system with a potential is not judged: between its kicks the motion is free",
-            system.display()
-        )));
+        return refuse(
+            "a system with a potential is not judged: between its kicks the motion is free",
+        );
     }
     let step = step.or(run.step).ok_or_else(|| CliError::Missing {
         file: system.clone(),
@@ -71,56 +121,66 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     if step == 0.0 || !step.is_finite() {
         return Err(CliError::Option("--step must be finite and other than zero".into()));
     }
+    let _phase = progress::phase("judging");
     let judge = Judge::of_problem(&problem, TermLimit::default())
         .map_err(|error| CliError::Option(format!("{}: {error}", system.display())))?;
-    let parameters: Vec<f64> = values(&problem)?;
-    let symbols: Vec<f64> = problem.symbols.iter().map(|s| s.expr.evaluate(&parameters)).collect();
-    let follower = Follower::new(&judge, &problem, step, symbols)?;
+    // Parameters are substituted; what symbols are left (sqrt(2)) need none.
+    let symbols: Vec<f64> = problem.symbols.iter().map(|s| s.expr.evaluate(&[])).collect();
+    let follower = Follower::new(&judge, Invariants::new(&problem), step, symbols)?;
     let columns = Columns::find(&problem, table.names(), table.width(), output)?;
-    let found = match &options.input {
-        None => follower.rows(table, &columns, output)?,
-        Some(input) => {
-            let steps = options.steps.ok_or_else(|| {
-                CliError::Option("--input needs --steps: how many steps the ensemble made".into())
-            })?;
-            let starts = Table::open(input)?;
-            let before = Columns::find(&problem, starts.names(), starts.width(), input)?;
-            follower.pairs(starts, &before, table, &columns, steps, output)?
-        }
+    let Some(input) = &options.input else {
+        return follower.rows(&mut table, &columns, output);
     };
-    match options.format {
-        Format::Text => found.lines().iter().for_each(|line| outln!("{line}")),
-        Format::Json => outln!("{:#}", serde_json::Value::Object(found.object())),
-    }
-    match &found.wrong {
-        None => Ok(()),
-        Some(what) => Err(CliError::Laws(format!("{}: {what}", output.display()))),
-    }
+    let steps = options.steps.ok_or_else(|| {
+        CliError::Option("--input needs --steps: how many steps the ensemble made".into())
+    })?;
+    let mut starts = Table::open(input)?;
+    let [start] = starts.as_mut_slice() else { return refuse("--input must be one table") };
+    let before = Columns::find(&problem, start.names(), start.width(), input)?;
+    let (starts, ends) = ((start, &before), (&mut table, &columns));
+    follower.pairs(starts, ends, steps, &refused(output)?, output)
 }
 
-/// The system file: the one named, or the one that the output says it is of.
-fn system_of(named: Option<&PathBuf>, table: &Table, output: &Path) -> Result<PathBuf, CliError> {
-    if let Some(named) = named {
-        return Ok(named.clone());
-    }
+/// The system file and its text: the one named, or the one that the output says it is of, which must be as it was.
+fn system_of(
+    named: Option<&PathBuf>,
+    table: &Table,
+    output: &Path,
+) -> Result<(PathBuf, String), CliError> {
     let said = table.value("system").map(PathBuf::from);
-    said.ok_or_else(|| {
+    let system = named.cloned().or(said).ok_or_else(|| {
         CliError::Option(format!(
             "{}: the file does not say of which system it is; write coadjoint verify SYSTEM.toml {}",
             output.display(),
             output.display()
         ))
-    })
+    })?;
+    let text = std::fs::read_to_string(&system)
+        .map_err(|source| CliError::Read { path: system.clone(), source })?;
+    match table.value("system_sha256") {
+        Some(hash) if *hash != text_hash(&text) => Err(CliError::Option(format!(
+            "{}: {} is not the system file of this run: its text has another hash",
+            output.display(),
+            system.display()
+        ))),
+        _ => Ok((system, text)),
+    }
 }
 
-/// The values of the parameters, flattened.
-fn values(problem: &Problem) -> Result<Vec<f64>, CliError> {
-    let mut values = Vec::new();
-    for parameter in &problem.parameters {
-        let default = parameter.default.as_ref().ok_or_else(|| {
-            CliError::Option(format!("the parameter {} has no value in the file", parameter.name))
-        })?;
-        values.extend(default.iter().map(|value| value.to_f64().unwrap_or(f64::NAN)));
+/// The rows that an ensemble lists as refused, counted from 1.
+fn refused(output: &Path) -> Result<BTreeSet<u64>, CliError> {
+    let mut name = output.file_name().unwrap_or_default().to_owned();
+    name.push(".rejected.csv");
+    let list = output.with_file_name(name);
+    if !list.exists() {
+        return Ok(BTreeSet::new());
     }
-    Ok(values)
+    let mut rows = BTreeSet::new();
+    for mut table in Table::open(&list)? {
+        let place = table.names().iter().position(|name| name == "row");
+        while let Some(row) = table.next_row()? {
+            rows.extend(place.and_then(|place| row.get(place)).map(|&row| row as u64));
+        }
+    }
+    Ok(rows)
 }

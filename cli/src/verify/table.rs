@@ -1,4 +1,4 @@
-//! Rows of numbers from CSV and NPY, read as they are needed, with what their heads say.
+//! Rows of numbers, read as they are needed, with what their heads say.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -7,84 +7,116 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::report;
 use crate::error::CliError;
 
 /// A file of rows.
 pub struct Table {
     path: PathBuf,
-    reader: BufReader<File>,
+    source: Source,
     head: BTreeMap<String, String>,
     names: Vec<String>,
     width: usize,
-    /// Rows left, where the file says how many there are; CSV does not.
-    left: Option<u64>,
-    line: u64,
+}
+
+/// Where rows come from.
+enum Source {
+    /// Lines of numbers between commas, and the number of the last one read.
+    Text(BufReader<File>, u64),
+    /// Numbers of 64 bits, and how many rows are left.
+    Matrix(BufReader<File>, u64),
+    /// Rows in memory.
+    Rows(std::vec::IntoIter<Vec<f64>>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<super::parquet::Rows>),
 }
 
 fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
     move |source| CliError::Read { path: path.into(), source }
 }
 
-fn damaged(path: &Path, what: &str) -> CliError {
+/// A file that is not what its name says.
+pub fn damaged(path: &Path, what: &dyn std::fmt::Display) -> CliError {
     CliError::Option(format!("{}: {what}", path.display()))
 }
 
 impl Table {
-    /// Opens a file by the ending of its name, `.npy` or CSV.
-    pub fn open(path: &Path) -> Result<Self, CliError> {
-        let file = File::open(path).map_err(unread(path))?;
-        let mut table = Self {
-            path: path.into(),
-            reader: BufReader::new(file),
-            head: BTreeMap::new(),
-            names: Vec::new(),
-            width: 0,
-            left: None,
-            line: 0,
-        };
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy")) {
-            table.matrix_head()?;
-        } else {
-            table.text_head()?;
+    /// Opens a file by the ending of its name: `.npy`, `.json` (a table for each run it reports), `.parquet`, or CSV.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is not what its name says.
+    pub fn open(path: &Path) -> Result<Vec<Self>, CliError> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        match ending.to_ascii_lowercase().as_str() {
+            "npy" => Self::matrix(path).map(|table| vec![table]),
+            "json" | "jsonl" => report::tables(path),
+            #[cfg(feature = "parquet")]
+            "parquet" => Self::parquet(path).map(|table| vec![table]),
+            #[cfg(not(feature = "parquet"))]
+            "parquet" => Err(damaged(
+                path,
+                &"this program was built without the feature `parquet`: write .csv or .npy",
+            )),
+            _ => Self::text(path).map(|table| vec![table]),
         }
-        Ok(table)
+    }
+
+    /// Rows in memory.
+    pub fn of_rows(
+        path: &Path,
+        head: BTreeMap<String, String>,
+        names: Vec<String>,
+        rows: Vec<Vec<f64>>,
+    ) -> Self {
+        let (width, source) = (names.len(), Source::Rows(rows.into_iter()));
+        Self { path: path.into(), source, head, names, width }
     }
 
     /// Lines `# name: value`, then the names of the columns.
-    fn text_head(&mut self) -> Result<(), CliError> {
+    fn text(path: &Path) -> Result<Self, CliError> {
+        let file = File::open(path).map_err(unread(path))?;
+        let (path, head) = (path.to_owned(), BTreeMap::new());
+        let source = Source::Text(BufReader::new(file), 0);
+        let mut table = Self { path, source, head, names: Vec::new(), width: 0 };
         loop {
-            let Some(line) = self.next_line()? else {
-                return Err(damaged(&self.path, "the file has no line with names of columns"));
+            let Some(line) = table.next_line()? else {
+                return Err(damaged(&table.path, &"the file has no line with names of columns"));
             };
-            if let Some(comment) = line.strip_prefix('#') {
-                if let Some((name, value)) = comment.split_once(':') {
-                    self.head.insert(name.trim().to_owned(), value.trim().to_owned());
-                }
+            if line.starts_with('#') {
+                table.remark(&line);
             } else if !line.trim().is_empty() {
-                let names = line.split(',').map(|name| name.trim().trim_matches('"').to_owned());
-                self.names = names.collect();
-                self.width = self.names.len();
-                return Ok(());
+                table.names = cells(&line).iter().map(|name| name.trim().to_owned()).collect();
+                table.width = table.names.len();
+                return Ok(table);
             }
         }
     }
 
+    /// Takes note of a line `# name: value`.
+    fn remark(&mut self, line: &str) {
+        if let Some((name, value)) = line.trim_start_matches('#').split_once(':') {
+            self.head.insert(name.trim().to_owned(), value.trim().to_owned());
+        }
+    }
+
     fn next_line(&mut self) -> Result<Option<String>, CliError> {
+        let Source::Text(reader, number) = &mut self.source else { return Ok(None) };
         let mut line = String::new();
-        self.line += 1;
-        let read = self.reader.read_line(&mut line).map_err(unread(&self.path))?;
+        *number += 1;
+        let read = reader.read_line(&mut line).map_err(unread(&self.path))?;
         Ok((read > 0).then(|| line.trim_end_matches(['\n', '\r']).to_owned()))
     }
 
     /// NumPy's head, and the JSON file beside the matrix, if there is one.
-    fn matrix_head(&mut self) -> Result<(), CliError> {
+    fn matrix(path: &Path) -> Result<Self, CliError> {
+        let mut reader = BufReader::new(File::open(path).map_err(unread(path))?);
         let mut start = [0; 10];
-        self.reader.read_exact(&mut start).map_err(unread(&self.path))?;
+        reader.read_exact(&mut start).map_err(unread(path))?;
         if &start[..6] != b"\x93NUMPY" || start[6] != 1 {
-            return Err(damaged(&self.path, "not a matrix of NumPy's format, version 1.0"));
+            return Err(damaged(path, &"not a matrix of NumPy's format, version 1.0"));
         }
         let mut head = vec![0; usize::from(u16::from_le_bytes([start[8], start[9]]))];
-        self.reader.read_exact(&mut head).map_err(unread(&self.path))?;
+        reader.read_exact(&mut head).map_err(unread(path))?;
         let head = String::from_utf8_lossy(&head).into_owned();
         let shape = head.split_once("'shape': (").and_then(|(_, rest)| rest.split_once(')'));
         let sizes: Vec<u64> = shape
@@ -93,10 +125,22 @@ impl Table {
         let ([rows, width], true, true) =
             (sizes.as_slice(), head.contains("'<f8'"), head.contains("'fortran_order': False"))
         else {
-            return Err(damaged(&self.path, "only matrices of <f8, row by row, are read"));
+            return Err(damaged(path, &"only matrices of <f8, row by row, are read"));
         };
-        (self.left, self.width) = (Some(*rows), usize::try_from(*width).unwrap_or(0));
-        let mut beside = self.path.clone().into_os_string();
+        let length = reader.get_ref().metadata().map_err(unread(path))?.len();
+        let bytes = rows.checked_mul(*width).and_then(|numbers| numbers.checked_mul(8));
+        if bytes.is_none_or(|bytes| bytes > length) {
+            return Err(damaged(path, &"its head claims more numbers than it holds"));
+        }
+        let mut table = Self {
+            path: path.into(),
+            source: Source::Matrix(reader, *rows),
+            head: BTreeMap::new(),
+            names: Vec::new(),
+            // Bounded by the length of the file.
+            width: usize::try_from(*width).unwrap_or(usize::MAX),
+        };
+        let mut beside = path.to_path_buf().into_os_string();
         beside.push(".json");
         if let Ok(text) = std::fs::read_to_string(beside)
             && let Ok(Value::Object(object)) = serde_json::from_str(&text)
@@ -104,18 +148,30 @@ impl Table {
             for (name, value) in object {
                 match value {
                     Value::Array(list) if name == "columns" => {
-                        self.names =
+                        table.names =
                             list.iter().filter_map(|v| v.as_str().map(str::to_owned)).collect();
                     }
-                    Value::String(text) => drop(self.head.insert(name, text)),
-                    other => drop(self.head.insert(name, other.to_string())),
+                    value => drop(table.head.insert(name, report::text(&value))),
                 }
             }
         }
-        Ok(())
+        Ok(table)
     }
 
-    /// What the head says under a name.
+    #[cfg(feature = "parquet")]
+    fn parquet(path: &Path) -> Result<Self, CliError> {
+        let (names, rows) = super::parquet::Rows::open(path)?;
+        let (path, width) = (path.to_owned(), names.len());
+        Ok(Self {
+            path,
+            source: Source::Parquet(Box::new(rows)),
+            head: BTreeMap::new(),
+            names,
+            width,
+        })
+    }
+
+    /// What the file says under a name; what it says at its end is known once all rows are read.
     pub fn value(&self, name: &str) -> Option<&String> {
         self.head.get(name)
     }
@@ -123,6 +179,11 @@ impl Table {
     /// The same as a number.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.value(name)?.parse().ok()
+    }
+
+    /// The same as numbers between commas.
+    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        self.value(name)?.split(',').map(|number| number.trim().parse().ok()).collect()
     }
 
     /// The names of the columns; none where the file has none.
@@ -135,34 +196,74 @@ impl Table {
         self.width
     }
 
-    /// The next row.
+    /// The next row. Cells that are no numbers, such as names of rows, are NaN.
     ///
     /// # Errors
-    /// Where the file cannot be read, or a cell is no number.
+    /// Where the file cannot be read, or a row is longer or shorter than the first.
     pub fn next_row(&mut self) -> Result<Option<Vec<f64>>, CliError> {
-        if let Some(left) = &mut self.left {
-            if *left == 0 {
-                return Ok(None);
+        match &mut self.source {
+            Source::Matrix(_, 0) => Ok(None),
+            Source::Matrix(reader, left) => {
+                *left -= 1;
+                let mut bytes = vec![0; 8 * self.width];
+                reader.read_exact(&mut bytes).map_err(unread(&self.path))?;
+                Ok(Some(bytes.as_chunks::<8>().0.iter().map(|&b| f64::from_le_bytes(b)).collect()))
             }
-            *left -= 1;
-            let mut bytes = vec![0; 8 * self.width];
-            self.reader.read_exact(&mut bytes).map_err(unread(&self.path))?;
-            let number = |b: &[u8]| f64::from_le_bytes(b.try_into().unwrap_or_default());
-            return Ok(Some(bytes.chunks(8).map(number).collect()));
+            Source::Rows(rows) => Ok(rows.next()),
+            #[cfg(feature = "parquet")]
+            Source::Parquet(rows) => rows.next_row(),
+            Source::Text(..) => self.next_text_row(),
         }
+    }
+
+    fn next_text_row(&mut self) -> Result<Option<Vec<f64>>, CliError> {
         loop {
             let Some(line) = self.next_line()? else { return Ok(None) };
-            if line.starts_with('#') || line.trim().is_empty() {
+            if line.starts_with('#') {
+                self.remark(&line);
                 continue;
             }
-            let cells: Vec<&str> = line.split(',').collect();
+            if line.trim().is_empty() {
+                continue;
+            }
+            let cells = cells(&line);
             if cells.len() != self.width {
-                let what =
-                    format!("line {}: {} cells in place of {}", self.line, cells.len(), self.width);
+                let Source::Text(_, number) = self.source else { return Ok(None) };
+                let (found, width) = (cells.len(), self.width);
+                let what = format!("line {number}: {found} cells in place of {width}");
                 return Err(damaged(&self.path, &what));
             }
-            // Columns that are no numbers, such as names of rows, are nobody's concern here.
             return Ok(Some(cells.iter().map(|c| c.trim().parse().unwrap_or(f64::NAN)).collect()));
         }
+    }
+}
+
+/// The cells of a line, quotes taken off.
+fn cells(line: &str) -> Vec<String> {
+    let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                cell.push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(std::mem::take(&mut cell)),
+            letter => cell.push(letter),
+        }
+    }
+    cells.push(cell);
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cells;
+
+    #[test]
+    fn quotes_keep_commas() {
+        assert_eq!(cells("1,\"a,\"\"b\"\"\",2"), ["1", "a,\"b\"", "2"]);
+        assert_eq!(cells(""), [""]);
     }
 }

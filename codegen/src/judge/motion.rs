@@ -32,6 +32,14 @@ impl Motion {
         Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }
     }
 
+    /// The step from where the motion has come to.
+    ///
+    /// # Errors
+    /// As [`Setting::step_from`].
+    pub fn here<'s>(&self, setting: &'s mut Setting<'_>) -> Result<super::Step<'s>, JudgeError> {
+        setting.step_from(&self.momentum, self.scale)
+    }
+
     /// One step, by its right solution if that is known, for a scalar of this unit roundoff.
     ///
     /// # Errors

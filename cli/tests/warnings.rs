@@ -1,0 +1,158 @@
+//! What a run says of itself: a series that hardly converges, adjusted series that are none, steps that would work.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod support;
+
+use serde_json::Value;
+use support::{file, run};
+use tempfile::TempDir;
+
+const BODY: &str = "examples/rigid_body.toml";
+
+/// The report of a run that ends well, and what it said.
+fn report(arguments: &[&str]) -> (Value, String) {
+    let (code, out, error) = run(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(code, 0, "{arguments:?}: {error}");
+    (serde_json::from_str(&out).unwrap(), error)
+}
+
+fn kinds(report: &Value) -> Vec<&str> {
+    report["warnings"].as_array().unwrap().iter().map(|w| w["kind"].as_str().unwrap()).collect()
+}
+
+fn at(directory: &TempDir, name: &str) -> String {
+    directory.path().join(name).to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_series_that_hardly_converges_is_told_once() {
+    for (step, expected) in [("0.1", 0), ("0.5", 0), ("2.2", 1)] {
+        let (report, error) = report(&["simulate", BODY, "--step", step, "--time", "22"]);
+        assert_eq!(kinds(&report), vec!["series_ratio"; expected], "{step}: {error}");
+        assert_eq!(
+            error.matches("warning: the series hardly converges").count(),
+            expected,
+            "{error}"
+        );
+        if expected == 1 {
+            let ratio = report["warnings"][0]["ratio"].as_f64().unwrap();
+            assert!((0.25..0.5).contains(&ratio), "{ratio}");
+            assert!(report["warnings"][0]["step"].as_u64().unwrap() >= 1);
+        }
+    }
+    let (code, text, _) = run(&["simulate", BODY, "--step", "2.2", "--time", "22"]);
+    assert!(
+        code == 0 && text.contains("  warning: the series hardly converges: from step "),
+        "{text}"
+    );
+    // Steps are refused above twice that.
+    let (code, _, error) = run(&["simulate", BODY, "--step", "3", "--time", "30"]);
+    assert!(code == 1 && error.contains("a step of "), "{error}");
+}
+
+/// The ratio changes along the motion: the warning names the first step that is worth one.
+#[test]
+fn the_warning_names_the_time_it_comes() {
+    let (report, error) = report(&["simulate", BODY, "--step", "2.1", "--time", "21"]);
+    let warning = &report["warnings"][0];
+    assert!(warning["step"] == 2 && warning["time"] == 2.1, "{warning}");
+    assert!(error.contains("from step 2, at time 2.1,"), "{error}");
+}
+
+#[test]
+fn check_and_ensemble_tell_it_too() {
+    let directory = TempDir::new().unwrap();
+    let (found, error) = report(&["check", BODY, "--step", "0.1"]);
+    assert!(kinds(&found).is_empty() && error.is_empty(), "{error}");
+    let (_, out, error) = run(&["check", BODY, "--step", "1.8", "--format", "json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(kinds(&found), ["series_ratio"], "{error}");
+    assert_eq!(error.matches("warning: ").count(), 1, "{error}");
+
+    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
+    for (momentum, expected) in [("0.2,0.1,0.1", 0), ("2.0,0.5,1.0", 1)] {
+        std::fs::write(&states, format!("mu_1,mu_2,mu_3\n0.1,0,0.1\n{momentum}\n")).unwrap();
+        let run = [
+            "ensemble",
+            BODY,
+            "--initial",
+            &states,
+            "--out",
+            &out,
+            "--step",
+            "2.2",
+            "--time",
+            "22",
+        ];
+        let (found, error) = report(&run);
+        assert_eq!(kinds(&found), vec!["series_ratio"; expected], "{error}");
+        assert_eq!(error.matches("warning: ").count(), expected, "{error}");
+    }
+}
+
+/// A refused step names the time, the size of x, the ratio, and a step that was tried: that step works.
+#[test]
+fn a_refused_step_names_one_that_works() {
+    let directory = TempDir::new().unwrap();
+    let usable = |error: &str| -> String {
+        assert!(error.contains("|x| = ") && error.contains("in the ratio "), "{error}");
+        let step = error.split("; a step of ").nth(1).unwrap_or_else(|| panic!("{error}"));
+        step.split(" works here").next().unwrap().to_owned()
+    };
+    for (system, step) in
+        [(BODY, "8"), ("examples/satellite.toml", "20"), ("examples/lagrange_top.toml", "10")]
+    {
+        let (code, _, error) = run(&["simulate", system, "--step", step, "--time", "40"]);
+        assert_eq!(code, 1, "{error}");
+        assert!(error.starts_with("error: at time 0, step 1: "), "{error}");
+        let shorter = usable(&error);
+        let (code, _, error) = run(&["simulate", system, "--step", &shorter, "--time", &shorter]);
+        assert_eq!(code, 0, "{system}, {shorter}: {error}");
+    }
+    let (code, _, error) = run(&["check", BODY, "--step", "20"]);
+    assert_eq!(code, 1, "{error}");
+    let shorter = usable(&error);
+    assert_eq!(run(&["check", BODY, "--step", &shorter]).0, 0);
+
+    // Rows of an ensemble: each its own.
+    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
+    std::fs::write(&states, "mu_1,mu_2,mu_3\n0.1,0,0.1\n20,5,10\n200,50,100\n").unwrap();
+    let advance =
+        ["ensemble", BODY, "--initial", &states, "--out", &out, "--step", "0.5", "--time", "300"];
+    let (code, _, error) = run(&advance);
+    assert_eq!(code, 0, "{error}");
+    let list = std::fs::read_to_string(format!("{out}.rejected.csv")).unwrap();
+    let steps: Vec<f64> = list.lines().skip(1).map(|line| usable(line).parse().unwrap()).collect();
+    assert!(steps.len() == 2 && steps[1] < steps[0] && steps[0] < 0.5, "{list}");
+    assert!(list.contains("\n2,1,\"") && list.contains("\n3,1,\""), "{list}");
+}
+
+/// Where the tail cannot be summed, or the fit does not hold, the plain series is used, and that is said.
+#[test]
+fn a_series_that_could_not_be_adjusted_is_plain_and_says_so() {
+    let directory = TempDir::new().unwrap();
+    let end = |found: &Value| found["momentum"].clone();
+    let short = ["simulate", BODY, "--time", "20"];
+    for (options, expected) in [
+        // K = 3 has no tail to tell from; a body that does not move has none either.
+        (&["--truncation", "3", "--tuned"][..], 1),
+        (&["--truncation", "9", "--step", "0.5", "--tuned"], 0),
+        (&["--truncation", "5", "--step", "0.5", "--fitted", "12"], 0),
+    ] {
+        let (found, error) = report(&[&short[..], options].concat());
+        assert_eq!(kinds(&found), vec!["plain_series"; expected], "{options:?}: {error}");
+        assert_eq!(error.matches("the plain series was used").count(), expected, "{error}");
+        if expected == 1 {
+            let (plain, _) = report(&[&short[..], &["--truncation", "3"]].concat());
+            assert_eq!(end(&found), end(&plain));
+        }
+    }
+    let still = file(
+        &directory,
+        "group = \"SO3\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 7\n\
+         step = 0.5\n[initial]\nmomentum = [0, 0, 1]\n[run]\ntime = 10\n",
+    );
+    let (found, error) = report(&["simulate", &still, "--fitted", "5"]);
+    assert_eq!(kinds(&found), ["plain_series"], "{error}");
+    assert_eq!(found["warnings"][0]["option"], "--fitted");
+}

@@ -1,0 +1,208 @@
+//! What was once wrong in the library: steps that solved nothing, and more. Each is refused, or right.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use coadjoint::generating::PolynomialFunction;
+use coadjoint::{
+    Cayley, Coordinates, Exponential, GeneratingFunction, Integrator, LieGroup, Phase,
+};
+use coadjoint::{SE3, SO3, StepError, advance, advance_by, lie_poisson};
+use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
+
+const INERTIA: [f64; 3] = [1.3, 2.1, 3.0];
+
+fn energy(mu: &Vector3<f64>) -> f64 {
+    0.5 * (0..3).map(|i| mu[i] * mu[i] / INERTIA[i]).sum::<f64>()
+}
+
+#[lie_poisson(group = SO3, truncation = 7)]
+fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+#[lie_poisson(group = SO3, truncation = 5, chart = cayley)]
+fn cayley_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+#[lie_poisson(group = SE3, truncation = 5)]
+fn top(mu: [f64; 6], inertia: [f64; 3], height: f64) -> f64 {
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+        + height * mu[5]
+}
+
+/// Numbers between −1 and 1 (Marsaglia's xorshift).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0
+    }
+}
+
+/// Steps from random momenta of this size: how many were accepted. A refused one leaves the state; of an accepted one
+/// the spatial momentum is kept, and `right` says so too.
+fn accepted<S>(step: &S, size: f64, right: impl Fn(&Phase<S::Group>, &Phase<S::Group>)) -> usize
+where
+    S: Integrator,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    let group = step.group();
+    let mut random = Random(0x1234_5678_9abc_def1);
+    let mut count = 0;
+    for _ in 0..500 {
+        let mu =
+            <S::Group as LieGroup>::Vector::from_entries(group.dim(), |_| size * random.number());
+        let start = Phase::<S::Group>::new(group.identity(), mu);
+        let mut state = start.clone();
+        if advance(step, &mut state).is_err() {
+            assert_eq!(format!("{state:?}"), format!("{start:?}"));
+            continue;
+        }
+        count += 1;
+        let (before, after) = (start.spatial_momentum(group), state.spatial_momentum(group));
+        for i in 0..group.dim() {
+            assert!((after[i] - before[i]).abs() < 1e-11 * size, "{start:?} -> {state:?}");
+        }
+        right(&start, &state);
+    }
+    count
+}
+
+#[test]
+fn steps_of_a_top_that_lose_momentum_are_refused() -> Result<(), StepError> {
+    let step = Top::new(1.0, INERTIA, 1.0)?;
+    // This one was accepted with |x| = 4e52.
+    let mu = [
+        -0.34170078176259644,
+        -3.8837134581662,
+        6.421404486074798,
+        -0.916301546164221,
+        0.45806835778254174,
+        -0.9476025154341972,
+    ];
+    let start = Phase::<SE3>::at_identity(SVector::from(mu));
+    let mut state = start.clone();
+    assert!(step.advance(&mut state).is_err());
+    assert_eq!(state.momentum, start.momentum);
+    let counts = [0.3, 2.0, 4.0, 8.0].map(|size| accepted(&step, size, |_, _| {}));
+    assert!(counts[0] > 400, "{counts:?}");
+    Ok(())
+}
+
+#[test]
+fn no_step_of_a_body_follows_another_motion() -> Result<(), StepError> {
+    let step = Body::new(1.0, INERTIA)?;
+    let keeps = |start: &Phase<SO3>, end: &Phase<SO3>| {
+        let change = (energy(&end.momentum) - energy(&start.momentum)).abs();
+        assert!(change < 0.1 * energy(&start.momentum), "{start:?} -> {end:?}");
+    };
+    let counts = [1.0, 3.0, 6.0, 10.0, 30.0].map(|size| accepted(&step, size, keeps));
+    assert!(counts[0] == 500 && counts[4] < 50, "{counts:?}");
+    Ok(())
+}
+
+#[test]
+fn steps_far_beyond_the_cayley_chart_are_refused() -> Result<(), StepError> {
+    let step = CayleyBody::new(1.0, INERTIA)?;
+    for size in [1e3, 1e6, 1e150, 1e300] {
+        assert_eq!(accepted(&step, size, |_, _| {}), 0, "{size:e}");
+    }
+    assert!(accepted(&step, 0.5, |_, _| {}) > 400);
+    Ok(())
+}
+
+#[test]
+fn a_group_element_that_is_not_finite_goes_nowhere() -> Result<(), StepError> {
+    let step = Body::new(0.1, INERTIA)?;
+    let nowhere = UnitQuaternion::new_unchecked(Quaternion::new(f64::NAN, 0.0, 0.0, 0.0));
+    let start = Phase::<SO3>::new(nowhere, Vector3::new(2.0, 0.5, 1.0));
+    let mut state = start.clone();
+    assert!(matches!(step.advance(&mut state), Err(StepError::OffGroup { .. })));
+    assert!(matches!(advance(&step, &mut state), Err(StepError::OffGroup { .. })));
+    let stopped = advance_by(&step, &mut state, 1000).unwrap_err();
+    assert!(stopped.steps == 0 && matches!(stopped.error, StepError::OffGroup { .. }), "{stopped}");
+    assert_eq!(state.momentum, start.momentum);
+    Ok(())
+}
+
+/// S = p₀·p₀ + p₁·p₁ with both factors written out: ∂²S/∂p² has 2 twice on its diagonal, in both charts.
+#[test]
+fn repeated_factors_are_powers_in_every_term() -> Result<(), Box<dyn std::error::Error>> {
+    let terms = || vec![(1.0, vec![(0, 1), (0, 1)]), (1.0, vec![(1, 1), (1, 1)])];
+    let p = Vector3::new(0.3, -0.4, 0.5);
+    let expected = Matrix3::from_diagonal(&Vector3::new(2.0, 2.0, 0.0));
+    let exponential = PolynomialFunction::new(SO3::<f64>::new(), Exponential, terms())?;
+    let cayley = PolynomialFunction::new(SO3::<f64>::new(), Cayley, terms())?;
+    for (gradient, hessian) in
+        [exponential.gradient_and_hessian(&p), cayley.gradient_and_hessian(&p)]
+    {
+        assert_eq!(gradient, Vector3::new(0.6, -0.8, 0.0));
+        assert_eq!(hessian, expected);
+    }
+    Ok(())
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+#[test]
+fn the_feature_of_build_scripts_is_named() {
+    for page in ["codegen/src/build_script.rs", "codegen/src/lib.rs"] {
+        let text = std::fs::read_to_string(root().join(page)).unwrap();
+        assert!(text.contains("features = [\"system\"]"), "{page}");
+    }
+}
+
+/// The build script of the runtime, built and run as cargo does.
+#[test]
+fn without_std_or_libm_one_sentence_says_what_is_missing() {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("runtime-build-script");
+    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let built = Command::new(compiler)
+        .args(["--edition", "2024", "-o"])
+        .arg(&program)
+        .arg(root().join("runtime/build.rs"))
+        .env("CARGO_PKG_VERSION", "0.0.0")
+        .status();
+    assert!(built.unwrap().success());
+    let said = |feature: &str| {
+        let mut command = Command::new(&program);
+        command.env_remove("CARGO_FEATURE_STD").env_remove("CARGO_FEATURE_LIBM");
+        let output = command.env(feature, "1").output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let without = said("CARGO_FEATURE_ALLOC");
+    assert_eq!(without.matches("cargo::error=").count(), 1, "{without}");
+    assert!(without.contains("`std`") && without.contains("`libm`"), "{without}");
+    for feature in ["CARGO_FEATURE_STD", "CARGO_FEATURE_LIBM"] {
+        assert!(!said(feature).contains("cargo::error"));
+    }
+}
+
+/// Numbers of steps are of 64 bits; addresses may have 32.
+#[test]
+fn no_number_of_steps_is_cut_to_the_width_of_an_address() {
+    let mut folders = vec![root().join("runtime/src")];
+    let mut files = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            files += 1;
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(!text.contains("steps as usize"), "{}", path.display());
+        }
+    }
+    assert!(files > 50);
+}
