@@ -114,7 +114,7 @@ struct Steps<'a, G, C> {
     shorter: Mutex<Vec<Interpreter<'a, G, C>>>,
 }
 
-impl<'a, G: EnsembleGroup<Scalar: Number>, C: Chart<G>> Steps<'a, G, C>
+impl<'a, G: EnsembleGroup<Scalar: Arithmetic>, C: Chart<G>> Steps<'a, G, C>
 where
     Interpreter<'a, G, C>: Lanes<Group = G>,
 {
@@ -160,7 +160,7 @@ where
 
 impl<'a, G, C> Steps<'a, G, C>
 where
-    G: EnsembleGroup<Scalar: Number>,
+    G: EnsembleGroup<Scalar: Arithmetic>,
     C: Chart<G>,
     Interpreter<'a, G, C>: Lanes<Group = G> + Send + Sync,
     <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
