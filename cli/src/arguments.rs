@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
 
+use crate::backend::Backend;
 use crate::ensemble::Shard;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
@@ -258,6 +259,9 @@ pub struct SimulateOptions {
     /// The relative and absolute tolerance of the method beside it
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
     pub compare_tolerance: f64,
+    /// What evaluates the steps
+    #[arg(long, value_enum, default_value_t, conflicts_with = "model")]
+    pub backend: Backend,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,

@@ -8,6 +8,7 @@
 mod output;
 
 mod arguments;
+mod backend;
 mod casimirs;
 mod check;
 mod derive;

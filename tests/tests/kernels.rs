@@ -36,7 +36,7 @@ fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) ->
     let dim = lie::catalogue::lookup(group).unwrap().dim();
     let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
     let text = format!(
-        "group = {group:?}\nchart = {chart:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n"
+        "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\n"
     );
     let options = Options { truncation: Some(truncation), ..Options::default() };
     Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
@@ -187,7 +187,10 @@ fn what_is_driven_too_hard_is_refused_and_stays() {
         let outcome = step.kernel().advance(&slots, &mut g, &mut mu, 10);
         assert_eq!(outcome.steps, 0);
         assert_eq!(g, [1.0, 0.0, 0.0, 0.0]);
-        assert_eq!(mu.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), start.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+        assert_eq!(
+            mu.iter().map(|x| x.to_bits()).collect::<Vec<_>>(),
+            start.iter().map(|x| x.to_bits()).collect::<Vec<_>>()
+        );
     }
     // Beyond the radius of the series.
     let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 0.5);
@@ -200,7 +203,7 @@ fn what_is_driven_too_hard_is_refused_and_stays() {
 #[test]
 fn a_frame_moves_as_far_as_it_spins() {
     // A body that spins many turns a step: the motion about its axis is in the frame.
-    let text = "group = \"SO3\"\nframe = \"comoving\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/3.2 + c^2/4\"\n";
+    let text = "group = \"SO3\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/3.2 + c^2/4\"\n[integrator]\nframe = \"comoving\"\n";
     let options = Options { truncation: Some(7), ..Options::default() };
     let problem = read(text, options).unwrap().problem;
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();

@@ -1,18 +1,22 @@
 //! The step the command line runs: the interpreter of the expression graph on a group of tables.
 
 mod advise;
+mod compiled;
 mod group;
 mod interpreter;
 mod kick;
 mod lanes;
 mod polynomial;
+mod restore;
 mod steep;
 
 pub use advise::advise;
+pub use compiled::{Compiled, Numbers};
 pub use group::{cayley_group, matrix_group, product_group};
 pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};
 pub use polynomial::{Energy, FloatPolynomial};
+pub use restore::Restore;
 pub use steep::{STEEP, Steepness};
 
 use std::ops::Range;

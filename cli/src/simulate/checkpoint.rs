@@ -24,9 +24,12 @@ pub struct Checkpoint {
     pub momentum: Vec<u64>,
     /// The entries of the blocks of g, row by row.
     pub element: Vec<u64>,
+    /// The numbers that make g where steps are programs, which are other than its matrix.
+    #[serde(default)]
+    pub own: Option<Vec<u64>>,
     /// The largest drifts of the spatial momentum, the Casimirs and the energy.
     pub drift: [u64; 3],
-    /// All iterations.
+    /// The most iterations of a step.
     pub iterations: u64,
     /// The largest residual.
     pub residual: Option<u64>,

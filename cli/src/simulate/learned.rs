@@ -9,14 +9,14 @@ use coadjoint_learn::{Generating, LearnError, ModelFile};
 use nalgebra::DVector;
 
 use super::header::{Header, text_hash};
-use super::march::{Made, March, Stepper};
-use super::restore::Restore;
+use super::march::{Made, March, Stepper, each};
 use super::schedule::Schedule;
 use super::setup::{Setup, check_names, checkpoint, every};
 use super::subject::Subject;
 use super::trajectory::{Trajectory, Watched};
 use super::warning::Warning;
 use crate::arguments::SimulateOptions;
+use crate::engine::Restore;
 use crate::engine::{cayley_group, product_group};
 use crate::error::CliError;
 
@@ -64,6 +64,7 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
         sampled: false,
         checkpoint: checkpoint(options)?,
         tuned: false,
+        backend: crate::backend::Backend::Interpreter,
         fitted: None,
         momentum: DVector::from_column_slice(&options.start),
         group_element: None,
@@ -120,11 +121,12 @@ fn follow<G: Restore, C: Chart<G>>(
 ) -> Result<Trajectory, CliError> {
     let map = Generating::<G, C, _>::new(group.clone(), &model.model);
     March { subject, group: &group }.run(&Stepper {
-        step: &|_, phase| {
+        steps: &each(&subject.setup.schedule, |_, phase| {
             let report = advance(&map, phase)?;
             Ok(Made { solve: Some((report.iterations, report.residual)), ratio: 0.0 })
-        },
+        }),
         // Times between steps are refused: a learned map has one step.
         side: &|_, part, _| Err(StepError::InvalidStep { step: part }),
+        kept: None,
     })
 }

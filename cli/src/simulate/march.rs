@@ -1,8 +1,9 @@
 //! The steps of a run, one after the other: measured, recorded, and kept for a restart.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use coadjoint::{Phase, StepError};
 use nalgebra::DVector;
@@ -11,37 +12,94 @@ use super::checkpoint::{Checkpoint, bits, numbers};
 use super::element::split;
 use super::interrupt::Guard;
 use super::names::columns;
-use super::restore::Restore;
+use super::number::maximum;
 use super::samples::Samples;
+use super::schedule::Schedule;
 use super::sink::Sink;
 use super::subject::Subject;
 use super::target::Target;
 use super::trajectory::{Moment, Recorder, Trajectory};
 use super::warning::Warning;
+use crate::engine::Numbers;
+use crate::engine::Restore;
 use crate::error::CliError;
 use crate::progress;
 
-/// How a step of the grid went.
+/// How steps of the grid went.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Made {
-    /// Iterations and residual of the solve, where there was one.
+    /// The most iterations and the largest residual of a solve, where there was one.
     pub solve: Option<(u32, f64)>,
     /// The ratio of the last two terms of the series, where it may be worth a warning; else 0.
     pub ratio: f64,
 }
 
-/// A step of the grid, from the time given.
-type GridStep<'s, G> = dyn Fn(f64, &mut Phase<G>) -> Result<Made, StepError> + 's;
+impl Made {
+    /// The worse of both in everything.
+    fn worse(&mut self, other: Self) {
+        self.ratio = maximum(self.ratio, other.ratio);
+        self.solve = match (self.solve, other.solve) {
+            (Some((a, b)), Some((c, d))) => Some((a.max(c), maximum(b, d))),
+            (a, b) => a.or(b),
+        };
+    }
+}
+
+/// Steps of the grid, so many after the first so many. Where one is refused: how many were made, and why.
+type GridSteps<'s, G> = dyn Fn(u64, &mut Phase<G>, u64) -> Result<Made, (u64, StepError)> + 's;
+
+/// Steps made one by one, by what makes a single one from the time given.
+pub fn each<'s, G: Restore>(
+    schedule: &'s Schedule,
+    step: impl Fn(f64, &mut Phase<G>) -> Result<Made, StepError> + 's,
+) -> impl Fn(u64, &mut Phase<G>, u64) -> Result<Made, (u64, StepError)> + 's {
+    move |first, phase, count| {
+        let mut total = Made::default();
+        for done in 0..count {
+            let made = step(schedule.time(first + done), phase).map_err(|error| (done, error))?;
+            total.worse(made);
+        }
+        Ok(total)
+    }
+}
 
 /// A step of another length, from the time given: (time, length, state).
 type SideStep<'s, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 's;
 
+/// The drift is looked at so often in a run of which no records are kept.
+const LOOKS: u64 = 10_000;
+
+/// How many steps are made at a time: few enough to come back every ten milliseconds.
+struct Pace(u64);
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self(16)
+    }
+}
+
+impl Pace {
+    fn steps(&self) -> u64 {
+        self.0
+    }
+
+    /// So many steps took so long.
+    fn took(&mut self, steps: u64, time: Duration) {
+        const GOAL: f64 = 0.005;
+        let each = time.as_secs_f64().max(1e-9) / steps.max(1) as f64;
+        // At most twice as many as before: the first may have been cheap.
+        self.0 = ((GOAL / each) as u64).clamp(1, self.0.saturating_mul(2));
+    }
+}
+
 /// What makes steps on a group.
 pub struct Stepper<'s, G: Restore> {
-    /// Makes a step of the grid.
-    pub step: &'s GridStep<'s, G>,
+    /// Makes steps of the grid. The state that comes back does not depend on how many are made at a time.
+    pub steps: &'s GridSteps<'s, G>,
     /// Makes a step of another length.
     pub side: &'s SideStep<'s, G>,
+    /// What the steps keep beside the state, where they keep anything: read for a checkpoint, and put back.
+    pub kept: Option<&'s RefCell<Option<Numbers>>>,
 }
 
 /// A run on a group.
@@ -73,7 +131,7 @@ impl<'a, G: Restore> March<'a, G> {
     pub fn run(&self, stepper: &Stepper<'_, G>) -> Result<Trajectory, CliError> {
         let subject = self.subject;
         let schedule = &subject.setup.schedule;
-        let mut state = self.begin()?;
+        let mut state = self.begin(stepper)?;
         let outcome = self.go(&mut state, stepper);
         let target = subject.setup.out.as_ref();
         let rows = match (outcome, state.sink.take()) {
@@ -111,7 +169,7 @@ impl<'a, G: Restore> March<'a, G> {
     }
 
     /// The state at the start, or where a checkpoint was made.
-    fn begin(&self) -> Result<State<'a, G>, CliError> {
+    fn begin(&self, stepper: &Stepper<'_, G>) -> Result<State<'a, G>, CliError> {
         let (subject, group) = (self.subject, self.group);
         let setup = subject.setup;
         let start = Phase::<G>::new(setup.element(group)?, setup.momentum.clone());
@@ -155,6 +213,9 @@ impl<'a, G: Restore> March<'a, G> {
         }
         let element = group.restore(&|i, j| g[(i, j)]);
         let phase = Phase::<G>::new(element, DVector::from_vec(momentum));
+        if let (Some(kept), Some(own)) = (stepper.kept, &found.own) {
+            *kept.borrow_mut() = Some(Numbers { g: numbers(own), mu: numbers(&found.momentum) });
+        }
         let moment = recorder.measure(&phase).map_err(|what| self.stuck(found.step, what))?;
         let extent = found.extent();
         let resume = |target: &Target| {
@@ -191,8 +252,9 @@ impl<'a, G: Restore> March<'a, G> {
             self.record(state, stepper)?;
         }
         let mut shown = Instant::now();
+        let mut pace = Pace::default();
         while state.n < schedule.steps {
-            if let Some(warning) = self.step(state, stepper)? {
+            if let Some(warning) = self.steps(state, stepper, &mut pace)? {
                 bar.suspend(|| eprintln!("warning: {}", warning.text()));
             }
             self.record(state, stepper)?;
@@ -210,7 +272,7 @@ impl<'a, G: Restore> March<'a, G> {
             let stop = guard.asked() && state.n < schedule.steps;
             match &setup.checkpoint {
                 Some((path, interval)) if stop || state.saved.elapsed() >= *interval => {
-                    self.save(path, state)?;
+                    self.save(path, state, stepper)?;
                 }
                 _ => {}
             }
@@ -224,30 +286,74 @@ impl<'a, G: Restore> March<'a, G> {
             sink.complete()?;
         }
         if let Some((path, _)) = &setup.checkpoint {
-            self.save(path, state)?;
+            self.save(path, state, stepper)?;
         }
         Ok(())
     }
 
-    /// Makes a step of the grid; what there is to be said of it.
-    fn step(
+    /// Makes steps of the grid, up to the next look at them; what there is to be said of them.
+    fn steps(
         &self,
         state: &mut State<'a, G>,
         stepper: &Stepper<'_, G>,
+        pace: &mut Pace,
     ) -> Result<Option<Warning>, CliError> {
         let schedule = &self.subject.setup.schedule;
-        let (from, n) = (schedule.time(state.n), state.n + 1);
-        let made = (stepper.step)(from, &mut state.phase);
-        let made =
-            made.map_err(|source| CliError::Run { time: from, step: n, what: source.to_string() })?;
+        let (first, next) = (state.n, self.next_look(state));
+        let count = (next - first).min(pace.steps());
+        let begun = Instant::now();
+        let made = (stepper.steps)(first, &mut state.phase, count);
+        let made = made.map_err(|(done, source)| CliError::Run {
+            time: schedule.time(first + done),
+            step: first + done + 1,
+            what: source.to_string(),
+        })?;
+        pace.took(count, begun.elapsed());
+        let n = first + count;
+        state.n = n;
         if let Some((iterations, residual)) = made.solve {
             let noted = state.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(n, what))?;
         }
-        let warning = state.recorder.steep(n, from, made.ratio);
-        state.moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;
-        state.n = n;
+        let warning = state.recorder.steep(first + 1, schedule.time(first), made.ratio);
+        // Times of `--at` change no report of the drift.
+        if self.watched(n) {
+            let moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;
+            state.moment = moment;
+        } else if n == next {
+            let moment =
+                state.recorder.measure(&state.phase).map_err(|what| self.stuck(n, what))?;
+            state.moment = moment;
+        }
         Ok(warning)
+    }
+
+    /// Every so many steps the drift is looked at: at each record, or, where none are kept, at [`LOOKS`] moments.
+    fn interval(&self) -> u64 {
+        let setup = self.subject.setup;
+        let every = setup.every.unwrap_or(1);
+        match (&setup.out, setup.every) {
+            (Some(_), Some(_)) => every,
+            _ => every * setup.schedule.steps.div_ceil(every.saturating_mul(LOOKS)).max(1),
+        }
+    }
+
+    /// Whether the drift is looked at after so many steps.
+    fn watched(&self, n: u64) -> bool {
+        n == self.subject.setup.schedule.steps || n.is_multiple_of(self.interval())
+    }
+
+    /// The next grid point at which the drift is looked at, or something is recorded.
+    fn next_look(&self, state: &State<'a, G>) -> u64 {
+        let setup = self.subject.setup;
+        let (n, end) = (state.n, setup.schedule.steps);
+        let mut next = (n / self.interval() + 1).saturating_mul(self.interval()).min(end);
+        let times = setup.at.as_ref().map_or(&[][..], |times| &times.0);
+        if let Some(time) = times.get(state.times) {
+            let nearest = (time / setup.schedule.step).round().min(end as f64) as u64;
+            next = next.min(nearest.max(n + 1));
+        }
+        next
     }
 
     /// Writes the records at this grid point, and at the times nearer to it than to others.
@@ -257,8 +363,8 @@ impl<'a, G: Restore> March<'a, G> {
         let here = schedule.time(n);
         let chosen =
             setup.every.is_some_and(|every| n.is_multiple_of(every) || n == schedule.steps);
-        // Pictures show what is recorded, or every step where only some times are.
-        if n > 0 && (chosen || setup.every.is_none()) {
+        // Pictures show moments at which the drift is looked at.
+        if n > 0 && self.watched(n) {
             state.recorder.sample(here, &state.phase, &state.moment);
         }
         if state.sink.is_none() {
@@ -325,13 +431,20 @@ impl<'a, G: Restore> March<'a, G> {
     }
 
     /// Writes a checkpoint; the records that it counts are on the disk before.
-    fn save(&self, path: &Path, state: &mut State<'a, G>) -> Result<(), CliError> {
+    fn save(
+        &self,
+        path: &Path,
+        state: &mut State<'a, G>,
+        stepper: &Stepper<'_, G>,
+    ) -> Result<(), CliError> {
+        let own = stepper.kept.and_then(|kept| kept.borrow().clone());
         let extent = state.sink.as_mut().map(Sink::vouch).transpose()?.unwrap_or_default();
         let mut checkpoint = Checkpoint {
             identity: self.identity(),
             step: state.n,
             momentum: bits(state.phase.momentum.iter().copied()),
             element: bits(state.recorder.entries(&state.phase)),
+            own: own.map(|numbers| bits(numbers.g.iter().copied())),
             bytes: extent.bytes,
             rows: extent.rows,
             times: state.times,

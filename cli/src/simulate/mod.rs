@@ -10,7 +10,6 @@ mod names;
 mod number;
 mod plot;
 mod report;
-mod restore;
 mod rival;
 mod samples;
 mod schedule;

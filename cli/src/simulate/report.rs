@@ -76,7 +76,7 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     }
     if let Some(solver) = run.solver {
         object["solver"] = json!({
-            "mean_iterations": solver.mean_iterations,
+            "most_iterations": solver.most_iterations,
             "max_residual": solver.max_residual,
         });
     }
@@ -160,8 +160,8 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some(solver) = run.solver {
         let _ = writeln!(
             out,
-            "  solver: {:.2} iterations a step, largest residual {:.1e}",
-            solver.mean_iterations, solver.max_residual
+            "  solver: at most {} iterations a step, largest residual {:.1e}",
+            solver.most_iterations, solver.max_residual
         );
     }
     if let Some((path, rows)) = &run.out {

@@ -10,6 +10,7 @@ use super::schedule::Schedule;
 use super::target::{Target, folder};
 use super::times::Times;
 use crate::arguments::SimulateOptions;
+use crate::backend::Backend;
 use crate::engine::Group;
 use crate::error::CliError;
 
@@ -36,6 +37,8 @@ pub struct Setup {
     pub tuned: bool,
     /// How long the motion is followed to which the coefficients are fitted, if they are.
     pub fitted: Option<f64>,
+    /// What evaluates the programs of a step.
+    pub backend: Backend,
     /// μ at the start.
     pub momentum: DVector<f64>,
     /// g at the start, row by row; the identity if it is not given.
@@ -82,6 +85,7 @@ impl Setup {
             sampled: options.plot.is_some(),
             checkpoint: checkpoint(options)?,
             tuned: options.tuned,
+            backend: options.backend,
             fitted: options.fitted,
             momentum: DVector::from_vec(momentum),
             group_element: run.group_element.clone(),

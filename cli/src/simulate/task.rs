@@ -1,5 +1,7 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
+use std::cell::RefCell;
+
 use coadjoint::{
     Chart, GeneratingFunction, Phase, StepError, solve::Solution, solve::solve, steps::reconstruct,
     tune::fit,
@@ -8,14 +10,13 @@ use coadjoint_codegen::integrator::Integrator;
 use nalgebra::DVector;
 
 use super::header::Header;
-use super::march::{Made, March, Stepper};
-use super::number::largest;
-use super::restore::Restore;
+use super::march::{Made, March, Stepper, each};
+use super::number::{largest, maximum};
 use super::setup::Setup;
 use super::subject::Subject;
 use super::trajectory::{Trajectory, Watched};
 use super::warning::Warning;
-use crate::engine::{Energy, Forces, Interpreter, Steepness, advise};
+use crate::engine::{Compiled, Energy, Forces, Interpreter, Restore, Steepness, advise};
 use crate::error::CliError;
 use crate::progress;
 
@@ -106,15 +107,16 @@ impl<'a> Task<'a> {
         let steepness = Steepness::new(&flow);
         let subject = self.subject(Vec::new());
         March { subject: &subject, group }.run(&Stepper {
-            step: &|time, phase| {
+            steps: &each(&self.setup.schedule, |time, phase| {
                 let ratio = steepness.ratio(&phase.momentum);
                 step(phase, time).map_err(|error| {
                     let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
                     advise(error, h, works)
                 })?;
                 Ok(Made { solve: None, ratio })
-            },
+            }),
             side: &|time, part, phase| make(part)?(phase, time),
+            kept: None,
         })
     }
 
@@ -155,20 +157,40 @@ impl<'a> Task<'a> {
             reconstruct(step, phase, &solution.x)?;
             Ok((solution, residual))
         };
+        let side = |_: f64, part: f64, phase: &mut Phase<G>| {
+            let step = series(part / f64::from(count))?;
+            (0..count).try_for_each(|_| one(&step, phase).map(drop))
+        };
+        let advised = |error, phase: &Phase<G>| {
+            advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
+        };
+        let Some(compiled) = Compiled::new(&step, self.setup.backend, schedule.steps as f64)?
+        else {
+            return March { subject: &subject, group }.run(&Stepper {
+                steps: &each(schedule, |_, phase| {
+                    let (solution, residual) =
+                        one(&step, phase).map_err(|error| advised(error, phase))?;
+                    let ratio = steepness.ratio(&solution.p);
+                    Ok(Made { solve: Some((solution.iterations, residual)), ratio })
+                }),
+                side: &side,
+                kept: None,
+            });
+        };
+        let kept = RefCell::new(None);
         March { subject: &subject, group }.run(&Stepper {
-            step: &|_, phase| {
-                let (solution, residual) = one(&step, phase).map_err(|error| {
-                    advise(error, h, |h| {
-                        series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok())
-                    })
-                })?;
-                let ratio = steepness.ratio(&solution.p);
-                Ok(Made { solve: Some((solution.iterations, residual)), ratio })
+            steps: &|_, phase, count| {
+                let mut kept = kept.borrow_mut();
+                let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
+                let ratio = steepness.ratio(&phase.momentum);
+                let made = compiled.advance(&step, numbers, count);
+                *phase = compiled.phase(group, numbers);
+                let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
+                let solve = Some((made.corrections, made.residual));
+                Ok(Made { solve, ratio: maximum(ratio, steepness.ratio(&phase.momentum)) })
             },
-            side: &|_, part, phase| {
-                let step = series(part / f64::from(count))?;
-                (0..count).try_for_each(|_| one(&step, phase).map(drop))
-            },
+            side: &side,
+            kept: Some(&kept),
         })
     }
 }

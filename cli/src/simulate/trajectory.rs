@@ -59,8 +59,8 @@ pub struct Moment {
 /// The solves of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Solver {
-    /// Newton iterations, or evaluations of the fixed point, per step.
-    pub mean_iterations: f64,
+    /// The most Newton iterations, or evaluations of the fixed point, of a step.
+    pub most_iterations: u64,
     /// The largest residual left, relative to the momentum.
     pub max_residual: f64,
 }
@@ -129,7 +129,7 @@ pub struct Watched<'a> {
 pub struct Tally {
     /// The largest drifts.
     pub drift: Drift,
-    /// All iterations.
+    /// The most iterations of a step.
     pub iterations: u64,
     /// The largest residual, where residuals were measured.
     pub residual: Option<f64>,
@@ -188,12 +188,12 @@ impl<'a, G: Group> Recorder<'a, G> {
         if self.watched.attitude { &self.blocks } else { &[] }
     }
 
-    /// Takes note of how a solve went.
+    /// Takes note of how the solves of so many steps went: the most iterations of one, and the largest residual.
     ///
     /// # Errors
     /// What is not finite.
     pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
-        self.tally.iterations += u64::from(iterations);
+        self.tally.iterations = self.tally.iterations.max(u64::from(iterations));
         let most = maximum(self.tally.residual.unwrap_or(0.0), residual);
         self.tally.residual = Some(most);
         finite("the residual of the solve", residual)
@@ -282,7 +282,6 @@ impl<'a, G: Group> Recorder<'a, G> {
         moment: &Moment,
     ) -> Trajectory {
         let Tally { drift, iterations, residual, steep } = self.tally;
-        let mean_iterations = iterations as f64 / steps.max(1) as f64;
         Trajectory {
             label,
             header,
@@ -299,7 +298,8 @@ impl<'a, G: Group> Recorder<'a, G> {
             casimirs: self.group.casimir_count(),
             potential: self.watched.symmetries.is_some(),
             momenta: self.start.momenta.len(),
-            solver: residual.map(|max_residual| Solver { mean_iterations, max_residual }),
+            solver: residual
+                .map(|max_residual| Solver { most_iterations: iterations, max_residual }),
             out: None,
             records: self.samples.map(Samples::finish).unwrap_or_default(),
             blocks: if self.watched.attitude { self.blocks } else { Vec::new() },

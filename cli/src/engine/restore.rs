@@ -3,7 +3,7 @@
 use coadjoint::{LieGroup, groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup};
 use nalgebra::DMatrix;
 
-use crate::engine::Group;
+use super::Group;
 
 /// Groups whose elements can be put back as they were. Reading a matrix as a user's would straighten
 /// it: other bits.

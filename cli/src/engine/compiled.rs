@@ -1,0 +1,140 @@
+//! The steps of an interpreter as straight-line programs: evaluated, or as machine code.
+
+use coadjoint::{Chart, Phase, StepError};
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_program::{Kernel, Outcome, WIDTH};
+use nalgebra::DVector;
+
+use super::{Interpreter, Restore};
+use crate::backend::{Backend, Code};
+
+/// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
+/// coordinates they would write out.
+const MOST_OPERATIONS: usize = 60_000;
+
+/// A state as the programs have it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers {
+    /// The group element.
+    pub g: Vec<f64>,
+    /// μ.
+    pub mu: Vec<f64>,
+}
+
+/// The steps of an interpreter as straight-line programs.
+pub struct Compiled {
+    step: Step,
+    slots: Vec<f64>,
+    code: Code,
+    /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
+    /// cut into pieces.
+    framed: bool,
+}
+
+impl Compiled {
+    /// The steps of `interpreter`, `steps` of which are going to be made; `None` where they are not made of programs.
+    ///
+    /// # Errors
+    /// Where the backend that the user named cannot be had.
+    pub fn new<G: Restore, C: Chart<G>>(
+        interpreter: &Interpreter<'_, G, C>,
+        backend: Backend,
+        steps: f64,
+    ) -> Result<Option<Self>, crate::error::CliError> {
+        let Ok(step) = Step::build(interpreter.integrator, REACH) else { return Ok(None) };
+        let programs = step.kernel().programs();
+        if programs.correct.nodes().len() + programs.transport.nodes().len() > MOST_OPERATIONS {
+            return Ok(None);
+        }
+        let slots = step.slots(&interpreter.slots, interpreter.radius);
+        let framed = programs.frame.is_some();
+        let code = Code::new(step.kernel(), backend, steps)?;
+        Ok(Some(Self { step, slots, code, framed }))
+    }
+
+    /// What makes the steps.
+    pub fn code(&self) -> &Code {
+        &self.code
+    }
+
+    /// The programs.
+    pub fn kernel(&self) -> &Kernel {
+        self.step.kernel()
+    }
+
+    /// A state as the programs have it.
+    pub fn numbers<G: Restore>(&self, group: &G, phase: &Phase<G>) -> Numbers {
+        let size = group.matrix_size();
+        let entry = |at: usize| group.matrix_entry(&phase.group_element, at / size, at % size);
+        let matrix: Vec<f64> = (0..size * size).map(entry).collect();
+        Numbers { g: self.step.element_of(&matrix), mu: phase.momentum.as_slice().to_vec() }
+    }
+
+    /// A state as the group has it.
+    pub fn phase<G: Restore>(&self, group: &G, numbers: &Numbers) -> Phase<G> {
+        let size = group.matrix_size();
+        let mut matrix = vec![0.0; size * size];
+        let program = &self.kernel().programs().matrix;
+        program.run(&numbers.g, &[], &mut Vec::new(), &mut matrix);
+        let element = group.restore(&|i, j| matrix[i * size + j]);
+        Phase::<G>::new(element, DVector::from_column_slice(&numbers.mu))
+    }
+
+    /// Makes so many steps. What the programs refuse is tried by `interpreter`, which follows a solution from the
+    /// identity or says why there is none.
+    ///
+    /// # Errors
+    /// How many steps were made, and why the next one was not; the state is then that before it.
+    pub fn advance<G: Restore, C: Chart<G>>(
+        &self,
+        interpreter: &Interpreter<'_, G, C>,
+        numbers: &mut Numbers,
+        steps: u64,
+    ) -> Result<Outcome, (u64, StepError)> {
+        let mut total = Outcome::default();
+        while total.steps < steps {
+            let asked = if self.framed { 1 } else { steps - total.steps };
+            let Numbers { g, mu } = numbers;
+            let made = self.code.advance(self.kernel(), &self.slots, g, mu, asked);
+            total.steps += made.steps;
+            note(&mut total, made.corrections, made.residual);
+            if made.steps < asked {
+                let report = self.rescue(interpreter, numbers).map_err(|e| (total.steps, e))?;
+                note(&mut total, report.iterations, report.residual);
+                total.steps += 1;
+            }
+        }
+        Ok(total)
+    }
+
+    /// One step that the programs have refused.
+    fn rescue<G: Restore, C: Chart<G>>(
+        &self,
+        interpreter: &Interpreter<'_, G, C>,
+        numbers: &mut Numbers,
+    ) -> Result<coadjoint::StepReport<f64>, StepError> {
+        let group = &interpreter.group;
+        let mut phase = self.phase(group, numbers);
+        let report = coadjoint::advance(interpreter, &mut phase)?;
+        *numbers = self.numbers(group, &phase);
+        Ok(report)
+    }
+
+    /// [`WIDTH`] trajectories side by side, as [`Kernel::advance_lanes`].
+    pub fn advance_lanes(
+        &self,
+        g: &mut [f64],
+        mu: &mut [f64],
+        steps: u64,
+        live: [bool; WIDTH],
+    ) -> [u64; WIDTH] {
+        self.code.advance_lanes(self.kernel(), &self.slots, g, mu, steps, live)
+    }
+}
+
+fn note(total: &mut Outcome, corrections: u32, residual: f64) {
+    total.corrections = total.corrections.max(corrections);
+    if !(residual <= total.residual) {
+        total.residual = residual;
+    }
+}
