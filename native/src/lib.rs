@@ -1,7 +1,13 @@
 //! Steps as machine code, compiled when a system is known.
 //!
 //! An [`Entry`] is a compiled [`Kernel`](coadjoint_program::Kernel): the same loop, the same bits, no call per step.
+//! [`Native::by_c`] has the system's C compiler make one.
 
+mod c;
 mod entry;
+mod error;
+mod library;
 
+pub use c::{COptions, CacheFolder, Native};
 pub use entry::{AdvanceFunction, Entry, LanesFunction};
+pub use error::NativeError;

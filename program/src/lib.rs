@@ -4,6 +4,8 @@
 //! - [`Kernel`] is a whole step as programs: guess, correction, acceptance, transport, and the loop that drives them.
 //! - [`Kernel::advance`] and [`Kernel::advance_lanes`] are the interpreter, the reference for all targets.
 //!
+//! - [`print`](mod@print) writes programs and kernels in other languages.
+//!
 //! A fused product is an operation of the program, so that targets agree to the bit.
 #![no_std]
 
@@ -21,6 +23,7 @@ mod evaluate;
 mod kernel;
 mod node;
 mod number;
+pub mod print;
 mod program;
 
 pub use drive::{Outcome, Scratch, WIDTH};

@@ -1,0 +1,120 @@
+//! Steps compiled by the system's C compiler.
+//!
+//! The text of a kernel is compiled in a private folder, loaded, and kept by content. Whatever is wrong with the cache,
+//! the step is compiled all the same.
+
+mod cache;
+mod compiler;
+mod machine;
+mod process;
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use coadjoint_program::Kernel;
+use coadjoint_program::print::native_unit;
+use tempfile::TempDir;
+
+use cache::Cache;
+pub use cache::CacheFolder;
+use compiler::Compiler;
+
+use crate::entry::Entry;
+use crate::error::NativeError;
+use crate::library::load;
+
+/// How a step is compiled by a C compiler.
+#[derive(Clone, Debug)]
+pub struct COptions {
+    /// The compiler's command; without one that of the environment variable CC, else the first of `cc`, `gcc` and
+    /// `clang` that answers.
+    pub compiler: Option<OsString>,
+    /// The time it may take.
+    pub time_limit: Duration,
+    /// Where compiled steps are kept.
+    pub cache: CacheFolder,
+}
+
+impl Default for COptions {
+    fn default() -> Self {
+        Self { compiler: None, time_limit: Duration::from_secs(120), cache: CacheFolder::User }
+    }
+}
+
+/// A step as machine code, and where it is from.
+#[derive(Clone, Debug)]
+pub struct Native {
+    /// The step.
+    pub entry: Entry,
+    /// The command of the compiler.
+    pub compiler: String,
+    /// Whether it was compiled by an earlier run.
+    pub cached: bool,
+    /// The time until it was ready.
+    pub ready: Duration,
+}
+
+impl Native {
+    /// The step of a kernel, compiled by a C compiler with the machine's own instructions; the bits are those of
+    /// [`Kernel::advance`] and [`Kernel::advance_lanes`].
+    ///
+    /// # Errors
+    /// [`NativeError`] where there is no compiler, it fails or does not end in time, no temporary file can be written, or
+    /// the library cannot be loaded. A cache that cannot be used is no error.
+    pub fn by_c(kernel: &Kernel, options: &COptions) -> Result<Self, NativeError> {
+        let start = Instant::now();
+        let folder = private_folder()?;
+        let compiler =
+            Compiler::find(options.compiler.as_deref(), options.time_limit, folder.path())?;
+        let text = native_unit(kernel);
+        let done = |entry, cached| Self {
+            entry,
+            compiler: compiler.name(),
+            cached,
+            ready: start.elapsed(),
+        };
+        let kept =
+            Cache::open(&options.cache).zip(machine::processor()).map(|(cache, processor)| {
+                let flags = Compiler::flags().join(" ");
+                let version = env!("CARGO_PKG_VERSION");
+                let name = compiler.name();
+                (
+                    cache,
+                    cache::key(&[version, &text, &name, compiler.version(), &flags, &processor]),
+                )
+            });
+        if let Some((cache, key)) = &kept {
+            let loaded = cache.get(key).and_then(|library| load(kernel, &library).ok());
+            if let Some(entry) = loaded {
+                return Ok(done(entry, true));
+            }
+        }
+        let library = compiler.compile(&text, folder.path())?;
+        let entry = kept
+            .and_then(|(cache, key)| cache.put(&key, &library).ok())
+            .and_then(|library| load(kernel, &library).ok());
+        match entry {
+            Some(entry) => Ok(done(entry, false)),
+            None => Ok(done(load_and_remove(kernel, &library, folder)?, false)),
+        }
+    }
+}
+
+/// A folder for this user alone, removed when it is dropped.
+fn private_folder() -> Result<TempDir, NativeError> {
+    tempfile::Builder::new()
+        .prefix("coadjoint-")
+        .tempdir()
+        .map_err(|source| NativeError::Write { path: std::env::temp_dir(), source })
+}
+
+/// Loads a library from its temporary folder. A loaded library needs its file no more, except on Windows, where the
+/// folder stays.
+fn load_and_remove(kernel: &Kernel, library: &Path, folder: TempDir) -> Result<Entry, NativeError> {
+    let entry = load(kernel, library)?;
+    if cfg!(windows) {
+        let _ = folder.keep();
+    }
+    Ok(entry)
+}

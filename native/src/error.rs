@@ -1,0 +1,64 @@
+//! Why there is no compiled step.
+
+use std::path::PathBuf;
+
+/// Why a step could not be compiled or loaded. Each is one line; the interpreter is always there instead.
+#[derive(Debug, thiserror::Error)]
+pub enum NativeError {
+    /// No C compiler answers.
+    #[error(
+        "no C compiler was found (tried {tried}); install one, or name one in the environment variable CC"
+    )]
+    NoCompiler {
+        /// The commands that were tried.
+        tried: String,
+    },
+    /// The compiler that was asked for cannot be started.
+    #[error("the C compiler '{compiler}' cannot be started: {source}")]
+    Start {
+        /// The command.
+        compiler: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The compiler did not end in time and was ended.
+    #[error("the C compiler '{compiler}' did not end within {seconds} s and was stopped")]
+    TimedOut {
+        /// The command.
+        compiler: String,
+        /// The time limit.
+        seconds: f64,
+    },
+    /// The compiler refused, or is broken.
+    #[error("the C compiler '{compiler}' failed ({status}): {message}")]
+    Failed {
+        /// The command.
+        compiler: String,
+        /// How it ended.
+        status: String,
+        /// The first line of what it said that tells of an error.
+        message: String,
+    },
+    /// The compiler says that all is well, but wrote no library.
+    #[error("the C compiler '{compiler}' wrote no library")]
+    NoLibrary {
+        /// The command.
+        compiler: String,
+    },
+    /// No file can be written where the step was to be compiled.
+    #[error("cannot write to {path}, where a step is compiled: {source}")]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The library cannot be loaded.
+    #[error("the compiled step {path} cannot be loaded: {message}")]
+    Load {
+        /// The library.
+        path: PathBuf,
+        /// What the system's loader says, or what is wrong with the library.
+        message: String,
+    },
+}

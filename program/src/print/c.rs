@@ -1,0 +1,169 @@
+//! C, and languages that write a straight-line program as C does.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+
+use super::dialect::Dialect;
+use super::signature::{Field, Signature};
+use crate::node::Node;
+
+/// The dialect of C: infix operators, `fma`, `sqrt`, `fabs` and the conditional operator. Arrays and coefficients are
+/// reached by pointers, single inputs are values, single outputs are pointers.
+#[derive(Clone, Debug)]
+pub struct C {
+    /// What stands before a function: `static void`.
+    pub head: String,
+    /// The type of a number: `double`.
+    pub number: String,
+    /// The type of the array of folded coefficients: `const double *restrict`.
+    pub slots: String,
+    /// What stands between the type of an array and its name: `*restrict `.
+    pub pointer: String,
+    /// The names of the functions a·b + c, √a, |a|.
+    pub functions: [String; 3],
+    /// What ends a number: empty, or `f` for 32 bits.
+    pub suffix: String,
+}
+
+impl Default for C {
+    fn default() -> Self {
+        Self {
+            head: "static void".into(),
+            number: "double".into(),
+            slots: "const double *restrict".into(),
+            pointer: "*restrict ".into(),
+            functions: ["fma".into(), "sqrt".into(), "fabs".into()],
+            suffix: String::new(),
+        }
+    }
+}
+
+impl C {
+    /// The parameters of a function, and statements for those that it does not read.
+    pub(super) fn parameters(&self, signature: &Signature<'_>) -> (String, String) {
+        let mut unused = String::new();
+        let program = signature.program;
+        let mut parameters = format!("{} c", self.slots);
+        if !program.nodes().iter().any(|node| matches!(node, Node::Slot(_))) {
+            unused.push_str("    (void)c;\n");
+        }
+        let mut first = 0;
+        for Field { name, len } in &signature.inputs {
+            let last = first + len.unwrap_or(1);
+            let reads = |node: &Node| matches!(*node, Node::Input(i) if (first..last).contains(&(i as usize)));
+            if !program.nodes().iter().any(reads) {
+                unused.push_str(&format!("    (void){name};\n"));
+            }
+            let number = &self.number;
+            parameters.push_str(&match len {
+                Some(_) => format!(", const {number} {}{name}", self.pointer),
+                None => format!(", {number} {name}"),
+            });
+            first = last;
+        }
+        for Field { name, len } in &signature.outputs {
+            if *len == Some(0) {
+                unused.push_str(&format!("    (void){name};\n"));
+            }
+            parameters.push_str(&format!(", {} {}{name}", self.number, self.pointer));
+        }
+        (parameters, unused)
+    }
+
+    /// A number in hexadecimal, which every compiler reads without rounding.
+    #[must_use]
+    pub fn literal(&self, value: f64) -> String {
+        if value.is_nan() {
+            return "NAN".into();
+        }
+        if value.is_infinite() {
+            return if value > 0.0 { "INFINITY".into() } else { "(-INFINITY)".into() };
+        }
+        let text = hexadecimal(value.abs()) + &self.suffix;
+        match value.is_sign_negative() {
+            true => format!("(-{text})"),
+            false => text,
+        }
+    }
+}
+
+/// A finite number that is not negative, in C's hexadecimal form; whole numbers below 2²⁴ in decimal.
+fn hexadecimal(value: f64) -> String {
+    let whole = value as u32;
+    if f64::from(whole) == value && whole < 1 << 24 {
+        return whole.to_string() + ".0";
+    }
+    let bits = value.to_bits();
+    let (exponent, mantissa) = ((bits >> 52) as i64, bits & ((1 << 52) - 1));
+    let (lead, exponent) = match exponent {
+        0 => (0, -1022),
+        normal => (1, normal - 1023),
+    };
+    let digits = format!("{mantissa:013x}");
+    let digits = digits.trim_end_matches('0');
+    let point = if digits.is_empty() { "" } else { "." };
+    format!("0x{lead}{point}{digits}p{exponent:+}")
+}
+
+impl Dialect for C {
+    fn head(&self, signature: &Signature<'_>) -> String {
+        let (parameters, unused) = self.parameters(signature);
+        format!("{} {}({parameters})\n{{\n{unused}", self.head, signature.name)
+    }
+
+    fn declare(&self, name: &str, expression: &str) -> String {
+        format!("    const {} {name} = {expression};\n", self.number)
+    }
+
+    fn store(&self, place: &str, value: &str) -> String {
+        format!("    {place} = {value};\n")
+    }
+
+    fn single(&self, name: &str) -> String {
+        format!("*{name}")
+    }
+
+    fn constant(&self, value: f64) -> String {
+        self.literal(value)
+    }
+
+    fn slot(&self, index: usize) -> String {
+        format!("c[{index}]")
+    }
+
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        let [fma, sqrt, abs] = &self.functions;
+        match (node, operands) {
+            (Node::Add(..), [a, b]) => format!("{a} + {b}"),
+            (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
+            (Node::Mul(..), [a, b]) => format!("{a} * {b}"),
+            (Node::Div(..), [a, b]) => format!("{a} / {b}"),
+            (Node::TimesPlus(..), [a, b, c]) => format!("{fma}({a}, {b}, {c})"),
+            (Node::Neg(_), [a]) => format!("-{a}"),
+            (Node::Abs(_), [a]) => format!("{abs}({a})"),
+            (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
+            (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
+            // Leaves are written where they are used.
+            _ => String::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_without_rounding() {
+        let c = C::default();
+        assert_eq!(c.literal(0.0), "0.0");
+        assert_eq!(c.literal(-0.0), "(-0.0)");
+        assert_eq!(c.literal(3.0), "3.0");
+        assert_eq!(c.literal(0.1), "0x1.999999999999ap-4");
+        assert_eq!(c.literal(-0.5), "(-0x1p-1)");
+        assert_eq!(c.literal(1e300), "0x1.7e43c8800759cp+996");
+        assert_eq!(c.literal(f64::from_bits(1)), "0x0.0000000000001p-1022");
+        assert_eq!(c.literal(f64::NEG_INFINITY), "(-INFINITY)");
+        assert_eq!(c.literal(f64::NAN), "NAN");
+    }
+}

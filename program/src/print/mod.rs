@@ -1,0 +1,20 @@
+//! Programs as text in other languages.
+//!
+//! - [`Signature`] names what a program of a kernel reads and writes; [`signatures`] are those of a kernel.
+//! - [`Dialect`] is how one language writes numbers, operations and the head of a function; [`function`] prints a
+//!   program in it, one operation a line.
+//! - [`C`] is the dialect of C and of languages like it; [`native_unit`] is a kernel as a unit of C to be compiled for
+//!   the machine at hand.
+
+mod c;
+mod dialect;
+mod function;
+mod native;
+mod signature;
+mod vectors;
+
+pub use c::C;
+pub use dialect::Dialect;
+pub use function::{function, statements};
+pub use native::{ABI, native_unit};
+pub use signature::{Field, Signature, signatures};
