@@ -1,7 +1,11 @@
 //! What evaluates the programs of a step.
 
+use std::fmt;
+use std::time::Duration;
+#[cfg(feature = "jit")]
 use std::time::Instant;
 
+use coadjoint_native::{COptions, Entry, Native};
 use coadjoint_program::{Kernel, Outcome, WIDTH};
 
 use crate::error::CliError;
@@ -9,18 +13,48 @@ use crate::error::CliError;
 /// What is to make the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Backend {
-    /// What is cheapest for this run: a short one never waits for a compiler.
+    /// What is cheapest for this run: a short one never waits for a compiler
     #[default]
     Auto,
-    /// The interpreter of the programs, which is always there.
+    /// The interpreter of the programs, which is always there
     Interpreter,
+    /// The system's C compiler, for this processor
+    C,
+    /// Cranelift, for this processor
+    #[cfg(feature = "jit")]
+    Jit,
+}
+
+/// Nanoseconds that the interpreter takes for an operation, and machine code; measured on a processor of 2022, and
+/// enough to tell seconds from minutes.
+const INTERPRETED: f64 = 2.0;
+const COMPILED: f64 = 0.3;
+
+/// Seconds that a C compiler takes: to start, and for each operation.
+const COMPILER_STARTS: f64 = 0.15;
+const COMPILER_OPERATION: f64 = 4e-4;
+
+/// The same of Cranelift.
+#[cfg(feature = "jit")]
+const JIT_STARTS: f64 = 2e-3;
+#[cfg(feature = "jit")]
+const JIT_OPERATION: f64 = 1e-5;
+
+/// What made the steps of a run.
+#[derive(Clone, Debug)]
+pub struct Used {
+    /// In a few words.
+    pub name: String,
+    /// How long it took to be ready, where that took any time.
+    pub ready: Option<Duration>,
 }
 
 /// Programs ready to make steps.
+#[derive(Debug)]
 pub struct Code {
-    name: &'static str,
-    /// Seconds until it was ready.
-    ready: f64,
+    entry: Option<Entry>,
+    name: String,
+    ready: Duration,
 }
 
 impl Code {
@@ -29,18 +63,65 @@ impl Code {
     /// # Errors
     /// Where the backend that the user named cannot be had.
     pub fn new(kernel: &Kernel, backend: Backend, steps: f64) -> Result<Self, CliError> {
-        let begun = Instant::now();
-        let _ = (kernel, steps);
+        let failed = |what: &dyn fmt::Display| CliError::Option(format!("--backend: {what}"));
         match backend {
-            Backend::Auto | Backend::Interpreter => {
-                Ok(Self { name: "interpreter", ready: begun.elapsed().as_secs_f64() })
-            }
+            Backend::Interpreter => Ok(Self::interpreter()),
+            Backend::C => Self::by_c(kernel).map_err(|error| failed(&error)),
+            #[cfg(feature = "jit")]
+            Backend::Jit => Self::by_cranelift(kernel).map_err(|error| failed(&error)),
+            Backend::Auto => Ok(Self::cheapest(kernel, steps)),
         }
     }
 
-    /// Its name, and the seconds until it was ready.
-    pub fn report(&self) -> (&'static str, f64) {
-        (self.name, self.ready)
+    fn interpreter() -> Self {
+        Self { entry: None, name: "interpreter".to_owned(), ready: Duration::ZERO }
+    }
+
+    fn by_c(kernel: &Kernel) -> Result<Self, coadjoint_native::NativeError> {
+        let native = Native::by_c(kernel, &COptions::default())?;
+        let name = format!("machine code by {}", native.compiler);
+        Ok(Self { entry: Some(native.entry), name, ready: native.ready })
+    }
+
+    #[cfg(feature = "jit")]
+    fn by_cranelift(kernel: &Kernel) -> Result<Self, coadjoint_native::jit::JitError> {
+        let begun = Instant::now();
+        let entry = coadjoint_native::jit::compile(kernel)?;
+        let name = "machine code by Cranelift".to_owned();
+        Ok(Self { entry: Some(entry), name, ready: begun.elapsed() })
+    }
+
+    /// What takes least time for so many steps; what cannot be had is told, and the next best is taken.
+    fn cheapest(kernel: &Kernel, steps: f64) -> Self {
+        let operations = operations(kernel) as f64;
+        let run = |each: f64| steps * operations * each * 1e-9;
+        let interpreted = run(INTERPRETED);
+        let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(COMPILED);
+        let tell = |error: &dyn fmt::Display, next: &str| {
+            eprintln!("warning: {error}; {next} makes the steps");
+        };
+        #[cfg(feature = "jit")]
+        {
+            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(1.4 * COMPILED);
+            if by_cranelift < interpreted && by_cranelift <= by_c {
+                match Self::by_cranelift(kernel) {
+                    Ok(code) => return code,
+                    Err(error) => tell(&error, "another backend"),
+                }
+            }
+        }
+        if by_c < interpreted {
+            match Self::by_c(kernel) {
+                Ok(code) => return code,
+                Err(error) => tell(&error, "the interpreter"),
+            }
+        }
+        Self::interpreter()
+    }
+
+    /// What makes the steps, for reports.
+    pub fn used(&self) -> Used {
+        Used { name: self.name.clone(), ready: self.entry.as_ref().map(|_| self.ready) }
     }
 
     /// As [`Kernel::advance`].
@@ -52,7 +133,10 @@ impl Code {
         mu: &mut [f64],
         steps: u64,
     ) -> Outcome {
-        kernel.advance(slots, g, mu, steps)
+        match &self.entry {
+            Some(entry) => entry.advance(slots, g, mu, steps),
+            None => kernel.advance(slots, g, mu, steps),
+        }
     }
 
     /// As [`Kernel::advance_lanes`].
@@ -65,6 +149,16 @@ impl Code {
         steps: u64,
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
-        kernel.advance_lanes(slots, g, mu, steps, live)
+        match &self.entry {
+            Some(entry) => entry.advance_lanes(slots, g, mu, steps, live),
+            None => kernel.advance_lanes(slots, g, mu, steps, live),
+        }
     }
+}
+
+/// The operations of a step, if one correction is enough.
+fn operations(kernel: &Kernel) -> usize {
+    let programs = kernel.programs();
+    let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
+    list.iter().map(|program| program.nodes().len()).sum()
 }

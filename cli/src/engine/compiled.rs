@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
+use crate::error::CliError;
 
 /// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
 /// coordinates they would write out.
@@ -40,11 +41,22 @@ impl Compiled {
         interpreter: &Interpreter<'_, G, C>,
         backend: Backend,
         steps: f64,
-    ) -> Result<Option<Self>, crate::error::CliError> {
-        let Ok(step) = Step::build(interpreter.integrator, REACH) else { return Ok(None) };
+    ) -> Result<Option<Self>, CliError> {
+        let unfit = |why: &dyn std::fmt::Display| match backend {
+            Backend::Auto | Backend::Interpreter => Ok(None),
+            _ => Err(CliError::Option(format!("--backend: {why}"))),
+        };
+        let step = match Step::build(interpreter.integrator, REACH) {
+            Ok(step) => step,
+            Err(error) => return unfit(&error),
+        };
         let programs = step.kernel().programs();
-        if programs.correct.nodes().len() + programs.transport.nodes().len() > MOST_OPERATIONS {
-            return Ok(None);
+        let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
+        if operations > MOST_OPERATIONS {
+            let most = MOST_OPERATIONS;
+            return unfit(&format_args!(
+                "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
+            ));
         }
         let slots = step.slots(&interpreter.slots, interpreter.radius);
         let framed = programs.frame.is_some();

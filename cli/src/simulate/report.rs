@@ -80,6 +80,9 @@ fn object(run: &Trajectory, units: &Units) -> Value {
             "max_residual": solver.max_residual,
         });
     }
+    if let Some(used) = &run.backend {
+        object["backend"] = json!(used.name);
+    }
     if let Some((path, rows)) = &run.out {
         object["out"] = json!({ "file": path.display().to_string(), "records": rows });
     }
@@ -163,6 +166,12 @@ fn text(run: &Trajectory, units: &Units) -> String {
             "  solver: at most {} iterations a step, largest residual {:.1e}",
             solver.most_iterations, solver.max_residual
         );
+    }
+    if let Some(used) = &run.backend
+        && let Some(ready) = used.ready
+    {
+        let milliseconds = ready.as_secs_f64() * 1e3;
+        let _ = writeln!(out, "  steps: {}, ready after {milliseconds:.0} ms", used.name);
     }
     if let Some((path, rows)) = &run.out {
         let _ = writeln!(out, "  {rows} records in {}", path.display());

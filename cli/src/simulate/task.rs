@@ -178,7 +178,7 @@ impl<'a> Task<'a> {
             });
         };
         let kept = RefCell::new(None);
-        March { subject: &subject, group }.run(&Stepper {
+        let trajectory = March { subject: &subject, group }.run(&Stepper {
             steps: &|_, phase, count| {
                 let mut kept = kept.borrow_mut();
                 let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
@@ -191,7 +191,8 @@ impl<'a> Task<'a> {
             },
             side: &side,
             kept: Some(&kept),
-        })
+        })?;
+        Ok(Trajectory { backend: Some(compiled.code().used()), ..trajectory })
     }
 }
 

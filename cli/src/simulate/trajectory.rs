@@ -11,6 +11,7 @@ use super::header::Header;
 use super::number::{largest, maximum};
 use super::samples::Samples;
 use super::warning::{Steep, Warning};
+use crate::backend::Used;
 use crate::engine::{Energy, Group, STEEP};
 
 /// The largest differences from the start so far, each relative to the largest value at the start.
@@ -87,6 +88,8 @@ pub struct Trajectory {
     pub announcement: Option<String>,
     /// What the user should know of the run.
     pub warnings: Vec<Warning>,
+    /// What made the steps, where they are programs.
+    pub backend: Option<Used>,
     /// The momentum at the end.
     pub momentum: Vec<f64>,
     /// The blocks of the group's matrices; all other entries are 0.
@@ -290,6 +293,7 @@ impl<'a, G: Group> Recorder<'a, G> {
             steps,
             time,
             announcement: None,
+            backend: None,
             warnings: steep.map(Warning::Steep).into_iter().collect(),
             momentum: phase.momentum.iter().copied().collect(),
             element: if self.watched.attitude { self.entries(phase).collect() } else { Vec::new() },
