@@ -6,6 +6,8 @@
 mod c;
 mod entry;
 mod error;
+#[cfg(feature = "jit")]
+pub mod jit;
 mod library;
 
 pub use c::{COptions, CacheFolder, Native};

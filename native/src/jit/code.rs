@@ -1,0 +1,75 @@
+//! Machine code in executable memory, and how long it stays there.
+#![allow(unsafe_code)]
+
+use std::sync::{Arc, Mutex};
+
+use coadjoint_program::Kernel;
+use cranelift_codegen::isa::OwnedTargetIsa;
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{FuncId, Linkage, Module, ModuleError, ModuleReloc, default_libcall_names};
+
+use super::JitError;
+use super::host::Assembled;
+use crate::entry::{AdvanceFunction, Entry, LanesFunction};
+
+/// Executable memory, freed when the last entry to it is dropped.
+struct Code(Mutex<Option<JITModule>>);
+
+impl Drop for Code {
+    fn drop(&mut self) {
+        let module = match self.0.get_mut() {
+            Ok(module) => module.take(),
+            Err(poisoned) => poisoned.into_inner().take(),
+        };
+        if let Some(module) = module {
+            // SAFETY: entries call their code through a shared reference only, and each holds this memory by an `Arc`:
+            // none is left that could be running or could run.
+            unsafe { module.free_memory() }
+        }
+    }
+}
+
+fn failed(error: ModuleError) -> JitError {
+    JitError::Compile(error.to_string())
+}
+
+/// Copies both functions of a kernel to executable memory.
+pub(super) fn load(
+    kernel: &Kernel,
+    isa: OwnedTargetIsa,
+    advance: &Assembled,
+    lanes: &Assembled,
+) -> Result<Entry, JitError> {
+    // Owned at once, so that memory is freed on every way out.
+    let module = JITModule::new(JITBuilder::with_isa(isa, default_libcall_names()));
+    let mut code = Code(Mutex::new(Some(module)));
+    let Ok(Some(module)) = code.0.get_mut() else {
+        return Err(JitError::Compile("no memory for code".into()));
+    };
+    let mut ids: Vec<FuncId> = Vec::new();
+    for (name, assembled) in [("advance", advance), ("lanes", lanes)] {
+        let signature = &assembled.function.signature;
+        let id = module.declare_function(name, Linkage::Export, signature).map_err(failed)?;
+        let relocations: Vec<ModuleReloc> = assembled
+            .relocations
+            .iter()
+            .map(|relocation| ModuleReloc::from_mach_reloc(relocation, &assembled.function, id))
+            .collect();
+        module
+            .define_function_bytes(id, assembled.alignment, &assembled.bytes, &relocations)
+            .map_err(failed)?;
+        ids.push(id);
+    }
+    module.finalize_definitions().map_err(failed)?;
+    let [advance, lanes] = [0, 1].map(|i| module.get_finalized_function(ids[i]));
+    // SAFETY: code built by `scalar::build` and `lanes::build` has these signatures and the system's calling convention.
+    let (advance, lanes) = unsafe {
+        (
+            std::mem::transmute::<*const u8, AdvanceFunction>(advance),
+            std::mem::transmute::<*const u8, LanesFunction>(lanes),
+        )
+    };
+    // SAFETY: both are compiled from this kernel, touch nothing but what they are given and their own stack, and stay as
+    // long as `code`.
+    Ok(unsafe { Entry::new(kernel, advance, lanes, Arc::new(code)) })
+}

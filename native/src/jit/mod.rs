@@ -1,0 +1,56 @@
+//! Steps as machine code by Cranelift: no compiler on the machine, ready in milliseconds.
+//!
+//! Both functions of an [`Entry`] are built from the programs of a [`Kernel`] with the loop of its interpreter around
+//! them, and have the interpreter's bits: each node is one instruction (or a few exact ones), rounded once; a fused
+//! product is the processor's own. Lanes are taken in pairs, Cranelift's widest vectors of numbers.
+
+mod code;
+mod coder;
+mod frame;
+mod host;
+mod lanes;
+mod scalar;
+
+use coadjoint_program::Kernel;
+
+use crate::Entry;
+
+/// Why there is no machine code of a kernel.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum JitError {
+    /// Cranelift makes no code for this processor, or none that was tried.
+    #[error("machine code by Cranelift: {0}")]
+    Host(String),
+    /// The processor has no instruction for fused products: bits could not agree with the interpreter's.
+    #[error("machine code by Cranelift: this processor has no fused product (FMA)")]
+    NoFusedProduct,
+    /// The kernel's state does not fit a frame of the stack.
+    #[error(
+        "machine code by Cranelift: a frame of {bytes} bytes is more than the {most} it may take"
+    )]
+    Large {
+        /// Bytes asked for.
+        bytes: usize,
+        /// Bytes there may be.
+        most: usize,
+    },
+    /// Cranelift refused a function, or the system refused memory for its code.
+    #[error("machine code by Cranelift: {0}")]
+    Compile(String),
+}
+
+/// The kernel's two functions as machine code for the processor at hand.
+///
+/// # Errors
+/// [`JitError`] where the processor or the kernel has no code.
+pub fn compile(kernel: &Kernel) -> Result<Entry, JitError> {
+    let isa = host::isa()?;
+    let config = isa.frontend_config();
+    let (advance, lanes) = std::thread::scope(|scope| {
+        let lanes = scope.spawn(|| host::assemble(&isa, lanes::build(kernel, config)?));
+        let advance = scalar::build(kernel, config).and_then(|made| host::assemble(&isa, made));
+        let lanes = lanes.join().unwrap_or_else(|_| Err(JitError::Compile("a thread died".into())));
+        (advance, lanes)
+    });
+    code::load(kernel, isa, &advance?, &lanes?)
+}
