@@ -293,6 +293,9 @@ pub struct EnsembleOptions {
     /// Only share i of n of the rows, i from 1 to n: for job arrays
     #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
+    /// What evaluates the steps
+    #[arg(long, value_enum, default_value_t)]
+    pub backend: Backend,
     /// How many threads; all processors if not given. The result is the same
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,

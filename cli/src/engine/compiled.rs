@@ -1,6 +1,6 @@
 //! The steps of an interpreter as straight-line programs: evaluated, or as machine code.
 
-use coadjoint::{Chart, Phase, StepError};
+use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_program::{Kernel, Outcome, WIDTH};
 use nalgebra::DVector;
@@ -32,12 +32,18 @@ pub struct Compiled {
     framed: bool,
 }
 
+impl std::fmt::Debug for Compiled {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Compiled").field("code", &self.code).finish_non_exhaustive()
+    }
+}
+
 impl Compiled {
     /// The steps of `interpreter`, `steps` of which are going to be made; `None` where they are not made of programs.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
-    pub fn new<G: Restore, C: Chart<G>>(
+    pub fn new<G: LieGroup<Scalar = f64>, C: Chart<G>>(
         interpreter: &Interpreter<'_, G, C>,
         backend: Backend,
         steps: f64,
@@ -85,23 +91,21 @@ impl Compiled {
     /// A state as the group has it.
     pub fn phase<G: Restore>(&self, group: &G, numbers: &Numbers) -> Phase<G> {
         let size = group.matrix_size();
-        let mut matrix = vec![0.0; size * size];
-        let program = &self.kernel().programs().matrix;
-        program.run(&numbers.g, &[], &mut Vec::new(), &mut matrix);
+        let matrix = self.matrix_of(&numbers.g);
         let element = group.restore(&|i, j| matrix[i * size + j]);
         Phase::<G>::new(element, DVector::from_column_slice(&numbers.mu))
     }
 
-    /// Makes so many steps. What the programs refuse is tried by `interpreter`, which follows a solution from the
-    /// identity or says why there is none.
+    /// Makes so many steps. What the programs refuse is made by `rescue`, which makes one step by other means (its
+    /// iterations and residual), or says why there is none.
     ///
     /// # Errors
     /// How many steps were made, and why the next one was not; the state is then that before it.
-    pub fn advance<G: Restore, C: Chart<G>>(
+    pub fn advance(
         &self,
-        interpreter: &Interpreter<'_, G, C>,
         numbers: &mut Numbers,
         steps: u64,
+        mut rescue: impl FnMut(&mut Numbers) -> Result<StepReport<f64>, StepError>,
     ) -> Result<Outcome, (u64, StepError)> {
         let mut total = Outcome::default();
         while total.steps < steps {
@@ -111,7 +115,7 @@ impl Compiled {
             total.steps += made.steps;
             note(&mut total, made.corrections, made.residual);
             if made.steps < asked {
-                let report = self.rescue(interpreter, numbers).map_err(|e| (total.steps, e))?;
+                let report = rescue(numbers).map_err(|error| (total.steps, error))?;
                 note(&mut total, report.iterations, report.residual);
                 total.steps += 1;
             }
@@ -119,17 +123,31 @@ impl Compiled {
         Ok(total)
     }
 
-    /// One step that the programs have refused.
-    fn rescue<G: Restore, C: Chart<G>>(
+    /// One step that the programs have refused, by the interpreter of the generating function, which follows a solution
+    /// from the identity or says why there is none.
+    pub fn rescue<G: Restore, C: Chart<G>>(
         &self,
         interpreter: &Interpreter<'_, G, C>,
         numbers: &mut Numbers,
-    ) -> Result<coadjoint::StepReport<f64>, StepError> {
+    ) -> Result<StepReport<f64>, StepError> {
         let group = &interpreter.group;
         let mut phase = self.phase(group, numbers);
         let report = coadjoint::advance(interpreter, &mut phase)?;
         *numbers = self.numbers(group, &phase);
         Ok(report)
+    }
+
+    /// The numbers of the element with this matrix, row by row.
+    pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        self.step.element_of(matrix)
+    }
+
+    /// The matrix of an element, row by row.
+    pub fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
+        let program = &self.kernel().programs().matrix;
+        let mut matrix = vec![0.0; program.outputs().len()];
+        program.run(g, &[], &mut Vec::new(), &mut matrix);
+        matrix
     }
 
     /// [`WIDTH`] trajectories side by side, as [`Kernel::advance_lanes`].

@@ -17,8 +17,10 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::layout::{Attitude, Layout, Shape};
+use super::pack::march;
 use super::rows::{Rejected, Rows};
-use crate::engine::{Interpreter, STEEP, Steepness, advise, matrix_group};
+use crate::backend::Backend;
+use crate::engine::{Compiled, Interpreter, Numbers, STEEP, Steepness, advise, matrix_group};
 use crate::error::CliError;
 
 /// How far an attitude may be from the group, as for `coadjoint learn`: far above rounding in
@@ -70,19 +72,21 @@ pub fn engine<'a>(
     path: &Path,
     integrator: &'a Integrator,
     step: f64,
+    (backend, work): (Backend, f64),
 ) -> Result<Box<dyn Engine + 'a>, CliError> {
+    let how = (backend, work);
     let algebra = &integrator.problem.algebra;
     let group_error = |source| CliError::Group { file: path.into(), source };
     // Closed forms for what is used most; every combination costs the compiler several seconds.
     match (algebra.name(), integrator.problem.chart) {
-        ("SO3", lie::Chart::Exponential) => on::<_, Exponential>(integrator, SO3::new(), step),
-        ("SE3", lie::Chart::Exponential) => on::<_, Exponential>(integrator, SE3::new(), step),
+        ("SO3", lie::Chart::Exponential) => on::<_, Exponential>(integrator, SO3::new(), step, how),
+        ("SE3", lie::Chart::Exponential) => on::<_, Exponential>(integrator, SE3::new(), step, how),
         (_, lie::Chart::Exponential) => {
-            on::<_, Exponential>(integrator, matrix_group(path, algebra, None)?, step)
+            on::<_, Exponential>(integrator, matrix_group(path, algebra, None)?, step, how)
         }
         (_, lie::Chart::Cayley) => {
             let group = matrix_group(path, algebra, None)?.into_cayley().map_err(group_error)?;
-            on::<_, Cayley>(integrator, group, step)
+            on::<_, Cayley>(integrator, group, step, how)
         }
     }
 }
@@ -91,6 +95,7 @@ fn on<'a, G, C>(
     integrator: &'a Integrator,
     group: G,
     step: f64,
+    (backend, work): (Backend, f64),
 ) -> Result<Box<dyn Engine + 'a>, CliError>
 where
     G: EnsembleGroup + 'a,
@@ -102,13 +107,16 @@ where
 {
     let stepper = Interpreter::<G, C>::new(integrator, group, step)
         .map_err(|source| CliError::Step { time: 0.0, source })?;
-    Ok(Box::new(Steps { integrator, stepper, step, shorter: Mutex::default() }))
+    let compiled = Compiled::new(&stepper, backend, work)?;
+    Ok(Box::new(Steps { integrator, stepper, compiled, step, shorter: Mutex::default() }))
 }
 
 /// Steps of a system on a group.
 struct Steps<'a, G, C> {
     integrator: &'a Integrator,
     stepper: Interpreter<'a, G, C>,
+    /// The same as programs, where it can be.
+    compiled: Option<Compiled>,
     step: f64,
     /// Those of half the size, of a quarter, …, as far as they were needed to advise.
     shorter: Mutex<Vec<Interpreter<'a, G, C>>>,
@@ -173,6 +181,9 @@ where
         steps: u64,
         made: &dyn Fn(u64),
     ) -> BTreeMap<usize, Failure> {
+        if let Some(compiled) = &self.compiled {
+            return self.march_programs(compiled, states, steps, made);
+        }
         let mut failed: BTreeMap<usize, Failure> = BTreeMap::new();
         let mut going: Vec<usize> = (0..states.len()).collect();
         let mut moving = states.to_vec();
@@ -201,6 +212,68 @@ where
         }
         failed
     }
+
+    /// The same by programs.
+    fn march_programs(
+        &self,
+        compiled: &Compiled,
+        states: &mut [Phase<G>],
+        steps: u64,
+        made: &dyn Fn(u64),
+    ) -> BTreeMap<usize, Failure> {
+        let group = self.stepper.group();
+        let read = |state: &Phase<G>| numbers(compiled, group, state);
+        let mut moving: Vec<Numbers> = states.par_iter().map(read).collect();
+        let rescue = |own: &mut Numbers| {
+            let mut phase = state(compiled, group, own)?;
+            let report = coadjoint::advance(&self.stepper, &mut phase)?;
+            *own = numbers(compiled, group, &phase);
+            Ok(report)
+        };
+        let mut failed = march(compiled, &mut moving, (steps, STRETCH), &rescue, made);
+        for (place, own) in moving.iter().enumerate() {
+            match state(compiled, group, own) {
+                Ok(state) => states[place] = state,
+                Err(error) => {
+                    failed.entry(place).or_insert(Failure { index: place, step: steps, error });
+                }
+            }
+        }
+        for failure in failed.values_mut() {
+            failure.error = self.advise(failure.error, &states[failure.index]);
+        }
+        failed
+    }
+}
+
+/// A state as programs have it.
+fn numbers<G: EnsembleGroup>(compiled: &Compiled, group: &G, state: &Phase<G>) -> Numbers {
+    let g = match G::quaternion_of(&state.group_element) {
+        Some(q) => q.to_vec(),
+        None => {
+            let size = group.matrix_size();
+            let entry = |at: usize| group.matrix_entry(&state.group_element, at / size, at % size);
+            compiled.element_of(&(0..size * size).map(entry).collect::<Vec<_>>())
+        }
+    };
+    Numbers { g, mu: (0..group.dim()).map(|i| state.momentum[i]).collect() }
+}
+
+/// A state as the group has it.
+fn state<G: EnsembleGroup>(
+    compiled: &Compiled,
+    group: &G,
+    numbers: &Numbers,
+) -> Result<Phase<G>, StepError> {
+    use coadjoint::Coordinates;
+
+    let matrix = compiled.matrix_of(&numbers.g);
+    let size = group.matrix_size();
+    let element = group.element_from_matrix(|i, j| matrix[i * size + j]);
+    // Programs check their elements: what is none is not finite.
+    let group_element = element.map_err(|_| StepError::NonFiniteState)?;
+    let momentum = G::Vector::from_entries(group.dim(), |i| numbers.mu[i]);
+    Ok(Phase { group_element, momentum })
 }
 
 /// A group whose elements can be read from rows and written to them.

@@ -6,6 +6,7 @@ mod input;
 mod journal;
 mod layout;
 mod output;
+mod pack;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 mod report;
@@ -17,8 +18,10 @@ pub use shard::Shard;
 
 use std::path::Path;
 
+use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
+use coadjoint_program::WIDTH;
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -50,7 +53,12 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let form = output::Form::of(&options.out)?;
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
-    let engine = engine::engine(path, &integrator, step)?;
+    let engine = engine::engine(
+        path,
+        &integrator,
+        step,
+        (options.backend, work(options, &integrator, steps)),
+    )?;
     let input = input::open(&options.initial, engine.shape())?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;
@@ -98,6 +106,15 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         return Err(CliError::Rows { failed: outcome.failed, list: outcome.list });
     }
     Ok(())
+}
+
+/// About how many steps all lanes together make: rows are guessed from the size of the file.
+fn work(options: &EnsembleOptions, integrator: &Integrator, steps: u64) -> f64 {
+    /// Bytes of a number in a file, about.
+    const NUMBER: f64 = 16.0;
+    let bytes = std::fs::metadata(&options.initial).map_or(0.0, |found| found.len() as f64);
+    let rows = bytes / (NUMBER * integrator.problem.algebra.dim() as f64);
+    steps as f64 * (rows / WIDTH as f64).max(1.0)
 }
 
 /// Threads that are always allowed, however few processors there are.

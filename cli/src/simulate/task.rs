@@ -16,7 +16,7 @@ use super::setup::Setup;
 use super::subject::Subject;
 use super::trajectory::{Trajectory, Watched};
 use super::warning::Warning;
-use crate::engine::{Compiled, Energy, Forces, Interpreter, Restore, Steepness, advise};
+use crate::engine::{Compiled, Energy, Forces, Interpreter, Numbers, Restore, Steepness, advise};
 use crate::error::CliError;
 use crate::progress;
 
@@ -183,7 +183,8 @@ impl<'a> Task<'a> {
                 let mut kept = kept.borrow_mut();
                 let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
                 let ratio = steepness.ratio(&phase.momentum);
-                let made = compiled.advance(&step, numbers, count);
+                let rescue = |numbers: &mut Numbers| compiled.rescue(&step, numbers);
+                let made = compiled.advance(numbers, count, rescue);
                 *phase = compiled.phase(group, numbers);
                 let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
                 let solve = Some((made.corrections, made.residual));

@@ -63,6 +63,7 @@ pub enum StepError {
 }
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
+#[derive(Debug)]
 pub struct Step {
     kernel: Kernel,
     group: Product,

@@ -6,7 +6,7 @@ use crate::step::vector::Matrix;
 /// A factor of a group, with the chart of a step: what programs of a step are built of.
 ///
 /// Coordinates x and μ have n entries, a group element m numbers. Conventions are those of the runtime's `LieGroup`.
-pub trait Part {
+pub trait Part: std::fmt::Debug + Send + Sync {
     /// n, the dimension.
     fn dim(&self) -> usize;
 

@@ -1,0 +1,103 @@
+//! Trajectories side by side, advanced by the programs of a step.
+
+use std::collections::BTreeMap;
+
+use coadjoint::lanes::ensemble::Failure;
+use coadjoint::{StepError, StepReport};
+use coadjoint_program::WIDTH;
+use rayon::prelude::*;
+
+use crate::engine::{Compiled, Numbers};
+
+/// What makes a step that the programs have refused.
+pub type Rescue<'a> = dyn Fn(&mut Numbers) -> Result<StepReport<f64>, StepError> + Sync + 'a;
+
+/// [`WIDTH`] trajectories side by side: number i of trajectory r is at `i * WIDTH + r`.
+struct Pack {
+    g: Vec<f64>,
+    mu: Vec<f64>,
+    live: [bool; WIDTH],
+    stopped: [Option<(u64, StepError)>; WIDTH],
+}
+
+impl Pack {
+    /// Of these states, at most [`WIDTH`]; lanes without one do not move.
+    fn new(states: &[Numbers]) -> Self {
+        let beside = |of: fn(&Numbers) -> &Vec<f64>| {
+            let length = states.first().map_or(0, |state| of(state).len());
+            let mut list = vec![0.0; length * WIDTH];
+            for (lane, state) in states.iter().enumerate() {
+                for (i, value) in of(state).iter().enumerate() {
+                    list[i * WIDTH + lane] = *value;
+                }
+            }
+            list
+        };
+        Self {
+            g: beside(|state| &state.g),
+            mu: beside(|state| &state.mu),
+            live: std::array::from_fn(|lane| lane < states.len()),
+            stopped: [const { None }; WIDTH],
+        }
+    }
+
+    /// The state of a lane.
+    fn state(&self, lane: usize) -> Numbers {
+        let own = |list: &[f64]| list.iter().skip(lane).step_by(WIDTH).copied().collect();
+        Numbers { g: own(&self.g), mu: own(&self.mu) }
+    }
+
+    fn put(&mut self, lane: usize, state: &Numbers) {
+        for (list, own) in [(&mut self.g, &state.g), (&mut self.mu, &state.mu)] {
+            for (place, value) in list.iter_mut().skip(lane).step_by(WIDTH).zip(own) {
+                *place = *value;
+            }
+        }
+    }
+
+    /// Makes so many steps after the first so many. What a lane cannot do with the others it does alone, so that no
+    /// trajectory depends on its neighbours.
+    fn advance(&mut self, compiled: &Compiled, first: u64, steps: u64, rescue: &Rescue<'_>) {
+        let made = compiled.advance_lanes(&mut self.g, &mut self.mu, steps, self.live);
+        for (lane, &made) in made.iter().enumerate() {
+            if !self.live[lane] || made == steps {
+                continue;
+            }
+            let mut state = self.state(lane);
+            let outcome = compiled.advance(&mut state, steps - made, rescue);
+            self.put(lane, &state);
+            if let Err((more, error)) = outcome {
+                self.live[lane] = false;
+                self.stopped[lane] = Some((first + made + more, error));
+            }
+        }
+    }
+}
+
+/// Makes `steps` steps of all states, `stretch` of them before the next, each then told to `told`; why those stopped that
+/// did, by their places.
+pub fn march(
+    compiled: &Compiled,
+    states: &mut [Numbers],
+    (steps, stretch): (u64, u64),
+    rescue: &Rescue<'_>,
+    told: &dyn Fn(u64),
+) -> BTreeMap<usize, Failure> {
+    let mut packs: Vec<Pack> = states.chunks(WIDTH).map(Pack::new).collect();
+    let mut done = 0;
+    while done < steps {
+        let length = stretch.min(steps - done);
+        packs.par_iter_mut().for_each(|pack| pack.advance(compiled, done, length, rescue));
+        done += length;
+        told(done);
+    }
+    let mut failed = BTreeMap::new();
+    for (place, state) in states.iter_mut().enumerate() {
+        let (pack, lane) = (&packs[place / WIDTH], place % WIDTH);
+        *state = pack.state(lane);
+        if let Some((step, error)) = pack.stopped[lane] {
+            failed.insert(place, Failure { index: place, step, error });
+        }
+    }
+    failed
+}
