@@ -32,7 +32,7 @@ const COMPILED: f64 = 0.3;
 
 /// Seconds that a C compiler takes: to start, and for each operation.
 const COMPILER_STARTS: f64 = 0.15;
-const COMPILER_OPERATION: f64 = 4e-4;
+const COMPILER_OPERATION: f64 = 1.2e-3;
 
 /// The same of Cranelift.
 #[cfg(feature = "jit")]

@@ -187,7 +187,8 @@ impl<'a> Task<'a> {
                 let made = compiled.advance(numbers, count, rescue);
                 *phase = compiled.phase(group, numbers);
                 let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
-                let solve = Some((made.corrections, made.residual));
+                // A bound, which may be far below what rounding leaves.
+                let solve = Some((made.corrections, made.residual.max(f64::EPSILON)));
                 Ok(Made { solve, ratio: maximum(ratio, steepness.ratio(&phase.momentum)) })
             },
             side: &side,
