@@ -32,7 +32,8 @@ pub struct Drift {
     pub spatial_momentum: f64,
     /// Of the Casimirs, each relative to itself (absolute where it is 0).
     pub casimirs: f64,
-    /// The largest ratio of the last two terms of the series at a start or an end, where it is worth a warning; else 0.
+    /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
+    /// many steps), where it is worth a warning; else 0.
     pub ratio: f64,
 }
 
@@ -148,12 +149,10 @@ where
             let start = group.casimir(index, &before.momentum);
             relative(group.casimir(index, &after.momentum) - start, start.abs())
         });
-        let steepness = Steepness::new(&self.stepper);
-        let ratios = [before, after].map(|phase| steepness.ratio(&phase.momentum));
         Drift {
             spatial_momentum: relative(difference, before.momentum.largest_entry()),
             casimirs: casimirs.fold(0.0, larger),
-            ratio: ratios.into_iter().filter(|&ratio| ratio > STEEP).fold(0.0, larger),
+            ratio: 0.0,
         }
     }
 }
@@ -166,17 +165,19 @@ where
     <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
     Phase<G>: Send + Sync,
 {
-    /// Makes the steps of all states; why those stopped that did, by their places.
+    /// Makes the steps of all states; why those stopped that did, by their places, and the largest ratio of the last two
+    /// terms of the series that is worth a warning.
     fn march(
         &self,
         states: &mut [Phase<G>],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> BTreeMap<usize, Failure> {
+    ) -> (BTreeMap<usize, Failure>, f64) {
         let mut failed: BTreeMap<usize, Failure> = BTreeMap::new();
         let mut going: Vec<usize> = (0..states.len()).collect();
         let mut moving = states.to_vec();
         let mut done = 0;
+        let mut ratio = self.ratio(&moving);
         while done < steps && !going.is_empty() {
             let stretch = STRETCH.min(steps - done);
             let stopped = ensemble::advance_all(&self.stepper, &mut moving, stretch);
@@ -194,12 +195,20 @@ where
                 moving.retain(|_| kept.next() == Some(&true));
             }
             done += stretch;
+            ratio = larger(ratio, self.ratio(&moving));
             made(done);
         }
         for (place, state) in going.into_iter().zip(moving) {
             states[place] = state;
         }
-        failed
+        (failed, ratio)
+    }
+
+    /// The largest ratio of the last two terms of the series at these states, where it is worth a warning; else 0.
+    fn ratio(&self, states: &[Phase<G>]) -> f64 {
+        let steepness = Steepness::new(&self.stepper);
+        let ratios = states.iter().map(|state| steepness.ratio(&state.momentum));
+        ratios.filter(|&ratio| ratio > STEEP).fold(0.0, larger)
     }
 }
 
@@ -260,7 +269,7 @@ where
             }
         }
         let before = states.clone();
-        let failed = self.march(&mut states, steps, made);
+        let (failed, ratio) = self.march(&mut states, steps, made);
         for (place, failure) in &failed {
             rows.rejected.push(Rejected {
                 row: rows.first + places[*place] as u64,
@@ -277,7 +286,7 @@ where
                 (!failed.contains_key(&place)).then(|| self.drift(before, after))
             })
             .collect();
-        let mut largest = Drift::default();
+        let mut largest = Drift { ratio, ..Drift::default() };
         for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
             let Some(drift) = drift else { continue };
             let row = &mut rows.values[place * width..(place + 1) * width];
