@@ -70,7 +70,7 @@ fn check_and_ensemble_tell_it_too() {
     assert_eq!(error.matches("warning: ").count(), 1, "{error}");
 
     let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
-    for (momentum, expected) in [("0.2,0.1,0.1", 0), ("2.0,0.5,1.0", 1)] {
+    for (momentum, expected) in [("0.2,0.1,0.1", 0), ("1.5,1.5,0.5", 1)] {
         std::fs::write(&states, format!("mu_1,mu_2,mu_3\n0.1,0,0.1\n{momentum}\n")).unwrap();
         let run = [
             "ensemble",

@@ -10,7 +10,7 @@ pub enum LearnError {
     /// A file could not be read or written.
     #[error("cannot read or write {}: {source}", path.display())]
     File {
-        /// The file.
+        /// The file concerned.
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
@@ -18,7 +18,7 @@ pub enum LearnError {
     /// A file is not in the format its name promises.
     #[error("{} is not a readable {format} file: {reason}", path.display())]
     Format {
-        /// The file.
+        /// The file concerned.
         path: PathBuf,
         /// The format expected.
         format: &'static str,
@@ -31,7 +31,7 @@ pub enum LearnError {
         path.display()
     )]
     UnknownFormat {
-        /// The file.
+        /// The file concerned.
         path: PathBuf,
     },
     /// A cell is not a number.
@@ -120,7 +120,7 @@ pub enum LearnError {
     UnknownGroup {
         /// The name given.
         name: String,
-        /// Why not.
+        /// The reason, as the catalogue gives it.
         reason: String,
     },
     /// The group has no such chart.
@@ -130,7 +130,7 @@ pub enum LearnError {
         group: String,
         /// The chart asked for.
         chart: String,
-        /// Why not.
+        /// The reason, as the catalogue gives it.
         reason: String,
     },
     /// An option is out of its range.
@@ -149,7 +149,7 @@ pub enum LearnError {
         path.display()
     )]
     Checkpoint {
-        /// The file.
+        /// The file concerned.
         path: PathBuf,
         /// What is wrong with it.
         reason: String,
@@ -157,7 +157,7 @@ pub enum LearnError {
     /// A model file is damaged or not one of ours.
     #[error("{} is not a usable model file: {reason}", path.display())]
     Model {
-        /// The file.
+        /// The file concerned.
         path: PathBuf,
         /// What is wrong with it.
         reason: String,

@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::layout::{Attitude, Layout, Shape};
-use super::pack::march;
+use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows};
 use crate::backend::Backend;
 use crate::engine::{Compiled, Interpreter, Numbers, STEEP, Steepness, advise, matrix_group};
@@ -34,7 +34,8 @@ pub struct Drift {
     pub spatial_momentum: f64,
     /// Of the Casimirs, each relative to itself (absolute where it is 0).
     pub casimirs: f64,
-    /// The largest ratio of the last two terms of the series at a start or an end, where it is worth a warning; else 0.
+    /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
+    /// many steps), where it is worth a warning; else 0.
     pub ratio: f64,
 }
 
@@ -156,12 +157,10 @@ where
             let start = group.casimir(index, &before.momentum);
             relative(group.casimir(index, &after.momentum) - start, start.abs())
         });
-        let steepness = Steepness::new(&self.stepper);
-        let ratios = [before, after].map(|phase| steepness.ratio(&phase.momentum));
         Drift {
             spatial_momentum: relative(difference, before.momentum.largest_entry()),
             casimirs: casimirs.fold(0.0, larger),
-            ratio: ratios.into_iter().filter(|&ratio| ratio > STEEP).fold(0.0, larger),
+            ratio: 0.0,
         }
     }
 }
@@ -174,13 +173,14 @@ where
     <Interpreter<'a, G, C> as Lanes>::Over<F64x8>: Sync,
     Phase<G>: Send + Sync,
 {
-    /// Makes the steps of all states; why those stopped that did, by their places.
+    /// Makes the steps of all states; why those stopped that did, by their places, and the largest ratio of the last two
+    /// terms of the series that is worth a warning.
     fn march(
         &self,
         states: &mut [Phase<G>],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> BTreeMap<usize, Failure> {
+    ) -> (BTreeMap<usize, Failure>, f64) {
         if let Some(compiled) = &self.compiled {
             return self.march_programs(compiled, states, steps, made);
         }
@@ -188,6 +188,7 @@ where
         let mut going: Vec<usize> = (0..states.len()).collect();
         let mut moving = states.to_vec();
         let mut done = 0;
+        let mut ratio = self.ratio(&moving);
         while done < steps && !going.is_empty() {
             let stretch = STRETCH.min(steps - done);
             let stopped = ensemble::advance_all(&self.stepper, &mut moving, stretch);
@@ -205,12 +206,20 @@ where
                 moving.retain(|_| kept.next() == Some(&true));
             }
             done += stretch;
+            ratio = larger(ratio, self.ratio(&moving));
             made(done);
         }
         for (place, state) in going.into_iter().zip(moving) {
             states[place] = state;
         }
-        failed
+        (failed, ratio)
+    }
+
+    /// The largest ratio of the last two terms of the series at these states, where it is worth a warning; else 0.
+    fn ratio(&self, states: &[Phase<G>]) -> f64 {
+        let steepness = Steepness::new(&self.stepper);
+        let ratios = states.iter().map(|state| steepness.ratio(&state.momentum));
+        ratios.filter(|&ratio| ratio > STEEP).fold(0.0, larger)
     }
 
     /// The same by programs.
@@ -220,7 +229,9 @@ where
         states: &mut [Phase<G>],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> BTreeMap<usize, Failure> {
+    ) -> (BTreeMap<usize, Failure>, f64) {
+        use coadjoint::Coordinates;
+
         let group = self.stepper.group();
         let read = |state: &Phase<G>| numbers(compiled, group, state);
         let mut moving: Vec<Numbers> = states.par_iter().map(read).collect();
@@ -230,7 +241,11 @@ where
             *own = numbers(compiled, group, &phase);
             Ok(report)
         };
-        let mut failed = march(compiled, &mut moving, (steps, STRETCH), &rescue, made);
+        let steepness = Steepness::new(&self.stepper);
+        let before = self.ratio(states);
+        let ratio = |mu: &[f64]| steepness.ratio(&G::Vector::from_entries(mu.len(), |i| mu[i]));
+        let manner = Manner { compiled, rescue: &rescue, ratio: &ratio };
+        let (mut failed, along) = march(&manner, &mut moving, (steps, STRETCH), made);
         for (place, own) in moving.iter().enumerate() {
             match state(compiled, group, own) {
                 Ok(state) => states[place] = state,
@@ -242,7 +257,8 @@ where
         for failure in failed.values_mut() {
             failure.error = self.advise(failure.error, &states[failure.index]);
         }
-        failed
+        let along = if along > STEEP { along } else { 0.0 };
+        (failed, larger(before, along))
     }
 }
 
@@ -333,7 +349,7 @@ where
             }
         }
         let before = states.clone();
-        let failed = self.march(&mut states, steps, made);
+        let (failed, ratio) = self.march(&mut states, steps, made);
         for (place, failure) in &failed {
             rows.rejected.push(Rejected {
                 row: rows.first + places[*place] as u64,
@@ -350,7 +366,7 @@ where
                 (!failed.contains_key(&place)).then(|| self.drift(before, after))
             })
             .collect();
-        let mut largest = Drift::default();
+        let mut largest = Drift { ratio, ..Drift::default() };
         for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
             let Some(drift) = drift else { continue };
             let row = &mut rows.values[place * width..(place + 1) * width];

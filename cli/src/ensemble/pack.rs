@@ -12,12 +12,27 @@ use crate::engine::{Compiled, Numbers};
 /// What makes a step that the programs have refused.
 pub type Rescue<'a> = dyn Fn(&mut Numbers) -> Result<StepReport<f64>, StepError> + Sync + 'a;
 
+/// What evaluates the ratio of the last two terms of the series at a momentum.
+pub type Ratio<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
+
+/// How steps are made.
+pub struct Manner<'a> {
+    /// By these programs.
+    pub compiled: &'a Compiled,
+    /// What they refuse.
+    pub rescue: &'a Rescue<'a>,
+    /// What is looked at after each stretch.
+    pub ratio: &'a Ratio<'a>,
+}
+
 /// [`WIDTH`] trajectories side by side: number i of trajectory r is at `i * WIDTH + r`.
 struct Pack {
     g: Vec<f64>,
     mu: Vec<f64>,
     live: [bool; WIDTH],
     stopped: [Option<(u64, StepError)>; WIDTH],
+    /// The largest ratio seen.
+    ratio: f64,
 }
 
 impl Pack {
@@ -38,6 +53,7 @@ impl Pack {
             mu: beside(|state| &state.mu),
             live: std::array::from_fn(|lane| lane < states.len()),
             stopped: [const { None }; WIDTH],
+            ratio: 0.0,
         }
     }
 
@@ -57,37 +73,49 @@ impl Pack {
 
     /// Makes so many steps after the first so many. What a lane cannot do with the others it does alone, so that no
     /// trajectory depends on its neighbours.
-    fn advance(&mut self, compiled: &Compiled, first: u64, steps: u64, rescue: &Rescue<'_>) {
+    fn advance(&mut self, manner: &Manner<'_>, first: u64, steps: u64) {
+        let Manner { compiled, rescue, ratio } = manner;
         let made = compiled.advance_lanes(&mut self.g, &mut self.mu, steps, self.live);
         for (lane, &made) in made.iter().enumerate() {
-            if !self.live[lane] || made == steps {
+            if !self.live[lane] {
                 continue;
             }
             let mut state = self.state(lane);
+            if made == steps {
+                self.look(ratio(&state.mu));
+                continue;
+            }
             let outcome = compiled.advance(&mut state, steps - made, rescue);
             self.put(lane, &state);
             if let Err((more, error)) = outcome {
                 self.live[lane] = false;
                 self.stopped[lane] = Some((first + made + more, error));
             }
+            self.look(ratio(&state.mu));
+        }
+    }
+
+    /// Takes note of a ratio; what is no number is larger than any.
+    fn look(&mut self, ratio: f64) {
+        if ratio.is_nan() || ratio > self.ratio {
+            self.ratio = ratio;
         }
     }
 }
 
 /// Makes `steps` steps of all states, `stretch` of them before the next, each then told to `told`; why those stopped that
-/// did, by their places.
+/// did, by their places, and the largest ratio of the last two terms of the series after a stretch.
 pub fn march(
-    compiled: &Compiled,
+    manner: &Manner<'_>,
     states: &mut [Numbers],
     (steps, stretch): (u64, u64),
-    rescue: &Rescue<'_>,
     told: &dyn Fn(u64),
-) -> BTreeMap<usize, Failure> {
+) -> (BTreeMap<usize, Failure>, f64) {
     let mut packs: Vec<Pack> = states.chunks(WIDTH).map(Pack::new).collect();
     let mut done = 0;
     while done < steps {
         let length = stretch.min(steps - done);
-        packs.par_iter_mut().for_each(|pack| pack.advance(compiled, done, length, rescue));
+        packs.par_iter_mut().for_each(|pack| pack.advance(manner, done, length));
         done += length;
         told(done);
     }
@@ -99,5 +127,10 @@ pub fn march(
             failed.insert(place, Failure { index: place, step, error });
         }
     }
-    failed
+    let ratio =
+        packs.iter().map(|pack| pack.ratio).fold(0.0, |a: f64, b| match b.is_nan() || b > a {
+            true => b,
+            false => a,
+        });
+    (failed, ratio)
 }

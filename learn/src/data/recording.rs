@@ -15,16 +15,16 @@ use coadjoint::Phase;
 pub enum Attitudes {
     /// Matrices, row by row: d² rows.
     Matrices {
-        /// g′.
+        /// The attitudes g′ before.
         before: DMatrix<f64>,
-        /// g″.
+        /// The attitudes g″ after.
         after: DMatrix<f64>,
     },
     /// Unit quaternions w, x, y, z: 4 rows.
     Quaternions {
-        /// g′.
+        /// The attitudes g′ before.
         before: DMatrix<f64>,
-        /// g″.
+        /// The attitudes g″ after.
         after: DMatrix<f64>,
     },
 }
@@ -34,7 +34,7 @@ pub enum Attitudes {
 pub struct Recording {
     /// μ′ and μ″, a sample per column.
     pub momenta: MomentumPairs,
-    /// g′ and g″.
+    /// The attitudes g′ before and g″ after, if they were recorded.
     pub attitudes: Option<Attitudes>,
 }
 

@@ -48,7 +48,7 @@ pub struct Table {
     pub title: String,
     /// Column heads.
     pub columns: Vec<String>,
-    /// Rows.
+    /// The cells, row by row; as many in a row as there are heads.
     pub rows: Vec<Vec<Cell>>,
 }
 
@@ -73,7 +73,7 @@ pub struct Curve {
     pub name: String,
     /// Column heads, the abscissa first.
     pub columns: Vec<String>,
-    /// Rows of numbers.
+    /// The numbers, row by row; as many in a row as there are heads.
     pub rows: Vec<Vec<f64>>,
 }
 
@@ -86,7 +86,7 @@ pub struct Report {
     pub quick: bool,
     /// The seed everything follows from.
     pub seed: u64,
-    /// Figures.
+    /// The tables, in the order of the paper.
     pub tables: Vec<Table>,
     /// What the figures mean and do not mean.
     pub notes: Vec<String>,

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("the step size fell to {step:e} at time {time}")]
 pub struct RungeKuttaError {
-    /// Where.
+    /// The time it had come to.
     pub time: f64,
     /// The step size reached.
     pub step: f64,

@@ -12,7 +12,7 @@ use crate::error::LearnError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Activation {
-    /// tanh z.
+    /// The hyperbolic tangent tanh z.
     #[default]
     Tanh,
     /// The logistic function 1/(1 + e⁻ᶻ).
@@ -21,11 +21,11 @@ pub enum Activation {
 
 /// An activation as a type.
 pub(super) trait Curve {
-    /// σ(z).
+    /// The value a = σ(z).
     fn value(z: f64) -> f64;
-    /// σ′ where σ is a.
+    /// The derivative σ′, given the value a.
     fn slope(a: f64) -> f64;
-    /// σ″ where σ is a.
+    /// The second derivative σ″, given the value a.
     fn bend(a: f64) -> f64;
 }
 

@@ -30,7 +30,7 @@ pub(super) struct State {
 pub(super) enum Stage {
     /// Steps of Adam.
     Adam { weights: Vec<f64>, moments: Adam },
-    /// L-BFGS.
+    /// The memory of L-BFGS.
     Descent(Descent),
 }
 

@@ -54,15 +54,15 @@ impl Kind {
 /// What to learn from what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Training data.
+    /// The file of training data: CSV, NPY, NPZ, or Parquet where the feature is built in.
     pub data: PathBuf,
-    /// Test data.
+    /// The file of test data, in the same formats, if there is one.
     pub test: Option<PathBuf>,
-    /// The group's name.
+    /// The group's name in the catalogue.
     pub group: String,
-    /// The chart's name.
+    /// The chart's name: `exp` or `cayley`.
     pub chart: String,
-    /// Δt.
+    /// The time Δt between the two states of a pair.
     pub step: f64,
     /// The kind of model.
     pub kind: Kind,
@@ -72,9 +72,9 @@ pub struct Request {
     pub ridge: f64,
     /// Refine by the distance on the group (polynomials only).
     pub group_loss: bool,
-    /// Limits on attitudes and momenta.
+    /// How far attitudes may be off the group, and momenta from being conserved.
     pub tolerances: Tolerances,
-    /// What to do with bad rows.
+    /// Whether rows that cannot be used are an error or left out.
     pub policy: RowPolicy,
     /// Leave attitudes aside and learn the Poisson map of momenta.
     pub momenta_only: bool,

@@ -63,9 +63,9 @@ impl MomentumFunction for Quadratic {
 /// H = ½ Σ wᵢ μᵢ² + ¼ Σ vᵢ μᵢ⁴.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quartic {
-    /// w.
+    /// The weights w, one for each coordinate of the momentum.
     pub weights: Vec<f64>,
-    /// v, of the same length.
+    /// The weights v of the fourth powers, as many.
     pub quartic: Vec<f64>,
 }
 
@@ -98,9 +98,9 @@ impl MomentumFunction for Quartic {
 /// H = √(1 + Σ wᵢ μᵢ²) + a sin μ₁: no polynomial, and no polynomial S either.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relativistic {
-    /// w.
+    /// The weights w, one for each coordinate of the momentum.
     pub weights: Vec<f64>,
-    /// a.
+    /// The amplitude a of the sine.
     pub ripple: f64,
 }
 
@@ -146,13 +146,13 @@ impl MomentumFunction for Relativistic {
 /// polynomial and no function of a simpler Hamiltonian.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bump {
-    /// w.
+    /// The weights w, one for each coordinate of the momentum.
     pub weights: Vec<f64>,
-    /// a.
+    /// The height a of the bump.
     pub height: f64,
-    /// s, of the same length.
+    /// The sharpness s of the bump in each coordinate.
     pub sharpness: Vec<f64>,
-    /// c, of the same length.
+    /// The centre c of the bump.
     pub centre: Vec<f64>,
 }
 

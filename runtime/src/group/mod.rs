@@ -24,7 +24,7 @@ use crate::number::scalar::Scalar;
 pub trait LieGroup: Clone + Debug {
     /// The number type of coordinates.
     type Scalar: Scalar;
-    /// Coordinates of 𝔤 and 𝔤\*.
+    /// Coordinates of 𝔤 in the basis the group documents, and of 𝔤\* in the dual one.
     type Vector: Coordinates<Self::Scalar>;
     /// An element g of the group.
     type Element: Clone + Debug;
@@ -41,32 +41,32 @@ pub trait LieGroup: Clone + Debug {
     /// The inverse g⁻¹.
     fn inverse(&self, g: &Self::Element) -> Self::Element;
 
-    /// exp(x), to rounding.
+    /// The exponential exp(x) of an element of the algebra, to rounding.
     fn exp(&self, x: &Self::Vector) -> Self::Element;
 
     /// The x nearest to 0 with exp(x) = g; `None` where there is none, or none can be found.
     fn log(&self, g: &Self::Element) -> Option<Self::Vector>;
 
-    /// The bracket [x, y].
+    /// The Lie bracket \[x, y\], in coordinates.
     fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector;
 
-    /// ad\*_x μ, coordinates Σ xᵢ cᵢⱼˡ μₗ: the transpose of ad_x applied to μ.
+    /// The infinitesimal coadjoint action ad\*_x μ, coordinates Σ xᵢ cᵢⱼˡ μₗ: the transpose of ad_x applied to μ.
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
 
-    /// Ad_g x.
+    /// The adjoint action Ad_g x: the coordinates of g x g⁻¹.
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector;
 
     /// Ad\*_g μ, the left coadjoint action: for a phase point (g, μ), its spatial momentum.
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector;
 
-    /// exp(x) together with Ad\*_{exp(−x)} μ, computed from x (not from a rounded group element).
+    /// The element exp(x) together with Ad\*_{exp(−x)} μ, computed from x (not from a rounded group element).
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
         let g = self.exp(x);
         let moved = self.coadjoint(&self.inverse(&g), mu);
         (g, moved)
     }
 
-    /// (d^R exp_x)ᵀ μ = Σₖ (ad_xᵀ)ᵏ μ / (k+1)!, to rounding, where dexp·exp⁻¹ = d^R exp_x dx.
+    /// The canonical momentum of the exponential chart, (d^R exp_x)ᵀ μ = Σₖ (ad_xᵀ)ᵏ μ / (k+1)!, to rounding, where dexp·exp⁻¹ = d^R exp_x dx.
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
 
     /// [`LieGroup::dexp_transpose`] and its derivative D(x, μ) in x: entry (i, j) is ∂ᵢ-th

@@ -183,7 +183,7 @@ where
 /// [`symplectic_defect`] of any map of T\*G, given as what advances a state.
 ///
 /// # Errors
-/// As `map`.
+/// Those that `map` returns.
 pub fn symplectic_defect_of<G: LieGroup<Scalar = f64>>(
     group: &G,
     point: &Phase<G>,

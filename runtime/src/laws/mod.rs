@@ -27,11 +27,11 @@ type Vector<S> = <<S as GeneratingFunction>::Group as LieGroup>::Vector;
 /// A law tried on a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
-    /// The law, one word.
+    /// The name of the law: one word, the same in every version.
     pub name: &'static str,
-    /// The largest defect found.
+    /// The largest relative defect found at the points tried.
     pub value: f64,
-    /// What it must not exceed.
+    /// The defect up to which the law is taken to hold.
     pub bound: f64,
 }
 
@@ -147,7 +147,7 @@ fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 
-/// J_L(Φ(α)) = J_L(α).
+/// The largest relative difference between J_L(Φ(α)) and J_L(α), which conservation makes equal.
 ///
 /// # Errors
 /// [`StepError`] where the map cannot be made.
