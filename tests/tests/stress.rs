@@ -5,8 +5,14 @@ use coadjoint_tests::stress::{Options, report, run};
 
 #[test]
 fn no_wrong_step_is_accepted() {
-    let options =
-        Options { steps: 8_000, seed: 20, only: String::new(), threads: 2, instance: None };
+    let options = Options {
+        steps: 4_000,
+        seed: 20,
+        only: String::new(),
+        threads: 2,
+        instance: None,
+        even: true,
+    };
     let tallies = run(&options);
     assert!(tallies.len() > 20);
     // Every family has both kinds: the draws lie around the boundary of acceptance.
@@ -21,7 +27,8 @@ fn no_wrong_step_is_accepted() {
 fn the_result_does_not_depend_on_threads() {
     let with = |threads| {
         let only = "so3-cayley".to_owned();
-        let tallies = run(&Options { steps: 600, seed: 3, only, threads, instance: None });
+        let tallies =
+            run(&Options { steps: 600, seed: 3, only, threads, instance: None, even: true });
         report(&tallies)
     };
     assert_eq!(with(1), with(3));

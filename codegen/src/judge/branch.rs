@@ -106,7 +106,7 @@ impl Step<'_> {
         let n = self.double.len();
         let mut x = vec![0.0; n];
         let mut s = 0.0;
-        let mut by = 0.125;
+        let mut by = 0.25;
         let mut model = self.model(&x, s).map_err(|_| Branch::CannotTell)?;
         let mut steps = 0;
         while s < 1.0 {
@@ -161,24 +161,35 @@ impl Step<'_> {
         None
     }
 
-    /// Newton's method in doubled precision with factors of double precision.
-    pub(super) fn polish(&self, x: Vec<DoubleDouble>) -> Result<RightSolution, JudgeError> {
-        let mut x = x;
+    /// Newton's method in doubled precision with factors of double precision, from an x whose defect may be known.
+    pub(super) fn polish(
+        &self,
+        mut x: Vec<DoubleDouble>,
+        known: Option<&[f64]>,
+    ) -> Result<RightSolution, JudgeError> {
         let mut last = f64::INFINITY;
         let double = |x: &[DoubleDouble]| x.iter().map(|x| x.to_f64()).collect::<Vec<_>>();
         let mut jacobian = self.model(&double(&x), 1.0)?.jacobian;
+        let mut response = jacobian.inverse_norm();
+        let mut known = known;
         for _ in 0..30 {
-            let correction = jacobian.solve(&double(&self.defect(&x)?))?;
+            let correction = match known.take() {
+                Some(defect) => jacobian.solve(defect)?,
+                None => jacobian.solve(&self.defect(&x)?.1)?,
+            };
             let length = norm(&correction);
             for (x, c) in x.iter_mut().zip(&correction) {
                 *x = *x - DoubleDouble::from(*c);
             }
             let whole = norm(&double(&x));
-            if length <= 1e-28 * whole
+            // Factors taken within 1e-13 of the solution gain ten digits at least where they are well conditioned.
+            let fresh = last.is_infinite() && length <= 1e-13 * whole && response <= 1e4;
+            if fresh
+                || length <= 1e-28 * whole
                 || length == 0.0
                 || (length < 1e-24 * whole && length >= last)
             {
-                return Ok(RightSolution { x, response: jacobian.inverse_norm() });
+                return Ok(RightSolution { x, response });
             }
             if !length.is_finite() || (length > last && length > whole) {
                 return Err(JudgeError::OutOfRange);
@@ -186,26 +197,39 @@ impl Step<'_> {
             // The same factors as long as they gain three digits.
             if length > 1e-3 * last || last.is_infinite() && length > 1e-6 * whole {
                 jacobian = self.model(&double(&x), 1.0)?.jacobian;
+                response = jacobian.inverse_norm();
             }
             last = length;
         }
         Err(JudgeError::OutOfRange)
     }
 
-    /// x − ∂S(p̂(x)) in doubled precision.
-    pub(super) fn defect(&self, x: &[DoubleDouble]) -> Result<Vec<DoubleDouble>, JudgeError> {
+    /// p̂(x), and x − ∂S(p̂(x)) computed in doubled precision.
+    pub(super) fn defect(
+        &self,
+        x: &[DoubleDouble],
+    ) -> Result<(Vec<DoubleDouble>, Vec<f64>), JudgeError> {
         let p = self.geometry.pull_back(x, &self.momentum)?;
-        Ok(x.iter().zip(self.folded.series.gradient(&p)).map(|(&x, g)| x - g).collect())
+        let gradient = self.folded.series.gradient(&p);
+        let defect = x.iter().zip(gradient).map(|(&x, g)| (x - g).to_f64()).collect();
+        Ok((p, defect))
     }
 
-    /// The right solution, by continuation.
+    /// The right solution: the one of a ball in which there is no other, or by continuation.
     ///
     /// # Errors
     /// [`Branch::Folds`] where there is none, [`Branch::CannotTell`] where it was not found.
     pub fn right_solution(&self) -> Result<RightSolution, Branch> {
+        let exact = |x: &[f64]| x.iter().map(|&x| DoubleDouble::from(x)).collect();
+        let (first, _) = self.folded.derivatives(&self.double);
+        if self.contracts(&first)
+            && let Ok(solution) = self.polish(exact(&first), None)
+            && self.contracts(&solution.x.iter().map(|x| x.to_f64()).collect::<Vec<_>>())
+        {
+            return Ok(solution);
+        }
         let x = self.follow()?;
-        let exact = x.iter().map(|&x| DoubleDouble::from(x)).collect();
-        let solution = self.polish(exact).map_err(|_| Branch::CannotTell)?;
+        let solution = self.polish(exact(&x), None).map_err(|_| Branch::CannotTell)?;
         match distance(&solution.x, &x) {
             d if d <= SAME => Ok(solution),
             _ => Err(Branch::CannotTell),
@@ -215,30 +239,35 @@ impl Step<'_> {
     /// Whether x is the right solution, and that solution: the exact one next to x.
     #[must_use]
     pub fn branch(&self, x: &[f64]) -> (Branch, Option<RightSolution>) {
+        self.branch_of(x, None)
+    }
+
+    /// The same of an x whose defect may be known.
+    pub(super) fn branch_of(
+        &self,
+        x: &[f64],
+        defect: Option<&[f64]>,
+    ) -> (Branch, Option<RightSolution>) {
         let exact = x.iter().map(|&x| DoubleDouble::from(x)).collect();
-        let own = self.polish(exact).ok();
+        let own = self.polish(exact, defect).ok();
         if self.contracts(x) {
             return (Branch::Proven, own);
         }
-        let right = match self.right_solution() {
+        let right = match self.follow() {
             Ok(right) => right,
             Err(branch) => return (branch, None),
         };
         // To which solution x belongs: the one that Newton's method finds from it.
-        let far = distance(&right.x, x);
         let Some(own) = own else {
-            return (
-                if far > APART { Branch::Another(far) } else { Branch::CannotTell },
-                Some(right),
-            );
+            let far = norm(&difference(&right, x)) / norm(&right);
+            let branch = if far > APART { Branch::Another(far) } else { Branch::CannotTell };
+            return (branch, None);
         };
-        let apart = distance(&right.x, &own.x.iter().map(|x| x.to_f64()).collect::<Vec<_>>());
-        let branch = match apart {
-            apart if apart <= SAME => Branch::Right,
-            apart if apart > APART => Branch::Another(apart),
-            _ => Branch::CannotTell,
-        };
-        (branch, Some(right))
+        match distance(&own.x, &right) {
+            apart if apart <= SAME => (Branch::Right, Some(own)),
+            apart if apart > APART => (Branch::Another(apart), None),
+            _ => (Branch::CannotTell, None),
+        }
     }
 
     /// ‖Hess S‖ at p, the smaller of Frobenius' norm and the row sum: both bound the spectral norm.
@@ -263,4 +292,8 @@ fn distance(a: &[DoubleDouble], b: &[f64]) -> f64 {
     }
     let ratio = difference / whole;
     if ratio.is_nan() { f64::INFINITY } else { ratio }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

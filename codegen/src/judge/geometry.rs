@@ -1,7 +1,9 @@
 //! The group in doubled precision: ad\*, the chart's pull-back and transport, its derivative, and matrices.
 
+use std::sync::LazyLock;
+
 use super::double_double::Real;
-use super::linear::{Lu, identity, multiply};
+use super::linear::{Lu, identity, multiply, multiply_into};
 use super::series::norm;
 use super::wide::Wide;
 use super::{DoubleDouble, JudgeError};
@@ -13,6 +15,12 @@ const TERMS: usize = 500;
 
 /// How much larger than its sum the largest term of a series may be: beyond, too few digits are left.
 const CANCELLATION: f64 = 1e9;
+
+/// 1/k in doubled precision; 1/0 is not used.
+static RECIPROCALS: LazyLock<Vec<DoubleDouble>> = LazyLock::new(|| {
+    let one = DoubleDouble::from(1.0);
+    (0..TERMS + 2).map(|k| one / DoubleDouble::from(k as f64)).collect()
+});
 
 /// A table entry: three or four indices and a value in doubled precision.
 #[derive(Clone, Debug)]
@@ -32,6 +40,9 @@ pub(super) struct Geometry {
     pub(super) chart: Chart,
     /// \[e_i, e_j\] contains c·e_k.
     structure: Vec<Entry<3>>,
+    /// The rows and columns of ad_xᵀ that are not empty, and where each structure constant belongs.
+    places: Vec<(usize, usize)>,
+    place_of: Vec<usize>,
     /// xξx contains x_a x_b ξ_c·v along e_d.
     cubic: Vec<Entry<4>>,
     /// e_i has v at (row, column).
@@ -82,9 +93,20 @@ impl Geometry {
                 (entries.collect(), dim)
             }
         };
+        let mut places: Vec<(usize, usize)> = Vec::new();
+        let place_of = structure.iter().map(|s| {
+            let place = (s.at[1], s.at[2]);
+            places.iter().position(|known| *known == place).unwrap_or_else(|| {
+                places.push(place);
+                places.len() - 1
+            })
+        });
+        let place_of = place_of.collect();
         let mut geometry = Self {
             dim,
             chart,
+            places,
+            place_of,
             nilpotent: is_nilpotent(algebra),
             cubic_norm: norm(&cubic.iter().map(|e| e.exact.to_f64()).collect::<Vec<_>>()),
             bracket_norm: bracket_norm(dim, &structure),
@@ -100,26 +122,32 @@ impl Geometry {
         Ok(geometry)
     }
 
-    /// ad_xᵀ μ = ad\*_x μ.
-    pub(super) fn ad_star<T: Real>(&self, x: &[T], mu: &[T]) -> Vec<T> {
-        let mut result = vec![T::default(); self.dim];
-        for entry in &self.structure {
-            let [i, j, k] = entry.at;
-            result[j] += T::of(entry.exact) * x[i] * mu[k];
+    /// The entries of the matrix of ad_xᵀ, row by row, that can be other than zero.
+    fn ad_entries<T: Real>(&self, x: &[T]) -> Vec<(usize, usize, T)> {
+        let mut entries: Vec<_> =
+            self.places.iter().map(|&(row, column)| (row, column, T::default())).collect();
+        for (constant, &place) in self.structure.iter().zip(&self.place_of) {
+            entries[place].2 += T::of(constant.exact) * x[constant.at[0]];
         }
-        result
+        entries
     }
 
     /// Σ ad_xᵀᵏ v / (k + shift)!·shift!, for shift 0 the exponential and for 1 its divided difference.
     fn exponential<T: Real>(&self, x: &[T], v: &[T], shift: usize) -> Result<Vec<T>, JudgeError> {
+        let matrix = self.ad_entries(x);
         let mut sum = v.to_vec();
         let mut term = v.to_vec();
+        let mut next = vec![T::default(); v.len()];
         let mut largest = size(v);
         for k in 1..TERMS {
-            let factor = T::from(1.0) / T::from((k + shift) as f64);
-            term = self.ad_star(x, &term).into_iter().map(|t| t * factor).collect();
-            for (sum, &term) in sum.iter_mut().zip(&term) {
-                *sum += term;
+            next.fill(T::default());
+            for &(row, column, value) in &matrix {
+                next[row] += value * term[column];
+            }
+            let factor = T::of(RECIPROCALS[k + shift]);
+            for ((term, &next), sum) in term.iter_mut().zip(&next).zip(&mut sum) {
+                *term = next * factor;
+                *sum += *term;
             }
             let small = size(&term);
             if !small.is_finite() {
@@ -147,7 +175,7 @@ impl Geometry {
         }
     }
 
-    /// μ″ = Ad\*_{τ(x)⁻¹} μ, given p̂ too.
+    /// μ″ = Ad\*_{τ(x)⁻¹} μ, given p̂ too: on the exponential chart μ + ad_xᵀ p̂.
     pub(super) fn transport<T: Real>(
         &self,
         x: &[T],
@@ -155,7 +183,13 @@ impl Geometry {
         p: &[T],
     ) -> Result<Vec<T>, JudgeError> {
         match self.chart {
-            Chart::Exponential => self.exponential(x, mu, 0),
+            Chart::Exponential => {
+                let mut moved = mu.to_vec();
+                for (row, column, value) in self.ad_entries(x) {
+                    moved[row] += value * p[column];
+                }
+                Ok(moved)
+            }
             Chart::Cayley => {
                 // J_R(x, p) = J_L(−x, p)
                 let back: Vec<T> = x.iter().map(|&x| -x).collect();
@@ -203,24 +237,31 @@ impl Geometry {
         mu: &[f64],
     ) -> Result<(Vec<f64>, Vec<f64>), JudgeError> {
         let n = self.dim;
-        let matrix = self.ad_transpose(x);
+        let matrix = self.ad_entries(x);
         let (mut sum, mut term) = (mu.to_vec(), mu.to_vec());
         let (mut total, mut derivative) = (vec![0.0; n * n], vec![0.0; n * n]);
+        let (mut next, mut next_derivative) = (vec![0.0; n], vec![0.0; n * n]);
         for k in 1..TERMS {
             let factor = 1.0 / (k + 1) as f64;
-            let mut next = multiply(n, &matrix, &derivative);
+            next.fill(0.0);
+            next_derivative.fill(0.0);
+            for &(row, column, value) in &matrix {
+                next[row] += value * term[column];
+                for j in 0..n {
+                    next_derivative[row * n + j] += value * derivative[column * n + j];
+                }
+            }
             for entry in &self.structure {
                 let [i, j, l] = entry.at;
-                next[j * n + i] += entry.exact.to_f64() * term[l];
+                next_derivative[j * n + i] += entry.exact.to_f64() * term[l];
             }
-            next.iter_mut().for_each(|d| *d *= factor);
-            term = apply(n, &matrix, &term).into_iter().map(|t| t * factor).collect();
-            derivative = next;
-            for (sum, term) in sum.iter_mut().zip(&term) {
-                *sum += term;
+            for ((term, next), sum) in term.iter_mut().zip(&next).zip(&mut sum) {
+                *term = next * factor;
+                *sum += *term;
             }
-            for (total, derivative) in total.iter_mut().zip(&derivative) {
-                *total += derivative;
+            for ((term, next), sum) in derivative.iter_mut().zip(&next_derivative).zip(&mut total) {
+                *term = next * factor;
+                *sum += *term;
             }
             let (a, b) = (size(&term), size(&derivative));
             if !a.is_finite() || !b.is_finite() {
@@ -333,9 +374,11 @@ impl Geometry {
         let matrix = self.ad_transpose(x);
         let (mut whole, mut divided) = (identity::<f64>(n), identity::<f64>(n));
         let mut power = identity::<f64>(n);
+        let mut next = power.clone();
         for k in 1..TERMS {
-            power = multiply(n, &matrix, &power).into_iter().map(|t| t / k as f64).collect();
+            multiply_into(n, &matrix, &power, &mut next);
             for at in 0..n * n {
+                power[at] = next[at] / k as f64;
                 whole[at] += power[at];
                 divided[at] += power[at] / (k + 1) as f64;
             }
@@ -403,12 +446,12 @@ impl Geometry {
         }
         let matrix: Vec<_> = matrix.into_iter().map(|m| m.scaled(-halvings)).collect();
         let mut sum = identity::<DoubleDouble>(n);
-        let mut term = sum.clone();
+        let (mut term, mut next) = (sum.clone(), sum.clone());
         for k in 1..TERMS {
-            let factor = DoubleDouble::from(1.0) / DoubleDouble::from(k as f64);
-            term = multiply(n, &matrix, &term).into_iter().map(|t| t * factor).collect();
-            for (sum, &term) in sum.iter_mut().zip(&term) {
-                *sum += term;
+            multiply_into(n, &matrix, &term, &mut next);
+            for ((term, &next), sum) in term.iter_mut().zip(&next).zip(&mut sum) {
+                *term = next * RECIPROCALS[k];
+                *sum += *term;
             }
             if size(&term) <= 1e-34 {
                 break;

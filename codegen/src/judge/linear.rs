@@ -13,6 +13,13 @@ pub(super) fn identity<T: Real>(n: usize) -> Vec<T> {
 /// The product of two square matrices.
 pub(super) fn multiply<T: Real>(n: usize, a: &[T], b: &[T]) -> Vec<T> {
     let mut product = vec![T::default(); n * n];
+    multiply_into(n, a, b, &mut product);
+    product
+}
+
+/// The same into a matrix that is there.
+pub(super) fn multiply_into<T: Real>(n: usize, a: &[T], b: &[T], product: &mut [T]) {
+    product.fill(T::default());
     for i in 0..n {
         for k in 0..n {
             let left = a[i * n + k];
@@ -24,7 +31,6 @@ pub(super) fn multiply<T: Real>(n: usize, a: &[T], b: &[T]) -> Vec<T> {
             }
         }
     }
-    product
 }
 
 /// Gauss' factors of a square matrix, with partial pivoting.

@@ -37,6 +37,8 @@ mod error;
 mod geometry;
 mod linear;
 mod motion;
+mod plan;
+mod point;
 mod series;
 mod step;
 mod wide;
@@ -46,7 +48,8 @@ pub use domain::{Inside, Limits};
 pub use double_double::{DoubleDouble, Real};
 pub use error::JudgeError;
 pub use motion::{Motion, Stop};
-pub use step::{End, Residual, Step};
+pub use point::{Point, Residual};
+pub use step::{End, Step};
 
 use crate::comoving::Frame;
 use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
@@ -138,7 +141,7 @@ impl Judge {
         if !size(symbols).is_finite() {
             return Err(JudgeError::NotFinite { what: "a parameter" });
         }
-        Ok(Setting { judge: self, step, symbols: symbols.to_vec(), scaled: None })
+        Ok(Setting { judge: self, step, symbols: symbols.to_vec(), scaled: Vec::new() })
     }
 }
 
@@ -148,7 +151,8 @@ pub struct Setting<'a> {
     judge: &'a Judge,
     step: f64,
     symbols: Vec<f64>,
-    scaled: Option<Scaled>,
+    /// In each of the units that have occurred.
+    scaled: Vec<Scaled>,
 }
 
 impl Setting<'_> {
@@ -181,15 +185,18 @@ impl Setting<'_> {
         let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
         // Not so small that coefficients underflow in it.
         let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
-        if self.scaled.as_ref().is_none_or(|scaled| scaled.scale != unit) {
-            let judge = self.judge;
-            let folded = judge.series.folded(self.step, &self.symbols, unit);
-            let frame: Vec<_> =
-                judge.frame.iter().map(|f| f.folded(self.step, &self.symbols, unit)).collect();
-            let growth = folded.growth();
-            self.scaled = Some(Scaled { series: folded, growth, frame, scale: unit });
-        }
-        let Some(folded) = &self.scaled else { return Err(JudgeError::OutOfRange) };
+        let place = match self.scaled.iter().position(|scaled| scaled.scale == unit) {
+            Some(place) => place,
+            None => {
+                let judge = self.judge;
+                let fold = |series: &Series| series.folded(self.step, &self.symbols, unit);
+                let (series, frame) = (fold(&judge.series), judge.frame.iter().map(fold).collect());
+                let growth = series.growth();
+                self.scaled.push(Scaled { series, growth, frame, scale: unit });
+                self.scaled.len() - 1
+            }
+        };
+        let folded = &self.scaled[place];
         if !folded.series.is_finite() {
             return Err(JudgeError::OutOfRange);
         }

@@ -1,8 +1,9 @@
 //! S_h(p), its gradient and its Hessian, term by term.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use super::double_double::Real;
+use super::plan::{Part, Plan};
 use super::wide::Wide;
 use super::{DoubleDouble, JudgeError};
 use crate::poly::split_at;
@@ -27,6 +28,8 @@ pub(super) struct Series {
     pub(super) dim: usize,
     pub(super) monomials: Vec<Vec<(usize, u32)>>,
     pub(super) terms: Vec<Term>,
+    /// How they are evaluated; none before all terms are known.
+    plan: Arc<Plan>,
     /// The last order and the one two before it, where the series has them.
     pub(super) last: Option<(u32, u32)>,
     /// Whether the coefficients hold the step size.
@@ -34,14 +37,18 @@ pub(super) struct Series {
 }
 
 impl Series {
+    fn empty(dim: usize) -> Self {
+        let (monomials, terms, plan) = (Vec::new(), Vec::new(), Arc::default());
+        Self { dim, monomials, terms, plan, last: None, counted: false }
+    }
+
     /// From the polynomials S₁, S₂, … (any orders), whose variables from `dim` on are symbols.
     pub(super) fn new<'a>(
         dim: usize,
         orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
     ) -> Self {
         let mut index = BTreeMap::new();
-        let mut result =
-            Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
+        let mut result = Self::empty(dim);
         let mut known = Vec::new();
         for (order, polynomial) in orders {
             known.push(order);
@@ -53,7 +60,7 @@ impl Series {
                 result.terms.push(Term { value: Wide::rational(&value), order, symbols, monomial });
             }
         }
-        result.note_orders(known);
+        result.finish(known);
         result
     }
 
@@ -63,8 +70,7 @@ impl Series {
         terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
     ) -> Result<Self, JudgeError> {
         let mut index = BTreeMap::new();
-        let mut result =
-            Self { dim, monomials: Vec::new(), terms: Vec::new(), last: None, counted: false };
+        let mut result = Self::empty(dim);
         let mut known = Vec::new();
         for (order, value, factors) in terms {
             let mut merged: BTreeMap<usize, u32> = BTreeMap::new();
@@ -80,7 +86,7 @@ impl Series {
             let value = Wide::of(value);
             result.terms.push(Term { value, order, symbols: Vec::new(), monomial });
         }
-        result.note_orders(known);
+        result.finish(known);
         Ok(result)
     }
 
@@ -100,7 +106,9 @@ impl Series {
         self.counted = true;
     }
 
-    fn note_orders(&mut self, mut known: Vec<u32>) {
+    /// Once all terms are known, of these orders.
+    fn finish(&mut self, mut known: Vec<u32>) {
+        self.plan = Arc::new(Plan::new(self.dim, &self.monomials));
         // S is odd in t.
         known.retain(|order| order % 2 == 1);
         let last = known.iter().max().copied();
@@ -112,19 +120,11 @@ impl Series {
         let largest = self.terms.iter().map(|term| term.order).max().unwrap_or(0);
         let step = if self.counted { Wide::one() } else { Wide::of(step) };
         let powers: Vec<Wide> = (0..=largest).map(|k| step.power(k)).collect();
-        let zero = DoubleDouble::default();
         let count = self.monomials.len();
-        let mut folded = Folded {
-            dim: self.dim,
-            monomials: self.monomials.clone(),
-            exact: vec![zero; count],
-            double: vec![0.0; count],
-            size: vec![0.0; count],
-            last: vec![0.0; count],
-            before: vec![0.0; count],
-            has_two: self.last.is_some(),
-            highest: self.monomials.iter().flatten().map(|f| f.1).max().unwrap_or(0) as usize,
-        };
+        // What cancels (in a spherical body, say) must not leave roundings of a double's size.
+        let [mut exact, mut last, mut before] =
+            [(); 3].map(|()| vec![DoubleDouble::default(); count]);
+        let mut size = vec![0.0; count];
         for term in &self.terms {
             let mut value = term.value.times(powers[term.order as usize]);
             for &(i, power) in &term.symbols {
@@ -134,37 +134,36 @@ impl Series {
             let degree: i64 = self.monomials[term.monomial].iter().map(|f| i64::from(f.1)).sum();
             let value = value.scaled(scale.saturating_mul(degree - 1));
             let at = term.monomial;
-            folded.exact[at] += value;
-            folded.size[at] += value.to_f64().abs();
-            if let Some((last, before)) = self.last {
-                if term.order == last {
-                    folded.last[at] += value.to_f64();
-                } else if term.order == before {
-                    folded.before[at] += value.to_f64();
+            exact[at] += value;
+            size[at] += value.to_f64().abs();
+            if let Some((of_last, of_before)) = self.last {
+                if term.order == of_last {
+                    last[at] += value;
+                } else if term.order == of_before {
+                    before[at] += value;
                 }
             }
         }
-        for (double, exact) in folded.double.iter_mut().zip(&folded.exact) {
-            *double = exact.to_f64();
-        }
-        folded
+        let plan = Arc::clone(&self.plan);
+        let rounded = |v: &[DoubleDouble]| v.iter().map(|v| v.to_f64()).collect::<Vec<_>>();
+        let double = rounded(&exact);
+        let (last, before) = (plan.part(&rounded(&last)), plan.part(&rounded(&before)));
+        Folded { plan, exact, double, size, last, before, has_two: self.last.is_some() }
     }
 }
 
 /// S of one step size, one set of parameters and one scale of the momentum.
 #[derive(Clone, Debug)]
 pub(super) struct Folded {
-    dim: usize,
-    monomials: Vec<Vec<(usize, u32)>>,
+    plan: Arc<Plan>,
     exact: Vec<DoubleDouble>,
     double: Vec<f64>,
     /// Sums of the terms' absolute values.
     size: Vec<f64>,
-    /// The coefficients of S_K, and of S_{K−2}.
-    last: Vec<f64>,
-    before: Vec<f64>,
+    /// S_K, and S_{K−2}.
+    last: Part,
+    before: Part,
     has_two: bool,
-    highest: usize,
 }
 
 /// A gradient and a Hessian, row by row.
@@ -182,129 +181,33 @@ impl Folded {
 
     /// ∂S/∂p in doubled precision.
     pub(super) fn gradient(&self, p: &[DoubleDouble]) -> Vec<DoubleDouble> {
-        self.first(&self.exact, p)
+        self.plan.first(&self.exact, &self.plan.products(p))
     }
 
     /// ∂S/∂p and its derivative in double precision.
     pub(super) fn derivatives(&self, p: &[f64]) -> Derivatives<f64> {
-        (self.first(&self.double, p), self.second(&self.double, p))
+        let products = self.plan.products(p);
+        (self.plan.first(&self.double, &products), self.plan.second(&self.double, &products))
     }
 
-    /// The sums of the absolute values of the terms of ∂S/∂p at |p|.
-    pub(super) fn absolute_gradient(&self, p: &[f64]) -> Vec<f64> {
+    /// The sums of the absolute values of the terms of ∂S/∂p at |p|, and of all monomials of ∂S_K/∂p and of
+    /// ∂S_{K−2}/∂p.
+    pub(super) fn absolute(&self, p: &[f64]) -> (Vec<f64>, [f64; 2]) {
         let p: Vec<f64> = p.iter().map(|p| p.abs()).collect();
-        self.first(&self.size, &p)
+        let products = self.plan.products(&p);
+        let last_two = [&self.last, &self.before].map(|part| part.at(&products));
+        (self.plan.first(&self.size, &products), last_two)
     }
 
-    /// The sums of the absolute values of all monomials of ∂S_K/∂p and of ∂S_{K−2}/∂p.
-    pub(super) fn last_two(&self, p: &[f64]) -> (f64, f64) {
-        let p: Vec<f64> = p.iter().map(|p| p.abs()).collect();
-        let sum = |coefficients: &[f64]| {
-            let sizes: Vec<f64> = coefficients.iter().map(|c| c.abs()).collect();
-            self.first(&sizes, &p).iter().sum::<f64>()
-        };
-        (sum(&self.last), sum(&self.before))
-    }
-
-    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| in every direction at |p| = r: each monomial c pᵐ of degree D counts with
-    /// D |c| Π (mᵢ/D)^{mᵢ/2} r^{D−1} (O. Kellogg, Math. Z. 27 (1928) 55).
-    pub(super) fn last_two_anywhere(&self, r: f64) -> (f64, f64) {
-        let sum = |coefficients: &[f64]| {
-            let terms = self.monomials.iter().zip(coefficients).filter(|(m, _)| !m.is_empty());
-            terms.fold(0.0, |sum, (factors, c)| {
-                let degree = f64::from(factors.iter().map(|f| f.1).sum::<u32>());
-                let share =
-                    |&(_, m): &(usize, u32)| (f64::from(m) / degree).powf(0.5 * f64::from(m));
-                let highest: f64 = factors.iter().map(share).product();
-                sum + degree * c.abs() * highest * r.powf(degree - 1.0)
-            })
-        };
-        (sum(&self.last), sum(&self.before))
+    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| in every direction at |p| = r.
+    pub(super) fn last_two_anywhere(&self, r: f64) -> [f64; 2] {
+        [&self.last, &self.before].map(|part| part.anywhere(r))
     }
 
     /// For each degree d: a bound G on |∂S_d/∂p| / |p|^(d−1) and one on ‖Hess S_d‖ / |p|^(d−2), |.| being
     /// Euclidean: every factor is at most |p|.
     pub(super) fn growth(&self) -> Vec<(u32, f64, f64)> {
-        let n = self.dim;
-        let mut by_degree: BTreeMap<u32, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
-        for (factors, &size) in self.monomials.iter().zip(&self.size) {
-            let degree = factors.iter().map(|f| f.1).sum();
-            let (first, second) =
-                by_degree.entry(degree).or_insert_with(|| (vec![0.0; n], vec![0.0; n * n]));
-            for &(i, a) in factors {
-                first[i] += size * f64::from(a);
-                for &(j, b) in factors {
-                    let b = if i == j { a - 1 } else { b };
-                    second[i * n + j] += size * f64::from(a) * f64::from(b);
-                }
-            }
-        }
-        by_degree.into_iter().map(|(d, (g, h))| (d, norm(&g), norm(&h))).collect()
-    }
-
-    fn powers<T: Real>(&self, p: &[T]) -> Vec<T> {
-        let stride = self.highest + 1;
-        let mut powers = vec![T::from(1.0); self.dim * stride];
-        for i in 0..self.dim {
-            for e in 1..stride {
-                powers[i * stride + e] = powers[i * stride + e - 1] * p[i];
-            }
-        }
-        powers
-    }
-
-    fn first<T: Real>(&self, coefficients: &[T], p: &[T]) -> Vec<T> {
-        let (stride, powers) = (self.highest + 1, self.powers(p));
-        let power = |i: usize, e: u32| powers[i * stride + e as usize];
-        let mut result = vec![T::default(); self.dim];
-        for (factors, &c) in self.monomials.iter().zip(coefficients) {
-            if c == T::default() {
-                continue;
-            }
-            for (at, &(i, e)) in factors.iter().enumerate() {
-                let mut product = c * power(i, e - 1) * T::from(f64::from(e));
-                for (other, &(j, f)) in factors.iter().enumerate() {
-                    if other != at {
-                        product = product * power(j, f);
-                    }
-                }
-                result[i] += product;
-            }
-        }
-        result
-    }
-
-    fn second<T: Real>(&self, coefficients: &[T], p: &[T]) -> Vec<T> {
-        let (n, stride, powers) = (self.dim, self.highest + 1, self.powers(p));
-        let power = |i: usize, e: u32| powers[i * stride + e as usize];
-        let mut result = vec![T::default(); n * n];
-        for (factors, &c) in self.monomials.iter().zip(coefficients) {
-            if c == T::default() {
-                continue;
-            }
-            for (first, &(i, a)) in factors.iter().enumerate() {
-                for (second, &(j, b)) in factors.iter().enumerate().take(first + 1) {
-                    let mut product = if first == second {
-                        if a < 2 {
-                            continue;
-                        }
-                        c * power(i, a - 2) * T::from(f64::from(a * (a - 1)))
-                    } else {
-                        c * power(i, a - 1) * power(j, b - 1) * T::from(f64::from(a * b))
-                    };
-                    for (other, &(k, e)) in factors.iter().enumerate() {
-                        if other != first && other != second {
-                            product = product * power(k, e);
-                        }
-                    }
-                    result[i * n + j] += product;
-                    if i != j {
-                        result[j * n + i] += product;
-                    }
-                }
-            }
-        }
-        result
+        self.plan.growth(&self.size)
     }
 }
 

@@ -4,6 +4,7 @@ use super::branch::RightSolution;
 use super::domain::{Inside, Limits, inside};
 use super::geometry::{Geometry, size};
 use super::linear::multiply;
+use super::point::{Point, Residual};
 use super::series::{Folded, norm};
 use super::{DoubleDouble, JudgeError};
 
@@ -31,28 +32,6 @@ pub struct Step<'a> {
     pub(super) limits: Limits,
     pub(super) momentum: Vec<DoubleDouble>,
     pub(super) double: Vec<f64>,
-}
-
-/// |x − ∂S(p̂)| and its bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Residual {
-    /// |x − ∂S(p̂)|, the Euclidean norm.
-    pub residual: f64,
-    /// 16 n u (|x| + Σ of the absolute terms of ∂S + ‖Hess S‖ (|p̂| + |μ|)), and what numbers below the
-    /// smallest normal one lose.
-    pub bound: f64,
-}
-
-impl Residual {
-    /// residual / bound; infinite where a number is not finite.
-    #[must_use]
-    pub fn relative(&self) -> f64 {
-        if self.residual == 0.0 {
-            return 0.0;
-        }
-        let ratio = self.residual / self.bound;
-        if ratio.is_nan() { f64::INFINITY } else { ratio }
-    }
 }
 
 /// Where the right solution leads.
@@ -90,7 +69,7 @@ impl Step<'_> {
         self.geometry.pull_back(&x, &self.momentum)
     }
 
-    fn check(&self, x: &[f64]) -> Result<(), JudgeError> {
+    pub(super) fn check(&self, x: &[f64]) -> Result<(), JudgeError> {
         if x.len() != self.geometry.dim {
             let (found, expected) = (x.len(), self.geometry.dim);
             return Err(JudgeError::Length { what: "x", found, expected });
@@ -101,31 +80,20 @@ impl Step<'_> {
         Ok(())
     }
 
-    /// Whether x solves x = ∂S(p̂): the residual and its bound for a scalar of this unit roundoff, 2⁻⁵³ for
-    /// `f64` and 2⁻²⁴ for `f32`.
+    /// x with all that is needed to judge it.
+    ///
+    /// # Errors
+    /// As [`pull_back`](Self::pull_back).
+    pub fn at<'x>(&'x self, x: &'x [f64]) -> Result<Point<'x>, JudgeError> {
+        Point::new(self, x)
+    }
+
+    /// Whether x solves x = ∂S(p̂): see [`Point::residual`].
     ///
     /// # Errors
     /// As [`pull_back`](Self::pull_back).
     pub fn residual(&self, x: &[f64], unit: f64) -> Result<Residual, JudgeError> {
-        let p = self.pull_back(x)?;
-        let gradient = self.folded.series.gradient(&p);
-        let difference =
-            x.iter().zip(&gradient).map(|(&x, &g)| (DoubleDouble::from(x) - g).to_f64());
-        let residual = norm(&difference.collect::<Vec<_>>());
-        let bound = self.bound(x, &p, unit);
-        Ok(Residual { residual, bound })
-    }
-
-    fn bound(&self, x: &[f64], p: &[DoubleDouble], unit: f64) -> f64 {
-        let p: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
-        let terms = norm(&self.folded.series.absolute_gradient(&p));
-        let hessian = self.hessian_norm(&p);
-        let momenta = norm(&p) + norm(&self.double);
-        let n = x.len() as f64;
-        let spacing = spacing(unit);
-        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
-        16.0 * n * unit * (norm(x) + terms + hessian * momenta)
-            + 16.0 * n * spacing * (1.0 + unscaled)
+        Ok(self.at(x)?.residual(unit))
     }
 
     /// Whether x is inside the chart.
@@ -134,27 +102,22 @@ impl Step<'_> {
         inside(self.geometry, x, self.limits)
     }
 
-    /// The ratio of the last two terms of the series: at p̂, of the sums of the absolute values of all monomials of
-    /// their gradients; or of the bounds on these for all momenta as long as μ, if that is less. `None` where the
-    /// series has one term, or p̂ cannot be found.
+    /// The ratio of the last two terms of the series: see [`Point::series_ratio`].
     #[must_use]
     pub fn series_ratio(&self, x: &[f64]) -> Option<f64> {
-        let p = self.pull_back(x).ok()?;
-        let p: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
-        let (last, before) = self.folded.series.last_two(&p);
-        if !self.folded.series.has_two() {
-            return None;
-        }
-        // Nothing to compare with is no ratio.
-        // A term below rounding of coordinates of order one is what cancels (in a spherical body, say).
-        let negligible = 16.0 * f64::EPSILON;
-        let compares = |last: f64, before: f64| before > 0.0 && !(last <= negligible);
-        let ratio = |last: f64, before: f64| {
-            if compares(last, before) { last / before } else { 0.0 * last }
-        };
-        let length = self.momentum.iter().map(|m| m.to_f64() * m.to_f64()).sum::<f64>().sqrt();
-        let (last_anywhere, before_anywhere) = self.folded.series.last_two_anywhere(length);
-        Some(ratio(last, before).min(ratio(last_anywhere, before_anywhere)))
+        self.at(x).ok()?.series_ratio()
+    }
+
+    /// What the residual at x may be, where p̂ and the terms of ∂S there are known; and ‖Hess S‖ there.
+    pub(super) fn bound(&self, x: &[f64], p: &[f64], terms: &[f64], unit: f64) -> (f64, f64) {
+        let hessian = self.hessian_norm(p);
+        let momenta = norm(p) + norm(&self.double);
+        let n = x.len() as f64;
+        let spacing = spacing(unit);
+        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
+        let bound = 16.0 * n * unit * (norm(x) + norm(terms) + hessian * momenta)
+            + 16.0 * n * spacing * (1.0 + unscaled);
+        (bound, hessian)
     }
 
     /// Where the right solution leads, frame motions included.
@@ -169,8 +132,10 @@ impl Step<'_> {
         let mut element = geometry.element(&right.x)?;
         let p64: Vec<f64> = p.iter().map(|p| p.to_f64()).collect();
         let (turn, slope) = geometry.sensitivity(&x)?;
-        let (a, mu, hessian) = (geometry.bracket_norm, norm(&self.double), self.hessian_norm(&p64));
-        let moved = 2.0 * right.response * self.bound(&x, &p, unit);
+        let (a, mu) = (geometry.bracket_norm, norm(&self.double));
+        let (terms, _) = self.folded.series.absolute(&p64);
+        let (bound, hessian) = self.bound(&x, &p64, &terms, unit);
+        let moved = 2.0 * right.response * bound;
         let rounding = 16.0 * n * unit;
         let mut momentum_bound = turn * mu * (rounding * (1.0 + norm(&x)) + a * slope * moved);
         let least = DoubleDouble::from(spacing(unit)).scaled(-self.folded.scale).to_f64();
@@ -186,7 +151,7 @@ impl Step<'_> {
             let (turn, slope) = geometry.exp_sensitivity(&short)?;
             let (_, hessian) = part.derivatives(&at);
             let next = geometry.exp_transport(&y, &momentum)?;
-            let terms = norm(&part.absolute_gradient(&at));
+            let terms = norm(&part.absolute(&at).0);
             let moved = rounding * terms + norm(&hessian) * momentum_bound;
             momentum_bound = turn
                 * (momentum_bound

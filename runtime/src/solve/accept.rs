@@ -1,11 +1,12 @@
 //! Accepting a step: the one place that says what is right.
 //!
 //! The mask of [`accept`] is what compiled steps test. Whatever it refuses goes, out of the way of what is fast, to
-//! [`rescue`]: a solution that is merely not near its first guess is followed from the identity; all others get the
-//! reason of their refusal.
+//! [`rescue`]: a solution that is merely not near its first guess is followed from the identity; one of a momentum beyond
+//! the radius of the series is confirmed; all others get the reason of their refusal.
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
+use super::confirm::confirm;
 use super::continuation::follow;
 use super::{Candidate, CandidateOf, Integrator, NEAR, Settings};
 use crate::chart::Chart;
@@ -94,7 +95,12 @@ fn rescue<S: Integrator + ?Sized>(
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, &candidate, |at| StepError::SeriesDiverges { at }));
     }
-    Ok(candidate)
+    if !known {
+        return Ok(candidate);
+    }
+    confirm(generating, mu, candidate.clone(), settings).map_err(|reached| {
+        refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
+    })
 }
 
 /// A refusal with its circumstances.

@@ -3,10 +3,12 @@
 //! At s = 0 it is x = 0, p = μ. Each stretch of s starts at the solution before it, extended by its last slope, and is
 //! kept if the correction is small and the next one smaller by far, which is what the theorem of Newton and Kantorovich
 //! asks of a ball in which the solution is unique (tested by the corrections themselves, not proven by bounds on the
-//! second derivative). Otherwise the stretch is halved, and given up below [`SHORTEST`].
+//! second derivative), and if det(1 − s ∂p/∂x·Hess S) has kept its sign: where motions are symmetric, a solution can go
+//! on through a fork without a correction. Otherwise the stretch is halved, and given up below [`SHORTEST`].
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 
+use super::confirm::keeps_orientation;
 use super::{CandidateOf, Integrator, Method, NEAR, Settings};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
@@ -37,7 +39,8 @@ pub(super) fn follow<S: Integrator + ?Sized>(
         let found = S::Method::propose_scaled(generating, mu, scale, guess, settings);
         iterations += found.iterations;
         let near = found.moved.simd_le(ScalarOf::<S>::of(NEAR)).all();
-        if near && found.residual.simd_le(settings.tolerance()).all() {
+        let solved = near && found.residual.simd_le(settings.tolerance()).all();
+        if solved && keeps_orientation(generating, mu, &found.x, scale) {
             if next >= 1.0 {
                 return Ok(CandidateOf::<S> { iterations, ..found });
             }

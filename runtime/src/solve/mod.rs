@@ -16,6 +16,7 @@
 mod accept;
 mod block;
 mod by_dimension;
+mod confirm;
 mod continuation;
 mod effort;
 mod fixed_point;
@@ -128,11 +129,8 @@ pub fn solve<S: Integrator + ?Sized>(
     mu: &VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let settings = Settings::default();
-    let mut method = S::Method::begin(generating);
-    let candidate = method.propose(generating, mu, 1, settings);
-    let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
-    let p = S::Chart::default().pull_back(generating.group(), &x, mu);
-    Ok(Solution { p, x, iterations, residual })
+    let candidate = S::Method::begin(generating).propose(generating, mu, 1, settings);
+    accepted(generating, mu, candidate, settings)
 }
 
 /// As [`solve`], from another first guess of p.
@@ -147,6 +145,17 @@ pub fn solve_from<S: Integrator + ?Sized>(
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let settings = Settings::default();
     let candidate = S::Method::propose_from(generating, mu, guess, settings);
+    accepted(generating, mu, candidate, settings)
+}
+
+/// The candidate as a point over μ, if it is accepted.
+#[inline(always)]
+fn accepted<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
     let p = S::Chart::default().pull_back(generating.group(), &x, mu);
     Ok(Solution { p, x, iterations, residual })

@@ -1,12 +1,13 @@
 //! `cargo run --release -p coadjoint-tests --bin stress -- --steps 1000000 [--seed 1] [--only NAME] [--threads 1]`
 //!
 //! Random steps over groups, charts, truncations, solvers and frames, judged in doubled precision. Prints a
-//! table by family, the first examples of what is wrong, and a closing line; ends with 1 if anything was.
+//! table by family, the first examples of what is wrong, and a closing line (and to standard error how long steps
+//! took); ends with 1 if anything was.
 //! `--only FAMILY --instance SEED` repeats the 64 draws of an example.
 
 use std::process::ExitCode;
 
-use coadjoint_tests::stress::{Options, report, run};
+use coadjoint_tests::stress::{Options, report, run, times};
 
 fn main() -> ExitCode {
     match options() {
@@ -16,6 +17,7 @@ fn main() -> ExitCode {
                 eprintln!("no family's name contains {:?}", options.only);
                 return ExitCode::from(2);
             }
+            eprintln!("{}", times(&tallies));
             println!("{}", report(&tallies));
             match tallies.iter().any(|(_, tally)| tally.wrong() > 0) {
                 true => ExitCode::FAILURE,
@@ -32,8 +34,14 @@ fn main() -> ExitCode {
 }
 
 fn options() -> Result<Options, String> {
-    let mut options =
-        Options { steps: 100_000, seed: 1, only: String::new(), threads: 1, instance: None };
+    let mut options = Options {
+        steps: 100_000,
+        seed: 1,
+        only: String::new(),
+        threads: 1,
+        instance: None,
+        even: false,
+    };
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         let value = arguments.next().ok_or_else(|| format!("{name} wants a value"))?;

@@ -39,18 +39,55 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
     let base = Recipe::default;
     let cayley = || Recipe { chart: Chart::Cayley, ..Recipe::default() };
     let body = Energy::Body;
-    let all = &[3, 5, 7, 9, 11, 13];
+    let promise = || Recipe { must_accept: true, promise: true, energy: body, ..base() };
     vec![
         (
             Recipe {
                 name: "so3-exp",
                 energy: body,
-                truncations: all,
+                truncations: &[3, 5, 7, 9, 11, 13],
                 models: 4,
                 must_accept: true,
+                weight: 16,
                 ..base()
             },
             known!(SO3::<f64>::new(), Exponential, compensated) as Maker,
+        ),
+        (
+            Recipe {
+                name: "so3-exp-long",
+                energy: body,
+                truncations: &[15, 17],
+                models: 1,
+                must_accept: true,
+                weight: 2,
+                ..base()
+            },
+            known!(SO3::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe {
+                name: "so3-promise",
+                truncations: &[5, 7, 9],
+                models: 8,
+                weight: 16,
+                ..promise()
+            },
+            known!(SO3::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe { name: "so3-promise-long", truncations: &[11, 13], models: 4, ..promise() },
+            known!(SO3::<f64>::new(), Exponential),
+        ),
+        (
+            Recipe {
+                name: "so3-exp-tuned",
+                energy: body,
+                truncations: &[5, 7, 9],
+                tuned: true,
+                ..base()
+            },
+            known!(SO3::<f64>::new(), Exponential),
         ),
         (
             Recipe {
@@ -84,6 +121,31 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         ),
         (
             Recipe {
+                name: "su2-exp-f32",
+                group: "SU2",
+                energy: body,
+                single: true,
+                decades: 1.0,
+                limit: TAU,
+                ..base()
+            },
+            known!(SU2::<f32>::new(), Exponential),
+        ),
+        (
+            Recipe {
+                name: "se3-exp-f32",
+                group: "SE3",
+                energy: Energy::Top,
+                truncations: &[3],
+                single: true,
+                decades: 1.0,
+                weight: 2,
+                ..base()
+            },
+            known!(SE3::<f32>::new(), Exponential),
+        ),
+        (
+            Recipe {
                 name: "su2-exp",
                 group: "SU2",
                 energy: body,
@@ -114,6 +176,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         (
             Recipe {
                 name: "se3-exp-top",
+                weight: 2,
                 group: "SE3",
                 energy: Energy::Top,
                 truncations: &[3, 5, 7],
@@ -123,11 +186,11 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
             known!(SE3::<f64>::new(), Exponential, compensated),
         ),
         (
-            Recipe { name: "se3-exp-fluid", group: "SE3", ..base() },
+            Recipe { name: "se3-exp-fluid", weight: 2, group: "SE3", ..base() },
             known!(SE3::<f64>::new(), Exponential),
         ),
         (
-            Recipe { name: "se3-cayley", group: "SE3", truncations: &[3], ..cayley() },
+            Recipe { name: "se3-cayley", weight: 2, group: "SE3", truncations: &[3], ..cayley() },
             known!(SE3::<f64>::new(), Cayley),
         ),
         (
@@ -135,11 +198,11 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
             known!(Heisenberg::<f64>::new(), Exponential),
         ),
         (
-            Recipe { name: "so3-power", group: "SO3^2", truncations: &[3, 5], ..base() },
+            Recipe { name: "so3-power", weight: 2, group: "SO3^2", truncations: &[3, 5], ..base() },
             known!(Power::<SO3, 2, 6>::default(), Exponential),
         ),
         (
-            Recipe { name: "su3", group: "SU3", truncations: &[3], ..base() },
+            Recipe { name: "su3", weight: 1, group: "SU3", truncations: &[3], ..base() },
             known!(SU3::<f64>::new(), Exponential),
         ),
     ]
@@ -156,23 +219,68 @@ fn tables() -> Vec<(Recipe<'static>, Maker)> {
                 energy: Energy::Body,
                 truncations: &[5, 9],
                 must_accept: true,
+                weight: 4,
                 ..base()
             },
             table as Maker,
         ),
-        (Recipe { name: "so4-table", group: "SO4", ..base() }, table),
+        (Recipe { name: "so4-table", weight: 1, group: "SO4", ..base() }, table),
         (
-            Recipe { name: "so4-table-cayley", group: "SO4", truncations: &[3], ..cayley() },
+            Recipe {
+                name: "so5-table",
+                group: "SO5",
+                truncations: &[3],
+                models: 1,
+                weight: 1,
+                ..base()
+            },
+            table,
+        ),
+        (
+            Recipe {
+                name: "su4-table",
+                group: "SU4",
+                truncations: &[3],
+                models: 1,
+                weight: 1,
+                ..base()
+            },
+            table,
+        ),
+        (
+            Recipe {
+                name: "so4-table-cayley",
+                weight: 1,
+                group: "SO4",
+                truncations: &[3],
+                ..cayley()
+            },
             table_cayley,
         ),
-        (Recipe { name: "su3-table", group: "SU3", truncations: &[3], models: 1, ..base() }, table),
-        (Recipe { name: "sl2-table", group: "SL2", ..base() }, table),
         (
-            Recipe { name: "sl2-table-cayley", group: "SL2", truncations: &[3], ..cayley() },
+            Recipe {
+                name: "su3-table",
+                weight: 1,
+                group: "SU3",
+                truncations: &[3],
+                models: 1,
+                ..base()
+            },
+            table,
+        ),
+        (Recipe { name: "sl2-table", weight: 4, group: "SL2", ..base() }, table),
+        (
+            Recipe {
+                name: "sl2-table-cayley",
+                weight: 4,
+                group: "SL2",
+                truncations: &[3],
+                ..cayley()
+            },
             table_cayley,
         ),
-        (Recipe { name: "u2-table", group: "U2", ..base() }, table),
-        (Recipe { name: "aff1-table", group: "Aff1", ..base() }, table),
+        (Recipe { name: "u2-table", weight: 4, group: "U2", ..base() }, table),
+        (Recipe { name: "aff1-table", weight: 4, group: "Aff1", ..base() }, table),
     ]
 }
 

@@ -1,5 +1,7 @@
 //! What is stressed: families of systems, each with exact series and judges made once.
 
+use std::sync::Arc;
+
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::judge::{Judge, Limits};
 use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
@@ -7,25 +9,46 @@ use coadjoint_codegen::number::ratio;
 use coadjoint_codegen::poly::Polynomial;
 
 use super::random::Random;
-use super::runtime::{Steps, Terms};
+use super::runtime::{Steps, Terms, tuned_terms};
 use crate::bridge::double;
 
-/// A Hamiltonian with its exact series and its judge.
+/// A Hamiltonian, up to its parameters, with its exact series and its judge.
 pub struct Model {
-    /// What it is, for messages.
-    pub text: String,
     /// Judges its steps.
     pub judge: Judge,
+    /// Draws the parameters.
+    pub draw: Box<dyn Fn(&mut Random) -> System + Send + Sync>,
+}
+
+/// A Hamiltonian with its parameters.
+pub struct System {
+    /// What it is, for messages.
+    pub text: String,
     /// ∂H/∂μ.
     pub velocity: Vec<Polynomial>,
     /// Whether H is homogeneous quadratic, so that |μ| may be of any size.
     pub homogeneous: bool,
     /// The values of the symbols.
     pub symbols: Vec<f64>,
-    /// Whether steps with h|Ω| < 1.5 must be accepted.
-    pub must_accept: bool,
-    /// Makes the steps for a step size; `None` where coefficients leave the range of doubles.
-    pub steps: Box<dyn Fn(f64) -> Option<Box<dyn Steps>> + Send + Sync>,
+    /// I where steps with h|μ|/I < 1.5 must be accepted.
+    pub promised: Option<f64>,
+    /// Makes the steps for a step size; `None` where there are none.
+    pub steps: Box<dyn Fn(f64, &mut Random) -> Option<Made>>,
+}
+
+/// Steps, and a judge of their own where S is not the model's series.
+pub struct Made {
+    /// The steps.
+    pub steps: Box<dyn Steps>,
+    /// The judge, the step size counted in it.
+    pub judge: Option<Judge>,
+}
+
+impl Made {
+    /// Steps of the model's series.
+    pub fn series(steps: impl Steps + 'static) -> Self {
+        Self { steps: Box::new(steps), judge: None }
+    }
 }
 
 /// Systems of one kind.
@@ -36,6 +59,10 @@ pub struct Family {
     pub models: Vec<Model>,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
+    /// How many of all instances are of this family, relative to the others: where steps take long, few.
+    pub weight: usize,
+    /// Whether all momenta are of those whose steps must be accepted.
+    pub promise: bool,
 }
 
 /// How the Hamiltonians of a family are drawn.
@@ -51,10 +78,18 @@ pub enum Energy {
     Squares,
 }
 
-fn inertias(random: &mut Random) -> [i64; 3] {
+/// Moments of inertia that obey the triangle inequality, with ratios to 10; now and then of a symmetric body, or a
+/// flat one.
+pub fn inertias(random: &mut Random) -> [i64; 3] {
     loop {
         let mut part = || 1 + random.below(120) as i64;
         let (a, b, c) = (part(), part(), part());
+        let (b, c) = match random.below(12) {
+            0 => (a, a),
+            1 => (a, c),
+            2 => (b, 0),
+            _ => (b, c),
+        };
         let inertia = [b + c, a + c, a + b];
         let (least, most) = (inertia.iter().min(), inertia.iter().max());
         if most.copied().unwrap_or(1) <= 10 * least.copied().unwrap_or(1) {
@@ -65,7 +100,8 @@ fn inertias(random: &mut Random) -> [i64; 3] {
 
 /// A Hamiltonian on this many coordinates.
 #[must_use]
-pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> Polynomial {
+pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> (Polynomial, Option<f64>) {
+    let mut least = None;
     let product =
         |i: usize, j: usize, n: i64, d: i64| (vec![(i as u32, 1), (j as u32, 1)], ratio(n, d));
     let mut terms = Vec::new();
@@ -73,6 +109,10 @@ pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> Polynomial {
         Energy::Body | Energy::Top | Energy::Tensor => {
             let inertia = inertias(random);
             terms.extend((0..dim.min(3)).map(|i| product(i, i, 32, inertia[i])));
+            if matches!(kind, Energy::Body) {
+                // H = ½ Σ μᵢ²/Iᵢ
+                least = inertia.iter().min().map(|&least| least as f64 / 64.0);
+            }
             if matches!(kind, Energy::Tensor) {
                 for (i, j) in [(0, 1), (0, 2), (1, 2)] {
                     terms.push(product(i, j, random.below(9) as i64 - 4, 40));
@@ -92,7 +132,7 @@ pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> Polynomial {
             }
         }
     }
-    Polynomial::from_factors(dim, terms)
+    (Polynomial::from_factors(dim, terms), least)
 }
 
 /// S_h as terms in doubles; `None` where a coefficient underflows or overflows.
@@ -132,8 +172,14 @@ pub struct Recipe<'a> {
     pub models: usize,
     /// Whether numbers are `f32`.
     pub single: bool,
-    /// Whether steps with h|Ω| < 1.5 must be accepted for K ≥ 5.
+    /// Whether steps with h|μ|/I < 1.5, I the least moment of inertia, must be accepted for K ≥ 5.
     pub must_accept: bool,
+    /// Whether only such are made.
+    pub promise: bool,
+    /// Whether the last terms are multiplied by factors that sum the tail of the series.
+    pub tuned: bool,
+    /// See [`Family::weight`].
+    pub weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
     /// The limit of the exponential chart.
@@ -151,6 +197,9 @@ impl Default for Recipe<'_> {
             models: 2,
             single: false,
             must_accept: false,
+            promise: false,
+            tuned: false,
+            weight: 8,
             decades: 30.0,
             limit: std::f64::consts::PI,
         }
@@ -180,28 +229,57 @@ impl Recipe<'_> {
         let mut models = Vec::new();
         for &truncation in self.truncations {
             for _ in 0..self.models {
-                let h = energy(self.energy, algebra.dim(), &mut random);
-                let limit = TermLimit::default();
-                let series =
-                    derive(&algebra, self.chart, &h, truncation, limit).expect("a derivation");
-                let limits = Limits { exponential: self.limit, ..Limits::default() };
-                let judge = Judge::new(&algebra, &series).expect("a judge").with_limits(limits);
-                let orders: Vec<_> =
-                    (1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect();
-                let (own, single, make) = (algebra.clone(), self.single, steps.clone());
-                models.push(Model {
-                    text: format!("K = {truncation}, H = {h:?}"),
-                    judge,
-                    velocity: h.gradient(algebra.dim()),
-                    homogeneous: h.factors().all(|(f, _)| f.iter().map(|f| f.1).sum::<u32>() == 2),
-                    symbols: Vec::new(),
-                    must_accept: self.must_accept && truncation >= 5,
-                    steps: Box::new(move |step| {
-                        folded(&orders, step, single).map(|terms| make(&own, terms))
-                    }),
-                });
+                models.push(self.model(&algebra, truncation, &mut random, steps.clone()));
             }
         }
-        Family { name: self.name.to_owned(), models, decades: self.decades }
+        let (decades, weight, promise) = (self.decades, self.weight, self.promise);
+        Family { name: self.name.to_owned(), models, decades, weight, promise }
+    }
+
+    fn model<F>(
+        &self,
+        algebra: &LieAlgebra,
+        truncation: usize,
+        random: &mut Random,
+        make: F,
+    ) -> Model
+    where
+        F: Fn(&LieAlgebra, Terms) -> Box<dyn Steps> + Clone + Send + Sync + 'static,
+    {
+        let (h, least) = energy(self.energy, algebra.dim(), random);
+        let series =
+            derive(algebra, self.chart, &h, truncation, TermLimit::default()).expect("a series");
+        let limits = Limits { exponential: self.limit, ..Limits::default() };
+        let judge = Judge::new(algebra, &series).expect("a judge").with_limits(limits);
+        let orders: Arc<Vec<_>> =
+            Arc::new((1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect());
+        let (algebra, single, tuned, chart) =
+            (algebra.clone(), self.single, self.tuned, self.chart);
+        let text = format!("K = {truncation}, H = {h:?}");
+        let velocity = h.gradient(algebra.dim());
+        let homogeneous = h.factors().all(|(f, _)| f.iter().map(|f| f.1).sum::<u32>() == 2);
+        let promised = least.filter(|_| self.must_accept && truncation >= 5);
+        let draw = move |_: &mut Random| {
+            let (orders, algebra, make) = (Arc::clone(&orders), algebra.clone(), make.clone());
+            let steps = move |step: f64, random: &mut Random| {
+                let terms = folded(&orders, step, single)?;
+                if !tuned {
+                    return Some(Made { steps: make(&algebra, terms), judge: None });
+                }
+                let terms = tuned_terms(&terms, truncation, random)?;
+                let all = terms.iter().map(|(k, c, f)| (*k as u32, *c, f.clone()));
+                let judge = Judge::from_terms(&algebra, chart, all).ok()?.with_limits(limits);
+                Some(Made { steps: make(&algebra, terms), judge: Some(judge) })
+            };
+            System {
+                text: text.clone(),
+                velocity: velocity.clone(),
+                homogeneous,
+                symbols: Vec::new(),
+                promised,
+                steps: Box::new(steps),
+            }
+        };
+        Model { judge, draw: Box::new(draw) }
     }
 }

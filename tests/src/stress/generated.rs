@@ -1,12 +1,21 @@
 //! Families of steps that the attribute generates.
 
-use coadjoint::{Phase, SE3, SO3, lie_poisson};
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::parse::rust;
+use std::sync::Arc;
 
-use super::family::{Family, Model};
-use super::runtime::{MatrixFree, Runner, Steps};
+use coadjoint::generating::{Adjustable, TermOf};
+use coadjoint::{Phase, SE3, SO3, lie_poisson};
+use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
+use coadjoint_codegen::judge::Judge;
+use coadjoint_codegen::lie::{Chart, LieAlgebra};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::parse::rust;
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::problem::Problem;
+
+use super::family::{Family, Made, Model, System, inertias};
+use super::random::Random;
+use super::runtime::{MatrixFree, Runner};
+use crate::bridge::double;
 
 /// The function with the attribute, and both as text.
 macro_rules! system {
@@ -59,6 +68,15 @@ system!(
     }
 );
 system!(
+    long_top,
+    LongTop,
+    (group = SE3, truncation = 7),
+    pub(super) fn long_top(mu: [f64; 6], inertia: [f64; 3], weight: f64) -> f64 {
+        0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+            + weight * mu[5]
+    }
+);
+system!(
     manakov,
     Manakov,
     (group = SO4, truncation = 5),
@@ -72,141 +90,249 @@ system!(
     }
 );
 
-/// Bodies that obey the triangle inequality, with ratios to 10.
-const INERTIAS: [[f64; 3]; 5] =
-    [[1.5, 2.0, 2.5], [1.3, 2.1, 3.0], [0.4, 3.7, 3.9], [1.0, 1.0, 1.9], [2.0, 2.0, 2.0]];
-
-type Make = Box<dyn Fn(f64) -> Option<Box<dyn Steps>> + Send + Sync>;
-
-/// The exact problem of a function and its judge.
-fn model(
-    text: (&str, &str),
-    parameters: &[f64],
+/// A problem of a function, with what is known before its parameters.
+struct Source {
+    problem: Problem,
+    text: (&'static str, &'static str),
     homogeneous: bool,
+    /// Whether steps with h|μ|/I < 1.5 must be accepted.
     must: bool,
-    steps: Make,
-) -> Model {
-    let arguments = text.0.parse().expect("arguments");
-    let function = syn::parse_str(text.1).expect("a function");
-    let problem = rust::lie_poisson(arguments, &function).expect("a problem");
-    let judge = Judge::of_problem(&problem, TermLimit::default()).expect("a judge");
-    let symbols: Vec<f64> = problem.symbols.iter().map(|s| s.expr.evaluate(parameters)).collect();
-    // ∂H/∂μ with the symbols put in.
-    let dim = problem.algebra.dim();
-    let numbers = problem.hamiltonian.factors().map(|(factors, value)| {
-        let (momenta, own): (Vec<_>, Vec<_>) =
-            factors.into_iter().partition(|f| (f.0 as usize) < dim);
-        let factor = own.iter().fold(value, |product, &(variable, power)| {
-            let symbol = symbols[variable as usize - dim];
-            let exact = coadjoint_codegen::number::Rational::from_float(symbol).expect("finite");
-            (0..power).fold(product, |product, _| product * &exact)
-        });
-        (momenta, factor)
-    });
-    let energy =
-        coadjoint_codegen::poly::Polynomial::from_factors(dim, numbers.collect::<Vec<_>>());
-    Model {
-        text: format!("{text:?}, {parameters:?}"),
-        judge,
-        velocity: energy.gradient(dim),
-        homogeneous,
-        symbols,
-        must_accept: must,
-        steps,
+}
+
+impl Source {
+    fn new(text: (&'static str, &'static str)) -> Self {
+        let arguments = text.0.parse().expect("arguments");
+        let function = syn::parse_str(text.1).expect("a function");
+        let problem = rust::lie_poisson(arguments, &function).expect("a problem");
+        Self { problem, text, homogeneous: true, must: false }
     }
+
+    fn judge(&self) -> Judge {
+        Judge::of_problem(&self.problem, TermLimit::default()).expect("a judge")
+    }
+
+    fn symbols(&self, parameters: &[f64]) -> Vec<f64> {
+        self.problem.symbols.iter().map(|s| s.expr.evaluate(parameters)).collect()
+    }
+
+    /// ∂H/∂μ with the symbols put in.
+    fn velocity(&self, symbols: &[f64]) -> Vec<Polynomial> {
+        let dim = self.problem.algebra.dim();
+        let numbers = self.problem.hamiltonian.factors().map(|(factors, value)| {
+            let (momenta, own): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|f| (f.0 as usize) < dim);
+            let factor = own.iter().fold(value, |product, &(variable, power)| {
+                let symbol = symbols[variable as usize - dim];
+                let exact = Rational::from_float(symbol).expect("finite");
+                (0..power).fold(product, |product, _| product * &exact)
+            });
+            (momenta, factor)
+        });
+        Polynomial::from_factors(dim, numbers.collect::<Vec<_>>()).gradient(dim)
+    }
+
+    /// The system with these parameters, the first three of which may be moments of inertia.
+    fn system(&self, parameters: &[f64], steps: Make) -> System {
+        let symbols = self.symbols(parameters);
+        let least = parameters.iter().take(3).copied().fold(f64::INFINITY, f64::min);
+        System {
+            text: format!("{:?}, {parameters:?}", self.text),
+            velocity: self.velocity(&symbols),
+            homogeneous: self.homogeneous,
+            symbols,
+            promised: self.must.then_some(least),
+            steps,
+        }
+    }
+}
+
+type Make = Box<dyn Fn(f64, &mut Random) -> Option<Made>>;
+
+/// Bodies of any size that obey the triangle inequality, with ratios to 10.
+fn body(random: &mut Random) -> [f64; 3] {
+    let size = 10_f64.powf(random.between(-3.0, 1.0));
+    inertias(random).map(|i| size * i as f64)
+}
+
+/// A model of bodies whose steps are made by `make` from a step size and the moments of inertia.
+fn bodies<F>(source: Source, make: F) -> Vec<Model>
+where
+    F: Fn(f64, [f64; 3]) -> Option<Made> + Copy + Send + Sync + 'static,
+{
+    let judge = source.judge();
+    let draw = move |random: &mut Random| {
+        let inertia = body(random);
+        source.system(&inertia, Box::new(move |h, _| make(h, inertia)))
+    };
+    vec![Model { judge, draw: Box::new(draw) }]
+}
+
+/// A model of tops, with a weight too.
+fn tops<F>(text: (&'static str, &'static str), make: F) -> Vec<Model>
+where
+    F: Fn(f64, [f64; 3], f64) -> Option<Made> + Copy + Send + Sync + 'static,
+{
+    let source = Source { homogeneous: false, ..Source::new(text) };
+    let judge = source.judge();
+    let draw = move |random: &mut Random| {
+        let (i, weight) = (inertias(random).map(|i| i as f64 / 32.0), random.between(0.1, 4.0));
+        source.system(&[i[0], i[1], i[2], weight], Box::new(move |h, _| make(h, i, weight)))
+    };
+    vec![Model { judge, draw: Box::new(draw) }]
+}
+
+/// The terms of S of a free body in doubles, as (monomial, c h^k).
+fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Terms {
+    let mut terms = Terms::new();
+    for k in 1..=series.truncation() {
+        for (factors, c) in series.order(k).factors() {
+            let mut value = double(&c) * h.powi(k as i32);
+            let mut momenta = Vec::new();
+            for (variable, power) in factors {
+                match (variable as usize).checked_sub(dim) {
+                    Some(symbol) => value *= symbols[symbol].powi(power as i32),
+                    None => momenta.push((variable as usize, power)),
+                }
+            }
+            match terms.iter_mut().find(|term| term.0 == momenta) {
+                Some(term) => term.1 += value,
+                None => terms.push((momenta, value)),
+            }
+        }
+    }
+    terms
+}
+
+type Terms = Vec<(Vec<(usize, u32)>, f64)>;
+
+/// S with its coefficients adjusted at random, as a fit does, and the judge of that S.
+fn adjusted<S: Adjustable>(
+    plain: &S,
+    algebra: &LieAlgebra,
+    mut terms: Terms,
+    random: &mut Random,
+) -> Option<(S, Judge)>
+where
+    S::Group: coadjoint::LieGroup<Scalar = f64>,
+{
+    let share = 10_f64.powf(random.between(-9.0, -0.5));
+    let mut corrections = vec![0.0; plain.terms()];
+    for (number, correction) in corrections.iter_mut().enumerate() {
+        let term = plain.term(number);
+        if term.of != TermOf::Series {
+            continue;
+        }
+        let monomial: Vec<_> =
+            term.monomial.iter().map(|&(i, power)| (i as usize, power)).collect();
+        let known = terms.iter_mut().find(|term| term.0 == monomial)?;
+        *correction = known.1 * share * random.between(-1.0, 1.0);
+        known.1 += *correction;
+    }
+    let all = terms.into_iter().map(|(factors, c)| (1, c, factors));
+    let judge = Judge::from_terms(algebra, Chart::Exponential, all).ok()?;
+    Some((plain.adjusted(&corrections), judge))
+}
+
+/// A model of bodies whose S is adjusted.
+fn adjusted_bodies() -> Vec<Model> {
+    let source = Source::new(fixed::TEXT);
+    let problem = &source.problem;
+    let limit = TermLimit::default();
+    let series = derive(&problem.algebra, problem.chart, problem.generated(), 7, limit);
+    let series = Arc::new(series.expect("a series"));
+    let judge = source.judge();
+    let draw = move |random: &mut Random| {
+        let inertia = body(random);
+        let (series, algebra) = (Arc::clone(&series), source.problem.algebra.clone());
+        let symbols = source.symbols(&inertia);
+        let steps = move |h: f64, random: &mut Random| {
+            let plain = fixed::System::<f64>::new(h, inertia).ok()?;
+            let terms = terms(&series, 3, h, &symbols);
+            let (steps, judge) = adjusted(&plain, &algebra, terms, random)?;
+            let steps = Box::new(Runner::new(steps).compensated().in_lanes());
+            Some(Made { steps, judge: Some(judge) })
+        };
+        source.system(&inertia, Box::new(steps))
+    };
+    vec![Model { judge, draw: Box::new(draw) }]
+}
+
+/// Makes the models of a family.
+type Models = fn() -> Vec<Model>;
+
+/// Steps of a body.
+macro_rules! of_bodies {
+    ($module:ident, $must:expr, |$steps:ident| $run:expr) => {
+        || {
+            let source = Source { must: $must, ..Source::new($module::TEXT) };
+            bodies(source, |h, inertia| {
+                let $steps = $module::System::<f64>::new(h, inertia).ok()?;
+                Some(Made::series($run))
+            })
+        }
+    };
 }
 
 /// All families whose names contain `only`.
 pub fn families(only: &str) -> Vec<Family> {
-    let mut families = Vec::new();
-    let mut add = |name: &str, decades: f64, models: &dyn Fn() -> Vec<Model>| {
-        if name.contains(only) {
-            families.push(Family { name: name.to_owned(), models: models(), decades });
-        }
+    let all: [(&str, f64, usize, Models); 9] = [
+        (
+            "generated-fixed-7",
+            30.0,
+            16,
+            of_bodies!(fixed, true, |steps| Runner::new(steps).compensated().in_lanes()),
+        ),
+        ("generated-promise-7", 30.0, 16, of_bodies!(fixed, true, |steps| Runner::new(steps))),
+        ("generated-adjusted-7", 30.0, 8, adjusted_bodies),
+        (
+            "generated-fixed-point-7",
+            30.0,
+            8,
+            of_bodies!(fixed, false, |steps| Runner::new(MatrixFree(steps))),
+        ),
+        (
+            "generated-comoving-9",
+            30.0,
+            16,
+            of_bodies!(comoving, true, |steps| Runner::new(steps).compensated().in_lanes()),
+        ),
+        (
+            "generated-cayley-5",
+            30.0,
+            8,
+            of_bodies!(half_turn, false, |steps| Runner::new(steps).compensated().in_lanes()),
+        ),
+        ("generated-top-5", 1.0, 4, || {
+            tops(top::TEXT, |h, i, weight| {
+                let steps = top::System::<f64>::new(h, i, weight).ok()?;
+                Some(Made::series(Runner::new(steps).compensated().in_lanes()))
+            })
+        }),
+        ("generated-top-7", 1.0, 2, || {
+            tops(long_top::TEXT, |h, i, weight| {
+                let steps = long_top::System::<f64>::new(h, i, weight).ok()?;
+                Some(Made::series(Runner::new(steps)))
+            })
+        }),
+        ("generated-manakov-5", 30.0, 2, || {
+            let source = Source::new(manakov::TEXT);
+            let judge = source.judge();
+            let draw = move |_: &mut Random| {
+                let steps = |h: f64, _: &mut Random| {
+                    Some(Made::series(Runner::new(manakov::System::<f64>::new(h).ok()?)))
+                };
+                source.system(&[], Box::new(steps))
+            };
+            vec![Model { judge, draw: Box::new(draw) }]
+        }),
+    ];
+    let chosen = all.into_iter().filter(|family| family.0.contains(only));
+    let family = |(name, decades, weight, models): (&str, f64, usize, Models)| Family {
+        name: name.to_owned(),
+        models: models(),
+        decades,
+        weight,
+        promise: name.contains("promise"),
     };
-    let bodies = |make: &dyn Fn([f64; 3]) -> Model| INERTIAS.iter().map(|&i| make(i)).collect();
-    add("generated-fixed-7", 30.0, &|| {
-        bodies(&|i| {
-            model(
-                fixed::TEXT,
-                &i,
-                true,
-                true,
-                Box::new(move |h| {
-                    let steps = fixed::System::<f64>::new(h, i).ok()?;
-                    Some(Box::new(Runner::new(steps).compensated().in_lanes()))
-                }),
-            )
-        })
-    });
-    add("generated-fixed-point-7", 30.0, &|| {
-        bodies(&|i| {
-            model(
-                fixed::TEXT,
-                &i,
-                true,
-                false,
-                Box::new(move |h| {
-                    let steps = fixed::System::<f64>::new(h, i).ok()?;
-                    Some(Box::new(Runner::new(MatrixFree(steps))))
-                }),
-            )
-        })
-    });
-    add("generated-comoving-9", 30.0, &|| {
-        bodies(&|i| {
-            model(
-                comoving::TEXT,
-                &i,
-                true,
-                true,
-                Box::new(move |h| {
-                    let steps = comoving::System::<f64>::new(h, i).ok()?;
-                    Some(Box::new(Runner::new(steps).compensated().in_lanes()))
-                }),
-            )
-        })
-    });
-    add("generated-cayley-5", 30.0, &|| {
-        bodies(&|i| {
-            model(
-                half_turn::TEXT,
-                &i,
-                true,
-                false,
-                Box::new(move |h| {
-                    let steps = half_turn::System::<f64>::new(h, i).ok()?;
-                    Some(Box::new(Runner::new(steps).compensated()))
-                }),
-            )
-        })
-    });
-    add("generated-top-5", 1.0, &|| {
-        bodies(&|i| {
-            let parameters = [i[0], i[1], i[2], 1.25];
-            model(
-                top::TEXT,
-                &parameters,
-                false,
-                false,
-                Box::new(move |h| {
-                    let steps = top::System::<f64>::new(h, i, 1.25).ok()?;
-                    Some(Box::new(Runner::new(steps).compensated().in_lanes()))
-                }),
-            )
-        })
-    });
-    add("generated-manakov-5", 30.0, &|| {
-        vec![model(
-            manakov::TEXT,
-            &[],
-            true,
-            false,
-            Box::new(move |h| {
-                let steps = manakov::System::<f64>::new(h).ok()?;
-                Some(Box::new(Runner::new(steps)))
-            }),
-        )]
-    });
-    families
+    chosen.map(family).collect()
 }

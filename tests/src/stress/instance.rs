@@ -1,8 +1,8 @@
 //! One system with one step size: momenta are drawn, steps made and judged.
 
-use coadjoint_codegen::judge::{Branch, Inside, Motion, RightSolution, Setting, Step, Stop};
+use coadjoint_codegen::judge::{Branch, Inside, Motion, Point, RightSolution, Setting, Stop};
 
-use super::family::{Family, Model};
+use super::family::{Family, Made, System};
 use super::random::Random;
 use super::runtime::{Outcome, Steps, Way};
 use super::verdict::{Tally, Wrong};
@@ -13,14 +13,16 @@ pub const DRAWS: usize = 64;
 const RAYS: usize = 16;
 /// The longest step, h|Ω|.
 const LONGEST: f64 = 10.0;
-/// Steps with less must be accepted where the model says so.
-const MUST: f64 = 1.5;
+/// Steps with less h|μ|/I, I the least moment of inertia, must be accepted where that is promised.
+const PROMISED: f64 = 1.5;
+/// One in so many right x is made wrong, to try the judge.
+const SPOILT: usize = 64;
 
 /// What is being judged, for messages.
 struct Case<'a> {
     family: &'a str,
     seed: u64,
-    model: &'a Model,
+    system: &'a System,
     h: f64,
     steps: &'a dyn Steps,
 }
@@ -29,20 +31,28 @@ struct Case<'a> {
 pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
     let mut random = Random::new(seed);
     let model = &family.models[random.below(family.models.len())];
-    let Some((h, steps)) = setting(family, model, &mut random) else { return };
-    let Ok(mut judge) = model.judge.at(h, &model.symbols) else { return };
-    let case = Case { family: &family.name, seed, model, h, steps: steps.as_ref() };
-    let dim = model.velocity.len();
+    let system = (model.draw)(&mut random);
+    let Some((h, made)) = setting(family, &system, &mut random) else { return };
+    let judge = made.judge.as_ref().unwrap_or(&model.judge);
+    let Ok(mut judge) = judge.at(h, &system.symbols) else { return };
+    let steps = made.steps.as_ref();
+    let case = Case { family: &family.name, seed, system: &system, h, steps };
+    let dim = system.velocity.len();
     let mut ray = random.direction(dim);
     let mut boundary = 1.0;
     let mut longest = 1.0;
     for draw in 0..DRAWS {
         if draw % RAYS == 0 {
             ray = random.direction(dim);
-            longest = LONGEST / (h * speed(model, &ray));
-            boundary = find_boundary(case.steps, &ray, longest);
+            longest = LONGEST / (h * speed(&system, &ray));
+            boundary = match family.promise {
+                true => 1.0,
+                false => find_boundary(case.steps, &ray, longest),
+            };
         }
-        let mu: Vec<f64> = if random.one_in(40) {
+        let mu: Vec<f64> = if family.promise {
+            promised(&case, &mut random)
+        } else if random.one_in(40) {
             special(&mut random, dim)
         } else {
             let size = if draw % 2 == 0 {
@@ -50,9 +60,7 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
             } else {
                 longest * random.unit()
             };
-            let nudged: Vec<f64> =
-                ray.iter().map(|r| size * (r + random.between(-0.02, 0.02))).collect();
-            nudged
+            ray.iter().map(|r| size * (r + random.between(-0.02, 0.02))).collect()
         };
         let mu = case.steps.rounded(&mu);
         judge_step(&case, &mut judge, &mu, &mut random, tally);
@@ -61,26 +69,45 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
 }
 
 /// A step size, by way of the size that momenta are to have, and the steps of it.
-fn setting(family: &Family, model: &Model, random: &mut Random) -> Option<(f64, Box<dyn Steps>)> {
+fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64, Made)> {
     for _ in 0..20 {
         let decades = if random.one_in(2) { family.decades.min(2.0) } else { family.decades };
         let size = 10_f64.powf(random.between(-decades, decades));
-        let direction = random.direction(model.velocity.len());
-        let speed = speed(model, &direction);
-        let speed = if model.homogeneous { speed * size } else { speed };
+        let direction = random.direction(system.velocity.len());
+        let speed = speed(system, &direction);
+        let speed = if system.homogeneous { speed * size } else { speed };
         let h = random.between(0.1, 3.0) / speed;
         // The steps' own h, whatever their scalar.
         let h = if random.one_in(16) { -h } else { h };
-        if let Some(steps) = (model.steps)(h) {
-            return Some((h, steps));
+        if let Some(made) = (system.steps)(h, random) {
+            return Some((h, made));
         }
     }
     None
 }
 
 /// |Ω| at μ.
-fn speed(model: &Model, mu: &[f64]) -> f64 {
-    model.velocity.iter().map(|v| v.evaluate(mu)).fold(0.0, f64::hypot)
+fn speed(system: &System, mu: &[f64]) -> f64 {
+    system.velocity.iter().map(|v| v.evaluate(mu)).fold(0.0, f64::hypot)
+}
+
+/// h|μ|/I where steps are promised up to [`PROMISED`] of it, and |μ| is neither too small nor too large for that.
+fn promised_turn(case: &Case<'_>, mu: &[f64]) -> Option<f64> {
+    let least = case.system.promised?;
+    let length = mu.iter().copied().fold(0.0, f64::hypot);
+    let moderate = length == 0.0 || (1e-30..=1e30).contains(&length);
+    moderate.then(|| case.h.abs() * length / least)
+}
+
+/// A momentum whose step must be accepted, one in four of them almost at the limit.
+fn promised(case: &Case<'_>, random: &mut Random) -> Vec<f64> {
+    let least = case.system.promised.unwrap_or(1.0);
+    let share = if random.one_in(4) { 1.0 - 1e-3 * random.unit() } else { random.unit() };
+    let mut direction = random.direction(case.system.velocity.len());
+    let exact = 1.0 / direction.iter().copied().fold(0.0, f64::hypot);
+    let size = exact * share * (PROMISED * (1.0 - 1e-12)) * least / case.h.abs();
+    direction.iter_mut().for_each(|m| *m *= size);
+    direction
 }
 
 /// The size along a ray up to which steps are accepted, between 0 and about `longest`.
@@ -90,7 +117,7 @@ fn find_boundary(steps: &dyn Steps, ray: &[f64], longest: f64) -> f64 {
         steps.solve(&mu).is_ok()
     };
     let (mut low, mut high) = (0.0, longest.abs());
-    for _ in 0..9 {
+    for _ in 0..8 {
         let middle = 0.5 * (low + high);
         if accepted(middle) {
             low = middle;
@@ -147,11 +174,12 @@ fn hex(value: f64) -> String {
 impl Case<'_> {
     fn example(&self, what: &str, mu: &[f64]) -> String {
         let exact: Vec<String> = mu.iter().map(|&m| hex(m)).collect();
-        let (family, seed, h, text) = (self.family, self.seed, hex(self.h), &self.model.text);
-        let turn = self.h.abs() * speed(self.model, mu);
+        let (family, seed, h, text) = (self.family, self.seed, hex(self.h), &self.system.text);
+        let turn = self.h.abs() * speed(self.system, mu);
+        let share = mu.iter().copied().fold(0.0, f64::hypot) / self.steps.radius();
         let exact = exact.join(", ");
         format!(
-            "{what}\n    --only {family} --instance {seed}: h = {h} ({}), h|Ω| = {turn:.4}\n    μ = [{exact}] = {mu:?}\n    {text}",
+            "{what}\n    --only {family} --instance {seed}: h = {h} ({}), h|Ω| = {turn:.4}, |μ| = {share:.3} of the radius\n    μ = [{exact}] = {mu:?}\n    {text}",
             self.h
         )
     }
@@ -164,8 +192,9 @@ fn judge_step(
     random: &mut Random,
     tally: &mut Tally,
 ) {
-    let unit = case.steps.unit();
     let finite = mu.iter().all(|m| m.is_finite());
+    let promised = finite && promised_turn(case, mu).is_some_and(|turn| turn < PROMISED);
+    tally.promised += u64::from(promised);
     let solved = case.steps.solve(mu);
     let mut right = None;
     match &solved {
@@ -175,66 +204,92 @@ fn judge_step(
         }
         Ok(x) => {
             tally.accepted += 1;
-            match judge.step(mu) {
-                Ok(step) => right = judge_increment(case, &step, x, mu, unit, tally),
-                Err(_) => tally.unsure += 1,
-            }
+            right = judge_increment(case, judge, x, mu, random, tally);
         }
         Err(error) => {
             tally.refused += 1;
-            let turn = case.h.abs() * speed(case.model, mu);
-            let size = mu.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
-            let moderate = size == 0.0 || (size > 1e-30 && size < 1e30);
-            if case.model.must_accept && finite && turn < MUST && moderate {
-                let found = judge.step(mu).ok().and_then(|step| acceptable(&step));
-                // Where the series has stopped converging a step must be refused.
-                if let Some(found) = found {
-                    tally.note(Wrong::Refused, || case.example(&format!("{error}; {found}"), mu));
-                }
+            if promised {
+                tally.note(Wrong::Refused, || case.example(error, mu));
             }
         }
     }
     let way = match random.below(8) {
-        0..=2 => Way::One,
-        3 => Way::Many(1),
-        4 => Way::Many(2 + random.below(4) as u64),
-        5 | 6 => Way::Compensated,
+        0 | 1 => Way::One,
+        2 => Way::Many(1),
+        3 => Way::Many(2 + random.below(4) as u64),
+        // Several blocks of what is solved at once.
+        4 if random.one_in(4) => Way::Many(6 + random.below(12) as u64),
+        5 | 6 => Way::Compensated(1 + random.below(3) as u64),
         _ => return,
     };
     let at: Vec<f64> = (0..mu.len()).map(|_| random.between(-1.0, 1.0)).collect();
     if let Some(outcome) = case.steps.go(way, &at, mu) {
-        let steps = if let Way::Many(steps) = way { steps } else { 1 };
+        let steps = match way {
+            Way::Many(steps) | Way::Compensated(steps) => steps,
+            Way::One => 1,
+        };
+        if outcome.error.is_none() {
+            // The first one has been counted.
+            tally.accepted += steps - 1;
+        }
         judge_outcome(case, judge, &outcome, right, steps, &format!("{way:?}"), tally);
     }
-}
-
-/// The right solution of a step that was refused, where the series' last terms have a ratio of at most a half.
-fn acceptable(step: &Step<'_>) -> Option<String> {
-    let right = step.right_solution().ok()?;
-    let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
-    let ratio = step.series_ratio(&x)?;
-    (ratio <= 0.5).then(|| format!("the right x = {x:?}, the series' ratio {ratio:.3}"))
 }
 
 /// Judges an accepted x.
 fn judge_increment(
     case: &Case<'_>,
-    step: &Step<'_>,
+    judge: &mut Setting<'_>,
     x: &[f64],
     mu: &[f64],
-    unit: f64,
+    random: &mut Random,
     tally: &mut Tally,
 ) -> Option<RightSolution> {
-    let wrong = judge_all_but_branch(case, step, x, mu, unit, tally);
-    if wrong {
-        return None;
-    }
     let note = |tally: &mut Tally, wrong, what: String| {
         tally.note(wrong, || case.example(&format!("{what}, x = {x:?}"), mu));
     };
-    let (branch, right) = step.branch(x);
+    if !x.iter().all(|x| x.is_finite()) {
+        note(tally, Wrong::NotFinite, "x".to_owned());
+        return None;
+    }
+    let Ok(step) = judge.step(mu) else {
+        tally.unsure += 1;
+        return None;
+    };
+    let point = match step.at(x) {
+        Ok(point) => point,
+        // x is so long that its own p̂ has no digits left.
+        Err(error) => {
+            note(tally, Wrong::Residual, error.to_string());
+            return None;
+        }
+    };
+    let inside = step.inside(x);
+    if let Some((wrong, what)) = fault(&point, inside, case.steps.unit()) {
+        note(tally, wrong, what);
+        return None;
+    }
+    tally.residual = tally.residual.max(point.residual(case.steps.unit()).relative());
+    tally.unsure += u64::from(inside == Inside::CannotTell);
+    let (branch, right) = point.branch();
     match branch {
-        Branch::Proven | Branch::Right => return right,
+        Branch::Proven | Branch::Right => {
+            if let Some(right) = &right
+                && random.one_in(SPOILT)
+            {
+                let unit = case.steps.unit();
+                // By so much that the residual grows by three bounds at least.
+                let by = 4.0 * point.residual(unit).bound * right.response;
+                let direction = random.direction(x.len());
+                let spoilt: Vec<f64> = x.iter().zip(&direction).map(|(x, d)| x + by * d).collect();
+                let found = step.at(&spoilt).map(|spoilt| spoilt.residual(unit).relative());
+                tally.spoilt += 1;
+                if found.is_ok_and(|relative| relative <= 1.0) {
+                    note(tally, Wrong::Missed, format!("{spoilt:?} passes for it"));
+                }
+            }
+            return right;
+        }
         Branch::CannotTell => tally.unsure += 1,
         Branch::Another(far) => note(tally, Wrong::Branch, format!("{far:.2e} from the right x")),
         Branch::Folds(s) => note(tally, Wrong::Branch, format!("the right one ends at s = {s:.4}")),
@@ -242,46 +297,19 @@ fn judge_increment(
     None
 }
 
-/// Judges an accepted x by itself; whether it is wrong.
-fn judge_all_but_branch(
-    case: &Case<'_>,
-    step: &Step<'_>,
-    x: &[f64],
-    mu: &[f64],
-    unit: f64,
-    tally: &mut Tally,
-) -> bool {
-    let note = |tally: &mut Tally, wrong, what: String| {
-        tally.note(wrong, || case.example(&format!("{what}, x = {x:?}"), mu));
-        true
-    };
-    if !x.iter().all(|x| x.is_finite()) {
-        return note(tally, Wrong::NotFinite, "x".to_owned());
+/// What is wrong with an x by itself.
+fn fault(point: &Point<'_>, inside: Inside, unit: f64) -> Option<(Wrong, String)> {
+    let residual = point.residual(unit);
+    if residual.relative() > 1.0 {
+        let what = format!("residual {:.2e} of a bound {:.2e}", residual.residual, residual.bound);
+        return Some((Wrong::Residual, what));
     }
-    match step.residual(x, unit) {
-        Ok(residual) if residual.relative() > 1.0 => {
-            let what =
-                format!("residual {:.2e} of a bound {:.2e}", residual.residual, residual.bound);
-            return note(tally, Wrong::Residual, what);
-        }
-        Ok(residual) => tally.residual = tally.residual.max(residual.relative()),
-        // x is so long that its own p̂ has no digits left.
-        Err(error) => return note(tally, Wrong::Residual, error.to_string()),
+    if let Inside::No(eigenvalue) = inside {
+        return Some((Wrong::Chart, format!("an eigenvalue of {eigenvalue}")));
     }
-    match step.inside(x) {
-        Inside::No(eigenvalue) => {
-            return note(tally, Wrong::Chart, format!("an eigenvalue of {eigenvalue}"));
-        }
-        Inside::CannotTell => tally.unsure += 1,
-        Inside::Yes => {}
-    }
-    match step.series_ratio(x) {
-        Some(ratio) if ratio.is_nan() || ratio > 0.5 + 1e-9 => {
-            return note(tally, Wrong::Series, format!("a ratio of {ratio:.3}"));
-        }
-        _ => {}
-    }
-    false
+    let ratio = point.series_ratio()?;
+    let small = ratio <= 0.5 + 1e-9;
+    (!small).then(|| (Wrong::Series, format!("a ratio of {ratio:.3}")))
 }
 
 /// Judges what `advance` and its kin did to a state.
@@ -365,7 +393,7 @@ fn in_lanes(
     longest: f64,
     tally: &mut Tally,
 ) {
-    let dim = case.model.velocity.len();
+    let dim = case.system.velocity.len();
     let count = 1 + random.below(19);
     let steps = 1 + random.below(3) as u64;
     let mut starts = Vec::new();
@@ -383,7 +411,7 @@ fn in_lanes(
     let Some(together) = case.steps.together(&starts, steps) else { return };
     for (start, outcome) in starts.iter().zip(&together) {
         if outcome.error.is_none() {
-            tally.accepted += 1;
+            tally.accepted += steps;
         } else {
             tally.refused += 1;
         }

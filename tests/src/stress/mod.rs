@@ -9,10 +9,12 @@ mod random;
 mod runtime;
 mod verdict;
 
-pub use verdict::{Tally, Wrong, report};
+pub use verdict::{Tally, Wrong, report, times};
 
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
+use family::Family;
 use random::Random;
 
 /// What to run.
@@ -28,6 +30,8 @@ pub struct Options {
     pub threads: usize,
     /// The seed of one instance to repeat, as an example names it.
     pub instance: Option<u64>,
+    /// As many instances of one family as of another; else fewer of those whose steps take long.
+    pub even: bool,
 }
 
 /// Runs the stress and counts, family by family.
@@ -37,7 +41,8 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
     if families.is_empty() {
         return Vec::new();
     }
-    let per = families.len() as u64;
+    let schedule = schedule(&families, options);
+    let per = schedule.len() as u64;
     let rounds = match options.instance {
         Some(_) => 1,
         None => options.steps.div_ceil(per * instance::DRAWS as u64),
@@ -54,7 +59,9 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
                 Random::new(options.seed ^ index.wrapping_mul(0xd134_2543_de82_ef95)).bits()
             });
             let mut tally = Tally::default();
-            instance::run(&families[(index % per) as usize], seed, &mut tally);
+            let start = Instant::now();
+            instance::run(&families[schedule[(index % per) as usize]], seed, &mut tally);
+            tally.seconds = start.elapsed().as_secs_f64();
             found.push((index, tally));
         }
     };
@@ -66,7 +73,21 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
     let mut tallies: Vec<_> =
         families.iter().map(|family| (family.name.clone(), Tally::default())).collect();
     for (index, tally) in found {
-        tallies[(index % per) as usize].1.add(tally);
+        tallies[schedule[(index % per) as usize]].1.add(tally);
     }
     tallies
+}
+
+/// Families in the order of their instances, each as often as its weight says, spread evenly.
+fn schedule(families: &[Family], options: &Options) -> Vec<usize> {
+    if options.even || options.instance.is_some() {
+        return (0..families.len()).collect();
+    }
+    let mut places: Vec<(f64, usize)> = Vec::new();
+    for (family, of) in families.iter().enumerate() {
+        let weight = of.weight.max(1);
+        places.extend((0..weight).map(|k| ((k as f64 + 0.5) / weight as f64, family)));
+    }
+    places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    places.into_iter().map(|place| place.1).collect()
 }

@@ -4,8 +4,10 @@ use coadjoint::{
     Chart, CompensatedPhase, Coordinates, GeneratingFunction, Integrator, LieGroup, Phase, Scalar,
     StepError, advance, advance_by, advance_compensated, generating::PolynomialFunction,
     generating::ScalarOf, generating::VectorOf, groups::CompensatedGroup, lanes::Lanes,
-    lanes::ensemble, solve::solve,
+    lanes::ensemble, solve::solve, tune::Tail,
 };
+
+use super::random::Random;
 
 pub use coadjoint::{
     Cayley, Exponential, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::Power, groups::SU3,
@@ -19,8 +21,8 @@ pub enum Way {
     One,
     /// `advance_by`, this many steps.
     Many(u64),
-    /// `advance_compensated`.
-    Compensated,
+    /// `advance_compensated`, so many times.
+    Compensated(u64),
 }
 
 /// A state as numbers: the group element's matrix, row by row, and the momentum.
@@ -67,6 +69,9 @@ pub trait Steps {
     /// The same steps of several states at once, in lanes; `None` where there are none.
     fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>>;
 
+    /// The |μ| up to which the bound on the series' terms tells that it converges.
+    fn radius(&self) -> f64;
+
     /// The unit roundoff of the scalar.
     fn unit(&self) -> f64;
 
@@ -75,7 +80,7 @@ pub trait Steps {
 }
 
 type PhaseOf<S> = Phase<<S as GeneratingFunction>::Group>;
-type Compensated<S> = fn(&S, PhaseOf<S>) -> (PhaseOf<S>, Result<(), StepError>);
+type Compensated<S> = fn(&S, PhaseOf<S>, u64) -> (PhaseOf<S>, Result<(), StepError>);
 type Together<S> = fn(&S, &mut [PhaseOf<S>], u64) -> Vec<(usize, String)>;
 
 /// A generating function with what its group can do.
@@ -97,9 +102,10 @@ impl<S: Integrator> Runner<S> {
     where
         S::Group: CompensatedGroup,
     {
-        self.compensated = Some(|steps, phase| {
+        self.compensated = Some(|steps, phase, count| {
             let mut state = CompensatedPhase::new(steps.group(), phase);
-            let result = advance_compensated(steps, &mut state).map(drop);
+            let mut advance = |_| advance_compensated(steps, &mut state).map(drop);
+            let result = (0..count).try_for_each(&mut advance);
             (state.into_phase(), result)
         });
         self
@@ -162,8 +168,8 @@ impl<S: Integrator> Steps for Runner<S> {
             Way::Many(steps) => advance_by(&self.steps, &mut phase, steps)
                 .map(drop)
                 .map_err(|stopped| stopped.error),
-            Way::Compensated => {
-                let (after, result) = (self.compensated?)(&self.steps, phase);
+            Way::Compensated(count) => {
+                let (after, result) = (self.compensated?)(&self.steps, phase, count);
                 phase = after;
                 result
             }
@@ -183,6 +189,10 @@ impl<S: Integrator> Steps for Runner<S> {
                 Outcome { before, after: self.state(phase), error }
             });
         Some(outcomes.collect())
+    }
+
+    fn radius(&self) -> f64 {
+        self.steps.radius().largest_lane()
     }
 
     fn unit(&self) -> f64 {
@@ -207,4 +217,25 @@ pub fn polynomial<G: LieGroup, C: Chart<G>>(
     terms: Terms,
 ) -> PolynomialFunction<G, C> {
     PolynomialFunction::of_series(group, chart, terms).expect("terms of the group's dimension")
+}
+
+/// The terms with the factors of [`Tail`] for motions from one or two momenta; `None` where steps from there fail.
+pub fn tuned_terms(terms: &Terms, truncation: usize, random: &mut Random) -> Option<Terms> {
+    let scaled = |factor: &dyn Fn(usize) -> f64| -> Terms {
+        terms.iter().map(|(k, c, f)| (*k, c * factor(*k), f.clone())).collect()
+    };
+    // S₁ = h H: where h|Ω| is about one.
+    let size = terms.iter().filter(|t| t.0 == 1).map(|t| t.1.abs()).fold(0.0, f64::max);
+    let momenta: Vec<_> = (0..1 + random.below(2))
+        .map(|_| {
+            let length = random.between(0.1, 0.6) / size;
+            let direction = random.direction(3);
+            nalgebra::Vector3::from_fn(|i, _| length * direction[i])
+        })
+        .collect();
+    let tail = Tail::along(truncation, momenta, |factor: &dyn Fn(usize) -> f64| {
+        polynomial(SO3::<f64>::new(), Exponential, scaled(factor))
+    });
+    let tail = tail.ok()?;
+    Some(scaled(&|k| tail.factor(k)))
 }

@@ -23,10 +23,12 @@ pub enum Wrong {
     Lanes,
     /// A step was refused that must be accepted.
     Refused,
+    /// An x that was made wrong on purpose was not told from a right one.
+    Missed,
 }
 
 /// All kinds with their headings.
-pub const KINDS: [(Wrong, &str); 9] = [
+pub const KINDS: [(Wrong, &str); 10] = [
     (Wrong::Residual, "residual"),
     (Wrong::Branch, "branch"),
     (Wrong::Chart, "chart"),
@@ -36,6 +38,7 @@ pub const KINDS: [(Wrong, &str); 9] = [
     (Wrong::Changed, "changed"),
     (Wrong::Lanes, "lanes"),
     (Wrong::Refused, "refused!"),
+    (Wrong::Missed, "missed"),
 ];
 
 /// What came of the steps of one family.
@@ -45,6 +48,10 @@ pub struct Tally {
     pub accepted: u64,
     /// Steps that were refused.
     pub refused: u64,
+    /// Steps among them that must be accepted.
+    pub promised: u64,
+    /// Right x made wrong on purpose, by more than rounding.
+    pub spoilt: u64,
     /// Wrong ones by `KINDS`.
     pub wrong: [u64; KINDS.len()],
     /// Accepted ones of which the judge cannot tell.
@@ -53,6 +60,8 @@ pub struct Tally {
     pub residual: f64,
     /// The largest deviation / bound of a state that is not wrong.
     pub deviation: f64,
+    /// How long it took.
+    pub seconds: f64,
     /// The first examples of each kind.
     pub examples: Vec<(Wrong, String)>,
 }
@@ -73,7 +82,10 @@ impl Tally {
     pub fn add(&mut self, other: Self) {
         self.accepted += other.accepted;
         self.refused += other.refused;
+        self.promised += other.promised;
+        self.spoilt += other.spoilt;
         self.unsure += other.unsure;
+        self.seconds += other.seconds;
         self.residual = self.residual.max(other.residual);
         self.deviation = self.deviation.max(other.deviation);
         for (own, other) in self.wrong.iter_mut().zip(other.wrong) {
@@ -93,11 +105,31 @@ impl Tally {
     }
 }
 
+/// How long steps of each family took, judged.
+#[must_use]
+pub fn times(tallies: &[(String, Tally)]) -> String {
+    let mut out = String::new();
+    for (name, tally) in tallies {
+        let steps = tally.accepted + tally.refused;
+        let each = 1e6 * tally.seconds / steps.max(1) as f64;
+        let _ = writeln!(
+            out,
+            "{name:<24} {steps:>9} steps {:>8.1} s {each:>8.0} µs each",
+            tally.seconds
+        );
+    }
+    out
+}
+
 /// The table of all families, the examples, and a closing line.
 #[must_use]
 pub fn report(tallies: &[(String, Tally)]) -> String {
     let mut out = String::new();
-    let _ = write!(out, "{:<24} {:>10} {:>10}", "family", "accepted", "refused");
+    let _ = write!(
+        out,
+        "{:<24} {:>9} {:>9} {:>8} {:>7}",
+        "family", "accepted", "refused", "promised", "spoilt"
+    );
     for (_, heading) in KINDS {
         let _ = write!(out, " {heading:>8}");
     }
@@ -122,7 +154,11 @@ pub fn report(tallies: &[(String, Tally)]) -> String {
 }
 
 fn row(out: &mut String, name: &str, tally: &Tally) {
-    let _ = write!(out, "{name:<24} {:>10} {:>10}", tally.accepted, tally.refused);
+    let _ = write!(
+        out,
+        "{name:<24} {:>9} {:>9} {:>8} {:>7}",
+        tally.accepted, tally.refused, tally.promised, tally.spoilt
+    );
     for count in tally.wrong {
         let _ = write!(out, " {count:>8}");
     }
