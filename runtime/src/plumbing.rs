@@ -210,6 +210,7 @@ pub fn last_terms<T: Scalar, const PARTS: usize, const LAST: usize>(
 }
 
 /// The numbers of the parts of S_K and S_{K−2}, and the order of each.
+#[inline(always)]
 fn last_orders(table: &Table, truncation: usize) -> impl Iterator<Item = (usize, usize)> {
     let end = table.monomials.len().checked_sub(1).and_then(|last| table.bases.get(last));
     let parts = table.parts.get(..end.map_or(0, |&end| end as usize)).unwrap_or(&[]);
@@ -218,6 +219,7 @@ fn last_orders(table: &Table, truncation: usize) -> impl Iterator<Item = (usize,
 }
 
 /// The terms whose coefficients are `last`, as (coefficient, order, monomial).
+#[inline(always)]
 fn of_last<'a, T: Scalar>(
     table: &'a Table,
     last: &'a [T],
@@ -239,6 +241,9 @@ pub fn radius<T: Scalar>(table: &Table, last: &[T], truncation: usize) -> T {
 }
 
 /// [`GeneratingFunction::series_ratio`](crate::GeneratingFunction::series_ratio) of a table's series.
+// Inlined: an iterator in memory would hold on to the coefficients for all that the compiler knows, and then steps in a
+// loop read them anew each time.
+#[inline(always)]
 pub fn series_ratio<T: Scalar, const N: usize>(
     table: &Table,
     last: &[T],

@@ -87,6 +87,7 @@ fn half_power(n: u32) -> f64 {
 
 /// The ratio of S_K and S_{K−2} at p, given their terms as (coefficient, order, monomial): of the sums of the
 /// absolute values of all monomials of their gradients.
+#[inline(always)]
 pub fn ratio<'a, T: Scalar>(
     truncation: usize,
     terms: impl Iterator<Item = (T, usize, &'a [(u32, u32)])>,

@@ -15,8 +15,6 @@ pub struct NormalEquations<T, const N: usize> {
     /// The lower triangle.
     matrix: [[T; N]; N],
     right: [T; N],
-    /// The sum of the squares of the right-hand sides.
-    total: T,
     /// The square of what is rounding in the right-hand sides.
     noise: T,
 }
@@ -27,7 +25,6 @@ impl<T: Scalar, const N: usize> Default for NormalEquations<T, N> {
         Self {
             matrix: [[zero; N]; N],
             right: [zero; N],
-            total: zero,
             noise: T::of(f64::from(f32::MIN_POSITIVE)),
         }
     }
@@ -42,22 +39,8 @@ impl<T: Scalar, const N: usize> NormalEquations<T, N> {
             }
             self.right[i] += columns[i].pairing(right);
         }
-        self.total += right.pairing(right);
         let rounding = T::of(ROUNDING) * T::epsilon();
         self.noise += whole.pairing(whole) * rounding * rounding;
-    }
-
-    /// In which lanes this y leaves at most `share` of the sum of the squares of the right-hand sides, rounding
-    /// aside.
-    pub fn leaves_at_most(&self, y: &[T; N], share: T) -> T::SimdBool {
-        let mut left = self.total;
-        for i in 0..N {
-            left -= T::of(2.0) * y[i] * self.right[i];
-            for j in 0..N {
-                left += y[i] * y[j] * self.matrix[i.max(j)][i.min(j)];
-            }
-        }
-        left.simd_le(share * self.total + self.noise)
     }
 
     /// The y of least squares, by L D Lᵀ.

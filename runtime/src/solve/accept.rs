@@ -41,7 +41,19 @@ fn solved<V, T: Scalar>(candidate: &Candidate<V, T>, settings: Settings<T>) -> T
     candidate.residual.simd_le(settings.tolerance()) & candidate.moved.simd_le(T::of(NEAR))
 }
 
-/// The candidate if it is right, or what `rescue` makes of it.
+/// Whether a candidate is right in all lanes.
+#[inline(always)]
+pub(crate) fn is_right<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: &CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> bool {
+    accept(generating, mu, candidate, settings).all()
+}
+
+/// The candidate if it is right, or what `rescue` makes of it. Where speed counts, ask [`is_right`], and let what is
+/// rescued go a way of its own to its end: where both ways meet again, x goes through memory.
 ///
 /// # Errors
 /// Why there is no right step.
@@ -52,7 +64,7 @@ pub(crate) fn judge<S: Integrator + ?Sized>(
     candidate: CandidateOf<S>,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<CandidateOf<S>, StepError> {
-    if accept(generating, mu, &candidate, settings).all() {
+    if is_right(generating, mu, &candidate, settings) {
         return Ok(candidate);
     }
     rescue(generating, mu, candidate, settings)
@@ -62,7 +74,7 @@ pub(crate) fn judge<S: Integrator + ?Sized>(
 /// the reason: lanes have to be tried again one by one.
 #[cold]
 #[inline(never)]
-fn rescue<S: Integrator + ?Sized>(
+pub(crate) fn rescue<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: CandidateOf<S>,

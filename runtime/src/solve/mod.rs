@@ -36,7 +36,7 @@ pub use matrix_free::MatrixFree;
 pub use newton::{MAX_ITERATIONS, Newton, NewtonModel, Predict};
 pub use settings::Settings;
 
-pub(crate) use accept::judge;
+pub(crate) use accept::{is_right, judge, rescue};
 
 use crate::chart::Chart;
 use crate::error::StepError;

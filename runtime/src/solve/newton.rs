@@ -185,10 +185,17 @@ pub(super) fn newton<S: NewtonModel + ?Sized>(
             let bound = stretch * curved + half_defect * relative;
             let left = yardstick.left(bound, relative, (chord > 0).then_some(previous));
             previous = relative + smallest;
-            let was_open = remaining.simd_gt(tolerance);
-            solved = (next.clone().select(was_open, &solved.0), moved.select(was_open, &solved.1));
-            remaining = left.select(was_open, remaining);
-            way = (way + relative).select(was_open, way);
+            let way_now = way + relative;
+            if <ScalarOf<S> as SimdValue>::LANES == 1 {
+                // One lane alone is open, or this would have ended; to select would only be to wait.
+                (solved, remaining, way) = ((next.clone(), moved), left, way_now);
+            } else {
+                let was_open = remaining.simd_gt(tolerance);
+                solved =
+                    (next.clone().select(was_open, &solved.0), moved.select(was_open, &solved.1));
+                remaining = left.select(was_open, remaining);
+                way = way_now.select(was_open, way);
+            }
             // What is far from its guess is not going to be accepted; what is not a number neither.
             let open = remaining.simd_gt(tolerance) & way.simd_le(near);
             if open.none() {

@@ -78,6 +78,11 @@ impl<G: CompensatedGroup> Moves<G> for CompensatedPhase<G> {
         }
         group.compose_compensated(&mut self.phase.group_element, &mut self.element_remainder, k);
     }
+
+    #[inline(always)]
+    fn check(&self, group: &G) -> Result<(), StepError> {
+        check(group, &self.phase)
+    }
 }
 
 /// [`advance`](crate::advance) with compensated accumulation: two digits more over long runs.
@@ -93,9 +98,5 @@ where
     S: Integrator + ?Sized,
     S::Group: CompensatedGroup,
 {
-    let mut next = state.clone();
-    let report = single(generating, &mut next, Settings::default())?;
-    check(generating.group(), &next.phase)?;
-    *state = next;
-    Ok(report)
+    single(generating, state, Settings::default())
 }

@@ -8,7 +8,7 @@ use super::{StepReport, advance_with, check, displace};
 use crate::error::{StepError, Stopped};
 use crate::generating::ScalarOf;
 use crate::number::scalar::Scalar;
-use crate::solve::{Candidate, Integrator, Method, Settings, judge};
+use crate::solve::{Candidate, CandidateOf, Integrator, Method, Settings, is_right, rescue};
 
 /// Steps in a block. A comoving frame moves on once in each: few enough steps for its integrals, which drift by
 /// rounding, to be the same in all of them. Methods forget what was before it, so that a run may be resumed at the end
@@ -50,26 +50,45 @@ pub(crate) fn block<S: Integrator + ?Sized>(
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     for done in 0..steps {
         let candidate = method.propose(generating, &phase.momentum, steps - done, settings);
-        let refused = |error| (done, error);
-        match judge(generating, &phase.momentum, candidate, settings).map_err(refused) {
-            Ok(Candidate { x, iterations, residual, .. }) => {
-                displace(generating, phase, &x);
-                worst.iterations = worst.iterations.max(iterations);
-                worst.residual = worst.residual.simd_max(residual);
-            }
-            Err((steps, error)) => {
-                method.forget();
-                if steps > 0 {
-                    move_frame(generating, phase, steps);
-                    sound(generating, phase, start, steps, settings)?;
+        let Candidate { iterations, residual, .. } = candidate;
+        let (iterations, residual) =
+            if is_right(generating, &phase.momentum, &candidate, settings) {
+                displace(generating, phase, &candidate.x);
+                (iterations, residual)
+            } else {
+                match rescued(generating, phase, candidate, settings) {
+                    Ok(report) => report,
+                    Err(error) => {
+                        method.forget();
+                        if done > 0 {
+                            move_frame(generating, phase, done);
+                            sound(generating, phase, start, done, settings)?;
+                        }
+                        return Err(Stopped { steps: done, error });
+                    }
                 }
-                return Err(Stopped { steps, error });
-            }
-        }
+            };
+        worst.iterations = worst.iterations.max(iterations);
+        worst.residual = worst.residual.simd_max(residual);
     }
     move_frame(generating, phase, steps);
     method.forget();
     sound(generating, phase, start, steps, settings).map(|()| worst)
+}
+
+/// A step whose candidate is not right, to its end: iterations and residual.
+#[cold]
+#[inline(never)]
+fn rescued<S: Integrator + ?Sized>(
+    generating: &S,
+    phase: &mut Phase<S::Group>,
+    candidate: CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Result<(u32, ScalarOf<S>), StepError> {
+    let Candidate { x, iterations, residual, .. } =
+        rescue(generating, &phase.momentum, candidate, settings)?;
+    displace(generating, phase, &x);
+    Ok((iterations, residual))
 }
 
 /// Checks the state that so many steps have led to from `start`; where it is not sound, finds the step that was not.

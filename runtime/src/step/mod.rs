@@ -23,7 +23,7 @@ use crate::error::{StepError, Stopped};
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::number::scalar::Scalar;
-use crate::solve::{Candidate, Integrator, Method, Predict, Settings, judge};
+use crate::solve::{CandidateOf, Integrator, Method, Settings, is_right, rescue};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,10 +49,7 @@ pub fn poisson_map<S: Integrator + ?Sized>(
 ) -> Result<VectorOf<S>, StepError> {
     let mut moved = Momentum::<S::Group>(mu.clone());
     single(generating, &mut moved, Settings::default())?;
-    match finite_or_nan(&moved.0).simd_le(ScalarOf::<S>::of(0.0)).all() {
-        true => Ok(moved.0),
-        false => Err(StepError::Overflow),
-    }
+    Ok(moved.0)
 }
 
 /// Advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′): Algorithm 1 of the paper. Symplectic,
@@ -79,11 +76,7 @@ pub fn advance_with<S: Integrator + ?Sized>(
     phase: &mut Phase<S::Group>,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let mut next = phase.clone();
-    let report = single(generating, &mut next, settings)?;
-    check(generating.group(), &next)?;
-    *phase = next;
-    Ok(report)
+    single(generating, phase, settings)
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
@@ -118,7 +111,7 @@ pub fn advance_by_with<S: Integrator + ?Sized>(
     march(generating, phase, steps, settings)
 }
 
-/// One step of whatever moves, not yet checked.
+/// One step of whatever moves; it is left as it was where there is none.
 #[inline(always)]
 fn single<S: Integrator + ?Sized, M: Moves<S::Group>>(
     generating: &S,
@@ -127,11 +120,42 @@ fn single<S: Integrator + ?Sized, M: Moves<S::Group>>(
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let mut method = S::Method::begin(generating);
     let candidate = method.propose(generating, state.momentum(), 1, settings);
-    let Candidate { x, iterations, residual, .. } =
-        judge(generating, state.momentum(), candidate, settings)?;
-    displace(generating, state, &x);
-    move_frame(generating, state, 1);
-    Ok(StepReport { iterations, residual })
+    if is_right(generating, state.momentum(), &candidate, settings) {
+        return complete(generating, state, &candidate);
+    }
+    // A copy, so that a state that steps in a loop go from can stay in registers.
+    let mut next = state.clone();
+    let report = rescued(generating, &mut next, candidate, settings)?;
+    *state = next;
+    Ok(report)
+}
+
+/// The same for a candidate that is not right.
+#[cold]
+#[inline(never)]
+fn rescued<S: Integrator + ?Sized, M: Moves<S::Group>>(
+    generating: &S,
+    state: &mut M,
+    candidate: CandidateOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
+    let candidate = rescue(generating, state.momentum(), candidate, settings)?;
+    complete(generating, state, &candidate)
+}
+
+/// Moves a state by an accepted step, and checks what comes of it.
+#[inline(always)]
+fn complete<S: Integrator + ?Sized, M: Moves<S::Group>>(
+    generating: &S,
+    state: &mut M,
+    candidate: &CandidateOf<S>,
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
+    let mut next = state.clone();
+    displace(generating, &mut next, &candidate.x);
+    move_frame(generating, &mut next, 1);
+    next.check(generating.group())?;
+    *state = next;
+    Ok(StepReport { iterations: candidate.iterations, residual: candidate.residual })
 }
 
 /// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that
@@ -195,16 +219,4 @@ fn unsound<G: LieGroup>(group: &G, phase: &Phase<G>) -> StepError {
         return StepError::Overflow;
     }
     StepError::OffGroup { defect: group.element_defect(&phase.group_element).largest_lane() }
-}
-
-/// The momentum about one step later, by the first guess of x where there is one; a comoving frame's own motion
-/// left out. Near enough to the motion to look at it there.
-pub(crate) fn about_onwards<S: Integrator + Predict>(
-    generating: &S,
-    mu: &VectorOf<S>,
-) -> Result<VectorOf<S>, StepError> {
-    match generating.predict_increment(mu) {
-        Some(x) => Ok(S::Chart::default().transport(generating.group(), &x, mu).1),
-        None => poisson_map(generating, mu),
-    }
 }

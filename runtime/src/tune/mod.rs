@@ -3,6 +3,7 @@
 #[cfg(feature = "alloc")]
 mod fit;
 mod tail;
+mod trial;
 
 #[cfg(feature = "alloc")]
 pub use fit::{Fit, FitError, MAX_FITTED_TERMS, fit};

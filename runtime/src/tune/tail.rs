@@ -22,6 +22,7 @@ use core::array::from_fn;
 
 use nalgebra::SimdBool;
 
+use super::trial::{Moved, Sample, about_onwards, is_better, step, step_from};
 use crate::chart::Chart;
 use crate::error::StepError;
 use crate::generating::{ScalarOf, VectorOf};
@@ -29,15 +30,12 @@ use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::linear::normal_equations::NormalEquations;
 use crate::number::scalar::Scalar;
-use crate::solve::{Integrator, Predict, solve_from};
-use crate::step::{about_onwards, poisson_map};
+use crate::solve::{Integrator, Predict};
 
 /// Momenta along the motion from each one given, a step apart; the last of them is looked at.
 const STEPS: usize = 9;
-/// Stride between the momenta that are fitted to; those half-way between are held back to judge the fit.
+/// Stride between the momenta that are fitted to.
 const SPACING: usize = 4;
-/// What the fit may leave of the squares of the errors at the momenta held back: a quarter is half the error.
-const HELD_BACK: f64 = 0.25;
 /// Terms with a factor: the last of them.
 const TERMS: usize = 3;
 /// Short steps in an exact one: what they leave out is 2^{K+1} times less.
@@ -102,8 +100,9 @@ impl<T: Scalar> Tail<T> {
 
     /// The tail for motions that start with `momenta`, at three of the first nine steps of each.
     /// `series` makes the generating function Σ factor(k) S_k for given factors. Where the terms do not
-    /// fall fast enough to tell, where the errors at steps held back are not halved, and for K < 5, all factors are
-    /// one: the series is then the plain one ([`Tail::is_plain`]).
+    /// fall fast enough to tell, where 64 steps in a row along the motions (up to eight of them) do not err by
+    /// half as much at most, and for K < 5, all factors are one: the series is then the plain one
+    /// ([`Tail::is_plain`]).
     ///
     /// # Errors
     /// Those of the steps.
@@ -128,19 +127,18 @@ impl<T: Scalar> Tail<T> {
             series(&|k| T::of(if Some(k) == order { 1.0 } else { 0.0 }))
         });
         let mut equations = NormalEquations::<T, TERMS>::default();
-        let mut held_back = NormalEquations::<T, TERMS>::default();
+        let mut motions = Sample::new();
         for start in momenta {
+            motions.pass(&start);
             // Tells whether steps can be made from there.
-            let mut mu = poisson_map(&whole, &start)?;
-            for step in 0..STEPS {
-                if step % (SPACING / 2) == 0
+            let mut mu = step(&whole, &start)?.1;
+            for number in 0..STEPS {
+                if number % SPACING == 0
                     && let Some(ExactStep { x, p, end }) = exact_step(&short, &mu)
                 {
                     let left_out = x.clone().minus(&whole.gradient(&p));
                     let columns = terms.each_ref().map(|term| term.gradient(&p));
-                    let fitted = step % SPACING == 0;
-                    let to = if fitted { &mut equations } else { &mut held_back };
-                    to.add(&columns, &left_out, &x);
+                    equations.add(&columns, &left_out, &x);
                     mu = end;
                 } else {
                     mu = about_onwards(&whole, &mu)?;
@@ -149,10 +147,15 @@ impl<T: Scalar> Tail<T> {
         }
         let shares = equations.solution();
         let size = shares.iter().fold(T::of(0.0), |size, share| size + share.simd_abs());
-        let better = held_back.leaves_at_most(&shares, T::of(HELD_BACK));
-        let tells = size.simd_lt(T::of(FAR)) & better;
+        let tells = size.simd_lt(T::of(FAR));
+        if tells.none() {
+            return Ok(none);
+        }
         let one = T::of(1.0);
-        Ok(Self { factors: shares.map(|share| (one + share).select(tells, one)), ..none })
+        let tail = Self { factors: shares.map(|share| (one + share).select(tells, one)), ..none };
+        let summed = series(&|k| tail.factor(k));
+        let better = is_better(&whole, &summed, |mu| exact_increment(&short, mu), &motions);
+        Ok(Self { factors: tail.factors.map(|factor| factor.select(better, one)), ..none })
     }
 }
 
@@ -174,20 +177,28 @@ fn exact_step<S: Integrator + Predict>(
     mu: &VectorOf<S>,
 ) -> Option<ExactStep<VectorOf<S>>> {
     let (group, chart) = (short.group(), S::Chart::default());
-    let mut increment = group.identity();
-    let mut start = mu.clone();
+    let (increment, end) = exact_increment(short, mu).ok()?;
+    let x = chart.coordinate(group, &increment)?;
+    let p = chart.pull_back(group, &x, mu);
+    Some(ExactStep { x, p, end })
+}
+
+/// The increment of that step, by steps of `short`.
+fn exact_increment<S: Integrator + Predict>(
+    short: &S,
+    mu: &VectorOf<S>,
+) -> Result<Moved<S>, StepError> {
+    let group = short.group();
+    let (mut increment, mut start) = (group.identity(), mu.clone());
     for _ in 0..SHORT_STEPS {
         // The first guess is still that of a long step.
         let mut ahead = short.predict(&start).minus(&start);
         for i in 0..ahead.dim() {
             ahead[i] *= share_of_step::<ScalarOf<S>>();
         }
-        let x = solve_from(short, &start, start.clone().plus(&ahead)).ok()?.x;
-        let (part, end) = chart.transport(group, &x, &start);
+        let (part, end) = step_from(short, &start, start.clone().plus(&ahead))?;
         increment = group.compose(&increment, &part);
         start = end;
     }
-    let x = chart.coordinate(group, &increment)?;
-    let p = chart.pull_back(group, &x, mu);
-    Some(ExactStep { x, p, end: start })
+    Ok((increment, start))
 }

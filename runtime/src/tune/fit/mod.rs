@@ -21,6 +21,7 @@ use nalgebra::ComplexField;
 
 use self::coefficients::{free_terms, missed, residual};
 use self::motion::{Point, follow};
+use super::trial::{self, Moved, Sample, is_better};
 use crate::error::StepError;
 use crate::generating::Adjustable;
 use crate::generating::VectorOf;
@@ -115,8 +116,9 @@ impl From<crate::Stopped> for FitError {
 ///
 /// As geometric as the series itself, and as fast; along the motions it is as accurate as a
 /// truncation higher by some six. Near them it is about as accurate as near; far from them it may be
-/// less accurate than the series. Where the fit does not hold at samples that were left out of it,
-/// the integrator is the series as it was ([`Fit::unseen`] then equals [`Fit::before`]).
+/// less accurate than the series. Where the fit does not hold at samples that were left out of it, or does not halve
+/// the error of 64 steps in a row from the given momenta (of up to eight of them), the integrator is the series as
+/// it was ([`Fit::unseen`] then equals [`Fit::before`]).
 ///
 /// ```
 /// use coadjoint::{Phase, SO3, tune::fit, lie_poisson};
@@ -166,6 +168,9 @@ where
     if momenta.is_empty() {
         return Err(FitError::NoMotion);
     }
+    let half = series(0.5 * step)?;
+    let mut motions = Sample::new();
+    momenta.iter().for_each(|momentum| motions.pass(momentum));
     let Points { seen, unseen } = sample(&whole, terms, series, step, momenta, steps)?;
 
     let of_series = coefficients::of_series(&whole, &free, &seen);
@@ -174,7 +179,8 @@ where
     let integrator = whole.adjusted(&both);
     let before = error(&whole, &unseen);
     let (fitted, at_unseen) = (error(&integrator, &seen), error(&integrator, &unseen));
-    let holds = at_unseen < before;
+    let exact = |mu: &V| by_halves(&half, mu);
+    let holds = at_unseen < before && is_better(&whole, &integrator, exact, &motions);
     let guesses = guess_error(&integrator, &unseen) <= guess_error(&whole, &unseen);
     let integrator = match (holds, guesses) {
         (true, true) => integrator,
@@ -183,6 +189,16 @@ where
     };
     let (fitted, unseen) = if holds { (fitted, at_unseen) } else { (before, before) };
     Ok(Fit { integrator, before, fitted, unseen })
+}
+
+/// A step of the flow by two of half its length: what they leave out is 2^{K+1} times less.
+fn by_halves<S: Integrator + Predict>(
+    half: &S,
+    mu: &VectorOf<S>,
+) -> Result<Moved<S>, StepError> {
+    let (first, middle) = trial::step(half, mu)?;
+    let (second, end) = trial::step(half, &middle)?;
+    Ok((half.group().compose(&first, &second), end))
 }
 
 /// Points to fit to and points to judge by.

@@ -3,12 +3,12 @@
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
+use super::super::trial::about_onwards;
 use super::FitError;
 use crate::chart::Chart;
 use crate::generating::VectorOf;
 use crate::group::LieGroup;
 use crate::solve::{Integrator, Method, Predict, Settings, judge};
-use crate::step::about_onwards;
 
 /// A point of the Lagrangian submanifold of the exact flow over a step.
 #[derive(Clone, Debug)]
