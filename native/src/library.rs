@@ -5,6 +5,7 @@
 //! are compared with the kernel's before a function is called; and it stays loaded as long as an [`Entry`] needs it.
 #![allow(unsafe_code)]
 
+use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -21,10 +22,10 @@ use crate::error::NativeError;
 /// [`NativeError::Load`] where it is no library, lacks a function, or has other sizes.
 pub(crate) fn load(kernel: &Kernel, path: &Path) -> Result<Entry, NativeError> {
     let fault = |message: String| NativeError::Load { path: path.to_owned(), message };
-    let library = open(path).map_err(|error| fault(error.to_string()))?;
+    let library = open(path).map_err(|error| fault(told(&error)))?;
     // SAFETY: the array is exported with this type by every version of the printed unit.
     let sizes = unsafe { library.get::<*const [u64; 4]>(b"coadjoint_sizes") };
-    let sizes = sizes.map_err(|error| fault(error.to_string()))?;
+    let sizes = sizes.map_err(|error| fault(told(&error)))?;
     // SAFETY: the symbol is the address of an array of four numbers, in memory that stays as long as the library.
     let found = unsafe { **sizes };
     let expected = [ABI, kernel.dim() as u64, kernel.element() as u64, kernel.slots() as u64];
@@ -33,13 +34,24 @@ pub(crate) fn load(kernel: &Kernel, path: &Path) -> Result<Entry, NativeError> {
     }
     // SAFETY: units of this version export both functions with these types.
     let advance = unsafe { library.get::<AdvanceFunction>(b"coadjoint_advance") };
-    let advance = *advance.map_err(|error| fault(error.to_string()))?;
+    let advance = *advance.map_err(|error| fault(told(&error)))?;
     // SAFETY: as above.
     let lanes = unsafe { library.get::<LanesFunction>(b"coadjoint_advance_lanes") };
-    let lanes = *lanes.map_err(|error| fault(error.to_string()))?;
+    let lanes = *lanes.map_err(|error| fault(told(&error)))?;
     // SAFETY: the functions were compiled from the kernel's text and touch only what they are given; the library stays
     // loaded until the entry drops it.
     Ok(unsafe { Entry::new(kernel, advance, lanes, Arc::new(library)) })
+}
+
+/// An error with its causes: what the system says stands in them.
+fn told(error: &libloading::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text = format!("{text}: {error}");
+        cause = error.source();
+    }
+    text
 }
 
 /// Opens a library, all its symbols resolved at once: one that is missing is an error here and not the end of the

@@ -1,5 +1,6 @@
 //! A compiled step has the bits of the interpreter, in scalars and in lanes, whatever is refused.
 #![cfg(unix)]
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! Kernels to try compilers on: programs over all kinds of nodes, drawn at random.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use coadjoint_program::{Graph, Id, Kernel, Program, Programs, WIDTH};
 
@@ -51,7 +51,7 @@ fn program(
         });
         // A factor that is no larger than 1, or long programs have no numbers left in the end.
         let small = known[draw.below(inputs.max(1))];
-        known.push(match draw.below(16) {
+        known.push(match draw.below(17) {
             0..3 => graph.add(a, b),
             3..5 => graph.sub(a, b),
             5..8 => graph.mul(small, b),
@@ -68,6 +68,7 @@ fn program(
                 let size = graph.abs(a);
                 graph.sqrt(size)
             }
+            15 => graph.round(a),
             _ => graph.select(a, b, c, d),
         });
     }

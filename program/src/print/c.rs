@@ -7,7 +7,7 @@ use super::dialect::Dialect;
 use super::signature::{Field, Signature};
 use crate::node::Node;
 
-/// The dialect of C: infix operators, `fma`, `sqrt`, `fabs` and the conditional operator. Arrays and coefficients are
+/// The dialect of C: infix operators, `fma`, `sqrt`, `fabs`, `rint` and the conditional operator. Arrays and coefficients are
 /// reached by pointers, single inputs are values, single outputs are pointers.
 #[derive(Clone, Debug)]
 pub struct C {
@@ -19,8 +19,8 @@ pub struct C {
     pub slots: String,
     /// What stands between the type of an array and its name: `*restrict `.
     pub pointer: String,
-    /// The names of the functions a·b + c, √a, |a|.
-    pub functions: [String; 3],
+    /// The names of the functions a·b + c, √a, |a|, and the nearest integer, the even one of two.
+    pub functions: [String; 4],
     /// What ends a number: empty, or `f` for 32 bits.
     pub suffix: String,
 }
@@ -32,7 +32,7 @@ impl Default for C {
             number: "double".into(),
             slots: "const double *restrict".into(),
             pointer: "*restrict ".into(),
-            functions: ["fma".into(), "sqrt".into(), "fabs".into()],
+            functions: ["fma", "sqrt", "fabs", "rint"].map(String::from),
             suffix: String::new(),
         }
     }
@@ -132,7 +132,7 @@ impl Dialect for C {
     }
 
     fn operation(&self, node: Node, operands: &[&str]) -> String {
-        let [fma, sqrt, abs] = &self.functions;
+        let [fma, sqrt, abs, rint] = &self.functions;
         match (node, operands) {
             (Node::Add(..), [a, b]) => format!("{a} + {b}"),
             (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
@@ -142,6 +142,7 @@ impl Dialect for C {
             (Node::Neg(_), [a]) => format!("-{a}"),
             (Node::Abs(_), [a]) => format!("{abs}({a})"),
             (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
+            (Node::Round(_), [a]) => format!("{rint}({a})"),
             (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
             // Leaves are written where they are used.
             _ => String::new(),

@@ -28,7 +28,7 @@ pub fn native_unit(kernel: &Kernel) -> String {
     let scalar = C { functions: builtins(), ..C::default() };
     let lanes = Vectors(C {
         number: "V".into(),
-        functions: ["fused".into(), "root".into(), "size".into()],
+        functions: ["fused", "root", "size", "nearest"].map(String::from),
         ..C::default()
     });
     let mut text =
@@ -58,8 +58,8 @@ fn driven<'a>(
     signatures(kernel, prefix).into_iter().filter(move |one| !watched.contains(&one.name))
 }
 
-fn builtins() -> [String; 3] {
-    ["fma", "sqrt", "fabs"].map(|name| format!("__builtin_{name}"))
+fn builtins() -> [String; 4] {
+    ["fma", "sqrt", "fabs", "rint"].map(|name| format!("__builtin_{name}"))
 }
 
 /// The sizes as macros, those of arrays at least 1, and as an exported array.

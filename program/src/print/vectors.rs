@@ -82,6 +82,23 @@ INLINE V root(V a)
 #endif
 }
 
+INLINE V nearest(V a)
+{
+#if HAS(__builtin_elementwise_rint)
+    return __builtin_elementwise_rint(a);
+#elif W == 8 && HAS(__builtin_ia32_rndscalepd_mask)
+    return __builtin_ia32_rndscalepd_mask(a, 4, a, -1, 4);
+#elif W == 4 && HAS(__builtin_ia32_roundpd256)
+    return __builtin_ia32_roundpd256(a, 4);
+#elif W == 2 && defined(__aarch64__)
+    return (V)vrndnq_f64((float64x2_t)a);
+#else
+#define F(i) __builtin_rint(a[i])
+    return EACH(F);
+#undef F
+#endif
+}
+
 /* a where the mask is set, else b */
 INLINE V pick(M mask, V a, V b)
 {
