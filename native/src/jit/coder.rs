@@ -1,12 +1,16 @@
 //! Programs as Cranelift's instructions, on numbers or on pairs of lanes.
 
-use coadjoint_program::{Id, Kernel, Node};
+use coadjoint_program::Node;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::immediates::Ieee64;
-use cranelift_codegen::ir::types::{F64, F64X2, I64X2};
-use cranelift_codegen::ir::{ConstantData, InstBuilder, MemFlagsData, Type, Value};
+use cranelift_codegen::ir::types::{F64, F64X2, I64, I64X2};
+use cranelift_codegen::ir::{
+    ConstantData, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Type, Value,
+};
+use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::FunctionBuilder;
 
+use super::JitError;
 use super::frame::{Frame, Part};
 
 /// How a number of the program is held.
@@ -39,7 +43,8 @@ pub(super) struct Coder<'f, const V: usize> {
     pub(super) builder: FunctionBuilder<'f>,
     pub(super) form: Form,
     pub(super) frame: Frame,
-    /// Address of the frame.
+    memory: StackSlot,
+    /// Its address.
     pub(super) base: Value,
     /// Address of the folded coefficients.
     pub(super) slots: Value,
@@ -50,9 +55,35 @@ fn sound() -> MemFlagsData {
     MemFlagsData::trusted()
 }
 
-impl<const V: usize> Coder<'_, V> {
+impl<'f, const V: usize> Coder<'f, V> {
+    /// Begins a function of so many parameters, addresses and counts, the first being that of the folded coefficients;
+    /// the parameters.
+    pub(super) fn new(mut builder: FunctionBuilder<'f>, form: Form, frame: Frame) -> (Self, Vec<Value>) {
+        let entry = builder.create_block();
+        builder.append_block_params_for_function_params(entry);
+        builder.switch_to_block(entry);
+        let params = builder.block_params(entry).to_vec();
+        let memory = StackSlotData::new(StackSlotKind::ExplicitSlot, 0, 4);
+        let memory = builder.create_sized_stack_slot(memory);
+        let base = builder.ins().stack_addr(I64, memory, 0);
+        let slots = params.first().copied().unwrap_or(base);
+        (Self { builder, form, frame, memory, base, slots }, params)
+    }
+
+    /// Ends the function.
+    ///
+    /// # Errors
+    /// [`JitError::Large`] where the frame does not fit the stack.
+    pub(super) fn finish(mut self, config: TargetFrontendConfig) -> Result<(), JitError> {
+        let size = self.frame.bytes(self.form.bytes() * V)?;
+        self.builder.func.sized_stack_slots[self.memory].size = size;
+        self.builder.seal_all_blocks();
+        self.builder.finalize(config);
+        Ok(())
+    }
+
     fn offset(&self, place: usize, v: usize) -> i32 {
-        // The frame was asked to be small before anything was written.
+        // A frame that is too large for this is refused when the function ends.
         ((place * V + v) * self.form.bytes()) as i32
     }
 
@@ -125,6 +156,14 @@ impl<const V: usize> Coder<'_, V> {
         }
     }
 
+    /// Stores values in the lanes of the masks; what is then there.
+    pub(super) fn update(&mut self, masks: Group<V>, place: usize, new: Group<V>) -> Group<V> {
+        let old = self.load(place);
+        let values = std::array::from_fn(|v| self.choose(masks[v], new[v], old[v]));
+        self.store(place, values);
+        values
+    }
+
     /// Masks of the lanes in which a comparison holds.
     pub(super) fn compare(&mut self, code: FloatCC, a: Group<V>, b: Group<V>) -> Group<V> {
         std::array::from_fn(|v| self.builder.ins().fcmp(code, a[v], b[v]))
@@ -140,63 +179,18 @@ impl<const V: usize> Coder<'_, V> {
         })
     }
 
-    /// The results of a program of the step; nothing is stored.
-    pub(super) fn evaluate(&mut self, kernel: &Kernel, part: Part) -> Vec<Group<V>> {
-        let Some(program) = part.program(kernel) else {
-            return Vec::new();
-        };
-        let nodes = program.nodes();
-        let mut known: Vec<Option<Group<V>>> = vec![None; nodes.len()];
-        // Each result with all that it needs and is not there yet: fewer values live at once than in the program's order.
-        let mut open: Vec<(Id, bool)> =
-            program.outputs().iter().rev().map(|&output| (output, false)).collect();
-        while let Some((id, ready)) = open.pop() {
-            let node = nodes[id.index()];
-            if known[id.index()].is_some() || is_leaf(node) {
-                continue;
-            }
-            if ready {
-                known[id.index()] = Some(self.operation(part, nodes, &known, node));
-            } else {
-                open.push((id, true));
-                let operands: Vec<Id> = node.operands().collect();
-                open.extend(operands.into_iter().rev().map(|operand| (operand, false)));
-            }
-        }
-        let outputs = program.outputs().iter();
-        outputs.map(|&output| self.operand(part, nodes, &known, output)).collect()
-    }
-
-    /// A value made before, or a leaf read anew: as a rule part of the instruction that uses it.
-    fn operand(
-        &mut self,
-        part: Part,
-        nodes: &[Node],
-        known: &[Option<Group<V>>],
-        id: Id,
-    ) -> Group<V> {
-        match (known[id.index()], nodes[id.index()]) {
-            (Some(values), _) => values,
-            (None, Node::Constant(bits)) => self.number(f64::from_bits(bits)),
-            (None, Node::Slot(i)) => self.slot(i as usize),
-            (None, Node::Input(i)) => self.load(self.frame.input(part, i as usize)),
-            // Operands come before their users.
-            (None, _) => self.number(0.0),
+    /// A leaf of the program, read anew.
+    pub(super) fn leaf(&mut self, part: Part, node: Node) -> Group<V> {
+        match node {
+            Node::Slot(i) => self.slot(i as usize),
+            Node::Input(i) => self.load(self.frame.input(part, i as usize)),
+            Node::Constant(bits) => self.number(f64::from_bits(bits)),
+            _ => self.number(0.0),
         }
     }
 
-    fn operation(
-        &mut self,
-        part: Part,
-        nodes: &[Node],
-        known: &[Option<Group<V>>],
-        node: Node,
-    ) -> Group<V> {
-        let mut operands = [[self.base; V]; 4];
-        for (place, id) in operands.iter_mut().zip(node.operands()) {
-            *place = self.operand(part, nodes, known, id);
-        }
-        let [a, b, c, d] = operands;
+    /// An operation on these operands, of which it takes as many as it needs.
+    pub(super) fn operation(&mut self, node: Node, [a, b, c, d]: [Group<V>; 4]) -> Group<V> {
         std::array::from_fn(|v| {
             let (a, b, c, d) = (a[v], b[v], c[v], d[v]);
             match node {
@@ -213,8 +207,4 @@ impl<const V: usize> Coder<'_, V> {
             }
         })
     }
-}
-
-fn is_leaf(node: Node) -> bool {
-    matches!(node, Node::Zero | Node::Constant(_) | Node::Input(_) | Node::Slot(_))
 }

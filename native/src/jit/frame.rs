@@ -32,7 +32,9 @@ pub(super) struct Frame {
     /// Steps made in the block.
     pub(super) times: usize,
     /// All of them.
-    pub(super) places: usize,
+    places: usize,
+    /// Where programs keep values that have no register, one program after the other.
+    scratch: usize,
 }
 
 impl Frame {
@@ -55,6 +57,7 @@ impl Frame {
             way: left + 1,
             times: left + 2,
             places: left + 3,
+            scratch: left + 3,
         }
     }
 
@@ -65,6 +68,18 @@ impl Frame {
             Ok(fits) if bytes <= MOST => Ok(fits),
             _ => Err(JitError::Large { bytes, most: MOST }),
         }
+    }
+
+    /// One more place for a value that has no register.
+    pub(super) fn scratch(&mut self) -> usize {
+        self.scratch += 1;
+        self.places = self.places.max(self.scratch);
+        self.scratch - 1
+    }
+
+    /// Forgets the values that have no register.
+    pub(super) fn clear(&mut self) {
+        self.scratch = self.times + 1;
     }
 
     fn mu(&self) -> usize {

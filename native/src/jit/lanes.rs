@@ -6,8 +6,7 @@ use coadjoint_program::{BLOCK, Kernel, WIDTH};
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, F64X2, I8, I64, I64X2};
 use cranelift_codegen::ir::{
-    AbiParam, Block, Function, InstBuilder, MemFlagsData, Signature, StackSlotData, StackSlotKind,
-    UserFuncName, Value,
+    AbiParam, Block, Function, InstBuilder, MemFlagsData, Signature, UserFuncName, Value,
 };
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
@@ -29,22 +28,13 @@ fn build_with<const V: usize>(
     kernel: &Kernel,
     config: TargetFrontendConfig,
 ) -> Result<Function, JitError> {
-    let frame = Frame::of(kernel);
-    let bytes = frame.bytes(Form::Pair.bytes() * V)?;
     let mut signature = Signature::new(config.default_call_conv);
     signature.params = vec![AbiParam::new(I64); 6];
     let mut function = Function::with_name_signature(UserFuncName::user(0, 1), signature);
     let mut context = FunctionBuilderContext::new();
-    let mut builder = FunctionBuilder::new(&mut function, &mut context);
-    let entry = builder.create_block();
-    builder.append_block_params_for_function_params(entry);
-    builder.switch_to_block(entry);
-    let params = builder.block_params(entry).to_vec();
-    let memory = StackSlotData::new(StackSlotKind::ExplicitSlot, bytes, 4);
-    let memory = builder.create_sized_stack_slot(memory);
-    let base = builder.ins().stack_addr(I64, memory, 0);
-    let coder = Coder::<V> { builder, form: Form::Pair, frame, base, slots: params[0] };
-    Loop::write(coder, kernel, &params, config);
+    let builder = FunctionBuilder::new(&mut function, &mut context);
+    let (coder, params) = Coder::<V>::new(builder, Form::Pair, Frame::of(kernel));
+    Loop::write(coder, kernel, &params).finish(config)?;
     Ok(function)
 }
 
@@ -73,8 +63,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         mut coder: Coder<'f, V>,
         kernel: &'k Kernel,
         params: &[Value],
-        config: TargetFrontendConfig,
-    ) {
+    ) -> Coder<'f, V> {
         let lists = std::array::from_fn(|_| coder.builder.declare_var(I64));
         for (&list, at) in lists.iter().zip([1, 2, 4, 5]) {
             coder.builder.def_var(list, params[at]);
@@ -119,8 +108,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
             this.coder.store(x + i, zero);
         }
         this.groups();
-        this.coder.builder.seal_all_blocks();
-        this.coder.builder.finalize(config);
+        this.coder
     }
 
     fn get(&mut self, variable: Variable) -> Value {
@@ -180,25 +168,18 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.coder.builder.ins().vany_true(mask)
     }
 
-    /// Stores values in the lanes of the masks.
-    fn update(&mut self, masks: Group<V>, place: usize, new: Group<V>) -> Group<V> {
-        let old = self.coder.load(place);
-        let values = std::array::from_fn(|v| self.coder.choose(masks[v], new[v], old[v]));
-        self.coder.store(place, values);
-        values
-    }
-
     /// Stores the results of a program from a place on in the lanes of the masks.
     fn update_all(&mut self, masks: Group<V>, part: Part, place: usize) {
-        for (i, values) in self.coder.evaluate(self.kernel, part).into_iter().enumerate() {
-            self.update(masks, place + i, values);
-        }
+        self.coder.evaluate(self.kernel, part, |coder, i, values| {
+            coder.update(masks, place + i, values);
+        });
     }
 
     /// The lanes in which a program that gives one number gives 1.
     fn holds(&mut self, part: Part) -> Group<V> {
         let one = self.coder.number(1.0);
-        let found = self.coder.evaluate(self.kernel, part).first().copied().unwrap_or(one);
+        let mut found = one;
+        self.coder.evaluate(self.kernel, part, |_, _, values| found = values);
         self.coder.compare(FloatCC::Equal, found, one)
     }
 
@@ -359,7 +340,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.at(back);
         for i in 0..entries {
             let before = self.coder.load(start + i);
-            self.update(broken, state + i, before);
+            self.coder.update(broken, state + i, before);
         }
         let count = self.all(self.count);
         let count = std::array::from_fn(|v| self.coder.choose(broken[v], zero[v], count[v]));
@@ -387,9 +368,8 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         let n = self.kernel.dim();
         let frame = self.coder.frame.clone();
         // The constants lie behind p.
-        for (i, values) in self.coder.evaluate(self.kernel, Part::Guess).into_iter().enumerate() {
-            self.coder.store(frame.p + i, values);
-        }
+        let store = |coder: &mut Coder<'f, V>, i, values| coder.store(frame.p + i, values);
+        self.coder.evaluate(self.kernel, Part::Guess, store);
         let (one, zero) = (self.coder.number(1.0), self.coder.number(0.0));
         self.coder.store(frame.left, one);
         self.coder.store(frame.way, zero);
@@ -405,20 +385,18 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.coder.builder.ins().jump(again, &[]);
 
         self.at(again);
-        let found = self.coder.evaluate(self.kernel, Part::Correct);
         let open = self.all(self.open);
         let (mut left, mut way) = (one, zero);
-        for (i, values) in found.into_iter().enumerate() {
+        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, values| {
             if i <= 2 * n {
                 // p, then x and what is left.
-                left = self.update(open, if i < n { frame.p + i } else { frame.x + i - n }, values);
+                left = coder.update(open, if i < n { frame.p + i } else { frame.x + i - n }, values);
             } else {
-                let before = self.coder.load(frame.way);
-                let sum =
-                    std::array::from_fn(|v| self.coder.builder.ins().fadd(before[v], values[v]));
-                way = self.update(open, frame.way, sum);
+                let before = coder.load(frame.way);
+                let sum = std::array::from_fn(|v| coder.builder.ins().fadd(before[v], values[v]));
+                way = coder.update(open, frame.way, sum);
             }
-        }
+        });
         let tolerance = self.coder.number(self.kernel.tolerance());
         let solved = self.coder.compare(FloatCC::LessThanOrEqual, left, tolerance);
         let near = self.coder.number(self.kernel.near());

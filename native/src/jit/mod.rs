@@ -6,6 +6,7 @@
 
 mod code;
 mod coder;
+mod evaluate;
 mod frame;
 mod host;
 mod lanes;

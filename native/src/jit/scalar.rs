@@ -4,8 +4,7 @@ use coadjoint_program::{BLOCK, Kernel};
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, I64};
 use cranelift_codegen::ir::{
-    AbiParam, Block, Function, InstBuilder, MemFlagsData, Signature, StackSlotData, StackSlotKind,
-    UserFuncName, Value,
+    AbiParam, Block, Function, InstBuilder, MemFlagsData, Signature, UserFuncName, Value,
 };
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
@@ -16,23 +15,14 @@ use super::frame::{Frame, Part};
 
 /// The function of [`AdvanceFunction`](crate::AdvanceFunction)'s signature.
 pub(super) fn build(kernel: &Kernel, config: TargetFrontendConfig) -> Result<Function, JitError> {
-    let frame = Frame::of(kernel);
-    let bytes = frame.bytes(Form::Number.bytes())?;
     let mut signature = Signature::new(config.default_call_conv);
     signature.params = vec![AbiParam::new(I64); 5];
     signature.returns = vec![AbiParam::new(I64)];
     let mut function = Function::with_name_signature(UserFuncName::user(0, 0), signature);
     let mut context = FunctionBuilderContext::new();
-    let mut builder = FunctionBuilder::new(&mut function, &mut context);
-    let entry = builder.create_block();
-    builder.append_block_params_for_function_params(entry);
-    builder.switch_to_block(entry);
-    let params = builder.block_params(entry).to_vec();
-    let memory = StackSlotData::new(StackSlotKind::ExplicitSlot, bytes, 4);
-    let memory = builder.create_sized_stack_slot(memory);
-    let base = builder.ins().stack_addr(I64, memory, 0);
-    let coder = Coder::<1> { builder, form: Form::Number, frame, base, slots: params[0] };
-    Loop::write(coder, kernel, &params, config);
+    let builder = FunctionBuilder::new(&mut function, &mut context);
+    let (coder, params) = Coder::<1>::new(builder, Form::Number, Frame::of(kernel));
+    Loop::write(coder, kernel, &params).finish(config)?;
     Ok(function)
 }
 
@@ -56,8 +46,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         mut coder: Coder<'f, 1>,
         kernel: &'k Kernel,
         params: &[Value],
-        config: TargetFrontendConfig,
-    ) {
+    ) -> Coder<'f, 1> {
         let integer = |coder: &mut Coder<'f, 1>| {
             let variable = coder.builder.declare_var(I64);
             let zero = coder.builder.ins().iconst(I64, 0);
@@ -76,8 +65,7 @@ impl<'f, 'k> Loop<'f, 'k> {
             this.coder.store(x + i, [zero]);
         }
         this.blocks(params);
-        this.coder.builder.seal_all_blocks();
-        this.coder.builder.finalize(config);
+        this.coder
     }
 
     fn get(&mut self, variable: Variable) -> Value {
@@ -100,15 +88,14 @@ impl<'f, 'k> Loop<'f, 'k> {
     /// Whether a program that gives one number gives 1.
     fn holds(&mut self, part: Part) -> Value {
         let [one] = self.coder.number(1.0);
-        let found = self.coder.evaluate(self.kernel, part).first().map_or(one, |&[value]| value);
+        let mut found = one;
+        self.coder.evaluate(self.kernel, part, |_, _, [value]| found = value);
         self.coder.builder.ins().fcmp(FloatCC::Equal, found, one)
     }
 
     /// The results of a program, stored from a place on.
     fn store(&mut self, part: Part, place: usize) {
-        for (i, values) in self.coder.evaluate(self.kernel, part).into_iter().enumerate() {
-            self.coder.store(place + i, values);
-        }
+        self.coder.evaluate(self.kernel, part, |coder, i, values| coder.store(place + i, values));
     }
 
     /// Copies g and μ from the caller's memory to the frame, or back.
@@ -230,15 +217,16 @@ impl<'f, 'k> Loop<'f, 'k> {
         self.coder.builder.ins().jump(again, &[]);
 
         self.at(again);
-        let found = self.coder.evaluate(self.kernel, Part::Correct);
-        for (i, &values) in found.iter().take(2 * n + 1).enumerate() {
+        let (mut left, mut moved) = (one[0], zero[0]);
+        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, values| {
+            if i > 2 * n {
+                [moved] = values;
+                return;
+            }
             // p, then x and what is left.
-            self.coder.store(if i < n { frame.p + i } else { frame.x + i - n }, values);
-        }
-        let (left, moved) = match found[..] {
-            [.., [left], [moved]] => (left, moved),
-            _ => (one[0], zero[0]),
-        };
+            coder.store(if i < n { frame.p + i } else { frame.x + i - n }, values);
+            [left] = values;
+        });
         let [way] = self.coder.load(frame.way);
         let way = self.coder.builder.ins().fadd(way, moved);
         self.coder.store(frame.way, [way]);
