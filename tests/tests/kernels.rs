@@ -1,5 +1,5 @@
 //! Steps as programs make the runtime's steps, to rounding, on every group and chart; lanes have the bits of scalars.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::generating::PolynomialFunction;
 use coadjoint::groups::{CayleyMatrixGroup, MatrixGroup};
@@ -9,6 +9,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{Options, read};
+use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
 use coadjoint_program::{Scratch, WIDTH};
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use nalgebra::{DMatrix, DVector};
@@ -176,6 +177,40 @@ fn programs_make_the_steps_of_the_runtime() {
         }
     }
     assert!(tried > 40, "{tried}");
+}
+
+#[test]
+fn machine_code_has_the_bits_of_the_interpreter() {
+    let systems = [(0, "exp", 7), (3, "cayley", 3), (8, "exp", 3), (10, "exp", 3)];
+    for (system, chart, truncation) in systems {
+        let (group, hamiltonian) = SYSTEMS[system];
+        let integrator = integrator(group, hamiltonian, chart, truncation);
+        let step = Step::build(&integrator, REACH).unwrap();
+        let kernel = step.kernel();
+        let options = COptions { cache: CacheFolder::None, ..COptions::default() };
+        let native = match Native::by_c(kernel, &options) {
+            Ok(native) => native,
+            Err(NativeError::NoCompiler { .. }) => {
+                eprintln!("no C compiler: nothing was compared");
+                return;
+            }
+            Err(error) => panic!("{group}: {error}"),
+        };
+        let slots = step.slots(&integrator.coefficients.fold(0.2, &[]), f64::MAX);
+        let rows = (kernel.programs().matrix.outputs().len() as f64).sqrt() as usize;
+        let identity = step.element_of(DMatrix::<f64>::identity(rows, rows).as_slice());
+        // The last is refused.
+        for size in [0.3, 0.9, 1e9] {
+            let start = momentum(kernel.dim(), size);
+            let (mut g, mut mu) = (identity.clone(), start.clone());
+            let (mut h, mut nu) = (identity.clone(), start);
+            let interpreted = kernel.advance(&slots, &mut g, &mut mu, 1000);
+            let compiled = native.entry.advance(&slots, &mut h, &mut nu, 1000);
+            assert_eq!(interpreted.steps, compiled.steps, "{group}");
+            let bits = |list: &[f64]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!((bits(&g), bits(&mu)), (bits(&h), bits(&nu)), "{group}");
+        }
+    }
 }
 
 #[test]

@@ -164,7 +164,7 @@ impl Compiled {
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {
     total.corrections = total.corrections.max(corrections);
-    if !(residual <= total.residual) {
+    if residual.is_nan() || residual > total.residual {
         total.residual = residual;
     }
 }
