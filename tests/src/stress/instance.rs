@@ -269,7 +269,11 @@ fn judge_increment(
         note(tally, wrong, what);
         return None;
     }
-    tally.residual = tally.residual.max(point.residual(case.steps.unit()).relative());
+    let relative = point.residual(case.steps.unit()).relative();
+    if relative > tally.residual {
+        tally.residual = relative;
+        tally.worst = case.example(&format!("{relative:.3} of the bound, x = {x:?}"), mu);
+    }
     tally.unsure += u64::from(inside == Inside::CannotTell);
     let (branch, right) = point.branch();
     match branch {
