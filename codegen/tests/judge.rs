@@ -171,3 +171,68 @@ fn doubled_precision() {
     );
     assert_eq!(DoubleDouble::from(3.0).scaled(-1000).scaled(1000).double(), 3.0);
 }
+
+/// Along an axis x = h Ω solves the equation at any h; beyond the first fork of x = s ∂S(p̂) it is not the right solution.
+#[test]
+fn a_solution_beyond_a_fork_is_told() {
+    let judge = judge(Chart::Exponential, &body([(1, 3), (1, 4), (1, 5)]), 7);
+    let mut setting = judge.at(1.0, &[]).unwrap();
+    let mut seen = [0, 0];
+    for size in 1..70 {
+        let step = setting.step(&[0.0, 0.2 * f64::from(size), 0.0]).unwrap();
+        let x = [0.0, 0.1 * f64::from(size), 0.0];
+        assert!(step.residual(&x, UNIT).unwrap().relative() < 1.0);
+        match step.branch(&x).0 {
+            Branch::Proven | Branch::Right => {
+                assert_eq!(seen[1], 0, "size {size}: right beyond a fork");
+                seen[0] += 1;
+            }
+            Branch::Folds(s) => {
+                assert!(s < 1.0);
+                seen[1] += 1;
+            }
+            // At the fork itself.
+            Branch::CannotTell => {}
+            other => panic!("size {size}: {other:?}"),
+        }
+    }
+    assert!(seen[0] > 5 && seen[1] > 0, "{seen:?}");
+}
+
+/// An x off the right one in any direction by more than rounding is told, on several groups and charts.
+#[test]
+fn spoilt_steps_are_told() {
+    for (group, chart, truncation) in [
+        ("SO3", Chart::Exponential, 5),
+        ("SO3", Chart::Cayley, 5),
+        ("SE3", Chart::Exponential, 3),
+        ("SO4", Chart::Exponential, 3),
+        ("SL2", Chart::Exponential, 5),
+    ] {
+        let algebra = lookup(group).unwrap();
+        let n = algebra.dim();
+        let h = Polynomial::from_factors(
+            n,
+            (0..n).map(|i| (vec![(i as u32, 2)], ratio(1, 3 + i as i64))),
+        );
+        let series = derive(&algebra, chart, &h, truncation, TermLimit::default()).unwrap();
+        let judge = Judge::new(&algebra, &series).unwrap();
+        let mut setting = judge.at(0.3, &[]).unwrap();
+        let mu: Vec<f64> = (0..n).map(|i| 0.8 - 0.3 * i as f64).collect();
+        let step = setting.step(&mu).unwrap();
+        let right = step.right_solution().unwrap();
+        let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+        let point = step.at(&x).unwrap();
+        assert!(point.residual(UNIT).relative() < 1.0);
+        assert!(matches!(point.branch().0, Branch::Proven | Branch::Right));
+        let by = 4.0 * point.residual(UNIT).bound * right.response;
+        for i in 0..n {
+            for sign in [-1.0, 1.0] {
+                let mut spoilt = x.clone();
+                spoilt[i] += sign * by;
+                let relative = step.residual(&spoilt, UNIT).unwrap().relative();
+                assert!(relative > 2.0, "{group} {chart:?}: {relative} for coordinate {i}");
+            }
+        }
+    }
+}

@@ -29,6 +29,10 @@ pub trait LieGroup: Clone + Debug {
     /// An element g of the group.
     type Element: Clone + Debug;
 
+    /// How many half turns the exponential chart reaches, where elements tell x from x + 2π. A solution beyond one need
+    /// not be that continued from the identity, however near it is to its first guess.
+    const HALF_TURNS: f64 = 1.0;
+
     /// n, the dimension of the group.
     fn dim(&self) -> usize;
 

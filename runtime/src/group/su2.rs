@@ -45,6 +45,9 @@ impl<T: Scalar> LieGroup for SU2<T> {
     type Vector = V<T>;
     type Element = UnitQuaternion<T>;
 
+    // At the full turn itself the equation of a step is singular: nine tenths.
+    const HALF_TURNS: f64 = 1.8;
+
     #[inline(always)]
     fn dim(&self) -> usize {
         3
@@ -126,8 +129,7 @@ impl<T: Scalar> LieGroup for SU2<T> {
 
     #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        // The elements tell x from x + 2π. At the full turn itself the equation of a step is singular: nine tenths.
-        let reach = 0.9 * 2.0 * core::f64::consts::PI;
+        let reach = Self::HALF_TURNS * core::f64::consts::PI;
         dot(x, x) * T::of(1.0 / (reach * reach))
     }
 

@@ -2,7 +2,7 @@
 //!
 //! The mask of [`accept`] is what compiled steps test. Whatever it refuses goes, out of the way of what is fast, to
 //! [`rescue`]: a solution that is merely not near its first guess is followed from the identity; one of a momentum beyond
-//! the radius of the series is confirmed; all others get the reason of their refusal.
+//! the radius of the series, or a long way into the chart, is confirmed; all others get the reason of their refusal.
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
@@ -13,14 +13,20 @@ use crate::chart::Chart;
 use crate::error::{Circumstances, StepError};
 use crate::generating::series::LARGEST_RATIO;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
+
+/// Up to which share of a half turn, as the inverse of its square, steps are accepted at once: half of it, or a third
+/// where S is no series with a radius. Estimates of what is left were found ten times too small beyond.
+const OF_SERIES: f64 = 4.0;
+const OF_OTHERS: f64 = 9.0;
 
 /// A verdict on a step of `S`.
 type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;
 
-/// In which lanes a candidate is solved, near its guess, inside the chart, and of a series that converges. Comparisons
-/// with what is not a number do not hold.
+/// In which lanes a candidate is solved, near its guess, a short way into the chart, and of a series that converges.
+/// Comparisons with what is not a number do not hold.
 #[inline(always)]
 fn accept<S: GeneratingFunction + ?Sized>(
     generating: &S,
@@ -29,10 +35,14 @@ fn accept<S: GeneratingFunction + ?Sized>(
     settings: Settings<ScalarOf<S>>,
 ) -> Verdict<S> {
     let one = ScalarOf::<S>::of(1.0);
+    let half_turns = ScalarOf::<S>::of(<S::Group as LieGroup>::HALF_TURNS);
     let extent = S::Chart::default().extent(generating.group(), &candidate.x);
     let radius = generating.radius();
     let within = mu.pairing(mu).simd_le(radius * radius);
-    solved(candidate, settings) & extent.simd_le(one) & within
+    let of = |share| ScalarOf::<S>::of(share);
+    let is_series = radius.simd_lt(of(f64::MAX));
+    let share = of(OF_SERIES).select(is_series, of(OF_OTHERS)) * (half_turns * half_turns);
+    solved(candidate, settings) & (extent * share).simd_le(one) & within
 }
 
 /// In which lanes a candidate is solved, and near its guess.

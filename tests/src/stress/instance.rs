@@ -55,10 +55,10 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
         } else if random.one_in(40) {
             special(&mut random, dim)
         } else {
-            let size = if draw % 2 == 0 {
-                boundary * random.between(0.9, 1.1)
-            } else {
-                longest * random.unit()
+            let size = match draw % 4 {
+                0 | 2 => boundary * random.between(0.9, 1.1),
+                1 => boundary * random.unit(),
+                _ => longest * random.unit(),
             };
             ray.iter().map(|r| size * (r + random.between(-0.02, 0.02))).collect()
         };
@@ -269,7 +269,11 @@ fn judge_increment(
         note(tally, wrong, what);
         return None;
     }
-    tally.residual = tally.residual.max(point.residual(case.steps.unit()).relative());
+    let relative = point.residual(case.steps.unit()).relative();
+    if relative > tally.residual {
+        tally.residual = relative;
+        tally.worst = case.example(&format!("{relative:.3} of the bound, x = {x:?}"), mu);
+    }
     tally.unsure += u64::from(inside == Inside::CannotTell);
     let (branch, right) = point.branch();
     match branch {
@@ -348,6 +352,7 @@ fn judge_outcome(
     let unit = case.steps.unit();
     let mut walk = Motion::new(mu);
     let mut best: Option<f64> = None;
+    let mut cut = false;
     for done in 0..=steps {
         if outcome.error.is_none() == (done == steps) {
             let (before, after) = (&outcome.before, &outcome.after);
@@ -373,10 +378,13 @@ fn judge_outcome(
                 }
                 return;
             }
+            cut = !matches!(stop, Stop::Branch(Branch::Folds(_)));
             break;
         }
     }
     match best {
+        // Some steps were made from where the judge cannot follow.
+        Some(deviation) if cut && deviation > 1.0 => tally.unsure += 1,
         Some(deviation) if deviation <= 1.0 => tally.deviation = tally.deviation.max(deviation),
         Some(deviation) => {
             tally.note(Wrong::State, || example(format!("{deviation:.2e} times the bound")));

@@ -58,6 +58,8 @@ pub struct Tally {
     pub unsure: u64,
     /// The largest residual / bound of a step that is not wrong.
     pub residual: f64,
+    /// Where that was.
+    pub worst: String,
     /// The largest deviation / bound of a state that is not wrong.
     pub deviation: f64,
     /// How long it took.
@@ -65,6 +67,9 @@ pub struct Tally {
     /// The first examples of each kind.
     pub examples: Vec<(Wrong, String)>,
 }
+
+/// A residual is told of from this share of its bound on.
+const REMARKABLE: f64 = 0.25;
 
 /// Examples kept of each kind.
 const EXAMPLES: usize = 3;
@@ -86,7 +91,9 @@ impl Tally {
         self.spoilt += other.spoilt;
         self.unsure += other.unsure;
         self.seconds += other.seconds;
-        self.residual = self.residual.max(other.residual);
+        if other.residual > self.residual {
+            (self.residual, self.worst) = (other.residual, other.worst);
+        }
         self.deviation = self.deviation.max(other.deviation);
         for (own, other) in self.wrong.iter_mut().zip(other.wrong) {
             *own += other;
@@ -144,6 +151,9 @@ pub fn report(tallies: &[(String, Tally)]) -> String {
         for (wrong, example) in &tally.examples {
             let _ = writeln!(out, "\n{name}, {wrong:?}: {example}");
         }
+    }
+    for (name, tally) in tallies.iter().filter(|(_, tally)| tally.residual > REMARKABLE) {
+        let _ = writeln!(out, "\n{name}, almost a residual: {}", tally.worst);
     }
     let (steps, wrong) = (whole.accepted + whole.refused, whole.wrong());
     let _ = match wrong {

@@ -130,6 +130,8 @@ impl<T: Scalar, G: LieGroup<Scalar = T>> LieGroup for DirectProduct<G> {
     type Vector = DVector<T>;
     type Element = Vec<G::Element>;
 
+    const HALF_TURNS: f64 = G::HALF_TURNS;
+
     fn dim(&self) -> usize {
         self.dim
     }

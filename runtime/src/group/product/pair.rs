@@ -112,6 +112,9 @@ where
     type Vector = SVector<T, N>;
     type Element = (A::Element, B::Element);
 
+    const HALF_TURNS: f64 =
+        if A::HALF_TURNS > B::HALF_TURNS { A::HALF_TURNS } else { B::HALF_TURNS };
+
     #[inline(always)]
     fn dim(&self) -> usize {
         N

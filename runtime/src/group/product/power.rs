@@ -119,6 +119,8 @@ where
     type Vector = SVector<T, N>;
     type Element = [G::Element; COPIES];
 
+    const HALF_TURNS: f64 = G::HALF_TURNS;
+
     #[inline(always)]
     fn dim(&self) -> usize {
         N
