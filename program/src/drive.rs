@@ -311,10 +311,8 @@ fn solve_step<T: Packed<L>, const L: usize>(
     let n = kernel.dim();
     let programs = kernel.programs();
     let guess = call(&programs.guess, |i| mu[i], slots, scratch);
-    for i in 0..n {
-        solve[i] = guess[i];
-        solve[n + i] = mu[i];
-    }
+    solve[..n].copy_from_slice(&guess[..n]);
+    solve[n..2 * n].copy_from_slice(&mu[..n]);
     solve[2 * n..].copy_from_slice(&guess[n..]);
     found[n] = T::of(1.0);
     found[n + 1] = T::of(0.0);

@@ -46,37 +46,38 @@ pub(crate) fn block<S: Integrator + ?Sized>(
     steps: u64,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
-    let start = phase.clone();
+    // Of its own, so that it can stay in registers from step to step.
+    let mut now = phase.clone();
     let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
     for done in 0..steps {
-        let candidate = method.propose(generating, &phase.momentum, steps - done, settings);
-        let Candidate { iterations, residual, .. } = candidate;
-        let (iterations, residual) = if is_right(generating, &phase.momentum, &candidate, settings)
-        {
-            displace(generating, phase, &candidate.x);
-            (iterations, residual)
+        let candidate = method.propose(generating, &now.momentum, steps - done, settings);
+        let report = if is_right(generating, &now.momentum, &candidate, settings) {
+            displace(generating, &mut now, &candidate.x);
+            StepReport { iterations: candidate.iterations, residual: candidate.residual }
         } else {
-            match rescued(generating, phase, candidate, settings) {
-                Ok(report) => report,
+            let mut next = now.clone();
+            match rescued(generating, &mut next, candidate, settings) {
+                Ok(report) => {
+                    now = next;
+                    report
+                }
                 Err(error) => {
                     method.forget();
                     if done > 0 {
-                        move_frame(generating, phase, done);
-                        sound(generating, phase, start, done, settings)?;
+                        finish(generating, phase, now, done, settings)?;
                     }
                     return Err(Stopped { steps: done, error });
                 }
             }
         };
-        worst.iterations = worst.iterations.max(iterations);
-        worst.residual = worst.residual.simd_max(residual);
+        worst.iterations = worst.iterations.max(report.iterations);
+        worst.residual = worst.residual.simd_max(report.residual);
     }
-    move_frame(generating, phase, steps);
     method.forget();
-    sound(generating, phase, start, steps, settings).map(|()| worst)
+    finish(generating, phase, now, steps, settings).map(|()| worst)
 }
 
-/// A step whose candidate is not right, to its end: iterations and residual.
+/// A step whose candidate is not right, to its end.
 #[cold]
 #[inline(never)]
 fn rescued<S: Integrator + ?Sized>(
@@ -84,28 +85,30 @@ fn rescued<S: Integrator + ?Sized>(
     phase: &mut Phase<S::Group>,
     candidate: CandidateOf<S>,
     settings: Settings<ScalarOf<S>>,
-) -> Result<(u32, ScalarOf<S>), StepError> {
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let Candidate { x, iterations, residual, .. } =
         rescue(generating, &phase.momentum, candidate, settings)?;
     displace(generating, phase, &x);
-    Ok((iterations, residual))
+    Ok(StepReport { iterations, residual })
 }
 
-/// Checks the state that so many steps have led to from `start`; where it is not sound, finds the step that was not.
+/// Moves the frame of the state that so many steps have led to from `phase`, and checks it; where it is not sound, finds
+/// the step that was not.
 #[inline(always)]
-fn sound<S: Integrator + ?Sized>(
+fn finish<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
-    start: Phase<S::Group>,
+    mut now: Phase<S::Group>,
     steps: u64,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<(), Stopped> {
-    match check(generating.group(), phase) {
-        Ok(()) => Ok(()),
-        Err(_) => {
-            *phase = start;
-            one_by_one(generating, phase, steps, settings)
+    move_frame(generating, &mut now, steps);
+    match check(generating.group(), &now) {
+        Ok(()) => {
+            *phase = now;
+            Ok(())
         }
+        Err(_) => one_by_one(generating, phase, steps, settings),
     }
 }
 

@@ -201,7 +201,8 @@ fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
     let defect = group.element_defect(&phase.group_element) + finite_or_nan(&phase.momentum);
     match defect.simd_le(largest_defect()).all() {
         true => Ok(()),
-        false => Err(unsound(group, phase)),
+        // A copy, so that the phase itself can stay in registers.
+        false => Err(unsound(group, phase.clone())),
     }
 }
 
@@ -214,7 +215,8 @@ fn largest_defect<T: Scalar>() -> T {
 
 /// Names what is wrong with a state.
 #[cold]
-fn unsound<G: LieGroup>(group: &G, phase: &Phase<G>) -> StepError {
+#[inline(never)]
+fn unsound<G: LieGroup>(group: &G, phase: Phase<G>) -> StepError {
     if !finite_or_nan(&phase.momentum).simd_le(G::Scalar::of(0.0)).all() {
         return StepError::Overflow;
     }
