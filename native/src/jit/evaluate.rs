@@ -38,7 +38,8 @@ impl Uses {
             (0..nodes.len()).map(|i| if i == 0 { 0 } else { end[i - 1] }).collect();
         let begin = next.clone();
         let mut times = vec![0; sum];
-        let operands = nodes.iter().enumerate().flat_map(|(t, node)| node.operands().map(move |id| (t, id)));
+        let operands =
+            nodes.iter().enumerate().flat_map(|(t, node)| node.operands().map(move |id| (t, id)));
         let outputs = program.outputs().iter().enumerate().map(|(i, &id)| (nodes.len() + i, id));
         for (t, id) in operands.chain(outputs) {
             times[next[id.index()]] = t;
@@ -99,14 +100,14 @@ impl<const V: usize> Held<'_, V> {
                 }
                 self.free.extend(self.places[node].take());
             }
-            (Some(next), None) if next <= time + near() => self.held.push((node, values)),
+            (Some(next), None) if next <= time + NEAR => self.held.push((node, values)),
             _ => {}
         }
     }
 
     /// Frees registers until there are no more values in them than registers.
     fn fit(&mut self, coder: &mut Coder<'_, V>) {
-        while self.held.len() > registers() / V {
+        while self.held.len() > REGISTERS / V {
             let later = |&at: &usize| self.uses.next(self.held[at].0);
             let Some(at) = (0..self.held.len()).max_by_key(later) else {
                 return;
@@ -119,13 +120,6 @@ impl<const V: usize> Held<'_, V> {
             }
         }
     }
-}
-
-fn registers() -> usize {
-    std::env::var("JIT_R").ok().and_then(|s| s.parse().ok()).unwrap_or(REGISTERS)
-}
-fn near() -> usize {
-    std::env::var("JIT_N").ok().and_then(|s| s.parse().ok()).unwrap_or(NEAR)
 }
 
 impl<'f, const V: usize> Coder<'f, V> {
