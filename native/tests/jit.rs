@@ -63,6 +63,22 @@ fn random_programs_have_the_same_bits() {
 }
 
 #[test]
+fn programs_with_more_values_than_registers_have_the_same_bits() {
+    let mut chance = Chance(4);
+    let mut seen = Seen::default();
+    for nodes in [600, 1500] {
+        let (dim, element, constants, slots, corrections) = (24, 30, 20, 60, 3);
+        let shape = Shape { dim, element, constants, slots, nodes, corrections, comoving: true };
+        let sample = wild::kernel(shape, &mut chance);
+        let entry = jit::compile(&sample.kernel).unwrap();
+        for steps in [1, 5, 260] {
+            compare(&sample, &entry, steps, &mut chance, &mut seen);
+        }
+    }
+    assert!(seen.whole > 0, "{seen:?}");
+}
+
+#[test]
 fn code_outlives_all_but_its_last_entry() {
     let sample = rigid::body(10.0, 10.0, false);
     let entry = jit::compile(&sample.kernel).unwrap();

@@ -35,11 +35,8 @@ impl Form {
     }
 }
 
-/// V values of one form: a number of the program in all lanes that are taken at once.
-pub(super) type Group<const V: usize> = [Value; V];
-
 /// Writes the body of a function.
-pub(super) struct Coder<'f, const V: usize> {
+pub(super) struct Coder<'f> {
     pub(super) builder: FunctionBuilder<'f>,
     pub(super) form: Form,
     pub(super) frame: Frame,
@@ -55,7 +52,7 @@ fn sound() -> MemFlagsData {
     MemFlagsData::trusted()
 }
 
-impl<'f, const V: usize> Coder<'f, V> {
+impl<'f> Coder<'f> {
     /// Begins a function of so many parameters, addresses and counts, the first being that of the folded coefficients;
     /// the parameters.
     pub(super) fn new(
@@ -79,43 +76,39 @@ impl<'f, const V: usize> Coder<'f, V> {
     /// # Errors
     /// [`JitError::Large`] where the frame does not fit the stack.
     pub(super) fn finish(mut self, config: TargetFrontendConfig) -> Result<(), JitError> {
-        let size = self.frame.bytes(self.form.bytes() * V)?;
+        let size = self.frame.bytes(self.form.bytes())?;
         self.builder.func.sized_stack_slots[self.memory].size = size;
         self.builder.seal_all_blocks();
         self.builder.finalize(config);
         Ok(())
     }
 
-    fn offset(&self, place: usize, v: usize) -> i32 {
+    fn offset(&self, place: usize) -> i32 {
         // A frame that is too large for this is refused when the function ends.
-        ((place * V + v) * self.form.bytes()) as i32
+        (place * self.form.bytes()) as i32
     }
 
     /// What is at a place of the frame.
-    pub(super) fn load(&mut self, place: usize) -> Group<V> {
-        std::array::from_fn(|v| {
-            let offset = self.offset(place, v);
-            self.builder.ins().load(self.form.kind(), sound(), self.base, offset)
-        })
+    pub(super) fn load(&mut self, place: usize) -> Value {
+        let offset = self.offset(place);
+        self.builder.ins().load(self.form.kind(), sound(), self.base, offset)
     }
 
-    pub(super) fn store(&mut self, place: usize, values: Group<V>) {
-        for (v, value) in values.into_iter().enumerate() {
-            let offset = self.offset(place, v);
-            self.builder.ins().store(sound(), value, self.base, offset);
-        }
+    pub(super) fn store(&mut self, place: usize, value: Value) {
+        let offset = self.offset(place);
+        self.builder.ins().store(sound(), value, self.base, offset);
     }
 
     pub(super) fn copy(&mut self, from: usize, to: usize, count: usize) {
         for i in 0..count {
-            let values = self.load(from + i);
-            self.store(to + i, values);
+            let value = self.load(from + i);
+            self.store(to + i, value);
         }
     }
 
     /// The same number everywhere.
-    pub(super) fn number(&mut self, value: f64) -> Group<V> {
-        let value = match self.form {
+    pub(super) fn number(&mut self, value: f64) -> Value {
+        match self.form {
             Form::Number => self.builder.ins().f64const(Ieee64::with_bits(value.to_bits())),
             Form::Pair => {
                 let bytes = [value.to_bits().to_le_bytes(); 2].concat();
@@ -123,17 +116,16 @@ impl<'f, const V: usize> Coder<'f, V> {
                     self.builder.func.dfg.constants.insert(ConstantData::from(&bytes[..]));
                 self.builder.ins().vconst(F64X2, constant)
             }
-        };
-        [value; V]
+        }
     }
 
-    fn slot(&mut self, i: usize) -> Group<V> {
+    fn slot(&mut self, i: usize) -> Value {
         let offset = (i * F64.bytes() as usize) as i32;
         let value = self.builder.ins().load(F64, sound(), self.slots, offset);
-        [match self.form {
+        match self.form {
             Form::Number => value,
             Form::Pair => self.builder.ins().splat(F64X2, value),
-        }; V]
+        }
     }
 
     /// `then` where the mask is set, else `otherwise`.
@@ -160,31 +152,29 @@ impl<'f, const V: usize> Coder<'f, V> {
         }
     }
 
-    /// Stores values in the lanes of the masks; what is then there.
-    pub(super) fn update(&mut self, masks: Group<V>, place: usize, new: Group<V>) -> Group<V> {
+    /// Stores a value in the lanes of the mask; what is then there.
+    pub(super) fn update(&mut self, mask: Value, place: usize, new: Value) -> Value {
         let old = self.load(place);
-        let values = std::array::from_fn(|v| self.choose(masks[v], new[v], old[v]));
-        self.store(place, values);
-        values
+        let value = self.choose(mask, new, old);
+        self.store(place, value);
+        value
     }
 
-    /// Masks of the lanes in which a comparison holds.
-    pub(super) fn compare(&mut self, code: FloatCC, a: Group<V>, b: Group<V>) -> Group<V> {
-        std::array::from_fn(|v| self.builder.ins().fcmp(code, a[v], b[v]))
+    /// The mask of the lanes in which a comparison holds.
+    pub(super) fn compare(&mut self, code: FloatCC, a: Value, b: Value) -> Value {
+        self.builder.ins().fcmp(code, a, b)
     }
 
-    /// 1 in the lanes of the masks, 0 elsewhere.
-    pub(super) fn ones(&mut self, masks: Group<V>) -> Group<V> {
+    /// 1 in the lanes of the mask, 0 elsewhere.
+    pub(super) fn ones(&mut self, mask: Value) -> Value {
         let one = self.number(1.0);
-        std::array::from_fn(|v| {
-            let bits = self.builder.ins().bitcast(I64X2, MemFlagsData::new(), one[v]);
-            let kept = self.builder.ins().band(masks[v], bits);
-            self.builder.ins().bitcast(F64X2, MemFlagsData::new(), kept)
-        })
+        let bits = self.builder.ins().bitcast(I64X2, MemFlagsData::new(), one);
+        let kept = self.builder.ins().band(mask, bits);
+        self.builder.ins().bitcast(F64X2, MemFlagsData::new(), kept)
     }
 
     /// A leaf of the program, read anew.
-    pub(super) fn leaf(&mut self, part: Part, node: Node) -> Group<V> {
+    pub(super) fn leaf(&mut self, part: Part, node: Node) -> Value {
         match node {
             Node::Slot(i) => self.slot(i as usize),
             Node::Input(i) => self.load(self.frame.input(part, i as usize)),
@@ -194,21 +184,19 @@ impl<'f, const V: usize> Coder<'f, V> {
     }
 
     /// An operation on these operands, of which it takes as many as it needs.
-    pub(super) fn operation(&mut self, node: Node, [a, b, c, d]: [Group<V>; 4]) -> Group<V> {
-        std::array::from_fn(|v| {
-            let (a, b, c, d) = (a[v], b[v], c[v], d[v]);
-            match node {
-                Node::Add(..) => self.builder.ins().fadd(a, b),
-                Node::Sub(..) => self.builder.ins().fsub(a, b),
-                Node::Mul(..) => self.builder.ins().fmul(a, b),
-                Node::TimesPlus(..) => self.builder.ins().fma(a, b, c),
-                Node::Div(..) => self.builder.ins().fdiv(a, b),
-                Node::Neg(_) => self.builder.ins().fneg(a),
-                Node::Abs(_) => self.builder.ins().fabs(a),
-                Node::Sqrt(_) => self.builder.ins().sqrt(a),
-                Node::Select(..) => self.select([a, b, c, d]),
-                Node::Zero | Node::Constant(_) | Node::Input(_) | Node::Slot(_) => a,
-            }
-        })
+    pub(super) fn operation(&mut self, node: Node, [a, b, c, d]: [Value; 4]) -> Value {
+        match node {
+            Node::Add(..) => self.builder.ins().fadd(a, b),
+            Node::Sub(..) => self.builder.ins().fsub(a, b),
+            Node::Mul(..) => self.builder.ins().fmul(a, b),
+            Node::TimesPlus(..) => self.builder.ins().fma(a, b, c),
+            Node::Div(..) => self.builder.ins().fdiv(a, b),
+            Node::Neg(_) => self.builder.ins().fneg(a),
+            Node::Abs(_) => self.builder.ins().fabs(a),
+            Node::Sqrt(_) => self.builder.ins().sqrt(a),
+            Node::Round(_) => self.builder.ins().nearest(a),
+            Node::Select(..) => self.select([a, b, c, d]),
+            Node::Zero | Node::Constant(_) | Node::Input(_) | Node::Slot(_) => a,
+        }
     }
 }

@@ -1,13 +1,14 @@
 //! A program written out with its values held in few registers.
 //!
-//! Programs are long and their values live long: left to themselves, thousands would be alive at once, and Cranelift's
+//! Programs are long and their valuess live long: left to themselves, thousands would be alive at once, and Cranelift's
 //! allocation of registers would take time by the square of that. Here a value has a register only until its next use
 //! is farther away than those of the others (Belady's rule); then it waits in the frame, and whoever uses it reads it
 //! there, as a rule in the same instruction. What Cranelift sees fits its registers.
 
 use coadjoint_program::{Id, Kernel, Node, Program};
+use cranelift_codegen::ir::Value;
 
-use super::coder::{Coder, Group};
+use super::coder::Coder;
 use super::frame::Part;
 
 /// Registers given to values; the processor has sixteen or more.
@@ -62,21 +63,21 @@ impl Uses {
 }
 
 /// Where the values of a program are.
-struct Held<'p, const V: usize> {
+struct Held<'p> {
     part: Part,
     nodes: &'p [Node],
     uses: Uses,
     /// Values in registers.
-    held: Vec<(usize, Group<V>)>,
+    held: Vec<(usize, Value)>,
     /// Places of the frame in which values wait.
     places: Vec<Option<usize>>,
     free: Vec<usize>,
 }
 
-impl<const V: usize> Held<'_, V> {
-    fn get(&mut self, coder: &mut Coder<'_, V>, node: usize) -> Group<V> {
-        if let Some(&(_, values)) = self.held.iter().find(|&&(held, _)| held == node) {
-            return values;
+impl Held<'_> {
+    fn get(&mut self, coder: &mut Coder<'_>, node: usize) -> Value {
+        if let Some(&(_, value)) = self.held.iter().find(|&&(held, _)| held == node) {
+            return value;
         }
         match self.places[node] {
             Some(place) => coder.load(place),
@@ -85,12 +86,12 @@ impl<const V: usize> Held<'_, V> {
     }
 
     /// A place of the frame that nothing waits in.
-    fn place(&mut self, coder: &mut Coder<'_, V>) -> usize {
+    fn place(&mut self, coder: &mut Coder<'_>) -> usize {
         self.free.pop().unwrap_or_else(|| coder.frame.scratch())
     }
 
     /// After a use: gives up the value if it was the last one, or keeps it in a register if the next one is near.
-    fn used(&mut self, node: usize, values: Group<V>, time: usize) {
+    fn used(&mut self, node: usize, value: Value, time: usize) {
         self.uses.pass(node, time);
         let at = self.held.iter().position(|&(held, _)| held == node);
         match (self.uses.next(node), at) {
@@ -100,42 +101,35 @@ impl<const V: usize> Held<'_, V> {
                 }
                 self.free.extend(self.places[node].take());
             }
-            (Some(next), None) if next <= time + near() => self.held.push((node, values)),
+            (Some(next), None) if next <= time + NEAR => self.held.push((node, value)),
             _ => {}
         }
     }
 
     /// Frees registers until there are no more values in them than registers.
-    fn fit(&mut self, coder: &mut Coder<'_, V>) {
-        while self.held.len() > registers() / V {
+    fn fit(&mut self, coder: &mut Coder<'_>) {
+        while self.held.len() > REGISTERS {
             let later = |&at: &usize| self.uses.next(self.held[at].0);
             let Some(at) = (0..self.held.len()).max_by_key(later) else {
                 return;
             };
-            let (node, values) = self.held.swap_remove(at);
+            let (node, value) = self.held.swap_remove(at);
             if self.places[node].is_none() && !is_leaf(self.nodes[node]) {
                 let place = self.place(coder);
-                coder.store(place, values);
+                coder.store(place, value);
                 self.places[node] = Some(place);
             }
         }
     }
 }
 
-fn registers() -> usize {
-    std::env::var("JIT_R").ok().and_then(|s| s.parse().ok()).unwrap_or(REGISTERS)
-}
-fn near() -> usize {
-    std::env::var("JIT_N").ok().and_then(|s| s.parse().ok()).unwrap_or(NEAR)
-}
-
-impl<'f, const V: usize> Coder<'f, V> {
+impl Coder<'_> {
     /// Writes out a program of the step; its results go to `sink`, in order and all after the last input was read.
     pub(super) fn evaluate(
         &mut self,
         kernel: &Kernel,
         part: Part,
-        mut sink: impl FnMut(&mut Self, usize, Group<V>),
+        mut sink: impl FnMut(&mut Self, usize, Value),
     ) {
         let Some(program) = part.program(kernel) else {
             return;
@@ -154,7 +148,7 @@ impl<'f, const V: usize> Coder<'f, V> {
             if is_leaf(node) || held.uses.next(time).is_none() {
                 continue;
             }
-            let mut operands = [[self.base; V]; 4];
+            let mut operands = [self.base; 4];
             let ids: Vec<Id> = node.operands().collect();
             for (at, id) in ids.iter().enumerate() {
                 operands[at] = match ids[..at].iter().position(|other| other == id) {
@@ -162,30 +156,30 @@ impl<'f, const V: usize> Coder<'f, V> {
                     None => held.get(self, id.index()),
                 };
             }
-            let values = self.operation(node, operands);
-            for (id, values) in ids.iter().zip(operands) {
-                held.used(id.index(), values, time);
+            let value = self.operation(node, operands);
+            for (id, value) in ids.iter().zip(operands) {
+                held.used(id.index(), value, time);
             }
-            held.held.push((time, values));
+            held.held.push((time, value));
             held.fit(self);
         }
         // Inputs may lie where results go.
         let mut moved = vec![None; program.outputs().len()];
         for (place, output) in moved.iter_mut().zip(program.outputs()) {
             if let Node::Input(_) = nodes[output.index()] {
-                let values = held.get(self, output.index());
+                let value = held.get(self, output.index());
                 let to = held.place(self);
-                self.store(to, values);
+                self.store(to, value);
                 *place = Some(to);
             }
         }
         for (i, output) in program.outputs().iter().enumerate() {
-            let values = match moved[i] {
+            let value = match moved[i] {
                 Some(place) => self.load(place),
                 None => held.get(self, output.index()),
             };
-            sink(self, i, values);
-            held.used(output.index(), values, nodes.len() + i);
+            sink(self, i, value);
+            held.used(output.index(), value, nodes.len() + i);
         }
     }
 }

@@ -30,8 +30,7 @@ pub(super) fn isa() -> Result<OwnedTargetIsa, JitError> {
         ("enable_probestack", "true"),
         ("probestack_strategy", "inline"),
     ] {
-        let value = std::env::var(format!("JIT_{name}")).unwrap_or(value.to_string());
-        flags.set(name, &value).map_err(|error| refuse(&error))?;
+        flags.set(name, value).map_err(|error| refuse(&error))?;
     }
     let builder = cranelift_native::builder().map_err(|error| refuse(&error))?;
     let isa = builder.finish(settings::Flags::new(flags)).map_err(|error| refuse(&error))?;

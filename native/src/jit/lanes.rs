@@ -1,6 +1,6 @@
-//! The loop of a kernel for trajectories side by side: groups of V pairs, one group after the other.
+//! The loop of a kernel for trajectories side by side: pairs, one after the other.
 //!
-//! Trajectories know nothing of each other, so a group runs all its steps before the next one starts.
+//! Trajectories know nothing of each other, so a pair runs all its steps before the next one starts.
 
 use coadjoint_program::{BLOCK, Kernel, WIDTH};
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
@@ -12,59 +12,48 @@ use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
 
 use super::JitError;
-use super::coder::{Coder, Form, Group};
+use super::coder::{Coder, Form};
 use super::frame::{Frame, Part};
 
 /// The function of [`LanesFunction`](crate::LanesFunction)'s signature.
 pub(super) fn build(kernel: &Kernel, config: TargetFrontendConfig) -> Result<Function, JitError> {
-    match std::env::var("JIT_V").as_deref() {
-        Ok("2") => build_with::<2>(kernel, config),
-        Ok("4") => build_with::<4>(kernel, config),
-        _ => build_with::<1>(kernel, config),
-    }
-}
-
-fn build_with<const V: usize>(
-    kernel: &Kernel,
-    config: TargetFrontendConfig,
-) -> Result<Function, JitError> {
     let mut signature = Signature::new(config.default_call_conv);
     signature.params = vec![AbiParam::new(I64); 6];
     let mut function = Function::with_name_signature(UserFuncName::user(0, 1), signature);
     let mut context = FunctionBuilderContext::new();
     let builder = FunctionBuilder::new(&mut function, &mut context);
-    let (coder, params) = Coder::<V>::new(builder, Form::Pair, Frame::of(kernel));
+    let (coder, params) = Coder::new(builder, Form::Pair, Frame::of(kernel));
     Loop::write(coder, kernel, &params).finish(config)?;
     Ok(function)
 }
 
-/// What goes round in registers: lists of the caller moved on to the group at hand, counts, masks.
-struct Loop<'f, 'k, const V: usize> {
-    coder: Coder<'f, V>,
+/// What goes round in registers: lists of the caller moved on to the pair at hand, counts, masks.
+struct Loop<'f, 'k> {
+    coder: Coder<'f>,
     kernel: &'k Kernel,
     steps: Value,
     /// g, μ, live, made.
     lists: [Variable; 4],
-    group: Variable,
+    pair: Variable,
     /// Steps asked of the blocks that are done, of this block, and tried in it.
     done: Variable,
     length: Variable,
     tried: Variable,
     iteration: Variable,
     /// Masks of the lanes that move, and of those whose equation is not solved yet.
-    live: [Variable; V],
-    open: [Variable; V],
+    live: Variable,
+    open: Variable,
     /// Steps made in the block, as numbers.
-    count: [Variable; V],
+    count: Variable,
 }
 
-impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
-    fn write(mut coder: Coder<'f, V>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f, V> {
+impl<'f, 'k> Loop<'f, 'k> {
+    fn write(mut coder: Coder<'f>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f> {
         let lists = std::array::from_fn(|_| coder.builder.declare_var(I64));
         for (&list, at) in lists.iter().zip([1, 2, 4, 5]) {
             coder.builder.def_var(list, params[at]);
         }
-        let [group, done, length, tried, iteration] = std::array::from_fn(|_| {
+        let [pair, done, length, tried, iteration] = std::array::from_fn(|_| {
             let variable = coder.builder.declare_var(I64);
             let zero = coder.builder.ins().iconst(I64, 0);
             coder.builder.def_var(variable, zero);
@@ -72,25 +61,19 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         });
         let zero = coder.number(0.0);
         let none = coder.compare(FloatCC::NotEqual, zero, zero);
-        let [live, open] = std::array::from_fn(|_| {
-            std::array::from_fn(|v| {
-                let variable = coder.builder.declare_var(I64X2);
-                coder.builder.def_var(variable, none[v]);
+        let [live, open, count] =
+            [(I64X2, none), (I64X2, none), (F64X2, zero)].map(|(kind, value)| {
+                let variable = coder.builder.declare_var(kind);
+                coder.builder.def_var(variable, value);
                 variable
-            })
-        });
-        let count = std::array::from_fn(|v| {
-            let variable = coder.builder.declare_var(F64X2);
-            coder.builder.def_var(variable, zero[v]);
-            variable
-        });
+            });
         let steps = params[3];
         let mut this = Self {
             coder,
             kernel,
             steps,
             lists,
-            group,
+            pair,
             done,
             length,
             tried,
@@ -103,7 +86,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         for i in 0..kernel.dim() {
             this.coder.store(x + i, zero);
         }
-        this.groups();
+        this.pairs();
         this.coder
     }
 
@@ -111,14 +94,8 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.coder.builder.use_var(variable)
     }
 
-    fn all(&mut self, variables: [Variable; V]) -> Group<V> {
-        variables.map(|variable| self.coder.builder.use_var(variable))
-    }
-
-    fn set(&mut self, variables: [Variable; V], values: Group<V>) {
-        for (variable, value) in variables.into_iter().zip(values) {
-            self.coder.builder.def_var(variable, value);
-        }
+    fn set(&mut self, variable: Variable, value: Value) {
+        self.coder.builder.def_var(variable, value);
     }
 
     fn set_integer(&mut self, variable: Variable, value: i64) {
@@ -146,40 +123,36 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.coder.builder.ins().brif(condition, then, &[], otherwise, &[]);
     }
 
-    fn and(&mut self, a: Group<V>, b: Group<V>) -> Group<V> {
-        std::array::from_fn(|v| self.coder.builder.ins().band(a[v], b[v]))
+    fn and(&mut self, a: Value, b: Value) -> Value {
+        self.coder.builder.ins().band(a, b)
     }
 
     /// a where b is not.
-    fn without(&mut self, a: Group<V>, b: Group<V>) -> Group<V> {
-        std::array::from_fn(|v| self.coder.builder.ins().band_not(a[v], b[v]))
+    fn without(&mut self, a: Value, b: Value) -> Value {
+        self.coder.builder.ins().band_not(a, b)
     }
 
     /// Whether a mask is set in any lane.
-    fn any(&mut self, masks: Group<V>) -> Value {
-        let mut mask = masks[0];
-        for &other in &masks[1..] {
-            mask = self.coder.builder.ins().bor(mask, other);
-        }
+    fn any(&mut self, mask: Value) -> Value {
         self.coder.builder.ins().vany_true(mask)
     }
 
-    /// Stores the results of a program from a place on in the lanes of the masks.
-    fn update_all(&mut self, masks: Group<V>, part: Part, place: usize) {
-        self.coder.evaluate(self.kernel, part, |coder, i, values| {
-            coder.update(masks, place + i, values);
+    /// Stores the results of a program from a place on in the lanes of the mask.
+    fn update_all(&mut self, mask: Value, part: Part, place: usize) {
+        self.coder.evaluate(self.kernel, part, |coder, i, value| {
+            coder.update(mask, place + i, value);
         });
     }
 
     /// The lanes in which a program that gives one number gives 1.
-    fn holds(&mut self, part: Part) -> Group<V> {
+    fn holds(&mut self, part: Part) -> Value {
         let one = self.coder.number(1.0);
         let mut found = one;
-        self.coder.evaluate(self.kernel, part, |_, _, values| found = values);
+        self.coder.evaluate(self.kernel, part, |_, _, value| found = value);
         self.coder.compare(FloatCC::Equal, found, one)
     }
 
-    /// Copies g and μ of the group from the caller's memory to the frame, or back.
+    /// Copies g and μ of the pair from the caller's memory to the frame, or back.
     fn state(&mut self, inwards: bool) {
         // The caller's numbers are aligned each by itself.
         let flags = MemFlagsData::new().with_notrap();
@@ -188,60 +161,46 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         for i in 0..m + self.kernel.dim() {
             let (list, at) = if i < m { (lists[0], i) } else { (lists[1], i - m) };
             let place = self.coder.frame.state + i;
-            let offset = |v: usize| ((at * WIDTH + 2 * v) * 8) as i32;
+            let offset = (at * WIDTH * 8) as i32;
             if inwards {
-                let values = std::array::from_fn(|v| {
-                    self.coder.builder.ins().load(F64X2, flags, list, offset(v))
-                });
-                self.coder.store(place, values);
+                let value = self.coder.builder.ins().load(F64X2, flags, list, offset);
+                self.coder.store(place, value);
             } else {
-                let values = self.coder.load(place);
-                for (v, value) in values.into_iter().enumerate() {
-                    self.coder.builder.ins().store(flags, value, list, offset(v));
-                }
+                let value = self.coder.load(place);
+                self.coder.builder.ins().store(flags, value, list, offset);
             }
         }
     }
 
-    /// The lanes of the group that the caller wants moved.
-    fn wanted(&mut self) -> Group<V> {
+    /// The lanes of the pair that the caller wants moved.
+    fn wanted(&mut self) -> Value {
         let list = self.get(self.lists[2]);
-        std::array::from_fn(|v| {
-            let mut mask = None;
-            for lane in [0_u8, 1] {
-                let offset = 2 * v as i32 + i32::from(lane);
-                let ins = self.coder.builder.ins();
-                let byte = ins.load(I8, MemFlagsData::trusted(), list, offset);
-                let set = self.coder.builder.ins().icmp_imm_u(IntCC::NotEqual, byte, 0);
-                let wide = self.coder.builder.ins().bmask(I64, set);
-                mask = Some(match mask {
-                    None => self.coder.builder.ins().splat(I64X2, wide),
-                    Some(mask) => self.coder.builder.ins().insertlane(mask, wide, lane),
-                });
-            }
-            mask.unwrap_or(list)
-        })
+        let [first, second] = [0, 1].map(|lane| {
+            let ins = self.coder.builder.ins();
+            let byte = ins.load(I8, MemFlagsData::trusted(), list, lane);
+            let set = self.coder.builder.ins().icmp_imm_u(IntCC::NotEqual, byte, 0);
+            self.coder.builder.ins().bmask(I64, set)
+        });
+        let mask = self.coder.builder.ins().splat(I64X2, first);
+        self.coder.builder.ins().insertlane(mask, second, 1)
     }
 
     /// Adds the steps of the block to those the caller is told of.
     fn tell(&mut self) {
         let list = self.get(self.lists[3]);
-        let counts = self.all(self.count);
-        for (v, counts) in counts.into_iter().enumerate() {
-            for lane in [0_u8, 1] {
-                let offset = (2 * v as i32 + i32::from(lane)) * 8;
-                let count = self.coder.builder.ins().extractlane(counts, lane);
-                let count = self.coder.builder.ins().fcvt_to_uint_sat(I64, count);
-                let told =
-                    self.coder.builder.ins().load(I64, MemFlagsData::trusted(), list, offset);
-                let told = self.coder.builder.ins().iadd(told, count);
-                self.coder.builder.ins().store(MemFlagsData::trusted(), told, list, offset);
-            }
+        let counts = self.get(self.count);
+        for lane in [0_u8, 1] {
+            let offset = i32::from(lane) * 8;
+            let count = self.coder.builder.ins().extractlane(counts, lane);
+            let count = self.coder.builder.ins().fcvt_to_uint_sat(I64, count);
+            let told = self.coder.builder.ins().load(I64, MemFlagsData::trusted(), list, offset);
+            let told = self.coder.builder.ins().iadd(told, count);
+            self.coder.builder.ins().store(MemFlagsData::trusted(), told, list, offset);
         }
     }
 
-    /// All groups, and the end.
-    fn groups(&mut self) {
+    /// All pairs, and the end.
+    fn pairs(&mut self) {
         let [first, next, leave, out] = std::array::from_fn(|_| self.block());
         self.coder.builder.ins().jump(first, &[]);
 
@@ -256,18 +215,18 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.at(leave);
         self.state(false);
         for (list, bytes) in self.lists.into_iter().zip([8, 8, 1, 8]) {
-            self.add(list, 2 * V as i64 * bytes);
+            self.add(list, 2 * bytes);
         }
-        let group = self.add(self.group, 1);
-        let groups = (WIDTH / (2 * V)) as i64;
-        let more = self.coder.builder.ins().icmp_imm_u(IntCC::UnsignedLessThan, group, groups);
+        let pair = self.add(self.pair, 1);
+        let pairs = (WIDTH / 2) as i64;
+        let more = self.coder.builder.ins().icmp_imm_u(IntCC::UnsignedLessThan, pair, pairs);
         self.branch(more, first, out);
 
         self.at(out);
         self.coder.builder.ins().return_(&[]);
     }
 
-    /// All blocks of steps of a group.
+    /// All blocks of steps of a pair.
     fn blocks(&mut self, next: Block, leave: Block) {
         let [some, begin, step, accept, transport, end, back, done] =
             std::array::from_fn(|_| self.block());
@@ -280,7 +239,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.branch(more, some, leave);
 
         self.at(some);
-        let live = self.all(self.live);
+        let live = self.get(self.live);
         let live = self.any(live);
         self.branch(live, begin, leave);
 
@@ -301,15 +260,13 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
 
         self.at(accept);
         let right = self.holds(Part::Accept);
-        let live = self.all(self.live);
+        let live = self.get(self.live);
         let live = self.and(live, right);
         self.set(self.live, live);
         let ones = self.coder.ones(live);
-        for v in 0..V {
-            let count = self.get(self.count[v]);
-            let count = self.coder.builder.ins().fadd(count, ones[v]);
-            self.coder.builder.def_var(self.count[v], count);
-        }
+        let count = self.get(self.count);
+        let count = self.coder.builder.ins().fadd(count, ones);
+        self.set(self.count, count);
         let some = self.any(live);
         self.branch(some, transport, end);
 
@@ -321,7 +278,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.branch(more, step, end);
 
         self.at(end);
-        let count = self.all(self.count);
+        let count = self.get(self.count);
         let zero = self.coder.number(0.0);
         let stirred = self.coder.compare(FloatCC::GreaterThan, count, zero);
         if self.kernel.programs().frame.is_some() {
@@ -338,8 +295,8 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
             let before = self.coder.load(start + i);
             self.coder.update(broken, state + i, before);
         }
-        let count = self.all(self.count);
-        let count = std::array::from_fn(|v| self.coder.choose(broken[v], zero[v], count[v]));
+        let count = self.get(self.count);
+        let count = self.coder.choose(broken, zero, count);
         self.set(self.count, count);
         self.coder.builder.ins().jump(done, &[]);
 
@@ -347,10 +304,10 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.tell();
         let length = self.get(self.length);
         let whole = self.coder.builder.ins().fcvt_from_uint(F64, length);
-        let whole = [self.coder.builder.ins().splat(F64X2, whole); V];
-        let count = self.all(self.count);
+        let whole = self.coder.builder.ins().splat(F64X2, whole);
+        let count = self.get(self.count);
         let whole = self.coder.compare(FloatCC::Equal, count, whole);
-        let live = self.all(self.live);
+        let live = self.get(self.live);
         let live = self.and(live, whole);
         self.set(self.live, live);
         let made = self.get(self.done);
@@ -364,7 +321,7 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         let n = self.kernel.dim();
         let frame = self.coder.frame.clone();
         // The constants lie behind p.
-        let store = |coder: &mut Coder<'f, V>, i, values| coder.store(frame.p + i, values);
+        let store = |coder: &mut Coder<'f>, i, value| coder.store(frame.p + i, value);
         self.coder.evaluate(self.kernel, Part::Guess, store);
         let (one, zero) = (self.coder.number(1.0), self.coder.number(0.0));
         self.coder.store(frame.left, one);
@@ -374,23 +331,22 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
             self.coder.builder.ins().jump(after, &[]);
             return;
         }
-        let live = self.all(self.live);
+        let live = self.get(self.live);
         self.set(self.open, live);
         self.set_integer(self.iteration, 0);
         let again = self.block();
         self.coder.builder.ins().jump(again, &[]);
 
         self.at(again);
-        let open = self.all(self.open);
+        let open = self.get(self.open);
         let (mut left, mut way) = (one, zero);
-        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, values| {
+        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, value| {
             if i <= 2 * n {
                 // p, then x and what is left.
-                left =
-                    coder.update(open, if i < n { frame.p + i } else { frame.x + i - n }, values);
+                left = coder.update(open, if i < n { frame.p + i } else { frame.x + i - n }, value);
             } else {
                 let before = coder.load(frame.way);
-                let sum = std::array::from_fn(|v| coder.builder.ins().fadd(before[v], values[v]));
+                let sum = coder.builder.ins().fadd(before, value);
                 way = coder.update(open, frame.way, sum);
             }
         });

@@ -21,14 +21,14 @@ pub(super) fn build(kernel: &Kernel, config: TargetFrontendConfig) -> Result<Fun
     let mut function = Function::with_name_signature(UserFuncName::user(0, 0), signature);
     let mut context = FunctionBuilderContext::new();
     let builder = FunctionBuilder::new(&mut function, &mut context);
-    let (coder, params) = Coder::<1>::new(builder, Form::Number, Frame::of(kernel));
+    let (coder, params) = Coder::new(builder, Form::Number, Frame::of(kernel));
     Loop::write(coder, kernel, &params).finish(config)?;
     Ok(function)
 }
 
 /// The numbers that go round in registers, and where the loop goes next.
 struct Loop<'f, 'k> {
-    coder: Coder<'f, 1>,
+    coder: Coder<'f>,
     kernel: &'k Kernel,
     steps: Value,
     /// Steps made in blocks that are done.
@@ -42,8 +42,8 @@ struct Loop<'f, 'k> {
 }
 
 impl<'f, 'k> Loop<'f, 'k> {
-    fn write(mut coder: Coder<'f, 1>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f, 1> {
-        let integer = |coder: &mut Coder<'f, 1>| {
+    fn write(mut coder: Coder<'f>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f> {
+        let integer = |coder: &mut Coder<'f>| {
             let variable = coder.builder.declare_var(I64);
             let zero = coder.builder.ins().iconst(I64, 0);
             coder.builder.def_var(variable, zero);
@@ -51,14 +51,14 @@ impl<'f, 'k> Loop<'f, 'k> {
         };
         let [made, length, count, corrections] = std::array::from_fn(|_| integer(&mut coder));
         let residual = coder.builder.declare_var(F64);
-        let [zero] = coder.number(0.0);
+        let zero = coder.number(0.0);
         coder.builder.def_var(residual, zero);
         let steps = params[3];
         let mut this = Self { coder, kernel, steps, made, length, count, corrections, residual };
         this.state(params, true);
         let x = this.coder.frame.x;
         for i in 0..kernel.dim() {
-            this.coder.store(x + i, [zero]);
+            this.coder.store(x + i, zero);
         }
         this.blocks(params);
         this.coder
@@ -83,15 +83,15 @@ impl<'f, 'k> Loop<'f, 'k> {
 
     /// Whether a program that gives one number gives 1.
     fn holds(&mut self, part: Part) -> Value {
-        let [one] = self.coder.number(1.0);
+        let one = self.coder.number(1.0);
         let mut found = one;
-        self.coder.evaluate(self.kernel, part, |_, _, [value]| found = value);
+        self.coder.evaluate(self.kernel, part, |_, _, value| found = value);
         self.coder.builder.ins().fcmp(FloatCC::Equal, found, one)
     }
 
     /// The results of a program, stored from a place on.
     fn store(&mut self, part: Part, place: usize) {
-        self.coder.evaluate(self.kernel, part, |coder, i, values| coder.store(place + i, values));
+        self.coder.evaluate(self.kernel, part, |coder, i, value| coder.store(place + i, value));
     }
 
     /// Copies g and μ from the caller's memory to the frame, or back.
@@ -104,9 +104,9 @@ impl<'f, 'k> Loop<'f, 'k> {
             if inwards {
                 let value =
                     self.coder.builder.ins().load(F64, MemFlagsData::trusted(), list, offset);
-                self.coder.store(place, [value]);
+                self.coder.store(place, value);
             } else {
-                let [value] = self.coder.load(place);
+                let value = self.coder.load(place);
                 self.coder.builder.ins().store(MemFlagsData::trusted(), value, list, offset);
             }
         }
@@ -160,7 +160,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         if self.kernel.programs().frame.is_some() {
             let count = self.get(self.count);
             let times = self.coder.builder.ins().fcvt_from_uint(F64, count);
-            self.coder.store(self.coder.frame.times, [times]);
+            self.coder.store(self.coder.frame.times, times);
             self.store(Part::Frame, state);
         }
         let sound = self.holds(Part::Sound);
@@ -213,31 +213,31 @@ impl<'f, 'k> Loop<'f, 'k> {
         self.coder.builder.ins().jump(again, &[]);
 
         self.at(again);
-        let (mut left, mut moved) = (one[0], zero[0]);
-        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, values| {
+        let (mut left, mut moved) = (one, zero);
+        self.coder.evaluate(self.kernel, Part::Correct, |coder, i, value| {
             if i > 2 * n {
-                [moved] = values;
+                moved = value;
                 return;
             }
             // p, then x and what is left.
-            coder.store(if i < n { frame.p + i } else { frame.x + i - n }, values);
-            [left] = values;
+            coder.store(if i < n { frame.p + i } else { frame.x + i - n }, value);
+            left = value;
         });
-        let [way] = self.coder.load(frame.way);
+        let way = self.coder.load(frame.way);
         let way = self.coder.builder.ins().fadd(way, moved);
-        self.coder.store(frame.way, [way]);
+        self.coder.store(frame.way, way);
         let count = self.get(iteration);
         let count = self.coder.builder.ins().iadd_imm_s(count, 1);
         self.coder.builder.def_var(iteration, count);
         let corrections = self.get(self.corrections);
         let corrections = self.coder.builder.ins().umax(corrections, count);
         self.coder.builder.def_var(self.corrections, corrections);
-        let [tolerance] = self.coder.number(self.kernel.tolerance());
+        let tolerance = self.coder.number(self.kernel.tolerance());
         let right = self.coder.builder.ins().fcmp(FloatCC::LessThanOrEqual, left, tolerance);
         self.branch(right, solved, open);
 
         self.at(open);
-        let [near] = self.coder.number(self.kernel.near());
+        let near = self.coder.number(self.kernel.near());
         let near = self.coder.builder.ins().fcmp(FloatCC::LessThanOrEqual, way, near);
         let most = self.coder.builder.ins().iconst(I64, i64::from(most));
         let some = self.coder.builder.ins().icmp(IntCC::UnsignedLessThan, count, most);

@@ -61,7 +61,7 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
             0 => ids[chance.below(ids.len())],
             _ => ids[ids.len() - 1 - chance.below(recent)],
         });
-        ids.push(match chance.below(12) {
+        ids.push(match chance.below(13) {
             0 | 1 => graph.add(a, b),
             2 | 3 => graph.sub(a, b),
             4 => graph.mul(a, b),
@@ -70,6 +70,7 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
             8 => graph.neg(a),
             9 => graph.abs(a),
             10 => graph.sqrt(a),
+            11 => graph.round(a),
             _ => graph.select(a, b, c, d),
         });
     }
