@@ -58,7 +58,11 @@ fn sound() -> MemFlagsData {
 impl<'f, const V: usize> Coder<'f, V> {
     /// Begins a function of so many parameters, addresses and counts, the first being that of the folded coefficients;
     /// the parameters.
-    pub(super) fn new(mut builder: FunctionBuilder<'f>, form: Form, frame: Frame) -> (Self, Vec<Value>) {
+    pub(super) fn new(
+        mut builder: FunctionBuilder<'f>,
+        form: Form,
+        frame: Frame,
+    ) -> (Self, Vec<Value>) {
         let entry = builder.create_block();
         builder.append_block_params_for_function_params(entry);
         builder.switch_to_block(entry);

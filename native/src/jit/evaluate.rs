@@ -38,7 +38,8 @@ impl Uses {
             (0..nodes.len()).map(|i| if i == 0 { 0 } else { end[i - 1] }).collect();
         let begin = next.clone();
         let mut times = vec![0; sum];
-        let operands = nodes.iter().enumerate().flat_map(|(t, node)| node.operands().map(move |id| (t, id)));
+        let operands =
+            nodes.iter().enumerate().flat_map(|(t, node)| node.operands().map(move |id| (t, id)));
         let outputs = program.outputs().iter().enumerate().map(|(i, &id)| (nodes.len() + i, id));
         for (t, id) in operands.chain(outputs) {
             times[next[id.index()]] = t;

@@ -59,11 +59,7 @@ struct Loop<'f, 'k, const V: usize> {
 }
 
 impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
-    fn write(
-        mut coder: Coder<'f, V>,
-        kernel: &'k Kernel,
-        params: &[Value],
-    ) -> Coder<'f, V> {
+    fn write(mut coder: Coder<'f, V>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f, V> {
         let lists = std::array::from_fn(|_| coder.builder.declare_var(I64));
         for (&list, at) in lists.iter().zip([1, 2, 4, 5]) {
             coder.builder.def_var(list, params[at]);
@@ -390,7 +386,8 @@ impl<'f, 'k, const V: usize> Loop<'f, 'k, V> {
         self.coder.evaluate(self.kernel, Part::Correct, |coder, i, values| {
             if i <= 2 * n {
                 // p, then x and what is left.
-                left = coder.update(open, if i < n { frame.p + i } else { frame.x + i - n }, values);
+                left =
+                    coder.update(open, if i < n { frame.p + i } else { frame.x + i - n }, values);
             } else {
                 let before = coder.load(frame.way);
                 let sum = std::array::from_fn(|v| coder.builder.ins().fadd(before[v], values[v]));

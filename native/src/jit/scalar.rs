@@ -42,11 +42,7 @@ struct Loop<'f, 'k> {
 }
 
 impl<'f, 'k> Loop<'f, 'k> {
-    fn write(
-        mut coder: Coder<'f, 1>,
-        kernel: &'k Kernel,
-        params: &[Value],
-    ) -> Coder<'f, 1> {
+    fn write(mut coder: Coder<'f, 1>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f, 1> {
         let integer = |coder: &mut Coder<'f, 1>| {
             let variable = coder.builder.declare_var(I64);
             let zero = coder.builder.ins().iconst(I64, 0);

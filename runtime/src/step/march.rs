@@ -51,23 +51,23 @@ pub(crate) fn block<S: Integrator + ?Sized>(
     for done in 0..steps {
         let candidate = method.propose(generating, &phase.momentum, steps - done, settings);
         let Candidate { iterations, residual, .. } = candidate;
-        let (iterations, residual) =
-            if is_right(generating, &phase.momentum, &candidate, settings) {
-                displace(generating, phase, &candidate.x);
-                (iterations, residual)
-            } else {
-                match rescued(generating, phase, candidate, settings) {
-                    Ok(report) => report,
-                    Err(error) => {
-                        method.forget();
-                        if done > 0 {
-                            move_frame(generating, phase, done);
-                            sound(generating, phase, start, done, settings)?;
-                        }
-                        return Err(Stopped { steps: done, error });
+        let (iterations, residual) = if is_right(generating, &phase.momentum, &candidate, settings)
+        {
+            displace(generating, phase, &candidate.x);
+            (iterations, residual)
+        } else {
+            match rescued(generating, phase, candidate, settings) {
+                Ok(report) => report,
+                Err(error) => {
+                    method.forget();
+                    if done > 0 {
+                        move_frame(generating, phase, done);
+                        sound(generating, phase, start, done, settings)?;
                     }
+                    return Err(Stopped { steps: done, error });
                 }
-            };
+            }
+        };
         worst.iterations = worst.iterations.max(iterations);
         worst.residual = worst.residual.simd_max(residual);
     }

@@ -192,10 +192,7 @@ where
 }
 
 /// A step of the flow by two of half its length: what they leave out is 2^{K+1} times less.
-fn by_halves<S: Integrator + Predict>(
-    half: &S,
-    mu: &VectorOf<S>,
-) -> Result<Moved<S>, StepError> {
+fn by_halves<S: Integrator + Predict>(half: &S, mu: &VectorOf<S>) -> Result<Moved<S>, StepError> {
     let (first, middle) = trial::step(half, mu)?;
     let (second, end) = trial::step(half, &middle)?;
     Ok((half.group().compose(&first, &second), end))
