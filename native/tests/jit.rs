@@ -1,5 +1,6 @@
 //! Machine code by Cranelift has the interpreter's bits.
 #![cfg(feature = "jit")]
+#![allow(clippy::unwrap_used, clippy::type_complexity)]
 
 mod samples;
 
