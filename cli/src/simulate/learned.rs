@@ -123,10 +123,11 @@ fn follow<G: Restore, C: Chart<G>>(
     March { subject, group: &group }.run(&Stepper {
         steps: &each(&subject.setup.schedule, |_, phase| {
             let report = advance(&map, phase)?;
-            Ok(Made { solve: Some((report.iterations, report.residual)), ratio: 0.0 })
+            Ok(Made { solve: Some((report.iterations, report.residual)) })
         }),
         // Times between steps are refused: a learned map has one step.
         side: &|_, part, _| Err(StepError::InvalidStep { step: part }),
+        ratio: &|_| 0.0,
         kept: None,
     })
 }

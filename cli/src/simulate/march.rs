@@ -30,14 +30,11 @@ use crate::progress;
 pub struct Made {
     /// The most iterations and the largest residual of a solve, where there was one.
     pub solve: Option<(u32, f64)>,
-    /// The ratio of the last two terms of the series, where it may be worth a warning; else 0.
-    pub ratio: f64,
 }
 
 impl Made {
     /// The worse of both in everything.
     fn worse(&mut self, other: Self) {
-        self.ratio = maximum(self.ratio, other.ratio);
         self.solve = match (self.solve, other.solve) {
             (Some((a, b)), Some((c, d))) => Some((a.max(c), maximum(b, d))),
             (a, b) => a.or(b),
@@ -98,6 +95,8 @@ pub struct Stepper<'s, G: Restore> {
     pub steps: &'s GridSteps<'s, G>,
     /// Makes a step of another length.
     pub side: &'s SideStep<'s, G>,
+    /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
+    pub ratio: &'s dyn Fn(&G::Vector) -> f64,
     /// What the steps keep beside the state, where they keep anything: read for a checkpoint, and put back.
     pub kept: Option<&'s RefCell<Option<Numbers>>>,
 }
@@ -301,6 +300,7 @@ impl<'a, G: Restore> March<'a, G> {
         let schedule = &self.subject.setup.schedule;
         let (first, next) = (state.n, self.next_look(state));
         let count = (next - first).min(pace.steps());
+        let ratio = if self.watched(first) { (stepper.ratio)(&state.phase.momentum) } else { 0.0 };
         let begun = Instant::now();
         let made = (stepper.steps)(first, &mut state.phase, count);
         let made = made.map_err(|(done, source)| CliError::Run {
@@ -315,7 +315,7 @@ impl<'a, G: Restore> March<'a, G> {
             let noted = state.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(n, what))?;
         }
-        let warning = state.recorder.steep(first + 1, schedule.time(first), made.ratio);
+        let warning = state.recorder.steep(first + 1, schedule.time(first), ratio);
         // Times of `--at` change no report of the drift.
         if self.watched(n) {
             let moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;

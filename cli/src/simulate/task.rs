@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::header::Header;
 use super::march::{Made, March, Stepper, each};
-use super::number::{largest, maximum};
+use super::number::largest;
 use super::setup::Setup;
 use super::subject::Subject;
 use super::trajectory::{Trajectory, Watched};
@@ -108,14 +108,14 @@ impl<'a> Task<'a> {
         let subject = self.subject(Vec::new());
         March { subject: &subject, group }.run(&Stepper {
             steps: &each(&self.setup.schedule, |time, phase| {
-                let ratio = steepness.ratio(&phase.momentum);
                 step(phase, time).map_err(|error| {
                     let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
                     advise(error, h, works)
                 })?;
-                Ok(Made { solve: None, ratio })
+                Ok(Made { solve: None })
             }),
             side: &|time, part, phase| make(part)?(phase, time),
+            ratio: &|mu| steepness.ratio(mu),
             kept: None,
         })
     }
@@ -170,10 +170,10 @@ impl<'a> Task<'a> {
                 steps: &each(schedule, |_, phase| {
                     let (solution, residual) =
                         one(&step, phase).map_err(|error| advised(error, phase))?;
-                    let ratio = steepness.ratio(&solution.p);
-                    Ok(Made { solve: Some((solution.iterations, residual)), ratio })
+                    Ok(Made { solve: Some((solution.iterations, residual)) })
                 }),
                 side: &side,
+                ratio: &|mu| steepness.ratio(mu),
                 kept: None,
             });
         };
@@ -182,16 +182,15 @@ impl<'a> Task<'a> {
             steps: &|_, phase, count| {
                 let mut kept = kept.borrow_mut();
                 let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
-                let ratio = steepness.ratio(&phase.momentum);
                 let rescue = |numbers: &mut Numbers| compiled.rescue(&step, numbers);
                 let made = compiled.advance(numbers, count, rescue);
                 *phase = compiled.phase(group, numbers);
                 let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
                 // A bound, which may be far below what rounding leaves.
-                let solve = Some((made.corrections, made.residual.max(f64::EPSILON)));
-                Ok(Made { solve, ratio: maximum(ratio, steepness.ratio(&phase.momentum)) })
+                Ok(Made { solve: Some((made.corrections, made.residual.max(f64::EPSILON))) })
             },
             side: &side,
+            ratio: &|mu| steepness.ratio(mu),
             kept: Some(&kept),
         })?;
         Ok(Trajectory { backend: Some(compiled.code().used()), ..trajectory })

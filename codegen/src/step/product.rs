@@ -20,12 +20,12 @@ struct Factor<'a> {
 impl Product {
     fn factors(&self) -> Vec<Factor<'_>> {
         let (mut dim, mut element) = (0, 0);
-        let factor = |part: &'_ Box<dyn Part>| {
+        let mut factor = |part: &dyn Part| {
             let (own, numbers) = (dim..dim + part.dim(), element..element + part.element());
             (dim, element) = (own.end, numbers.end);
             (own, numbers)
         };
-        let places: Vec<_> = self.0.iter().map(factor).collect();
+        let places: Vec<_> = self.0.iter().map(|part| factor(part.as_ref())).collect();
         let factors = self.0.iter().zip(places);
         factors.map(|(part, (own, element))| Factor { part: part.as_ref(), own, element }).collect()
     }
