@@ -5,6 +5,7 @@ pub mod bridge;
 pub mod catalogue;
 pub mod elliptic;
 pub mod erased;
+pub mod global_error;
 pub mod golden;
 pub mod moments;
 pub mod reference;

@@ -88,9 +88,9 @@ pub fn constructor(
         fn advise(
             &self,
             error: #krate::StepError,
-            phase: #krate::Phase<#group>,
+            phase: &#krate::Phase<#group>,
         ) -> #krate::StepError {
-            #krate::plumbing::advise(error, &phase, self.step, |step| {
+            #krate::plumbing::advise(error, phase, self.step, |step| {
                 Self::of_symbols(step, &self.symbols)
             })
         }

@@ -92,7 +92,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                     &self,
                     phase: &mut #krate::Phase<#group>,
                 ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
-                    #krate::advance(self, phase).map_err(|error| self.advise(error, ::core::clone::Clone::clone(phase)))
+                    #krate::advance(self, phase).map_err(|error| self.advise(error, phase))
                 }
 
                 /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -106,7 +106,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                     steps: u64,
                 ) -> ::core::result::Result<#krate::StepReport<T>, #krate::Stopped> {
                     #krate::advance_by(self, phase, steps).map_err(|stopped| #krate::Stopped {
-                        error: self.advise(stopped.error, ::core::clone::Clone::clone(phase)),
+                        error: self.advise(stopped.error, phase),
                         ..stopped
                     })
                 }

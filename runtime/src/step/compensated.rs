@@ -45,6 +45,7 @@ impl<G: CompensatedGroup> CompensatedPhase<G> {
 }
 
 impl<G: CompensatedGroup> Clone for CompensatedPhase<G> {
+    #[inline(always)]
     fn clone(&self) -> Self {
         Self {
             phase: self.phase.clone(),

@@ -9,13 +9,13 @@ mod random;
 mod runtime;
 mod verdict;
 
+pub use random::Random;
 pub use verdict::{Tally, Wrong, report, times};
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use family::Family;
-use random::Random;
 
 /// What to run.
 #[derive(Clone, Debug)]
