@@ -142,7 +142,8 @@ fn what_was_changed_is_found_where_it_is() {
     let names: Vec<&str> =
         text.lines().find(|line| !line.starts_with('#')).unwrap().split(',').collect();
     let column = |name: &str| names.iter().position(|known| *known == name).unwrap();
-    let changes: [(usize, usize, &dyn Fn(f64) -> f64, &str); 5] = [
+    type Change<'a> = (usize, usize, &'a dyn Fn(f64) -> f64, &'a str);
+    let changes: [Change<'_>; 5] = [
         (12, 1, &|x| x + 1e-12, "row 12, time 1.1"),
         (12, column("g_12"), &|x| x + 1e-11, "row 12, time 1.1"),
         (12, column("energy"), &|x| x * (1.0 + 1e-12), "row 12, time 1.1: the energy"),
