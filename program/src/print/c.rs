@@ -70,6 +70,18 @@ impl C {
         (parameters, unused)
     }
 
+    /// Parameters and arguments of the pieces of a function, which have an array `w` besides.
+    pub(super) fn workspace(&self, signature: &Signature<'_>) -> (String, String) {
+        let (parameters, _) = self.parameters(signature);
+        let mut arguments = String::from("c");
+        for field in signature.inputs.iter().chain(&signature.outputs) {
+            arguments.push_str(", ");
+            arguments.push_str(&field.name);
+        }
+        let parameters = format!("{parameters}, {} {}w", self.number, self.pointer);
+        (parameters, arguments + ", w")
+    }
+
     /// A number in hexadecimal, which every compiler reads without rounding.
     #[must_use]
     pub fn literal(&self, value: f64) -> String {

@@ -22,32 +22,49 @@ pub fn function(dialect: &impl Dialect, signature: &Signature<'_>) -> String {
 pub fn statements(dialect: &impl Dialect, signature: &Signature<'_>, text: &mut String) {
     let program = signature.program;
     let mut names: Vec<String> = Vec::with_capacity(program.nodes().len());
-    let mut count = 0;
-    for node in program.nodes() {
-        let name = match *node {
-            Node::Zero => dialect.constant(0.0),
-            Node::Constant(bits) => dialect.constant(f64::from_bits(bits)),
-            Node::Slot(index) => dialect.slot(index as usize),
-            Node::Input(index) => match Signature::find(&signature.inputs, index as usize) {
-                Some((field, at)) => field.place(at, |name| name.into()),
-                None => dialect.constant(0.0),
-            },
-            operation => {
-                let operands: Vec<&str> =
-                    operation.operands().map(|id| names[id.index()].as_str()).collect();
-                let expression = dialect.operation(operation, &operands);
-                let name = format!("t{count}");
-                count += 1;
-                text.push_str(&dialect.declare(&name, &expression));
-                name
-            }
-        };
+    for (at, node) in program.nodes().iter().enumerate() {
+        let name = leaf(dialect, signature, *node).unwrap_or_else(|| {
+            let operands: Vec<&str> =
+                node.operands().map(|id| names[id.index()].as_str()).collect();
+            let name = format!("t{at}");
+            text.push_str(&dialect.declare(&name, &dialect.operation(*node, &operands)));
+            name
+        });
         names.push(name);
     }
     for (number, id) in program.outputs().iter().enumerate() {
-        if let Some((field, at)) = Signature::find(&signature.outputs, number) {
-            let place = field.place(at, |name| dialect.single(name));
-            text.push_str(&dialect.store(&place, &names[id.index()]));
-        }
+        output(dialect, signature, number, &names[id.index()], text);
+    }
+}
+
+/// How a node without operands is written; `None` for an operation.
+pub(super) fn leaf(
+    dialect: &impl Dialect,
+    signature: &Signature<'_>,
+    node: Node,
+) -> Option<String> {
+    match node {
+        Node::Zero => Some(dialect.constant(0.0)),
+        Node::Constant(bits) => Some(dialect.constant(f64::from_bits(bits))),
+        Node::Slot(index) => Some(dialect.slot(index as usize)),
+        Node::Input(index) => match Signature::find(&signature.inputs, index as usize) {
+            Some((field, at)) => Some(field.place(at, |name| name.into())),
+            None => Some(dialect.constant(0.0)),
+        },
+        _ => None,
+    }
+}
+
+/// The statement that writes an output.
+pub(super) fn output(
+    dialect: &impl Dialect,
+    signature: &Signature<'_>,
+    number: usize,
+    value: &str,
+    text: &mut String,
+) {
+    if let Some((field, at)) = Signature::find(&signature.outputs, number) {
+        let place = field.place(at, |name| dialect.single(name));
+        text.push_str(&dialect.store(&place, value));
     }
 }

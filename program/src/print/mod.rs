@@ -10,6 +10,7 @@ mod c;
 mod dialect;
 mod function;
 mod native;
+mod pieces;
 mod signature;
 mod vectors;
 

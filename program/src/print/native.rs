@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::c::C;
-use super::function::function;
+use super::pieces::pieces;
 use super::signature::{Signature, signatures};
 use super::vectors::{PREAMBLE, Vectors};
 use crate::drive::WIDTH;
@@ -13,6 +13,13 @@ use crate::kernel::{BLOCK, Kernel};
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
 /// the array of sizes.
 pub const ABI: u64 = 1;
+
+/// Operations of a step up to which its programs become part of the loop of one trajectory: the calls are then worth
+/// the compiler's time.
+const INLINED: usize = 1500;
+
+/// Operations of a function at most: registers are allotted in a time that grows faster than its length.
+const LONGEST: usize = 1000;
 
 /// A unit of C that exports
 ///
@@ -25,8 +32,12 @@ pub const ABI: u64 = 1;
 /// computes the bits of the interpreter where the compiler contracts nothing (`-ffp-contract=off`).
 #[must_use]
 pub fn native_unit(kernel: &Kernel) -> String {
-    let scalar = C { functions: builtins(), ..C::default() };
+    let calls = String::from("static __attribute__((noinline)) void");
+    let total: usize = driven(kernel, "").map(|one| one.program.cost().total()).sum();
+    let head = if total <= INLINED { C::default().head } else { calls.clone() };
+    let scalar = C { head, functions: builtins(), ..C::default() };
     let lanes = Vectors(C {
+        head: calls,
         number: "V".into(),
         functions: ["fused", "root", "size", "nearest"].map(String::from),
         ..C::default()
@@ -37,11 +48,11 @@ pub fn native_unit(kernel: &Kernel) -> String {
     text.push_str(PREAMBLE);
     for signature in driven(kernel, "scalar_") {
         text.push('\n');
-        text.push_str(&function(&scalar, &signature));
+        text.push_str(&pieces(&scalar, &scalar, &signature, LONGEST));
     }
     for signature in driven(kernel, "lanes_") {
         text.push('\n');
-        text.push_str(&function(&lanes, &signature));
+        text.push_str(&pieces(&lanes, &lanes.0, &signature, LONGEST));
     }
     let frame = kernel.programs().frame.is_some();
     text.push_str(&SCALAR.replace("/*FRAME*/", if frame { SCALAR_FRAME } else { "" }));
