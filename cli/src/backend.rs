@@ -34,11 +34,14 @@ const COMPILED: f64 = 0.3;
 const COMPILER_STARTS: f64 = 0.15;
 const COMPILER_OPERATION: f64 = 1.2e-3;
 
+/// Programs of more operations than this are not given to a C compiler unless it is named: its time grows faster.
+const MOST_FOR_COMPILER: f64 = 15_000.0;
+
 /// The same of Cranelift.
 #[cfg(feature = "jit")]
 const JIT_STARTS: f64 = 2e-3;
 #[cfg(feature = "jit")]
-const JIT_OPERATION: f64 = 1e-5;
+const JIT_OPERATION: f64 = 1.4e-5;
 
 /// What made the steps of a run.
 #[derive(Clone, Debug)]
@@ -103,14 +106,15 @@ impl Code {
         #[cfg(feature = "jit")]
         {
             let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(1.4 * COMPILED);
-            if by_cranelift < interpreted && by_cranelift <= by_c {
+            let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
+            if by_cranelift < interpreted && !slower {
                 match Self::by_cranelift(kernel) {
                     Ok(code) => return code,
                     Err(error) => tell(&error, "another backend"),
                 }
             }
         }
-        if by_c < interpreted {
+        if by_c < interpreted && operations <= MOST_FOR_COMPILER {
             match Self::by_c(kernel) {
                 Ok(code) => return code,
                 Err(error) => tell(&error, "the interpreter"),

@@ -28,8 +28,8 @@ use rotation::Rotation;
 use tables::Tables;
 
 /// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
-/// for.
-pub const REACH: f64 = 1.5;
+/// for: up to it steps are accepted at once.
+pub const REACH: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Why a step is not made of straight-line programs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -5,8 +5,8 @@ use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
 use crate::step::part::{Moved, Part};
 use crate::step::rotation::{
-    Dexp, Rotation, compose, dexp_transpose, dexp_with_derivative, quaternion_of, rotate_back,
-    rotation_matrix, turned,
+    Dexp, QUARTER_TURN, Rotation, compose, dexp_transpose, dexp_with_derivative, quaternion_of,
+    rotate_back, rotation_matrix, turned,
 };
 use crate::step::vector::{
     Matrix, V3, cross, difference, dot, finite, minus, plus, scaled, sum, three,
@@ -188,7 +188,7 @@ impl Motion {
     }
 
     fn angle(omega: &V3, graph: &mut Graph) -> Angle {
-        Angle { t: dot(graph, omega, omega), reach: 9.88 }
+        Angle { t: dot(graph, omega, omega), reach: QUARTER_TURN }
     }
 
     /// (g, μ) moved by the increment with quaternion (w, u) and translation t.

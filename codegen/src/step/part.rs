@@ -30,8 +30,8 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
     fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
 
-    /// How far x goes into the chart and the reach of these formulas; at most 1 where both hold, not a number where x is
-    /// not finite.
+    /// How far x goes into the chart: the square of its share of a half turn, or a bound on it; not a number where x is not
+    /// finite. These formulas hold up to half a half turn.
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id;
 
     /// How far g is from the group; not a number where g is not finite.

@@ -21,6 +21,11 @@ const NEAR: f64 = 0.05;
 /// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
 const TRUSTED: f64 = 1e-3;
 
+/// Up to which share of a half turn, as the inverse of its square, steps are accepted at once: half of it, or a third
+/// where S is no series with a radius.
+const OF_SERIES: f64 = 4.0;
+const OF_OTHERS: f64 = 9.0;
+
 /// Corrections at most.
 const CORRECTIONS: u32 = 12;
 
@@ -153,6 +158,10 @@ fn accept(group: &Product, radius: usize) -> Program {
     let one = graph.constant(1.0);
     let square = dot(&mut graph, &mu, &mu);
     let radius = graph.slot(radius);
+    let (series, others) = (graph.constant(OF_SERIES), graph.constant(OF_OTHERS));
+    let finite = graph.constant(f64::MAX);
+    let share = graph.select(radius, finite, series, others);
+    let extent = graph.mul(extent, share);
     let tests = [(left, tolerance), (way, near), (extent, one), (square, radius)];
     let verdict = all_at_most(&mut graph, &tests);
     graph.finish(2 * n + 2, &[verdict])

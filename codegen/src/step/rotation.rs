@@ -6,8 +6,8 @@ use crate::step::entire::{Accuracy, Angle, WideAngle};
 use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, sum, three};
 
-/// The largest θ² of a step on SO(3): a half turn, and what is beyond it by rounding.
-const HALF_TURN: f64 = 9.88;
+/// The largest θ² of a step: a quarter turn, and what is beyond it by rounding. Longer ones are not accepted at once.
+pub const QUARTER_TURN: f64 = 2.5;
 
 /// The rotations of space, or their double cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,14 +136,8 @@ pub fn quaternion_of(matrix: &[f64], stride: usize) -> Vec<f64> {
 }
 
 impl Rotation {
-    /// The largest θ² that formulas reach.
-    fn reach(self) -> f64 {
-        // At the full turn itself the equation of a step is singular: nine tenths.
-        if self.double_cover { (1.8 * std::f64::consts::PI).powi(2) } else { HALF_TURN }
-    }
-
     fn angle(self, graph: &mut Graph, x: &V3) -> Angle {
-        Angle { t: dot(graph, x, x), reach: self.reach() }
+        Angle { t: dot(graph, x, x), reach: QUARTER_TURN }
     }
 
     /// τ(x) as a quaternion.
@@ -292,10 +286,10 @@ impl Part for Rotation {
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let square = dot(graph, x, x);
         let limit = match (self.chart, self.double_cover) {
-            (Chart::Exponential, false) => std::f64::consts::PI.powi(2),
-            (Chart::Exponential, true) => self.reach(),
+            (Chart::Exponential, _) => std::f64::consts::PI.powi(2),
             (Chart::Cayley, false) => 4.0,
-            (Chart::Cayley, true) => 16.0,
+            // The chart reaches farther than it is used at once, as with the exponential.
+            (Chart::Cayley, true) => 16.0 / (1.8 * 1.8),
         };
         let scale = graph.constant(1.0 / limit);
         graph.mul(square, scale)

@@ -12,9 +12,6 @@ use crate::step::vector::{Matrix, finite, largest, solve};
 const ROUNDING: f64 = 1e-17;
 const NEWTON: f64 = 1e-10;
 
-/// How far ½‖X‖ may go with the Cayley map: 1 − X/2 stays far from singular.
-const CAYLEY_REACH: f64 = 0.9;
-
 /// A group by tables.
 #[derive(Clone, Debug)]
 pub struct Tables {
@@ -419,12 +416,12 @@ impl Part for Tables {
         let size = match self.chart {
             Chart::Cayley => {
                 let norm = rows(graph, &matrix);
-                let scale = graph.constant(0.5 / CAYLEY_REACH);
-                graph.mul(norm, scale)
+                let half = graph.constant(0.5);
+                graph.mul(norm, half)
             }
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
-                let scale = graph.constant(1.0 / self.reach);
+                let scale = graph.constant(std::f64::consts::FRAC_1_PI);
                 // Where the series ends by itself there is no limit.
                 let squared = a.times(graph, &a);
                 let inside = match squared.is_zero(graph) {
@@ -441,7 +438,8 @@ impl Part for Tables {
                 graph.mul(norm, scale)
             }
         };
-        graph.add(size, rest)
+        let square = graph.mul(size, size);
+        graph.add(square, rest)
     }
 
     fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
