@@ -174,7 +174,7 @@ impl Comparison {
         let logs: f64 = ratios.iter().map(|ratio| ratio.ln()).sum();
         Self {
             count: ratios.len(),
-            worse: ratios.iter().filter(|ratio| !(**ratio <= 1.1)).count(),
+            worse: ratios.iter().filter(|ratio| ratio.is_nan() || **ratio > 1.1).count(),
             worst: ratios
                 .iter()
                 .fold(0.0, |worst, &ratio| if ratio <= worst { worst } else { ratio }),

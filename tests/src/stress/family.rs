@@ -33,8 +33,11 @@ pub struct System {
     /// I where steps with h|μ|/I < 1.5 must be accepted.
     pub promised: Option<f64>,
     /// Makes the steps for a step size; `None` where there are none.
-    pub steps: Box<dyn Fn(f64, &mut Random) -> Option<Made>>,
+    pub steps: Make,
 }
+
+/// Makes steps of this size; `None` where there are none.
+pub type Make = Box<dyn Fn(f64, &mut Random) -> Option<Made>>;
 
 /// Steps, and a judge of their own where S is not the model's series.
 pub struct Made {

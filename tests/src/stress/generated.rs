@@ -12,7 +12,7 @@ use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 
-use super::family::{Family, Made, Model, System, inertias};
+use super::family::{Family, Made, Make, Model, System, inertias};
 use super::random::Random;
 use super::runtime::{MatrixFree, Runner};
 use crate::bridge::double;
@@ -145,8 +145,6 @@ impl Source {
         }
     }
 }
-
-type Make = Box<dyn Fn(f64, &mut Random) -> Option<Made>>;
 
 /// Bodies of any size that obey the triangle inequality, with ratios to 10.
 fn body(random: &mut Random) -> [f64; 3] {
