@@ -32,7 +32,7 @@ impl Place {
     /// Records in `out`, every 3rd step and between steps, and a picture.
     fn command(&self, out: &str, more: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_coadjoint"));
-        command.current_dir(self.0.path()).args(["simulate", "body.toml", "--time", "20000"]);
+        command.current_dir(self.0.path()).args(["simulate", "body.toml", "--time", "8000"]);
         command.args(["--every", "3", "--at", "0.55,77.77,150.01", "--format", "json"]);
         command.args(["--out", out, "--plot", &format!("{out}.svg")]).args(more);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());

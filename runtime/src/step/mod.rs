@@ -80,7 +80,7 @@ pub fn advance_with<S: Integrator + ?Sized>(
 }
 
 /// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`Predict::predict_after`]), or several are solved at once
+/// one before ([`Predict::predict_after`](crate::solve::Predict::predict_after)), or several are solved at once
 /// ([`BlockNewton`](crate::solve::BlockNewton)), a comoving frame moves on for many at once,
 /// and what steps read of `generating` is prepared once. The report holds the largest number of
 /// iterations and the largest residual of a step; no step, none.
