@@ -58,11 +58,21 @@ where
 
 #[test]
 fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
-    for h in [0.01, 0.3, 0.9] {
+    for h in [0.01, 0.3, 0.7] {
         let step = RigidBody::new(h, [1.5, 2.0, 2.5])?;
         in_lanes::<F64x4>(&step, &states(16), 40)?;
         in_lanes::<F64x8>(&step, &states(16), 40)?;
     }
+    Ok(())
+}
+
+/// Steps of more than a quarter turn have to be confirmed, which ensembles do one by one.
+#[test]
+fn long_steps_of_an_ensemble_are_those_of_its_trajectories() -> Result<(), StepError> {
+    let step = RigidBody::new(0.9, [1.5, 2.0, 2.5])?;
+    let mut advanced = states(16);
+    assert!(ensemble::advance_all(&step, &mut advanced, 40).is_empty());
+    assert_same_bits(&advanced, &one_by_one(&step, states(16), 40));
     Ok(())
 }
 
