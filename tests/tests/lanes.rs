@@ -58,7 +58,7 @@ where
 
 #[test]
 fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
-    for h in [0.01, 0.3, 0.7] {
+    for h in [0.01, 0.3, 0.5] {
         let step = RigidBody::new(h, [1.5, 2.0, 2.5])?;
         in_lanes::<F64x4>(&step, &states(16), 40)?;
         in_lanes::<F64x8>(&step, &states(16), 40)?;
