@@ -12,6 +12,9 @@ use crate::step::vector::{Matrix, finite, largest, solve};
 const ROUNDING: f64 = 1e-17;
 const NEWTON: f64 = 1e-10;
 
+/// The entries of a matrix that are not 0, as (row, column, value).
+type Entries = Vec<(usize, usize, f64)>;
+
 /// A group by tables.
 #[derive(Clone, Debug)]
 pub struct Tables {
@@ -21,9 +24,9 @@ pub struct Tables {
     /// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
     structure: Vec<(usize, usize, usize, f64)>,
     /// The matrices of the basis, as entries.
-    basis: Vec<Vec<(usize, usize, f64)>>,
+    basis: Vec<Entries>,
     /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ.
-    dual: Vec<Vec<(usize, usize, f64)>>,
+    dual: Vec<Entries>,
     /// The norm of ad_x and of X up to which series are exact to rounding.
     reach: f64,
 }
@@ -88,17 +91,22 @@ impl Tables {
         matrix
     }
 
-    /// The matrix of x.
-    fn represent(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
-        let mut matrix = Matrix::zeros(graph, self.size, self.size);
-        for (entries, &x) in self.basis.iter().zip(x) {
+    /// Σ weightᵢ · matrixᵢ, the matrices given by their entries.
+    fn combine(&self, graph: &mut Graph, matrices: &[Entries], weights: &[Id]) -> Matrix {
+        let mut sum = Matrix::zeros(graph, self.size, self.size);
+        for (entries, &weight) in matrices.iter().zip(weights) {
             for &(i, j, value) in entries {
                 let value = graph.constant(value);
-                let value = graph.times_plus(value, x, matrix.at(i, j));
-                matrix.set(i, j, value);
+                let value = graph.times_plus(value, weight, sum.at(i, j));
+                sum.set(i, j, value);
             }
         }
-        matrix
+        sum
+    }
+
+    /// The matrix of x.
+    fn represent(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
+        self.combine(graph, &self.basis, x)
     }
 
     /// φ(A)μ with φ(A) = (exp A − 1)/A, A = ad_xᵀ, by its Taylor series.
@@ -189,20 +197,12 @@ impl Tables {
 
     /// Σ μₖ Dₖ, with ⟨Σ μₖ Dₖ, ξ⟩ = ⟨μ, ξ⟩.
     fn functional(&self, graph: &mut Graph, mu: &[Id]) -> Matrix {
-        let mut matrix = Matrix::zeros(graph, self.size, self.size);
-        for (entries, &mu) in self.dual.iter().zip(mu) {
-            for &(i, j, value) in entries {
-                let value = graph.constant(value);
-                let value = graph.times_plus(value, mu, matrix.at(i, j));
-                matrix.set(i, j, value);
-            }
-        }
-        matrix
+        self.combine(graph, &self.dual, mu)
     }
 
     /// The coordinates ⟨Z, Eᵢ⟩.
     fn coordinates(&self, graph: &mut Graph, z: &Matrix) -> Vec<Id> {
-        let coordinate = |entries: &Vec<(usize, usize, f64)>| {
+        let coordinate = |entries: &Entries| {
             let mut sum = graph.zero();
             for &(i, j, value) in entries {
                 let value = graph.constant(value);
