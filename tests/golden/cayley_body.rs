@@ -675,6 +675,10 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for CayleyBody<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for CayleyBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
+        #[inline(always)]
+        fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+            seldom(&::core::clone::Clone::clone(self))
+        }
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for CayleyBody<T> {

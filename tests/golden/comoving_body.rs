@@ -708,6 +708,10 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ComovingBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
+        #[inline(always)]
+        fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+            seldom(&::core::clone::Clone::clone(self))
+        }
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable

@@ -982,6 +982,10 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for HeavyTop<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
+        #[inline(always)]
+        fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+            seldom(&::core::clone::Clone::clone(self))
+        }
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for HeavyTop<T> {

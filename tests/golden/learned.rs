@@ -869,6 +869,10 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for Learned<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for Learned<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
+        #[inline(always)]
+        fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+            seldom(&::core::clone::Clone::clone(self))
+        }
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for Learned<T> {

@@ -485,6 +485,10 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ThreeWave<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
+        #[inline(always)]
+        fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+            seldom(&::core::clone::Clone::clone(self))
+        }
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ThreeWave<T> {

@@ -211,6 +211,11 @@ fn method(
         quote! {
             impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
                 type Method = #krate::solve::#method;
+
+                #[inline(always)]
+                fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
+                    seldom(&::core::clone::Clone::clone(self))
+                }
             }
         }
     };

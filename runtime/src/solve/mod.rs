@@ -51,6 +51,14 @@ use crate::number::scalar::Scalar;
 pub trait Integrator: GeneratingFunction {
     /// How steps are solved.
     type Method: Method<Self>;
+
+    /// Runs what is seldom needed, given this function. Emitted functions, which are a row of numbers, give away a copy:
+    /// the compiler then knows that nobody writes to the original, and keeps its numbers in registers from step to step.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn apart<R>(&self, seldom: impl FnOnce(&Self) -> R) -> R {
+        seldom(self)
+    }
 }
 
 /// A method of solution: it proposes the x of the next step and keeps from step to step what it needs.

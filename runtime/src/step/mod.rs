@@ -125,7 +125,7 @@ fn single<S: Integrator + ?Sized, M: Moves<S::Group>>(
     }
     // A copy, so that a state that steps in a loop go from can stay in registers.
     let mut next = state.clone();
-    let report = rescued(generating, &mut next, candidate, settings)?;
+    let report = generating.apart(|s| rescued(s, &mut next, candidate, settings))?;
     *state = next;
     Ok(report)
 }
