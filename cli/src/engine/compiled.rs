@@ -3,8 +3,8 @@
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_program::{Kernel, Outcome, WIDTH};
-use nalgebra::DVector;
 
+use super::restore::{entries_of, phase_of};
 use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
 use crate::error::CliError;
@@ -82,18 +82,13 @@ impl Compiled {
 
     /// A state as the programs have it.
     pub fn numbers<G: Restore>(&self, group: &G, phase: &Phase<G>) -> Numbers {
-        let size = group.matrix_size();
-        let entry = |at: usize| group.matrix_entry(&phase.group_element, at / size, at % size);
-        let matrix: Vec<f64> = (0..size * size).map(entry).collect();
+        let matrix = entries_of(group, &phase.group_element);
         Numbers { g: self.step.element_of(&matrix), mu: phase.momentum.as_slice().to_vec() }
     }
 
     /// A state as the group has it.
     pub fn phase<G: Restore>(&self, group: &G, numbers: &Numbers) -> Phase<G> {
-        let size = group.matrix_size();
-        let matrix = self.matrix_of(&numbers.g);
-        let element = group.restore(&|i, j| matrix[i * size + j]);
-        Phase::<G>::new(element, DVector::from_column_slice(&numbers.mu))
+        phase_of(group, &self.matrix_of(&numbers.g), &numbers.mu)
     }
 
     /// Makes so many steps. What the programs refuse is made by `rescue`, which makes one step by other means (its

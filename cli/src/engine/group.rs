@@ -47,10 +47,20 @@ pub fn cayley_group(
     Ok(DirectProduct::new(factors.map_err(failed)?))
 }
 
+/// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole. With a potential, only
+/// the Casimirs that its kicks leave as they are are watched.
+pub fn whole_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+    potential: Option<&Potential>,
+) -> Result<DirectProduct<MatrixGroup>, CliError> {
+    Ok(DirectProduct::new(vec![matrix_group(path, algebra, potential)?]))
+}
+
 /// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
 /// size, or adjoint matrices where only brackets are known. With a potential, only the Casimirs
 /// that its kicks leave as they are.
-pub fn matrix_group(
+fn matrix_group(
     path: &Path,
     algebra: &LieAlgebra,
     potential: Option<&Potential>,

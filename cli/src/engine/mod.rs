@@ -5,41 +5,28 @@ mod compiled;
 mod group;
 mod interpreter;
 mod kick;
-mod lanes;
 mod polynomial;
 mod restore;
 mod steep;
 
 pub use advise::advise;
 pub use compiled::{Compiled, Numbers};
-pub use group::{cayley_group, matrix_group, product_group};
+pub use group::{cayley_group, product_group, whole_group};
 pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};
 pub use polynomial::{Energy, FloatPolynomial};
-pub use restore::Restore;
+pub use restore::{Restore, entries_of, phase_of};
 pub use steep::{STEEP, Steepness};
 
 use std::ops::Range;
 
-use coadjoint::{LieGroup, groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup};
+use coadjoint::{LieGroup, groups::DirectProduct};
 use nalgebra::DVector;
 
 /// Groups known at run time.
 pub trait Group: LieGroup<Scalar = f64, Vector = DVector<f64>> {
     /// The rows of each diagonal block of its matrices; all other entries are 0.
     fn blocks(&self) -> Vec<Range<usize>>;
-}
-
-impl Group for MatrixGroup {
-    fn blocks(&self) -> Vec<Range<usize>> {
-        std::iter::once(0..self.matrix_size()).collect()
-    }
-}
-
-impl Group for CayleyMatrixGroup {
-    fn blocks(&self) -> Vec<Range<usize>> {
-        std::iter::once(0..self.matrix_size()).collect()
-    }
 }
 
 impl<G: LieGroup<Scalar = f64>> Group for DirectProduct<G> {

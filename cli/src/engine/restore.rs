@@ -1,7 +1,7 @@
 //! Group elements put back bit by bit.
 
-use coadjoint::{LieGroup, groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup};
-use nalgebra::DMatrix;
+use coadjoint::{LieGroup, Phase, groups::DirectProduct};
+use nalgebra::{DMatrix, DVector};
 
 use super::Group;
 
@@ -12,31 +12,27 @@ pub trait Restore: Group {
     fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element;
 }
 
-impl Restore for MatrixGroup {
+impl<G: LieGroup<Scalar = f64, Element = DMatrix<f64>>> Restore for DirectProduct<G> {
     fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element {
-        let size = self.matrix_size();
-        DMatrix::from_fn(size, size, entry)
-    }
-}
-
-impl Restore for CayleyMatrixGroup {
-    fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element {
-        let size = self.matrix_size();
-        DMatrix::from_fn(size, size, entry)
-    }
-}
-
-impl<G: Restore> Restore for DirectProduct<G>
-where
-    Self: Group<Element = Vec<G::Element>>,
-{
-    fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element {
-        let mut row = 0;
+        let mut first = 0;
         let factor = |factor: &G| {
-            let first = row;
-            row += factor.matrix_size();
-            factor.restore(&|i, j| entry(first + i, first + j))
+            let size = factor.matrix_size();
+            first += size;
+            DMatrix::from_fn(size, size, |i, j| entry(first - size + i, first - size + j))
         };
         self.factors().map(factor).collect()
     }
+}
+
+/// The matrix of an element, row by row.
+pub fn entries_of<G: LieGroup<Scalar = f64>>(group: &G, element: &G::Element) -> Vec<f64> {
+    let size = group.matrix_size();
+    (0..size * size).map(|at| group.matrix_entry(element, at / size, at % size)).collect()
+}
+
+/// The state with this matrix, row by row, and this momentum; neither is checked.
+pub fn phase_of<G: Restore>(group: &G, matrix: &[f64], mu: &[f64]) -> Phase<G> {
+    let size = group.matrix_size();
+    let element = group.restore(&|i, j| matrix[i * size + j]);
+    Phase::<G>::new(element, DVector::from_column_slice(mu))
 }

@@ -1,6 +1,7 @@
 //! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
 //! states.
 
+mod attitude;
 mod engine;
 mod input;
 mod journal;
@@ -13,6 +14,7 @@ mod report;
 mod rows;
 mod run;
 mod shard;
+mod steps;
 
 pub use shard::Shard;
 

@@ -27,7 +27,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::system::{self, Parameters, System, Units};
 
 use crate::arguments::SimulateOptions;
-use crate::engine::{Energy, Forces, cayley_group, matrix_group, product_group};
+use crate::engine::{Energy, Forces, cayley_group, product_group, whole_group};
 use crate::error::CliError;
 use crate::{load, progress};
 pub use header::text_hash;
@@ -89,9 +89,12 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         }
         let phase = progress::phase(&format!("deriving the series, K = {}", problem.truncation));
         let kept = potential.as_ref().map(|(potential, _)| potential);
+        let algebra = &problem.algebra;
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-        let kicked = kept.map(|potential| matrix_group(path, &problem.algebra, Some(potential)));
-        let kicked = kicked.transpose()?;
+        let group = match kept {
+            Some(potential) => whole_group(path, algebra, Some(potential))?,
+            None => product_group(path, algebra)?,
+        };
         let energy = Energy::new(&problem, kept);
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
         let integrator = load::integrator(path, problem)?;
@@ -102,33 +105,13 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
             energy: &energy,
             setup: &setup,
         };
-        let algebra = &integrator.problem.algebra;
-        let trajectory = match (&kicked, integrator.problem.chart) {
-            (Some(group), lie::Chart::Exponential) => {
-                task.integrate::<_, Exponential>(group.clone())?
-            }
-            (Some(group), lie::Chart::Cayley) => {
-                let group = group
-                    .clone()
-                    .into_cayley()
-                    .map_err(|source| CliError::Group { file: path.clone(), source })?;
-                task.integrate::<_, Cayley>(group)?
-            }
-            (None, lie::Chart::Exponential) => {
-                task.integrate::<_, Exponential>(product_group(path, algebra)?)?
-            }
-            (None, lie::Chart::Cayley) => {
-                let group = product_group(path, algebra)?;
-                task.integrate::<_, Cayley>(cayley_group(path, &group)?)?
-            }
+        let trajectory = match integrator.problem.chart {
+            lie::Chart::Exponential => task.integrate::<_, Exponential>(&group)?,
+            lie::Chart::Cayley => task.integrate::<_, Cayley>(&cayley_group(path, &group)?)?,
         };
         runs.push(trajectory);
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
-            let group = match kicked {
-                Some(group) => group,
-                None => matrix_group(path, algebra, None)?,
-            };
             runs.insert(0, rival::rk45(&group, &task, options.compare_tolerance)?);
         }
     }

@@ -1,6 +1,6 @@
 //! An adaptive Runge–Kutta method on the same equations, as the paper's figures have it.
 
-use coadjoint::{LieGroup, Phase, groups::MatrixGroup};
+use coadjoint::{LieGroup, Phase, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::problem::Problem;
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
@@ -10,13 +10,16 @@ use serde_json::json;
 
 use super::Task;
 use super::trajectory::{Moment, Recorder, Trajectory};
-use crate::engine::{FloatPolynomial, Torque};
+use crate::engine::{FloatPolynomial, Restore, Torque};
 use crate::error::CliError;
 use crate::progress;
 
+/// The group that the equations are on.
+type Group = DirectProduct<MatrixGroup>;
+
 /// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at its own steps
 /// (between them it would be the interpolation that is measured).
-pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Trajectory, CliError> {
+pub fn rk45(group: &Group, task: &Task<'_>, tolerance: f64) -> Result<Trajectory, CliError> {
     if !(tolerance.is_finite() && tolerance > 0.0) {
         let what = "--compare-tolerance must be finite and positive; try 1e-6";
         return Err(CliError::Option(what.to_owned()));
@@ -27,7 +30,7 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
     let Problem { hamiltonian, symbols, .. } = &integrator.problem;
     let gradient: Vec<FloatPolynomial> =
         (0..n).map(|i| FloatPolynomial::new(&hamiltonian.derivative(i), n, symbols)).collect();
-    let start = Phase::<MatrixGroup>::new(setup.element(group)?, setup.momentum.clone());
+    let start = Phase::<Group>::new(setup.element(group)?, setup.momentum.clone());
     let mut state: Vec<f64> = start.momentum.iter().copied().collect();
     // The matrix of g column by column, as nalgebra keeps it.
     let matrix = |g: &_| DMatrix::from_fn(size, size, |i, j| group.matrix_entry(g, i, j));
@@ -41,10 +44,10 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
             DVector::from_iterator(n, gradient.iter().map(|slope| slope.evaluate(mu.as_slice())));
         let mut force = group.ad_star(&xi, &mu);
         if let Some(torque) = &torque {
-            force += torque.torque(&g);
+            force += torque.torque(&group.restore(&|i, j| g[(i, j)]));
         }
         rate[..n].copy_from_slice(force.as_slice());
-        let moved = g * group.matrix_of(&xi);
+        let moved = g * matrix_of(group, &xi);
         rate[n..].copy_from_slice(moved.as_slice());
     };
     let end = setup.schedule.end;
@@ -53,7 +56,7 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
     let moment = recorder.visit(&start).map_err(|what| failed(0.0, what))?;
     recorder.sample(0.0, &start, &moment);
-    let mut watch = Watch { recorder, last: start, moment, size, failure: None };
+    let mut watch = Watch { group, recorder, last: start, moment, size, failure: None };
     let _phase = progress::phase("integrating with RK45");
     let solution = IVP::ode_from_fn(flow, 0.0, end, state)
         .method(ExplicitRungeKutta::dopri5().max_steps(usize::MAX))
@@ -71,6 +74,19 @@ pub fn rk45(group: &MatrixGroup, task: &Task<'_>, tolerance: f64) -> Result<Traj
     Ok(recorder.finish(name, header, (steps, end), &last, &moment))
 }
 
+/// The matrix of an element of the algebra.
+fn matrix_of(group: &Group, x: &DVector<f64>) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(group.matrix_size(), group.matrix_size());
+    let (mut row, mut coordinate) = (0, 0);
+    for factor in group.factors() {
+        let (size, dim) = (factor.matrix_size(), factor.dim());
+        let block = factor.matrix_of(&x.rows(coordinate, dim).into_owned());
+        matrix.view_mut((row, row), (size, size)).copy_from(&block);
+        (row, coordinate) = (row + size, coordinate + dim);
+    }
+    matrix
+}
+
 /// What is said of a run by a method beside ours.
 const KNOWN: [&str; 7] = [
     "program",
@@ -84,8 +100,9 @@ const KNOWN: [&str; 7] = [
 
 /// Looks at the method's own steps as they are made; none are kept.
 struct Watch<'a> {
-    recorder: Recorder<'a, MatrixGroup>,
-    last: Phase<MatrixGroup>,
+    group: &'a Group,
+    recorder: Recorder<'a, Group>,
+    last: Phase<Group>,
     moment: Moment,
     /// Rows of the group's matrices.
     size: usize,
@@ -112,7 +129,7 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         let momentum = DVector::from_column_slice(&y[..n]);
         // What has left the group is measured as it is, not put back on it.
         let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
-        self.last = Phase::new(element, momentum);
+        self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
         match self.recorder.visit(&self.last) {
             Ok(moment) => {
                 self.recorder.sample(time, &self.last, &moment);

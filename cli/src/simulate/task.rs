@@ -85,10 +85,10 @@ impl<'a> Task<'a> {
     }
 
     /// Advances from the initial state to the end.
-    pub fn integrate<G: Restore, C: Chart<G>>(&self, group: G) -> Result<Trajectory, CliError> {
+    pub fn integrate<G: Restore, C: Chart<G>>(&self, group: &G) -> Result<Trajectory, CliError> {
         match self.forces {
-            Some(forces) => self.kicked::<G, C>(&group, forces),
-            None => self.flow::<G, C>(&group),
+            Some(forces) => self.kicked::<G, C>(group, forces),
+            None => self.flow::<G, C>(group),
         }
     }
 
