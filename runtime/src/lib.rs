@@ -121,6 +121,7 @@ pub mod tune;
 /// parameters…)`, `tuned(step, parameters…, momenta)` (see [`tune::Tail`]), `advance`, `advance_by`,
 /// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`lanes::Lanes`].
 /// Every mistake in the function is reported at its place.
+#[cfg(feature = "macros")]
 pub use coadjoint_macros::lie_poisson;
 
 /// Turns a function computing a potential V(g) into its body torque −g⁻¹dV(g), derived exactly, for
@@ -162,6 +163,7 @@ pub use coadjoint_macros::lie_poisson;
 /// others are parameters. What is generated is a struct with `new(parameters…)`, `energy(&g)` and
 /// `torque(&g)`. Making one is cheap, so a potential that moves in time is one whose parameters
 /// (the direction to the Earth, say) change from kick to kick.
+#[cfg(feature = "macros")]
 pub use coadjoint_macros::potential;
 pub use nalgebra;
 

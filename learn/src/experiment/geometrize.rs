@@ -39,7 +39,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
     let mut fits = vec![None];
     for degree in options.pick(vec![2, 3, 4, 5, 6], vec![4]) {
         let fit = fit_poisson::<SO3, Exponential>(&group, &train, &PoissonOptions::degree(degree))?;
-        let map = Generating::<SO3, Exponential, _>::new(group, &fit.model);
+        let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(group, &fit.model);
         let mut states = vec![start];
         for i in 0..steps {
             let next = poisson_map(&map, &states[i])

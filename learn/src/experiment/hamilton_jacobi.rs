@@ -53,8 +53,8 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         let series = paper_series(AlgebraChart::Exponential, truncation, time)?;
         let (mut slope, mut map, mut plain) = (0.0, 0.0, 0.0);
         let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
-        let fitted = Generating::<SO3, Exponential, _>::new(group, &learned);
-        let truncated = Generating::<SO3, Exponential, _>::new(group, &series);
+        let fitted = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(group, &learned);
+        let truncated = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(group, &series);
         let failed = |e: coadjoint::StepError| LearnError::NotConverged { reason: e.to_string() };
         for mu in &tests {
             learned.gradient(mu.as_slice(), &mut a);

@@ -45,10 +45,8 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
             let rms = (squares / data.p.len() as f64).sqrt();
             let slope = previous.map(|p| (p / rms).log2());
             previous = Some(rms);
-            let map = Generating::<SO3, Exponential, _>::new(
-                group,
-                Scaled { factor: step, function: &learned },
-            );
+            let scaled = Scaled { factor: step, function: &learned };
+            let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(group, &scaled);
             let start = Phase::<SO3>::at_identity(Vector3::new(2.0, 0.5, 1.0));
             let drift = drifts(&map, &group, &start, options.pick(1000, 200), Some(&body))?;
             table.push(vec![

@@ -40,7 +40,7 @@ fn follow<C: Chart<SO3>>(
     series: Monomials,
     exact: &[Phase<SO3>],
 ) -> Result<Vec<[f64; 3]>, LearnError> {
-    let map = Generating::<SO3, C, _>::new(SO3::new(), series);
+    let map = Generating::<SO3, C, &dyn MomentumFunction>::new(SO3::new(), &series);
     let mut phase = exact[0].clone();
     let mut rows = vec![[0.0; 3]];
     for expected in &exact[1..] {

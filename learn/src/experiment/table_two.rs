@@ -22,7 +22,7 @@ const CELLS: [(f64, usize, f64, f64); 6] = [
 ];
 
 fn row(name: String, map: impl MomentumFunction, test: &MomentumPairs) -> Vec<Cell> {
-    let map = Generating::<SO3, Exponential, _>::new(SO3::new(), map);
+    let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(SO3::new(), &map);
     let figures = evaluate_momenta(&map, test);
     vec![
         name.into(),

@@ -60,7 +60,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
     }
 
     pub(super) fn figures<C: Chart<G>>(&self, function: impl MomentumFunction) -> Figures {
-        let map = Generating::<G, C, _>::new(self.group.clone(), function);
+        let map = Generating::<G, C, &dyn MomentumFunction>::new(self.group.clone(), &function);
         evaluate(&map, self.group, &self.test_pairs, &self.test)
     }
 

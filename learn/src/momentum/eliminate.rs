@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::data::MomentumPairs;
 use crate::error::LearnError;
-use crate::function::{Generating, entries, vector};
+use crate::function::{Generating, MomentumFunction, entries, vector};
 use crate::least_squares::GaussNewton;
 use crate::polynomial::{Basis, PolynomialModel, Scaling};
 use crate::trivialisation::{ad_star_matrix, left_derivative};
@@ -76,7 +76,7 @@ where
 
     let residual = |c: &DVector<f64>| {
         let model = start.clone().with_coefficients(c.as_slice());
-        let generating = Generating::<G, C, _>::new(group.clone(), &model);
+        let generating = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
         let mut all = Vec::with_capacity(dim * samples);
         for (before, after) in pairs.before.column_iter().zip(pairs.after.column_iter()) {
             let mu = vector::<G>(before.as_slice());
@@ -87,7 +87,7 @@ where
     };
     let linearise = |c: &DVector<f64>| {
         let model = start.clone().with_coefficients(c.as_slice());
-        let generating = Generating::<G, C, _>::new(group.clone(), &model);
+        let generating = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
         let mut all = DVector::zeros(dim * samples);
         let mut jacobian = DMatrix::zeros(dim * samples, terms);
         let mut row = vec![0.0; terms * dim];
@@ -130,7 +130,6 @@ where
     G: LieGroup<Scalar = f64>,
     C: Chart<G>,
 {
-    use crate::function::MomentumFunction;
     let dim = x.dim();
     let mut gradient = vec![0.0; dim];
     let mut hessian = vec![0.0; dim * dim];

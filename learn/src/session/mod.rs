@@ -17,7 +17,7 @@ use crate::data::{
 };
 use crate::error::{BadRow, LearnError};
 use crate::evaluate::{Drifts, Figures, drifts, evaluate};
-use crate::function::{Generating, vector};
+use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
 use crate::save::{ModelFile, TrainingRecord};
 
@@ -207,7 +207,7 @@ impl Visitor for Learner<'_> {
         let test = test.as_ref().map(pairs).transpose()?;
         let data = &reduction.data;
         let (model, record) = choose::fit::<G, C>(request, &group, data, progress)?;
-        let map = Generating::<G, C, _>::new(group.clone(), &model);
+        let map = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
         let train = evaluate(&map, &group, &rows, data);
         let test = test.map(|(rows, reduction)| evaluate(&map, &group, &rows, &reduction.data));
         let start = match &request.start {

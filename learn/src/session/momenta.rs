@@ -6,7 +6,7 @@ use super::{Kind, Request, Summary, named};
 use crate::data::{MomentumPairs, RowPolicy};
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::evaluate::{drifts, evaluate_momenta};
-use crate::function::{Generating, vector};
+use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
 use crate::model::Model;
 use crate::momentum::{PoissonOptions, fit_poisson};
@@ -48,7 +48,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         fit_poisson::<G, C>(group, pairs, &PoissonOptions::degree(degree))
     };
     let figures = |model: &Model, pairs: &MomentumPairs| {
-        evaluate_momenta(&Generating::<G, C, _>::new(group.clone(), model), pairs)
+        evaluate_momenta(&Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), model), pairs)
     };
     let mut candidates = Vec::new();
     let (degree, choice) = if let Some(degree) = request.degree {
@@ -80,7 +80,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let fitted = fit(degree, &pairs)?;
     let model = Model::Polynomial(fitted.model);
     let train = figures(&model, &pairs);
-    let map = Generating::<G, C, _>::new(group.clone(), &model);
+    let map = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
     let start: Option<Vec<f64>> = request.start.clone().or(first);
     let start = start.map(|mu| Phase::<G>::new(group.identity(), vector::<G>(&mu)));
