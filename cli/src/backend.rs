@@ -6,7 +6,7 @@ use std::time::Duration;
 use std::time::Instant;
 
 use coadjoint_native::{COptions, Entry, Native};
-use coadjoint_program::{Kernel, Outcome, WIDTH};
+use coadjoint_program::{Kernel, Stepper, Trajectories};
 
 use crate::error::CliError;
 
@@ -61,18 +61,26 @@ pub struct Code {
 }
 
 impl Code {
-    /// By the backend asked for, to make about so many steps.
+    /// By the backend asked for, to make about so many steps of trajectories one by one or side by side; what is not
+    /// asked for is interpreted.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
-    pub fn new(kernel: &Kernel, backend: Backend, steps: f64) -> Result<Self, CliError> {
+    pub fn new(
+        kernel: &Kernel,
+        backend: Backend,
+        steps: f64,
+        trajectories: Trajectories,
+    ) -> Result<Self, CliError> {
         let failed = |what: &dyn fmt::Display| CliError::Option(format!("--backend: {what}"));
         match backend {
             Backend::Interpreter => Ok(Self::interpreter()),
-            Backend::C => Self::by_c(kernel).map_err(|error| failed(&error)),
+            Backend::C => Self::by_c(kernel, trajectories).map_err(|error| failed(&error)),
             #[cfg(feature = "jit")]
-            Backend::Jit => Self::by_cranelift(kernel).map_err(|error| failed(&error)),
-            Backend::Auto => Ok(Self::cheapest(kernel, steps)),
+            Backend::Jit => {
+                Self::by_cranelift(kernel, trajectories).map_err(|error| failed(&error))
+            }
+            Backend::Auto => Ok(Self::cheapest(kernel, steps, trajectories)),
         }
     }
 
@@ -80,22 +88,28 @@ impl Code {
         Self { entry: None, name: "interpreter".to_owned(), ready: Duration::ZERO }
     }
 
-    fn by_c(kernel: &Kernel) -> Result<Self, coadjoint_native::NativeError> {
-        let native = Native::by_c(kernel, &COptions::default())?;
+    fn by_c(
+        kernel: &Kernel,
+        trajectories: Trajectories,
+    ) -> Result<Self, coadjoint_native::NativeError> {
+        let native = Native::by_c(kernel, &COptions { trajectories, ..COptions::default() })?;
         let name = format!("machine code by {}", native.compiler);
         Ok(Self { entry: Some(native.entry), name, ready: native.ready })
     }
 
     #[cfg(feature = "jit")]
-    fn by_cranelift(kernel: &Kernel) -> Result<Self, coadjoint_native::jit::JitError> {
+    fn by_cranelift(
+        kernel: &Kernel,
+        trajectories: Trajectories,
+    ) -> Result<Self, coadjoint_native::jit::JitError> {
         let begun = Instant::now();
-        let entry = coadjoint_native::jit::compile(kernel)?;
+        let entry = coadjoint_native::jit::compile(kernel, trajectories)?;
         let name = "machine code by Cranelift".to_owned();
         Ok(Self { entry: Some(entry), name, ready: begun.elapsed() })
     }
 
     /// What takes least time for so many steps; what cannot be had is told, and the next best is taken.
-    fn cheapest(kernel: &Kernel, steps: f64) -> Self {
+    fn cheapest(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Self {
         let operations = operations(kernel) as f64;
         let run = |each: f64| steps * operations * each * 1e-9;
         let interpreted = run(INTERPRETED);
@@ -108,14 +122,14 @@ impl Code {
             let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(1.4 * COMPILED);
             let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
             if by_cranelift < interpreted && !slower {
-                match Self::by_cranelift(kernel) {
+                match Self::by_cranelift(kernel, trajectories) {
                     Ok(code) => return code,
                     Err(error) => tell(&error, "another backend"),
                 }
             }
         }
         if by_c < interpreted && operations <= MOST_FOR_COMPILER {
-            match Self::by_c(kernel) {
+            match Self::by_c(kernel, trajectories) {
                 Ok(code) => return code,
                 Err(error) => tell(&error, "the interpreter"),
             }
@@ -128,34 +142,11 @@ impl Code {
         Used { name: self.name.clone(), ready: self.entry.as_ref().map(|_| self.ready) }
     }
 
-    /// As [`Kernel::advance`].
-    pub fn advance(
-        &self,
-        kernel: &Kernel,
-        slots: &[f64],
-        g: &mut [f64],
-        mu: &mut [f64],
-        steps: u64,
-    ) -> Outcome {
+    /// What makes the steps of this kernel, from which the code is.
+    pub fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
         match &self.entry {
-            Some(entry) => entry.advance(slots, g, mu, steps),
-            None => kernel.advance(slots, g, mu, steps),
-        }
-    }
-
-    /// As [`Kernel::advance_lanes`].
-    pub fn advance_lanes(
-        &self,
-        kernel: &Kernel,
-        slots: &[f64],
-        g: &mut [f64],
-        mu: &mut [f64],
-        steps: u64,
-        live: [bool; WIDTH],
-    ) -> [u64; WIDTH] {
-        match &self.entry {
-            Some(entry) => entry.advance_lanes(slots, g, mu, steps, live),
-            None => kernel.advance_lanes(slots, g, mu, steps, live),
+            Some(entry) => entry,
+            None => kernel,
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use coadjoint_program::{Kernel, Outcome, WIDTH};
+use coadjoint_program::{Kernel, Outcome, Stepper, WIDTH};
 
 /// Up to `steps` steps of one trajectory: (slots, g, μ, steps, report) ↦ steps made. The report is two numbers: the largest
 /// number of corrections and the largest residual.
@@ -19,21 +19,19 @@ pub type AdvanceFunction =
 pub type LanesFunction =
     unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *const u8, *mut u64);
 
-/// A compiled step, ready to be called from any thread.
+/// A compiled step, ready to be called from any thread. What was not compiled of it is interpreted.
 #[derive(Clone)]
 pub struct Entry {
-    dim: usize,
-    element: usize,
-    slots: usize,
-    advance: AdvanceFunction,
-    lanes: LanesFunction,
+    kernel: Arc<Kernel>,
+    advance: Option<AdvanceFunction>,
+    lanes: Option<LanesFunction>,
     /// Keeps the code where it is.
     _code: Arc<dyn Send + Sync>,
 }
 
 impl std::fmt::Debug for Entry {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Entry").field("dim", &self.dim).finish_non_exhaustive()
+        f.debug_struct("Entry").field("dim", &self.kernel.dim()).finish_non_exhaustive()
     }
 }
 
@@ -41,40 +39,45 @@ impl Entry {
     /// An entry to code that lives as long as `code`.
     ///
     /// # Safety
-    /// Both functions must be compiled from `kernel`, be pure but for the slices they are given, and be valid as long
+    /// The functions must be compiled from `kernel`, be pure but for the slices they are given, and be valid as long
     /// as `code` is not dropped.
     #[must_use]
     pub unsafe fn new(
         kernel: &Kernel,
-        advance: AdvanceFunction,
-        lanes: LanesFunction,
+        advance: Option<AdvanceFunction>,
+        lanes: Option<LanesFunction>,
         code: Arc<dyn Send + Sync>,
     ) -> Self {
-        let (dim, element, slots) = (kernel.dim(), kernel.element(), kernel.slots());
-        Self { dim, element, slots, advance, lanes, _code: code }
+        Self { kernel: Arc::new(kernel.clone()), advance, lanes, _code: code }
     }
 
-    /// As [`Kernel::advance`]; no step where a slice is shorter than the kernel asks for.
-    pub fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
-        if slots.len() < self.slots || g.len() < self.element || mu.len() < self.dim {
+    /// Whether slices are too short for so many trajectories.
+    fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
+        let kernel = &self.kernel;
+        slots.len() < kernel.slots()
+            || g.len() < kernel.element() * trajectories
+            || mu.len() < kernel.dim() * trajectories
+    }
+}
+
+/// No step where a slice is shorter than the kernel asks for.
+impl Stepper for Entry {
+    fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
+        if self.lacks(slots, g, mu, 1) {
             return Outcome::default();
         }
+        let Some(advance) = self.advance else {
+            return self.kernel.advance(slots, g, mu, steps);
+        };
         let mut report = [0.0; 2];
         // SAFETY: the slices are as long as the code reads and writes, and `&mut` is exclusive.
         let made = unsafe {
-            (self.advance)(
-                slots.as_ptr(),
-                g.as_mut_ptr(),
-                mu.as_mut_ptr(),
-                steps,
-                report.as_mut_ptr(),
-            )
+            advance(slots.as_ptr(), g.as_mut_ptr(), mu.as_mut_ptr(), steps, report.as_mut_ptr())
         };
         Outcome { steps: made, corrections: report[0] as u32, residual: report[1] }
     }
 
-    /// As [`Kernel::advance_lanes`]; no step where a slice is shorter than the kernel asks for.
-    pub fn advance_lanes(
+    fn advance_lanes(
         &self,
         slots: &[f64],
         g: &mut [f64],
@@ -83,14 +86,16 @@ impl Entry {
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
         let mut made = [0; WIDTH];
-        let short = g.len() < self.element * WIDTH || mu.len() < self.dim * WIDTH;
-        if short || slots.len() < self.slots {
+        if self.lacks(slots, g, mu, WIDTH) {
             return made;
         }
+        let Some(lanes) = self.lanes else {
+            return self.kernel.advance_lanes(slots, g, mu, steps, live);
+        };
         let live = live.map(u8::from);
         // SAFETY: the slices are as long as the code reads and writes, and `&mut` is exclusive.
         unsafe {
-            (self.lanes)(
+            lanes(
                 slots.as_ptr(),
                 g.as_mut_ptr(),
                 mu.as_mut_ptr(),

@@ -9,18 +9,23 @@ use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
 
-use coadjoint_program::Kernel;
 use coadjoint_program::print::ABI;
+use coadjoint_program::{Kernel, Trajectories};
 use libloading::Library;
 
 use crate::entry::{AdvanceFunction, Entry, LanesFunction};
 use crate::error::NativeError;
 
-/// The entry of a library compiled from [`native_unit`](coadjoint_program::print::native_unit) of this kernel.
+/// The entry of a library compiled from [`native_unit`](coadjoint_program::print::native_unit) of this kernel with these
+/// functions.
 ///
 /// # Errors
 /// [`NativeError::Load`] where it is no library, lacks a function, or has other sizes.
-pub(crate) fn load(kernel: &Kernel, path: &Path) -> Result<Entry, NativeError> {
+pub(crate) fn load(
+    kernel: &Kernel,
+    trajectories: Trajectories,
+    path: &Path,
+) -> Result<Entry, NativeError> {
     let fault = |message: String| NativeError::Load { path: path.to_owned(), message };
     let library = open(path).map_err(|error| fault(told(&error)))?;
     // SAFETY: the array is exported with this type by every version of the printed unit.
@@ -32,12 +37,18 @@ pub(crate) fn load(kernel: &Kernel, path: &Path) -> Result<Entry, NativeError> {
     if found != expected {
         return Err(fault(format!("it has the sizes {found:?}, the step has {expected:?}")));
     }
-    // SAFETY: units of this version export both functions with these types.
-    let advance = unsafe { library.get::<AdvanceFunction>(b"coadjoint_advance") };
-    let advance = *advance.map_err(|error| fault(told(&error)))?;
-    // SAFETY: as above.
-    let lanes = unsafe { library.get::<LanesFunction>(b"coadjoint_advance_lanes") };
-    let lanes = *lanes.map_err(|error| fault(told(&error)))?;
+    let mut advance = None;
+    if trajectories.one() {
+        // SAFETY: units of this version export the function with this type.
+        let found = unsafe { library.get::<AdvanceFunction>(b"coadjoint_advance") };
+        advance = Some(*found.map_err(|error| fault(told(&error)))?);
+    }
+    let mut lanes = None;
+    if trajectories.lanes() {
+        // SAFETY: as above.
+        let found = unsafe { library.get::<LanesFunction>(b"coadjoint_advance_lanes") };
+        lanes = Some(*found.map_err(|error| fault(told(&error)))?);
+    }
     // SAFETY: the functions were compiled from the kernel's text and touch only what they are given; the library stays
     // loaded until the entry drops it.
     Ok(unsafe { Entry::new(kernel, advance, lanes, Arc::new(library)) })

@@ -5,7 +5,7 @@
 mod common;
 
 use coadjoint_native::{COptions, CacheFolder, Entry, Native};
-use coadjoint_program::{Kernel, WIDTH};
+use coadjoint_program::{Kernel, Stepper, Trajectories, WIDTH};
 use common::{bits, kernel, lane, state};
 
 fn compiled(kernel: &Kernel) -> Entry {
@@ -85,6 +85,17 @@ fn thousands_of_steps_and_operations_have_the_bits_of_the_interpreter() {
         compare(&kernel, &compiled(&kernel), seed, 3000, &mut met);
     }
     assert!(met.longest == 3000, "{met:?}");
+}
+
+#[test]
+fn what_is_not_compiled_is_interpreted() {
+    let kernel = kernel(7, [3, 4, 1], 40, true, 0.1);
+    for trajectories in [Trajectories::One, Trajectories::Lanes] {
+        let options = COptions { cache: CacheFolder::None, trajectories, ..COptions::default() };
+        let native = Native::by_c(&kernel, &options).unwrap();
+        let mut met = Met::default();
+        compare(&kernel, &native.entry, 7, 300, &mut met);
+    }
 }
 
 #[test]

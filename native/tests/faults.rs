@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
-use coadjoint_program::Kernel;
+use coadjoint_program::{Kernel, Stepper};
 use common::{bits, kernel, lane, state};
 
 fn small(seed: u64) -> Kernel {

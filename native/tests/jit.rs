@@ -4,7 +4,8 @@
 
 mod samples;
 
-use coadjoint_native::jit;
+use coadjoint_native::jit::{self, JitError};
+use coadjoint_program::Trajectories;
 use samples::chance::Chance;
 use samples::wild::{self, Shape};
 use samples::{Sample, Seen, compare, rigid};
@@ -12,7 +13,7 @@ use samples::{Sample, Seen, compare, rigid};
 const STEPS: [u64; 9] = [0, 1, 2, 7, 255, 256, 257, 512, 700];
 
 fn try_all(sample: &Sample, chance: &mut Chance) -> Seen {
-    let entry = jit::compile(&sample.kernel).unwrap();
+    let entry = jit::compile(&sample.kernel, Trajectories::Both).unwrap();
     let mut seen = Seen::default();
     for steps in STEPS {
         compare(sample, &entry, steps, chance, &mut seen);
@@ -55,7 +56,7 @@ fn random_programs_have_the_same_bits() {
             comoving: chance.below(2) == 0,
         };
         let sample = wild::kernel(shape, &mut chance);
-        let entry = jit::compile(&sample.kernel).unwrap();
+        let entry = jit::compile(&sample.kernel, Trajectories::Both).unwrap();
         for steps in [1, 3, 256, 300] {
             compare(&sample, &entry, steps, &mut chance, &mut seen);
         }
@@ -71,7 +72,7 @@ fn programs_with_more_values_than_registers_have_the_same_bits() {
         let (dim, element, constants, slots, corrections) = (24, 30, 20, 60, 3);
         let shape = Shape { dim, element, constants, slots, nodes, corrections, comoving: true };
         let sample = wild::kernel(shape, &mut chance);
-        let entry = jit::compile(&sample.kernel).unwrap();
+        let entry = jit::compile(&sample.kernel, Trajectories::Both).unwrap();
         for steps in [1, 5, 260] {
             compare(&sample, &entry, steps, &mut chance, &mut seen);
         }
@@ -82,7 +83,7 @@ fn programs_with_more_values_than_registers_have_the_same_bits() {
 #[test]
 fn code_outlives_all_but_its_last_entry() {
     let sample = rigid::body(10.0, 10.0, false);
-    let entry = jit::compile(&sample.kernel).unwrap();
+    let entry = jit::compile(&sample.kernel, Trajectories::Both).unwrap();
     let other = entry.clone();
     drop(entry);
     let threads: Vec<_> = (0..4)
@@ -100,4 +101,36 @@ fn code_outlives_all_but_its_last_entry() {
     for thread in threads {
         assert_eq!(thread.join().unwrap(), 8);
     }
+}
+
+#[test]
+fn what_is_not_compiled_is_interpreted() {
+    let mut chance = Chance(5);
+    let mut seen = Seen::default();
+    for trajectories in [Trajectories::One, Trajectories::Lanes] {
+        let sample = rigid::body(0.5, 10.0, true);
+        let entry = jit::compile(&sample.kernel, trajectories).unwrap();
+        compare(&sample, &entry, 300, &mut chance, &mut seen);
+    }
+    assert!(seen.whole > 0, "{seen:?}");
+}
+
+#[test]
+fn a_state_that_does_not_fit_the_stack_is_refused() {
+    let element = 9000;
+    let shape = Shape {
+        dim: 2,
+        element,
+        constants: 1,
+        slots: 1,
+        nodes: 4,
+        corrections: 1,
+        comoving: false,
+    };
+    let sample = wild::kernel(shape, &mut Chance(6));
+    let refused = jit::compile(&sample.kernel, Trajectories::Lanes).unwrap_err();
+    // The state now and at the start of the block, in pairs of numbers.
+    let told =
+        matches!(refused, JitError::Large { bytes, most } if bytes > most && bytes > 32 * element);
+    assert!(told, "{refused:?}");
 }

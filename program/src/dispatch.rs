@@ -4,8 +4,10 @@
 //! all of them has to call a function for it. Here the same loop is compiled once more with the instructions of
 //! AVX2 and FMA, and taken where the processor has them; the bits are the same.
 
-use crate::drive::{Memory, Outcome, Packed};
+use crate::drive::Memory;
 use crate::kernel::Kernel;
+use crate::packed::Packed;
+use crate::stepper::Outcome;
 
 /// [`drive::block`](crate::drive::block), by the best code there is for this processor.
 pub(crate) fn block<T: Packed<L>, const L: usize>(

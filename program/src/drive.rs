@@ -5,18 +5,9 @@ use alloc::vec::Vec;
 
 use crate::kernel::{BLOCK, Kernel};
 use crate::number::{Lanes, Number};
+use crate::packed::Packed;
 use crate::program::Program;
-
-/// What driving a kernel came to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outcome {
-    /// Steps made; fewer than asked for where the next one was refused.
-    pub steps: u64,
-    /// The largest number of corrections of a step.
-    pub corrections: u32,
-    /// The largest residual left by a step, relative to the largest coordinate of μ.
-    pub residual: f64,
-}
+use crate::stepper::{Outcome, Stepper, WIDTH};
 
 /// Memory of the interpreter, reused from call to call.
 #[derive(Clone, Debug, Default)]
@@ -25,15 +16,8 @@ pub struct Scratch<T> {
     values: Vec<T>,
 }
 
-/// Lanes that the interpreter takes at once.
-pub const WIDTH: usize = 8;
-
-impl Kernel {
-    /// Makes up to so many steps from (g, μ) with these folded coefficients; the state is then that after the last
-    /// step made.
-    ///
-    /// Slices shorter than the kernel asks for are read as if filled up with zeros.
-    pub fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
+impl Stepper for Kernel {
+    fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
         let mut memory = Memory::<f64>::new(self, slots, g, mu);
         let mut outcome = Outcome::default();
         while outcome.steps < steps {
@@ -48,10 +32,7 @@ impl Kernel {
         outcome
     }
 
-    /// As [`Kernel::advance`] for [`WIDTH`] trajectories side by side: number i of trajectory r of `g` and `mu` is at
-    /// `i * WIDTH + r`. Only lanes with `live` move. The steps each made; a refused lane changes no neighbour's bits,
-    /// and each lane has the bits of [`Kernel::advance`].
-    pub fn advance_lanes(
+    fn advance_lanes(
         &self,
         slots: &[f64],
         g: &mut [f64],
@@ -76,7 +57,9 @@ impl Kernel {
         memory.store(g, mu);
         made
     }
+}
 
+impl Kernel {
     /// The numbers of `watch` at a state.
     pub fn watch(
         &self,
@@ -97,69 +80,6 @@ impl Kernel {
         for (value, id) in out.iter_mut().zip(program.outputs()) {
             *value = scratch.nodes[id.index()];
         }
-    }
-}
-
-/// Numbers that know how they lie in memory, and which of them are done.
-pub(crate) trait Packed<const L: usize>: Number {
-    fn load(list: &[f64], i: usize) -> Self;
-    fn store(self, list: &mut [f64], i: usize);
-    fn lane(self, lane: usize) -> f64;
-    /// In live lanes `new`, in others self.
-    fn update(self, live: [bool; L], new: Self) -> Self;
-}
-
-impl Packed<1> for f64 {
-    #[inline(always)]
-    fn load(list: &[f64], i: usize) -> Self {
-        list.get(i).copied().unwrap_or(0.0)
-    }
-    #[inline(always)]
-    fn store(self, list: &mut [f64], i: usize) {
-        if let Some(place) = list.get_mut(i) {
-            *place = self;
-        }
-    }
-    #[inline(always)]
-    fn lane(self, _: usize) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn update(self, live: [bool; 1], new: Self) -> Self {
-        if live[0] { new } else { self }
-    }
-}
-
-impl<const L: usize> Packed<L> for Lanes<L> {
-    #[inline(always)]
-    fn load(list: &[f64], i: usize) -> Self {
-        let mut result = [0.0; L];
-        for (lane, value) in result.iter_mut().enumerate() {
-            *value = list.get(i * L + lane).copied().unwrap_or(0.0);
-        }
-        Self(result)
-    }
-    #[inline(always)]
-    fn store(self, list: &mut [f64], i: usize) {
-        for (lane, value) in self.0.into_iter().enumerate() {
-            if let Some(place) = list.get_mut(i * L + lane) {
-                *place = value;
-            }
-        }
-    }
-    #[inline(always)]
-    fn lane(self, lane: usize) -> f64 {
-        self.0[lane]
-    }
-    #[inline(always)]
-    fn update(self, live: [bool; L], new: Self) -> Self {
-        let mut result = self.0;
-        for lane in 0..L {
-            if live[lane] {
-                result[lane] = new.0[lane];
-            }
-        }
-        Self(result)
     }
 }
 

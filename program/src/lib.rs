@@ -2,8 +2,8 @@
 //!
 //! - [`Graph`] grows nodes, equal ones once; [`Program`] is a finished one, in an order of evaluation.
 //! - [`Kernel`] is a whole step as programs: guess, correction, acceptance, transport, and the loop that drives them.
-//! - [`Kernel::advance`] and [`Kernel::advance_lanes`] are the interpreter, the reference for all targets.
-//!
+//! - [`Stepper`] is what makes the steps of a kernel. The kernel itself is one, the interpreter, the reference for all
+//!   targets.
 //! - [`print`](mod@print) writes programs and kernels in other languages.
 //!
 //! A fused product is an operation of the program, so that targets agree to the bit.
@@ -23,12 +23,15 @@ mod evaluate;
 mod kernel;
 mod node;
 mod number;
+mod packed;
 pub mod print;
 mod program;
+mod stepper;
 
-pub use drive::{Outcome, Scratch, WIDTH};
+pub use drive::Scratch;
 pub use error::ProgramError;
 pub use kernel::{BLOCK, Kernel, Programs};
 pub use node::{Cost, Graph, Id, Node};
 pub use number::{Lanes, Number};
 pub use program::Program;
+pub use stepper::{Outcome, Stepper, Trajectories, WIDTH};

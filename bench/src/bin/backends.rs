@@ -16,7 +16,9 @@ use coadjoint_codegen::integrator;
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_native::{COptions, CacheFolder, Entry, Native};
-use coadjoint_program::WIDTH;
+#[cfg(feature = "jit")]
+use coadjoint_program::Trajectories;
+use coadjoint_program::{Stepper, WIDTH};
 use nalgebra::DMatrix;
 
 /// Rounds over all ways.
@@ -153,7 +155,7 @@ fn row<S: Integrator>(text: &Text, compiled: &S, start: Phase<S::Group>) -> Resu
     #[cfg(feature = "jit")]
     let jit = {
         let begun = Instant::now();
-        let code = coadjoint_native::jit::compile(kernel)?;
+        let code = coadjoint_native::jit::compile(kernel, Trajectories::Both)?;
         let ready = begun.elapsed();
         ways.push(entry("Cranelift", code.clone()));
         ways.push(lanes("Cranelift, lanes", code));

@@ -2,7 +2,7 @@
 
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::step::{REACH, Step};
-use coadjoint_program::{Kernel, Outcome, WIDTH};
+use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
 use super::restore::{entries_of, phase_of};
 use super::{Interpreter, Restore};
@@ -39,7 +39,7 @@ impl std::fmt::Debug for Compiled {
 }
 
 impl Compiled {
-    /// The steps of `interpreter`, `steps` of which are going to be made; `None` where they are not made of programs.
+    /// The steps of `interpreter`, `steps` of which are going to be made, of these trajectories; `None` where they are not made of programs.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
@@ -47,6 +47,7 @@ impl Compiled {
         interpreter: &Interpreter<'_, G, C>,
         backend: Backend,
         steps: f64,
+        trajectories: Trajectories,
     ) -> Result<Option<Self>, CliError> {
         let unfit = |why: &dyn std::fmt::Display| match backend {
             Backend::Auto | Backend::Interpreter => Ok(None),
@@ -66,7 +67,7 @@ impl Compiled {
         }
         let slots = step.slots(&interpreter.slots, interpreter.radius);
         let framed = programs.frame.is_some();
-        let code = Code::new(step.kernel(), backend, steps)?;
+        let code = Code::new(step.kernel(), backend, steps, trajectories)?;
         Ok(Some(Self { step, slots, code, framed }))
     }
 
@@ -106,7 +107,7 @@ impl Compiled {
         while total.steps < steps {
             let asked = if self.framed { 1 } else { steps - total.steps };
             let Numbers { g, mu } = numbers;
-            let made = self.code.advance(self.kernel(), &self.slots, g, mu, asked);
+            let made = self.code.stepper(self.kernel()).advance(&self.slots, g, mu, asked);
             total.steps += made.steps;
             note(&mut total, made.corrections, made.residual);
             if made.steps < asked {
@@ -145,7 +146,7 @@ impl Compiled {
         matrix
     }
 
-    /// [`WIDTH`] trajectories side by side, as [`Kernel::advance_lanes`].
+    /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
     pub fn advance_lanes(
         &self,
         g: &mut [f64],
@@ -153,7 +154,7 @@ impl Compiled {
         steps: u64,
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
-        self.code.advance_lanes(self.kernel(), &self.slots, g, mu, steps, live)
+        self.code.stepper(self.kernel()).advance_lanes(&self.slots, g, mu, steps, live)
     }
 }
 

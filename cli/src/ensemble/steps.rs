@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -61,7 +62,7 @@ where
     ) -> Result<Self, CliError> {
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
             .map_err(|source| CliError::Step { time: 0.0, source })?;
-        let compiled = Compiled::new(&stepper, backend, work)?;
+        let compiled = Compiled::new(&stepper, backend, work, Trajectories::Lanes)?;
         let attitudes = Attitudes::of(&integrator.problem.algebra);
         Ok(Self { integrator, stepper, compiled, attitudes, step, shorter: Mutex::default() })
     }

@@ -7,6 +7,7 @@ use coadjoint::{
     tune::fit,
 };
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 
 use super::header::Header;
@@ -164,8 +165,8 @@ impl<'a> Task<'a> {
         let advised = |error, phase: &Phase<G>| {
             advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
         };
-        let Some(compiled) = Compiled::new(&step, self.setup.backend, schedule.steps as f64)?
-        else {
+        let (backend, steps) = (self.setup.backend, schedule.steps as f64);
+        let Some(compiled) = Compiled::new(&step, backend, steps, Trajectories::One)? else {
             return March { subject: &subject, group }.run(&Stepper {
                 steps: &each(schedule, |_, phase| {
                     let (solution, residual) =

@@ -77,7 +77,7 @@ impl Compiler {
     pub fn flags() -> &'static [&'static str] {
         &[
             "-std=gnu99",
-            "-O2",
+            "-O1",
             #[cfg(any(target_arch = "x86_64", target_arch = "x86"))]
             "-march=native",
             #[cfg(target_arch = "aarch64")]

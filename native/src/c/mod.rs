@@ -12,8 +12,8 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use coadjoint_program::Kernel;
 use coadjoint_program::print::native_unit;
+use coadjoint_program::{Kernel, Trajectories};
 use tempfile::TempDir;
 
 use cache::Cache;
@@ -34,11 +34,18 @@ pub struct COptions {
     pub time_limit: Duration,
     /// Where compiled steps are kept.
     pub cache: CacheFolder,
+    /// What is compiled: either half takes about half the time.
+    pub trajectories: Trajectories,
 }
 
 impl Default for COptions {
     fn default() -> Self {
-        Self { compiler: None, time_limit: Duration::from_secs(120), cache: CacheFolder::User }
+        Self {
+            compiler: None,
+            time_limit: Duration::from_secs(120),
+            cache: CacheFolder::User,
+            trajectories: Trajectories::Both,
+        }
     }
 }
 
@@ -57,7 +64,7 @@ pub struct Native {
 
 impl Native {
     /// The step of a kernel, compiled by a C compiler with the machine's own instructions; the bits are those of
-    /// [`Kernel::advance`] and [`Kernel::advance_lanes`].
+    /// the interpreter.
     ///
     /// # Errors
     /// [`NativeError`] where there is no compiler, it fails or does not end in time, no temporary file can be written, or
@@ -67,7 +74,8 @@ impl Native {
         let folder = private_folder()?;
         let compiler =
             Compiler::find(options.compiler.as_deref(), options.time_limit, folder.path())?;
-        let text = native_unit(kernel);
+        let text = native_unit(kernel, options.trajectories);
+        let load = |library: &Path| load(kernel, options.trajectories, library);
         let done = |entry, cached| Self {
             entry,
             compiler: compiler.name(),
@@ -85,7 +93,7 @@ impl Native {
                 )
             });
         if let Some((cache, key)) = &kept {
-            let loaded = cache.get(key).and_then(|library| load(kernel, &library).ok());
+            let loaded = cache.get(key).and_then(|library| load(&library).ok());
             if let Some(entry) = loaded {
                 return Ok(done(entry, true));
             }
@@ -93,10 +101,17 @@ impl Native {
         let library = compiler.compile(&text, folder.path())?;
         let entry = kept
             .and_then(|(cache, key)| cache.put(&key, &library).ok())
-            .and_then(|library| load(kernel, &library).ok());
+            .and_then(|library| load(&library).ok());
         match entry {
             Some(entry) => Ok(done(entry, false)),
-            None => Ok(done(load_and_remove(kernel, &library, folder)?, false)),
+            None => {
+                let entry = load(&library)?;
+                if cfg!(windows) {
+                    // A loaded library needs its file no more, except there.
+                    let _ = folder.keep();
+                }
+                Ok(done(entry, false))
+            }
         }
     }
 }
@@ -107,14 +122,4 @@ fn private_folder() -> Result<TempDir, NativeError> {
         .prefix("coadjoint-")
         .tempdir()
         .map_err(|source| NativeError::Write { path: std::env::temp_dir(), source })
-}
-
-/// Loads a library from its temporary folder. A loaded library needs its file no more, except on Windows, where the
-/// folder stays.
-fn load_and_remove(kernel: &Kernel, library: &Path, folder: TempDir) -> Result<Entry, NativeError> {
-    let entry = load(kernel, library)?;
-    if cfg!(windows) {
-        let _ = folder.keep();
-    }
-    Ok(entry)
 }

@@ -33,12 +33,12 @@ fn failed(error: ModuleError) -> JitError {
     JitError::Compile(error.to_string())
 }
 
-/// Copies both functions of a kernel to executable memory.
+/// Copies functions of a kernel to executable memory.
 pub(super) fn load(
     kernel: &Kernel,
     isa: OwnedTargetIsa,
-    advance: &Assembled,
-    lanes: &Assembled,
+    advance: Option<&Assembled>,
+    lanes: Option<&Assembled>,
 ) -> Result<Entry, JitError> {
     // Owned at once, so that memory is freed on every way out.
     let module = JITModule::new(JITBuilder::with_isa(isa, default_libcall_names()));
@@ -46,30 +46,30 @@ pub(super) fn load(
     let Ok(Some(module)) = code.0.get_mut() else {
         return Err(JitError::Compile("no memory for code".into()));
     };
-    let mut ids: Vec<FuncId> = Vec::new();
-    for (name, assembled) in [("advance", advance), ("lanes", lanes)] {
-        let signature = &assembled.function.signature;
-        let id = module.declare_function(name, Linkage::Export, signature).map_err(failed)?;
-        let relocations: Vec<ModuleReloc> = assembled
-            .relocations
-            .iter()
-            .map(|relocation| ModuleReloc::from_mach_reloc(relocation, &assembled.function, id))
-            .collect();
-        module
-            .define_function_bytes(id, assembled.alignment, &assembled.bytes, &relocations)
-            .map_err(failed)?;
-        ids.push(id);
-    }
+    let advance = advance.map(|assembled| define(module, "advance", assembled)).transpose()?;
+    let lanes = lanes.map(|assembled| define(module, "lanes", assembled)).transpose()?;
     module.finalize_definitions().map_err(failed)?;
-    let [advance, lanes] = [0, 1].map(|i| module.get_finalized_function(ids[i]));
-    // SAFETY: code built by `scalar::build` and `lanes::build` has these signatures and the system's calling convention.
-    let (advance, lanes) = unsafe {
-        (
-            std::mem::transmute::<*const u8, AdvanceFunction>(advance),
-            std::mem::transmute::<*const u8, LanesFunction>(lanes),
-        )
-    };
+    // SAFETY: code built by `scalar::build` has this signature and the system's calling convention.
+    let advance = advance.map(|id| unsafe {
+        std::mem::transmute::<*const u8, AdvanceFunction>(module.get_finalized_function(id))
+    });
+    // SAFETY: so has code built by `lanes::build`.
+    let lanes = lanes.map(|id| unsafe {
+        std::mem::transmute::<*const u8, LanesFunction>(module.get_finalized_function(id))
+    });
     // SAFETY: both are compiled from this kernel, touch nothing but what they are given and their own stack, and stay as
     // long as `code`.
     Ok(unsafe { Entry::new(kernel, advance, lanes, Arc::new(code)) })
+}
+
+/// Adds a function to the memory.
+fn define(module: &mut JITModule, name: &str, assembled: &Assembled) -> Result<FuncId, JitError> {
+    let Assembled { function, bytes, alignment, relocations } = assembled;
+    let id = module.declare_function(name, Linkage::Export, &function.signature).map_err(failed)?;
+    let relocations: Vec<ModuleReloc> = relocations
+        .iter()
+        .map(|relocation| ModuleReloc::from_mach_reloc(relocation, function, id))
+        .collect();
+    module.define_function_bytes(id, *alignment, bytes, &relocations).map_err(failed)?;
+    Ok(id)
 }

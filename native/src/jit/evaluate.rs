@@ -1,6 +1,6 @@
 //! A program written out with its values held in few registers.
 //!
-//! Programs are long and their valuess live long: left to themselves, thousands would be alive at once, and Cranelift's
+//! Programs are long and their values live long: left to themselves, thousands would be alive at once, and Cranelift's
 //! allocation of registers would take time by the square of that. Here a value has a register only until its next use
 //! is farther away than those of the others (Belady's rule); then it waits in the frame, and whoever uses it reads it
 //! there, as a rule in the same instruction. What Cranelift sees fits its registers.

@@ -6,13 +6,14 @@
 
 mod code;
 mod coder;
+mod control;
 mod evaluate;
 mod frame;
 mod host;
 mod lanes;
 mod scalar;
 
-use coadjoint_program::Kernel;
+use coadjoint_program::{Kernel, Trajectories};
 
 use crate::Entry;
 
@@ -40,18 +41,26 @@ pub enum JitError {
     Compile(String),
 }
 
-/// The kernel's two functions as machine code for the processor at hand.
+/// The kernel's functions that are asked for as machine code for the processor at hand; the interpreter makes the steps
+/// of the other one.
 ///
 /// # Errors
 /// [`JitError`] where the processor or the kernel has no code.
-pub fn compile(kernel: &Kernel) -> Result<Entry, JitError> {
+pub fn compile(kernel: &Kernel, trajectories: Trajectories) -> Result<Entry, JitError> {
     let isa = host::isa()?;
     let config = isa.frontend_config();
-    let (advance, lanes) = std::thread::scope(|scope| {
-        let lanes = scope.spawn(|| host::assemble(&isa, lanes::build(kernel, config)?));
-        let advance = scalar::build(kernel, config).and_then(|made| host::assemble(&isa, made));
-        let lanes = lanes.join().unwrap_or_else(|_| Err(JitError::Compile("a thread died".into())));
-        (advance, lanes)
-    });
-    code::load(kernel, isa, &advance?, &lanes?)
+    let one = || host::assemble(&isa, scalar::build(kernel, config)?);
+    let pairs = || host::assemble(&isa, lanes::build(kernel, config)?);
+    let (advance, lanes) = match trajectories {
+        Trajectories::One => (Some(one()?), None),
+        Trajectories::Lanes => (None, Some(pairs()?)),
+        Trajectories::Both => std::thread::scope(|scope| {
+            let lanes = scope.spawn(pairs);
+            let advance = one();
+            let died = |_| Err(JitError::Compile("a thread died".into()));
+            let lanes = lanes.join().unwrap_or_else(died);
+            Ok((Some(advance?), Some(lanes?)))
+        })?,
+    };
+    code::load(kernel, isa, advance.as_ref(), lanes.as_ref())
 }

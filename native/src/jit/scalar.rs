@@ -1,6 +1,6 @@
 //! The loop of a kernel for one trajectory.
 
-use coadjoint_program::{BLOCK, Kernel};
+use coadjoint_program::Kernel;
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, I64};
 use cranelift_codegen::ir::{
@@ -11,6 +11,7 @@ use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
 
 use super::JitError;
 use super::coder::{Coder, Form};
+use super::control::Progress;
 use super::frame::{Frame, Part};
 
 /// The function of [`AdvanceFunction`](crate::AdvanceFunction)'s signature.
@@ -26,16 +27,11 @@ pub(super) fn build(kernel: &Kernel, config: TargetFrontendConfig) -> Result<Fun
     Ok(function)
 }
 
-/// The numbers that go round in registers, and where the loop goes next.
+/// The numbers that go round in registers.
 struct Loop<'f, 'k> {
     coder: Coder<'f>,
     kernel: &'k Kernel,
-    steps: Value,
-    /// Steps made in blocks that are done.
-    made: Variable,
-    /// Steps of this block: how many to make, and made.
-    length: Variable,
-    count: Variable,
+    progress: Progress,
     /// The report: the largest number of corrections, the largest residual.
     corrections: Variable,
     residual: Variable,
@@ -43,50 +39,18 @@ struct Loop<'f, 'k> {
 
 impl<'f, 'k> Loop<'f, 'k> {
     fn write(mut coder: Coder<'f>, kernel: &'k Kernel, params: &[Value]) -> Coder<'f> {
-        let integer = |coder: &mut Coder<'f>| {
-            let variable = coder.builder.declare_var(I64);
-            let zero = coder.builder.ins().iconst(I64, 0);
-            coder.builder.def_var(variable, zero);
-            variable
-        };
-        let [made, length, count, corrections] = std::array::from_fn(|_| integer(&mut coder));
-        let residual = coder.builder.declare_var(F64);
+        let progress = Progress::new(&mut coder, params[3]);
+        let corrections = coder.count();
         let zero = coder.number(0.0);
-        coder.builder.def_var(residual, zero);
-        let steps = params[3];
-        let mut this = Self { coder, kernel, steps, made, length, count, corrections, residual };
-        this.state(params, true);
-        let x = this.coder.frame.x;
+        let residual = coder.variable(F64, zero);
+        coder.exchange([params[1], params[2]], 1, true);
+        let x = coder.frame.x;
         for i in 0..kernel.dim() {
-            this.coder.store(x + i, zero);
+            coder.store(x + i, zero);
         }
+        let mut this = Self { coder, kernel, progress, corrections, residual };
         this.blocks(params);
         this.coder
-    }
-
-    fn get(&mut self, variable: Variable) -> Value {
-        self.coder.builder.use_var(variable)
-    }
-
-    /// Goes to one of two blocks.
-    fn branch(&mut self, condition: Value, then: Block, otherwise: Block) {
-        self.coder.builder.ins().brif(condition, then, &[], otherwise, &[]);
-    }
-
-    fn block(&mut self) -> Block {
-        self.coder.builder.create_block()
-    }
-
-    fn at(&mut self, block: Block) {
-        self.coder.builder.switch_to_block(block);
-    }
-
-    /// Whether a program that gives one number gives 1.
-    fn holds(&mut self, part: Part) -> Value {
-        let one = self.coder.number(1.0);
-        let mut found = one;
-        self.coder.evaluate(self.kernel, part, |_, _, value| found = value);
-        self.coder.builder.ins().fcmp(FloatCC::Equal, found, one)
     }
 
     /// The results of a program, stored from a place on.
@@ -94,101 +58,67 @@ impl<'f, 'k> Loop<'f, 'k> {
         self.coder.evaluate(self.kernel, part, |coder, i, value| coder.store(place + i, value));
     }
 
-    /// Copies g and μ from the caller's memory to the frame, or back.
-    fn state(&mut self, params: &[Value], inwards: bool) {
-        let m = self.kernel.element();
-        for i in 0..m + self.kernel.dim() {
-            let (list, at) = if i < m { (params[1], i) } else { (params[2], i - m) };
-            let offset = (at * 8) as i32;
-            let place = self.coder.frame.state + i;
-            if inwards {
-                let value =
-                    self.coder.builder.ins().load(F64, MemFlagsData::trusted(), list, offset);
-                self.coder.store(place, value);
-            } else {
-                let value = self.coder.load(place);
-                self.coder.builder.ins().store(MemFlagsData::trusted(), value, list, offset);
-            }
-        }
-    }
-
     /// All blocks of steps, and the end.
     fn blocks(&mut self, params: &[Value]) {
-        let [next, begin, step, accept, transport, end, checked, back, out] =
-            std::array::from_fn(|_| self.block());
-        self.coder.builder.ins().jump(next, &[]);
+        let [next, begin, step, accept, transport, end, checked, done, back, out] =
+            self.coder.blocks();
+        self.coder.jump(next);
 
-        self.at(next);
-        let made = self.get(self.made);
-        let more = self.coder.builder.ins().icmp(IntCC::UnsignedLessThan, made, self.steps);
-        self.branch(more, begin, out);
+        self.coder.at(next);
+        let more = self.progress.more(&mut self.coder);
+        self.coder.branch(more, begin, out);
 
-        self.at(begin);
-        let made = self.get(self.made);
-        let rest = self.coder.builder.ins().isub(self.steps, made);
-        let block = self.coder.builder.ins().iconst(I64, BLOCK as i64);
-        let length = self.coder.builder.ins().umin(rest, block);
-        self.coder.builder.def_var(self.length, length);
-        let zero = self.coder.builder.ins().iconst(I64, 0);
-        self.coder.builder.def_var(self.count, zero);
-        let (state, start) = (self.coder.frame.state, self.coder.frame.start);
-        let entries = self.kernel.element() + self.kernel.dim();
-        self.coder.copy(state, start, entries);
-        self.coder.builder.ins().jump(step, &[]);
+        self.coder.at(begin);
+        self.progress.begin(&mut self.coder);
+        self.coder.jump(step);
 
-        self.at(step);
+        self.coder.at(step);
         self.solve(accept);
 
-        self.at(accept);
-        let right = self.holds(Part::Accept);
-        self.branch(right, transport, end);
+        self.coder.at(accept);
+        let right = self.coder.holds(self.kernel, Part::Accept);
+        self.coder.branch(right, transport, end);
 
-        self.at(transport);
-        self.store(Part::Transport, state);
-        let count = self.get(self.count);
-        let count = self.coder.builder.ins().iadd_imm_s(count, 1);
-        self.coder.builder.def_var(self.count, count);
-        let length = self.get(self.length);
-        let more = self.coder.builder.ins().icmp(IntCC::UnsignedLessThan, count, length);
-        self.branch(more, step, end);
+        self.coder.at(transport);
+        self.store(Part::Transport, self.coder.frame.state);
+        let more = self.progress.step(&mut self.coder);
+        self.coder.branch(more, step, end);
 
-        self.at(end);
-        let count = self.get(self.count);
-        self.branch(count, checked, out);
+        self.coder.at(end);
+        let made = self.progress.tried(&mut self.coder);
+        self.coder.branch(made, checked, out);
 
-        self.at(checked);
+        self.coder.at(checked);
         if self.kernel.programs().frame.is_some() {
-            let count = self.get(self.count);
-            let times = self.coder.builder.ins().fcvt_from_uint(F64, count);
+            let made = self.progress.tried(&mut self.coder);
+            let times = self.coder.builder.ins().fcvt_from_uint(F64, made);
             self.coder.store(self.coder.frame.times, times);
-            self.store(Part::Frame, state);
+            self.store(Part::Frame, self.coder.frame.state);
         }
-        let sound = self.holds(Part::Sound);
-        let done = self.block();
-        self.branch(sound, done, back);
+        let sound = self.coder.holds(self.kernel, Part::Sound);
+        self.coder.branch(sound, done, back);
 
-        self.at(done);
-        let (made, count, length) =
-            (self.get(self.made), self.get(self.count), self.get(self.length));
-        let made = self.coder.builder.ins().iadd(made, count);
-        self.coder.builder.def_var(self.made, made);
-        let whole = self.coder.builder.ins().icmp(IntCC::Equal, count, length);
-        self.branch(whole, next, out);
+        self.coder.at(done);
+        let made = self.progress.tried(&mut self.coder);
+        self.progress.end(&mut self.coder, made);
+        let length = self.progress.length(&mut self.coder);
+        let whole = self.coder.builder.ins().icmp(IntCC::Equal, made, length);
+        self.coder.branch(whole, next, out);
 
-        self.at(back);
-        self.coder.copy(start, state, entries);
-        self.coder.builder.ins().jump(out, &[]);
+        self.coder.at(back);
+        self.coder.keep(true);
+        self.coder.jump(out);
 
-        self.at(out);
-        self.state(params, false);
-        let corrections = self.get(self.corrections);
+        self.coder.at(out);
+        self.coder.exchange([params[1], params[2]], 1, false);
+        let corrections = self.coder.get(self.corrections);
         let corrections = self.coder.builder.ins().fcvt_from_uint(F64, corrections);
-        let residual = self.get(self.residual);
+        let residual = self.coder.get(self.residual);
         for (i, value) in [corrections, residual].into_iter().enumerate() {
             let offset = (i * 8) as i32;
             self.coder.builder.ins().store(MemFlagsData::trusted(), value, params[4], offset);
         }
-        let made = self.get(self.made);
+        let made = self.progress.done(&mut self.coder);
         self.coder.builder.ins().return_(&[made]);
     }
 
@@ -203,16 +133,14 @@ impl<'f, 'k> Loop<'f, 'k> {
         self.coder.store(frame.way, zero);
         let most = self.kernel.corrections();
         if most == 0 {
-            self.coder.builder.ins().jump(after, &[]);
+            self.coder.jump(after);
             return;
         }
-        let iteration = self.coder.builder.declare_var(I64);
-        let none = self.coder.builder.ins().iconst(I64, 0);
-        self.coder.builder.def_var(iteration, none);
-        let [again, solved, open] = std::array::from_fn(|_| self.block());
-        self.coder.builder.ins().jump(again, &[]);
+        let iteration = self.coder.count();
+        let [again, solved, open] = self.coder.blocks();
+        self.coder.jump(again);
 
-        self.at(again);
+        self.coder.at(again);
         let (mut left, mut moved) = (one, zero);
         self.coder.evaluate(self.kernel, Part::Correct, |coder, i, value| {
             if i > 2 * n {
@@ -226,29 +154,27 @@ impl<'f, 'k> Loop<'f, 'k> {
         let way = self.coder.load(frame.way);
         let way = self.coder.builder.ins().fadd(way, moved);
         self.coder.store(frame.way, way);
-        let count = self.get(iteration);
-        let count = self.coder.builder.ins().iadd_imm_s(count, 1);
-        self.coder.builder.def_var(iteration, count);
-        let corrections = self.get(self.corrections);
+        let count = self.coder.add(iteration, 1);
+        let corrections = self.coder.get(self.corrections);
         let corrections = self.coder.builder.ins().umax(corrections, count);
-        self.coder.builder.def_var(self.corrections, corrections);
+        self.coder.set(self.corrections, corrections);
         let tolerance = self.coder.number(self.kernel.tolerance());
-        let right = self.coder.builder.ins().fcmp(FloatCC::LessThanOrEqual, left, tolerance);
-        self.branch(right, solved, open);
+        let right = self.coder.compare(FloatCC::LessThanOrEqual, left, tolerance);
+        self.coder.branch(right, solved, open);
 
-        self.at(open);
+        self.coder.at(open);
         let near = self.coder.number(self.kernel.near());
-        let near = self.coder.builder.ins().fcmp(FloatCC::LessThanOrEqual, way, near);
-        let most = self.coder.builder.ins().iconst(I64, i64::from(most));
-        let some = self.coder.builder.ins().icmp(IntCC::UnsignedLessThan, count, most);
+        let near = self.coder.compare(FloatCC::LessThanOrEqual, way, near);
+        let most = self.coder.integer(i64::from(most));
+        let some = self.coder.less(count, most);
         let more = self.coder.builder.ins().band(near, some);
-        self.branch(more, again, after);
+        self.coder.branch(more, again, after);
 
-        self.at(solved);
-        let residual = self.get(self.residual);
-        let larger = self.coder.builder.ins().fcmp(FloatCC::LessThan, residual, left);
+        self.coder.at(solved);
+        let residual = self.coder.get(self.residual);
+        let larger = self.coder.compare(FloatCC::LessThan, residual, left);
         let residual = self.coder.builder.ins().select(larger, left, residual);
-        self.coder.builder.def_var(self.residual, residual);
-        self.coder.builder.ins().jump(after, &[]);
+        self.coder.set(self.residual, residual);
+        self.coder.jump(after);
     }
 }

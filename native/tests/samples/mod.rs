@@ -6,7 +6,7 @@ pub mod rigid;
 pub mod wild;
 
 use coadjoint_native::Entry;
-use coadjoint_program::{Kernel, WIDTH};
+use coadjoint_program::{Kernel, Stepper, WIDTH};
 
 use chance::Chance;
 

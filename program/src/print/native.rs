@@ -7,8 +7,8 @@ use super::c::C;
 use super::pieces::pieces;
 use super::signature::{Signature, signatures};
 use super::vectors::{PREAMBLE, Vectors};
-use crate::drive::WIDTH;
 use crate::kernel::{BLOCK, Kernel};
+use crate::stepper::{Trajectories, WIDTH};
 
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
 /// the array of sizes.
@@ -21,17 +21,17 @@ const INLINED: usize = 1500;
 /// Operations of a function at most: registers are allotted in a time that grows faster than its length.
 const LONGEST: usize = 1000;
 
-/// A unit of C that exports
+/// A unit of C that exports, the functions where they are asked for,
 ///
-/// - `coadjoint_advance`: (slots, g, μ, steps, report) ↦ steps made, as [`Kernel::advance`]; the report is the largest
+/// - `coadjoint_advance`: (slots, g, μ, steps, report) ↦ steps made, as [`Stepper::advance`](crate::Stepper::advance); the report is the largest
 ///   number of corrections and the largest residual;
-/// - `coadjoint_advance_lanes`: (slots, g, μ, steps, live, steps made), as [`Kernel::advance_lanes`];
+/// - `coadjoint_advance_lanes`: (slots, g, μ, steps, live, steps made), as [`Stepper::advance_lanes`](crate::Stepper::advance_lanes);
 /// - `coadjoint_sizes`: [`ABI`], n, m and the number of folded coefficients.
 ///
 /// It asks for GNU C (GCC 10, Clang 10 or later), no header and, where the processor has fused products, no library. It
 /// computes the bits of the interpreter where the compiler contracts nothing (`-ffp-contract=off`).
 #[must_use]
-pub fn native_unit(kernel: &Kernel) -> String {
+pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
     let calls = String::from("static __attribute__((noinline)) void");
     let total: usize = driven(kernel, "").map(|one| one.program.cost().total()).sum();
     let head = if total <= INLINED { C::default().head } else { calls.clone() };
@@ -46,17 +46,21 @@ pub fn native_unit(kernel: &Kernel) -> String {
         String::from("/* A step of a Lie-Poisson integrator, written by coadjoint. */\n");
     text.push_str(&sizes(kernel));
     text.push_str(PREAMBLE);
-    for signature in driven(kernel, "scalar_") {
-        text.push('\n');
-        text.push_str(&pieces(&scalar, &scalar, &signature, LONGEST));
-    }
-    for signature in driven(kernel, "lanes_") {
-        text.push('\n');
-        text.push_str(&pieces(&lanes, &lanes.0, &signature, LONGEST));
-    }
     let frame = kernel.programs().frame.is_some();
-    text.push_str(&SCALAR.replace("/*FRAME*/", if frame { SCALAR_FRAME } else { "" }));
-    text.push_str(&LANES.replace("/*FRAME*/", if frame { LANES_FRAME } else { "" }));
+    if trajectories.one() {
+        for signature in driven(kernel, "scalar_") {
+            text.push('\n');
+            text.push_str(&pieces(&scalar, &scalar, &signature, LONGEST));
+        }
+        text.push_str(&SCALAR.replace("/*FRAME*/", if frame { SCALAR_FRAME } else { "" }));
+    }
+    if trajectories.lanes() {
+        for signature in driven(kernel, "lanes_") {
+            text.push('\n');
+            text.push_str(&pieces(&lanes, &lanes.0, &signature, LONGEST));
+        }
+        text.push_str(&LANES.replace("/*FRAME*/", if frame { LANES_FRAME } else { "" }));
+    }
     text
 }
 
