@@ -73,6 +73,13 @@ impl Plan {
         goal.saturating_sub(start).div_ceil(gain).saturating_sub(1)
     }
 
+    /// How many chord steps are to be expected after the first step, Newton's.
+    pub(crate) fn chords(self, problem: &Problem) -> usize {
+        let degree = Self::single_step_degree(problem.truncation);
+        let goal = if in_parts(problem) { degree + 5 } else { 2 * degree + 2 };
+        self.chord_steps(problem.truncation, goal)
+    }
+
     /// The plan whose predictor, Newton step and chord steps take fewest operations, by the number
     /// of monomials; and the polynomials of an explicit predictor, `[order in h][component]`.
     /// `terms` are those of S.

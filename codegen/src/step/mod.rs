@@ -12,6 +12,7 @@ mod plane;
 mod product;
 mod programs;
 mod rotation;
+mod solving;
 mod tables;
 mod vector;
 
@@ -25,6 +26,7 @@ use part::Part;
 use plane::Plane;
 use product::Product;
 use rotation::Rotation;
+use solving::Scheme;
 use tables::Tables;
 
 /// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
@@ -85,18 +87,19 @@ impl Step {
         if integrator.plan.solver == Solver::FixedPoint || integrator.hessian.is_none() {
             return Err(StepError::FixedPoint { dimension: problem.algebra.dim() });
         }
+        let scheme = Scheme::of(integrator);
         let parts: Result<Vec<Box<dyn Part>>, StepError> = problem
             .algebra
             .factors()
             .iter()
-            .map(|factor| part(factor, problem.chart, reach))
+            .map(|factor| part(factor, problem.chart, reach, scheme.slope()))
             .collect();
         let group = Product(parts?);
         let base = integrator.coefficients.slots().len();
         let bound_len = integrator.defect_len();
         let bound = integrator.defect.iter();
         let bound = bound.map(|term| (term.degree as usize, term.slot, term.weight)).collect();
-        let kernel = programs::kernel(integrator, &group, base, bound_len)?;
+        let kernel = programs::kernel(integrator, scheme, &group, base, bound_len)?;
         Ok(Self { kernel, group, base, bound, bound_len })
     }
 
@@ -130,7 +133,12 @@ impl Step {
 }
 
 /// The formulas of a group that is no product.
-fn part(algebra: &LieAlgebra, chart: Chart, reach: f64) -> Result<Box<dyn Part>, StepError> {
+fn part(
+    algebra: &LieAlgebra,
+    chart: Chart,
+    reach: f64,
+    slope: f64,
+) -> Result<Box<dyn Part>, StepError> {
     let is = |name: &str| {
         catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
     };
@@ -146,7 +154,7 @@ fn part(algebra: &LieAlgebra, chart: Chart, reach: f64) -> Result<Box<dyn Part>,
     if is("SE2") {
         return Ok(Box::new(Plane { chart }));
     }
-    match Tables::new(algebra, chart, reach) {
+    match Tables::new(algebra, chart, reach, slope) {
         Some(tables) => Ok(Box::new(tables)),
         None => Err(StepError::Dependent { group: algebra.name().to_owned() }),
     }

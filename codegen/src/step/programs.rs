@@ -6,20 +6,15 @@ use num_traits::ToPrimitive;
 use super::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::vector::{Matrix, all_at_most, dot, finite, largest, solve};
+use super::solving::{Scheme, TOLERANCE};
+use super::vector::{all_at_most, dot, finite};
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::{Integrator, Predictor};
+use crate::integrator::Integrator;
 use crate::lie;
 use crate::poly::Polynomial;
 
-/// What may be left of the equation, relative to the largest coordinate of μ: four units of rounding.
-const TOLERANCE: f64 = 4.0 * f64::EPSILON;
-
 /// A solution this near to its first guess, relative to μ, is the one continued from the identity.
 const NEAR: f64 = 0.05;
-
-/// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
-const TRUSTED: f64 = 1e-3;
 
 /// Up to which share of a half turn, as the inverse of its square, steps are accepted at once: half of it, or a third
 /// where S is no series with a radius.
@@ -35,7 +30,7 @@ const CASIMIR_DEGREE: u32 = 3;
 /// How far a group element may be from the group: the square root of rounding.
 const OFF_GROUP: f64 = 1.490_116_119_384_765_6e-8;
 
-fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
+pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
 
@@ -43,13 +38,15 @@ fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
 /// Hessian, and the square of the radius.
 pub fn kernel(
     integrator: &Integrator,
+    scheme: Scheme,
     group: &Product,
     base: usize,
     bound_len: usize,
 ) -> Result<Kernel, StepError> {
+    let (guess, correct) = scheme.programs(integrator, group, base, bound_len);
     let programs = Programs {
-        guess: guess(integrator, group, base, bound_len),
-        correct: correct(integrator, group),
+        guess,
+        correct,
         accept: accept(group, base + bound_len),
         transport: transport(group),
         frame: frame(integrator, group)?,
@@ -59,92 +56,6 @@ pub fn kernel(
     };
     let (dim, element) = (group.dim(), group.element());
     Ok(Kernel::new(dim, element, TOLERANCE, NEAR, CORRECTIONS, programs)?)
-}
-
-/// μ ↦ p, 1/scale, half the bound on what the Hessian leaves out times the scale.
-fn guess(integrator: &Integrator, group: &Product, base: usize, bound_len: usize) -> Program {
-    let n = group.dim();
-    let mut graph = Graph::new();
-    let mu = inputs(&mut graph, 0, n);
-    let found = graph.call(&integrator.predictor, &mu);
-    let mut outputs = match integrator.plan.predictor {
-        Predictor::Flow(_) => group.pull_back(&mut graph, &found, &mu),
-        Predictor::Explicit(_) => found,
-    };
-    let smallest = graph.constant(f64::from(f32::MIN_POSITIVE));
-    let size = largest(&mut graph, &mu);
-    let scale = graph.add(size, smallest);
-    let one = graph.constant(1.0);
-    outputs.push(graph.div(one, scale));
-    let mut bound = graph.zero();
-    if bound_len > 0 {
-        let square = dot(&mut graph, &mu, &mu);
-        let size = graph.sqrt(square);
-        for degree in (0..bound_len).rev() {
-            let coefficient = graph.slot(base + degree);
-            bound = graph.times_plus(bound, size, coefficient);
-        }
-        let half = graph.constant(0.5);
-        let half = graph.mul(half, scale);
-        bound = graph.mul(half, bound);
-    }
-    outputs.push(bound);
-    graph.finish(n, &outputs)
-}
-
-/// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, a bound on what is left, the
-/// length of the correction.
-fn correct(integrator: &Integrator, group: &Product) -> Program {
-    let n = group.dim();
-    let mut graph = Graph::new();
-    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
-    let (inverse_scale, half_bound) = (graph.input(2 * n), graph.input(2 * n + 1));
-    let outputs = graph.call(integrator.iteration(), &p);
-    let (x, triangle) = outputs.split_at(n);
-    // The upper triangle, row by row.
-    let place = |i: usize, j: usize| {
-        let (i, j) = (i.min(j), i.max(j));
-        i * n - i * i.saturating_sub(1) / 2 - i + j
-    };
-    let hessian = Matrix::new(n, n, |i, j| triangle[place(i, j)]);
-    let (pulled, derivative) = group.pull_back_with_derivative(&mut graph, x, &mu);
-    // F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
-    let product = derivative.times(&mut graph, &hessian);
-    let (zero, one) = (graph.zero(), graph.constant(1.0));
-    let jacobian = Matrix::new(n, n, |i, j| {
-        let unit = if i == j { one } else { zero };
-        graph.sub(unit, product.at(i, j))
-    });
-    let residual: Vec<Id> = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
-    let correction = solve(&mut graph, &jacobian, &residual);
-    let shift = hessian.apply(&mut graph, &correction);
-    let next: Vec<Id> = p.iter().zip(&correction).map(|(&a, &b)| graph.sub(a, b)).collect();
-    // x moves linearly with p; what that leaves out is of the order of what Newton leaves.
-    let moved: Vec<Id> = x.iter().zip(&shift).map(|(&a, &b)| graph.sub(a, b)).collect();
-
-    let length = largest(&mut graph, &correction);
-    let relative = graph.mul(length, inverse_scale);
-    let stretch = largest(&mut graph, &shift);
-    let bend = match integrator.problem.is_quadratic() {
-        true => {
-            let size = largest(&mut graph, x);
-            let square = graph.mul(size, size);
-            let quarter = graph.constant(0.25);
-            graph.mul(square, quarter)
-        }
-        false => one,
-    };
-    let bend = graph.mul(bend, relative);
-    let half = graph.constant(0.5);
-    let curved = graph.times_plus(half, stretch, bend);
-    let rest = graph.mul(half_bound, relative);
-    let estimate = graph.times_plus(stretch, curved, rest);
-    let (trusted, tolerance) = (graph.constant(TRUSTED), graph.constant(TOLERANCE));
-    let left = graph.select(relative, trusted, estimate, relative);
-    let rounded = graph.min(left, relative);
-    let left = graph.select(relative, tolerance, rounded, left);
-    let outputs: Vec<Id> = next.into_iter().chain(moved).chain([left, relative]).collect();
-    graph.finish(2 * n + 2, &outputs)
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.

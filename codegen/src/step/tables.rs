@@ -8,9 +8,8 @@ use crate::number::Rational;
 use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, finite, largest, solve};
 
-/// What series may leave out: below rounding, and for derivatives, which Newton's method alone uses.
+/// What series may leave out: below rounding.
 const ROUNDING: f64 = 1e-17;
-const NEWTON: f64 = 1e-10;
 
 /// The entries of a matrix that are not 0, as (row, column, value).
 type Entries = Vec<(usize, usize, f64)>;
@@ -29,6 +28,8 @@ pub struct Tables {
     dual: Vec<Entries>,
     /// The norm of ad_x and of X up to which series are exact to rounding.
     reach: f64,
+    /// What the derivative of φ may leave out there.
+    slope: f64,
 }
 
 fn float(value: &Rational) -> f64 {
@@ -36,9 +37,9 @@ fn float(value: &Rational) -> f64 {
 }
 
 impl Tables {
-    /// The group of this algebra; its series hold up to this norm of ad_x and of the matrix of x. `None` where its
-    /// matrices are not linearly independent.
-    pub fn new(algebra: &LieAlgebra, chart: Chart, reach: f64) -> Option<Self> {
+    /// The group of this algebra; its series hold up to this norm of ad_x and of the matrix of x, where derivatives may
+    /// leave out as much as `slope`. `None` where its matrices are not linearly independent.
+    pub fn new(algebra: &LieAlgebra, chart: Chart, reach: f64, slope: f64) -> Option<Self> {
         let dim = algebra.dim();
         let mut structure = Vec::new();
         for c in algebra.structure() {
@@ -66,7 +67,7 @@ impl Tables {
             Chart::Cayley => dual_of(matrices)?.iter().map(entries).collect(),
             Chart::Exponential => Vec::new(),
         };
-        Some(Self { chart, dim, size, structure, basis, dual, reach })
+        Some(Self { chart, dim, size, structure, basis, dual, reach, slope })
     }
 
     /// ad_xᵀ as a matrix.
@@ -130,7 +131,7 @@ impl Tables {
         let mut term = mu.to_vec();
         let mut slope = Matrix::zeros(graph, self.dim, self.dim);
         let mut sum = slope.clone();
-        for k in 1..=terms(self.reach, NEWTON) {
+        for k in 1..=terms(self.reach, self.slope) {
             let factor = graph.constant(1.0 / (k + 1) as f64);
             let carried = a.times(graph, &slope);
             let own = self.ad_slope(graph, &term);

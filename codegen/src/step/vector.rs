@@ -124,39 +124,79 @@ impl Matrix {
     }
 }
 
-/// The solution of `matrix` · y = b by elimination without exchanges of rows: for matrices near the identity, which
-/// those of a step's equation are where it is accepted.
+/// A matrix eliminated without exchanges of rows: for matrices near the identity, which those of a step's equation are
+/// where it is accepted.
+#[derive(Clone, Debug)]
+pub struct Eliminated {
+    /// Above the diagonal the rows that are left, below it what multiples of rows were added to others.
+    rows: Matrix,
+    /// The inverses of the pivots.
+    inverses: Vec<Id>,
+}
+
+impl Eliminated {
+    /// Eliminates a square matrix.
+    pub fn new(graph: &mut Graph, matrix: &Matrix) -> Self {
+        let n = matrix.rows();
+        let mut a = matrix.clone();
+        let one = graph.constant(1.0);
+        let mut inverses = Vec::with_capacity(n);
+        for pivot in 0..n {
+            let inverse = graph.div(one, a.at(pivot, pivot));
+            inverses.push(inverse);
+            for row in pivot + 1..n {
+                if graph.is_zero(a.at(row, pivot)) {
+                    continue;
+                }
+                let factor = graph.mul(a.at(row, pivot), inverse);
+                let factor = graph.neg(factor);
+                a.set(row, pivot, factor);
+                for column in pivot + 1..n {
+                    let value = graph.times_plus(factor, a.at(pivot, column), a.at(row, column));
+                    a.set(row, column, value);
+                }
+            }
+        }
+        Self { rows: a, inverses }
+    }
+
+    /// The solution y of `matrix` · y = b.
+    pub fn solve(&self, graph: &mut Graph, b: &[Id]) -> Vec<Id> {
+        let n = b.len();
+        let mut y = b.to_vec();
+        for pivot in 0..n {
+            for row in pivot + 1..n {
+                y[row] = graph.times_plus(self.rows.at(row, pivot), y[pivot], y[row]);
+            }
+        }
+        for row in (0..n).rev() {
+            let mut rest = y[row];
+            for column in row + 1..n {
+                let minus = graph.neg(self.rows.at(row, column));
+                rest = graph.times_plus(minus, y[column], rest);
+            }
+            y[row] = graph.mul(rest, self.inverses[row]);
+        }
+        y
+    }
+
+    /// The same with other names for the numbers it is made of.
+    pub fn map(&self, mut rename: impl FnMut(Id) -> Id) -> Self {
+        let n = self.inverses.len();
+        // The diagonal is not used.
+        let entry = |i: usize, j: usize| {
+            let entry = self.rows.at(i, j);
+            if i == j { entry } else { rename(entry) }
+        };
+        let rows = Matrix::new(n, n, entry);
+        let inverses = self.inverses.iter().map(|&inverse| rename(inverse)).collect();
+        Self { rows, inverses }
+    }
+}
+
+/// The solution of `matrix` · y = b by [elimination](Eliminated).
 pub fn solve(graph: &mut Graph, matrix: &Matrix, b: &[Id]) -> Vec<Id> {
-    let n = b.len();
-    let mut a = matrix.clone();
-    let mut y = b.to_vec();
-    let one = graph.constant(1.0);
-    let mut inverses = Vec::with_capacity(n);
-    for pivot in 0..n {
-        let inverse = graph.div(one, a.at(pivot, pivot));
-        inverses.push(inverse);
-        for row in pivot + 1..n {
-            if graph.is_zero(a.at(row, pivot)) {
-                continue;
-            }
-            let factor = graph.mul(a.at(row, pivot), inverse);
-            let factor = graph.neg(factor);
-            for column in pivot + 1..n {
-                let value = graph.times_plus(factor, a.at(pivot, column), a.at(row, column));
-                a.set(row, column, value);
-            }
-            y[row] = graph.times_plus(factor, y[pivot], y[row]);
-        }
-    }
-    for row in (0..n).rev() {
-        let mut rest = y[row];
-        for column in row + 1..n {
-            let minus = graph.neg(a.at(row, column));
-            rest = graph.times_plus(minus, y[column], rest);
-        }
-        y[row] = graph.mul(rest, inverses[row]);
-    }
-    y
+    Eliminated::new(graph, matrix).solve(graph, b)
 }
 
 /// The largest |entry|.

@@ -1,0 +1,286 @@
+//! The equation of a step as programs: a first guess, and a correction of it.
+
+use super::part::Part;
+use super::product::Product;
+use super::programs::inputs;
+use super::vector::{Eliminated, Matrix, dot, largest};
+use crate::graph::{Graph, Id, Program};
+use crate::integrator::{Integrator, Predictor};
+
+/// What may be left of the equation, relative to the largest coordinate of μ: four units of rounding.
+pub const TOLERANCE: f64 = 4.0 * f64::EPSILON;
+
+/// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
+const TRUSTED: f64 = 1e-3;
+
+/// What the derivative of a chart may leave out for Newton's method, and where chords mend it.
+const NEWTON: f64 = 1e-10;
+const CHORD: f64 = 1e-3;
+
+/// How the equation p = (d^R τ_x)ᵀ μ, x = ∂S/∂p is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// By Newton's method: each correction has the matrices of its own place.
+    Newton,
+    /// By one step of Newton's method, which counts as part of the guess, and chords with its matrices after that: where
+    /// the guess is not near enough for a single step.
+    Chord,
+}
+
+/// p, as the guess or a correction leaves it, and what a correction knows about itself.
+struct Corrected {
+    p: Vec<Id>,
+    x: Vec<Id>,
+    /// The largest coordinates of the correction (relative to μ) and of what it adds to x.
+    relative: Id,
+    stretch: Id,
+}
+
+/// The matrices of a step of Newton's method.
+struct Matrices {
+    hessian: Matrix,
+    jacobian: Eliminated,
+}
+
+impl Scheme {
+    /// The scheme for an integrator.
+    pub fn of(integrator: &Integrator) -> Self {
+        match integrator.plan.chords(&integrator.problem) {
+            0 => Self::Newton,
+            _ => Self::Chord,
+        }
+    }
+
+    /// What the derivative of a chart may leave out, relative to it.
+    pub fn slope(self) -> f64 {
+        match self {
+            Self::Newton => NEWTON,
+            Self::Chord => CHORD,
+        }
+    }
+
+    /// The programs `guess` and `correct` of a kernel; see [`coadjoint_program::Programs`].
+    pub fn programs(
+        self,
+        integrator: &Integrator,
+        group: &Product,
+        base: usize,
+        bound_len: usize,
+    ) -> (Program, Program) {
+        match self {
+            Self::Newton => (guess(integrator, group, base, bound_len), newton(integrator, group)),
+            Self::Chord => chord(integrator, group, base, bound_len),
+        }
+    }
+}
+
+/// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
+/// largest coordinate of μ.
+fn start(
+    graph: &mut Graph,
+    integrator: &Integrator,
+    group: &Product,
+    (base, bound_len): (usize, usize),
+    mu: &[Id],
+) -> (Vec<Id>, Id, Id) {
+    let found = graph.call(&integrator.predictor, mu);
+    let guess = match integrator.plan.predictor {
+        Predictor::Flow(_) => group.pull_back(graph, &found, mu),
+        Predictor::Explicit(_) => found,
+    };
+    let smallest = graph.constant(f64::from(f32::MIN_POSITIVE));
+    let size = largest(graph, mu);
+    let scale = graph.add(size, smallest);
+    let one = graph.constant(1.0);
+    let inverse_scale = graph.div(one, scale);
+    let mut bound = graph.zero();
+    if bound_len > 0 {
+        let square = dot(graph, mu, mu);
+        let size = graph.sqrt(square);
+        for degree in (0..bound_len).rev() {
+            let coefficient = graph.slot(base + degree);
+            bound = graph.times_plus(bound, size, coefficient);
+        }
+        let half = graph.constant(0.5);
+        let half = graph.mul(half, scale);
+        bound = graph.mul(half, bound);
+    }
+    (guess, inverse_scale, bound)
+}
+
+/// μ ↦ p, 1/scale, half the bound on what the Hessian leaves out times the scale.
+fn guess(integrator: &Integrator, group: &Product, base: usize, bound_len: usize) -> Program {
+    let n = group.dim();
+    let mut graph = Graph::new();
+    let mu = inputs(&mut graph, 0, n);
+    let (mut outputs, inverse_scale, bound) =
+        start(&mut graph, integrator, group, (base, bound_len), &mu);
+    outputs.extend([inverse_scale, bound]);
+    graph.finish(n, &outputs)
+}
+
+/// The equation and its matrices at p: x, the residual F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
+fn linearised(
+    graph: &mut Graph,
+    integrator: &Integrator,
+    group: &Product,
+    p: &[Id],
+    mu: &[Id],
+) -> (Vec<Id>, Vec<Id>, Matrices) {
+    let n = group.dim();
+    let outputs = graph.call(integrator.iteration(), p);
+    let (x, triangle) = outputs.split_at(n);
+    // The upper triangle, row by row.
+    let place = |i: usize, j: usize| {
+        let (i, j) = (i.min(j), i.max(j));
+        i * n - i * i.saturating_sub(1) / 2 - i + j
+    };
+    let hessian = Matrix::new(n, n, |i, j| triangle[place(i, j)]);
+    let (pulled, derivative) = group.pull_back_with_derivative(graph, x, mu);
+    let product = derivative.times(graph, &hessian);
+    let (zero, one) = (graph.zero(), graph.constant(1.0));
+    let jacobian = Matrix::new(n, n, |i, j| {
+        let unit = if i == j { one } else { zero };
+        graph.sub(unit, product.at(i, j))
+    });
+    let residual = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
+    let jacobian = Eliminated::new(graph, &jacobian);
+    (x.to_vec(), residual, Matrices { hessian, jacobian })
+}
+
+impl Matrices {
+    /// p less the solution of the linearised equation. x moves linearly with p; what that leaves out is of the order of
+    /// what Newton leaves.
+    fn correct(
+        &self,
+        graph: &mut Graph,
+        (p, x, residual): (&[Id], &[Id], &[Id]),
+        inverse_scale: Id,
+    ) -> Corrected {
+        let correction = self.jacobian.solve(graph, residual);
+        let shift = self.hessian.apply(graph, &correction);
+        let mut less = |list: &[Id], change: &[Id]| -> Vec<Id> {
+            list.iter().zip(change).map(|(&a, &b)| graph.sub(a, b)).collect()
+        };
+        let (p, x) = (less(p, &correction), less(x, &shift));
+        let length = largest(graph, &correction);
+        let relative = graph.mul(length, inverse_scale);
+        let stretch = largest(graph, &shift);
+        Corrected { p, x, relative, stretch }
+    }
+}
+
+/// How much faster than with the length of a correction the chart bends what it adds to x.
+fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
+    if !integrator.problem.is_quadratic() {
+        return graph.constant(1.0);
+    }
+    let size = largest(graph, x);
+    let square = graph.mul(size, size);
+    let quarter = graph.constant(0.25);
+    graph.mul(square, quarter)
+}
+
+/// What is left: the estimate where the way from the place of the matrices is short, else the correction itself; the
+/// smaller of both where the correction is below rounding.
+fn left(graph: &mut Graph, estimate: Id, relative: Id, way: Id) -> Id {
+    let (trusted, tolerance) = (graph.constant(TRUSTED), graph.constant(TOLERANCE));
+    let left = graph.select(way, trusted, estimate, relative);
+    let rounded = graph.min(left, relative);
+    graph.select(relative, tolerance, rounded, left)
+}
+
+/// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, a bound on what is left, the
+/// length of the correction.
+fn newton(integrator: &Integrator, group: &Product) -> Program {
+    let n = group.dim();
+    let mut graph = Graph::new();
+    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let (inverse_scale, half_bound) = (graph.input(2 * n), graph.input(2 * n + 1));
+    let (x, residual, matrices) = linearised(&mut graph, integrator, group, &p, &mu);
+    let corrected = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let Corrected { p, x: moved, relative, stretch } = corrected;
+    let bend = bend(&mut graph, integrator, &x);
+    let bend = graph.mul(bend, relative);
+    let half = graph.constant(0.5);
+    let curved = graph.times_plus(half, stretch, bend);
+    let rest = graph.mul(half_bound, relative);
+    let estimate = graph.times_plus(stretch, curved, rest);
+    let left = left(&mut graph, estimate, relative, relative);
+    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, relative]).collect();
+    graph.finish(2 * n + 2, &outputs)
+}
+
+/// The guess with a step of Newton's method from it, and a chord with the matrices of that step, which are among the
+/// constants.
+fn chord(
+    integrator: &Integrator,
+    group: &Product,
+    base: usize,
+    bound_len: usize,
+) -> (Program, Program) {
+    let n = group.dim();
+    let mut graph = Graph::new();
+    let mu = inputs(&mut graph, 0, n);
+    let (p, inverse_scale, half_bound) =
+        start(&mut graph, integrator, group, (base, bound_len), &mu);
+    let (x, residual, matrices) = linearised(&mut graph, integrator, group, &p, &mu);
+    let first = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let mut outputs = first.p;
+    outputs.extend([inverse_scale, half_bound, first.relative, first.stretch]);
+    // The chord's graph, in which numbers that are known have no place among the constants.
+    let mut chord = Graph::new();
+    let mut known = std::collections::BTreeMap::new();
+    let mut rename = |id: Id| {
+        if let Some(value) = graph.known_number(id) {
+            return chord.constant(value);
+        }
+        *known.entry(id).or_insert_with(|| {
+            outputs.push(id);
+            // After p, μ, and what is among the outputs in place of p.
+            chord.input(n + outputs.len() - 1)
+        })
+    };
+    let hessian = Matrix::new(n, n, |i, j| rename(matrices.hessian.at(i, j)));
+    let jacobian = matrices.jacobian.map(&mut rename);
+    let matrices = Matrices { hessian, jacobian };
+    let inputs_of_chord = n + outputs.len();
+    let guess = graph.finish(n, &outputs);
+    let correct = chord_correction(chord, integrator, group, &matrices, inputs_of_chord);
+    (guess, correct)
+}
+
+/// A chord: as [`newton`], with matrices from elsewhere.
+fn chord_correction(
+    mut graph: Graph,
+    integrator: &Integrator,
+    group: &Product,
+    matrices: &Matrices,
+    inputs_of_chord: usize,
+) -> Program {
+    let n = group.dim();
+    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let [inverse_scale, half_bound, first, first_stretch] =
+        [0, 1, 2, 3].map(|i| graph.input(2 * n + i));
+    let x = graph.call(&integrator.gradient, &p);
+    let pulled = group.pull_back(&mut graph, &x, &mu);
+    let residual: Vec<Id> = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
+    let corrected = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let Corrected { p, x: moved, relative, stretch } = corrected;
+    // The matrices are of a place no farther away than twice the first correction and this one, and change by that twice
+    // as much as over half the way, which is Newton's.
+    let way = graph.add(first, relative);
+    let far = graph.add(first_stretch, stretch);
+    let two = graph.constant(2.0);
+    let four = graph.constant(4.0);
+    let slope = graph.constant(CHORD);
+    let bend = bend(&mut graph, integrator, &x);
+    let bend = graph.mul(bend, way);
+    let curved = graph.times_plus(two, far, slope);
+    let curved = graph.times_plus(four, bend, curved);
+    let rest = graph.mul(half_bound, relative);
+    let estimate = graph.times_plus(stretch, curved, rest);
+    let left = left(&mut graph, estimate, relative, way);
+    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, way]).collect();
+    graph.finish(inputs_of_chord, &outputs)
+}
