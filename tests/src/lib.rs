@@ -1,12 +1,14 @@
 //! What the integration tests share.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
+pub mod backends;
 pub mod bridge;
 pub mod catalogue;
 pub mod elliptic;
 pub mod erased;
 pub mod global_error;
 pub mod golden;
+pub mod kernels;
 pub mod moments;
 pub mod reference;
 pub mod run;

@@ -1,5 +1,5 @@
 //! Steps as programs make the runtime's steps, to rounding, on every group and chart; lanes have the bits of scalars.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used)]
 
 use coadjoint::generating::PolynomialFunction;
 use coadjoint::groups::{CayleyMatrixGroup, MatrixGroup};
@@ -9,39 +9,10 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{Options, read};
-use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
-use coadjoint_program::{Scratch, WIDTH};
+use coadjoint_program::{Scratch, Stepper, WIDTH};
 use coadjoint_tests::bridge::{matrix_group, series_function};
+use coadjoint_tests::kernels::{SYSTEMS, integrator};
 use nalgebra::{DMatrix, DVector};
-
-/// Groups with a Hamiltonian on each.
-const SYSTEMS: [(&str, &str); 13] = [
-    ("SO3", "a^2/3 + b^2/4 + c^2/5"),
-    ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7"),
-    ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9"),
-    ("SE3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*f/8"),
-    ("SE3", "a^2/3 + b^2/4 + c^2/5 + 2*d + e/2 + f/3"),
-    ("Heisenberg", "a^2/2 + b^2/3 + c^2/5 + a*c/4"),
-    ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9"),
-    ("Aff1", "a^2/5 + b^2/6"),
-    ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8"),
-    ("SU3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + g^2/9 + h^2/10"),
-    ("SO3^2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*e/10"),
-    ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),
-    ("SO3", "a^2/3 + b^2/4 + c^2/5 + a^4/50 + a*b*c/9"),
-];
-
-const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
-
-fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
-    let dim = lie::catalogue::lookup(group).unwrap().dim();
-    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-    let text = format!(
-        "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\n"
-    );
-    let options = Options { truncation: Some(truncation), ..Options::default() };
-    Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
-}
 
 fn momentum(n: usize, size: f64) -> Vec<f64> {
     (0..n).map(|i| size * (1.3 + 2.1 * i as f64).sin()).collect()
@@ -177,40 +148,6 @@ fn programs_make_the_steps_of_the_runtime() {
         }
     }
     assert!(tried > 40, "{tried}");
-}
-
-#[test]
-fn machine_code_has_the_bits_of_the_interpreter() {
-    let systems = [(0, "exp", 7), (3, "cayley", 3), (8, "exp", 3), (10, "exp", 3)];
-    for (system, chart, truncation) in systems {
-        let (group, hamiltonian) = SYSTEMS[system];
-        let integrator = integrator(group, hamiltonian, chart, truncation);
-        let step = Step::build(&integrator, REACH).unwrap();
-        let kernel = step.kernel();
-        let options = COptions { cache: CacheFolder::None, ..COptions::default() };
-        let native = match Native::by_c(kernel, &options) {
-            Ok(native) => native,
-            Err(NativeError::NoCompiler { .. }) => {
-                eprintln!("no C compiler: nothing was compared");
-                return;
-            }
-            Err(error) => panic!("{group}: {error}"),
-        };
-        let slots = step.slots(&integrator.coefficients.fold(0.2, &[]), f64::MAX);
-        let rows = (kernel.programs().matrix.outputs().len() as f64).sqrt() as usize;
-        let identity = step.element_of(DMatrix::<f64>::identity(rows, rows).as_slice());
-        // The last is refused.
-        for size in [0.3, 0.9, 1e9] {
-            let start = momentum(kernel.dim(), size);
-            let (mut g, mut mu) = (identity.clone(), start.clone());
-            let (mut h, mut nu) = (identity.clone(), start);
-            let interpreted = kernel.advance(&slots, &mut g, &mut mu, 1000);
-            let compiled = native.entry.advance(&slots, &mut h, &mut nu, 1000);
-            assert_eq!(interpreted.steps, compiled.steps, "{group}");
-            let bits = |list: &[f64]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!((bits(&g), bits(&mu)), (bits(&h), bits(&nu)), "{group}");
-        }
-    }
 }
 
 #[test]

@@ -1,0 +1,103 @@
+//! The back ends there are on this machine, for kernels.
+
+use std::sync::Arc;
+
+use coadjoint::groups::MatrixGroup;
+use coadjoint::{LieGroup, Phase};
+use coadjoint_codegen::step::Step;
+use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
+#[cfg(feature = "jit")]
+use coadjoint_program::Trajectories;
+use coadjoint_program::{Kernel, Stepper};
+use nalgebra::{DMatrix, DVector};
+
+/// What makes steps, from any thread.
+pub type AnyStepper = Arc<dyn Stepper + Send + Sync>;
+
+/// What evaluates kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    /// The interpreter of the programs.
+    Interpreter,
+    /// The system's C compiler.
+    C,
+    /// Cranelift.
+    #[cfg(feature = "jit")]
+    Jit,
+}
+
+impl Backend {
+    /// All that this build knows.
+    pub const ALL: &'static [Self] = &[
+        Self::Interpreter,
+        Self::C,
+        #[cfg(feature = "jit")]
+        Self::Jit,
+    ];
+
+    /// One word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Interpreter => "interpreter",
+            Self::C => "c",
+            #[cfg(feature = "jit")]
+            Self::Jit => "jit",
+        }
+    }
+
+    /// What makes the steps of a kernel; `None` where the machine has no C compiler.
+    ///
+    /// # Panics
+    /// Where a back end that is there fails.
+    #[must_use]
+    pub fn stepper(self, kernel: &Kernel) -> Option<AnyStepper> {
+        match self {
+            Self::Interpreter => Some(Arc::new(kernel.clone())),
+            Self::C => {
+                let options = COptions { cache: CacheFolder::None, ..COptions::default() };
+                match Native::by_c(kernel, &options) {
+                    Ok(native) => Some(Arc::new(native.entry)),
+                    Err(NativeError::NoCompiler { .. }) => {
+                        eprintln!("no C compiler: it is left out");
+                        None
+                    }
+                    Err(error) => panic!("{error}"),
+                }
+            }
+            #[cfg(feature = "jit")]
+            Self::Jit => Some(Arc::new(
+                coadjoint_native::jit::compile(kernel, Trajectories::Both).expect("code"),
+            )),
+        }
+    }
+}
+
+/// The numbers that the programs of a step have for a group element.
+#[must_use]
+pub fn numbers_of(
+    step: &Step,
+    group: &MatrixGroup,
+    g: &<MatrixGroup as LieGroup>::Element,
+) -> Vec<f64> {
+    let size = group.matrix_size();
+    let entry = |at: usize| group.matrix_entry(g, at / size, at % size);
+    step.element_of(&(0..size * size).map(entry).collect::<Vec<_>>())
+}
+
+/// The matrix, row by row, of an element given by the numbers that the programs have for it.
+#[must_use]
+pub fn matrix_of(kernel: &Kernel, g: &[f64]) -> Vec<f64> {
+    let program = &kernel.programs().matrix;
+    let mut matrix = vec![0.0; program.outputs().len()];
+    program.run(g, &[], &mut Vec::new(), &mut matrix);
+    matrix
+}
+
+/// The state of the runtime that the programs have as these numbers.
+#[must_use]
+pub fn phase_of(kernel: &Kernel, group: &MatrixGroup, g: &[f64], mu: &[f64]) -> Phase<MatrixGroup> {
+    let size = group.matrix_size();
+    let element = DMatrix::from_row_slice(size, size, &matrix_of(kernel, g));
+    Phase::<MatrixGroup>::new(element, DVector::from_column_slice(mu))
+}

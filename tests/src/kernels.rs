@@ -1,0 +1,40 @@
+//! Systems on all kinds of groups, to make kernels of.
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie;
+use coadjoint_codegen::system::{Options, read};
+
+/// Groups with a Hamiltonian on each.
+pub const SYSTEMS: [(&str, &str); 13] = [
+    ("SO3", "a^2/3 + b^2/4 + c^2/5"),
+    ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7"),
+    ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9"),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*f/8"),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + 2*d + e/2 + f/3"),
+    ("Heisenberg", "a^2/2 + b^2/3 + c^2/5 + a*c/4"),
+    ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9"),
+    ("Aff1", "a^2/5 + b^2/6"),
+    ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8"),
+    ("SU3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + g^2/9 + h^2/10"),
+    ("SO3^2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*e/10"),
+    ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),
+    ("SO3", "a^2/3 + b^2/4 + c^2/5 + a^4/50 + a*b*c/9"),
+];
+
+const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
+
+/// The integrator of a system of [`SYSTEMS`].
+///
+/// # Panics
+/// Where there is none.
+#[must_use]
+pub fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
+    let dim = lie::catalogue::lookup(group).unwrap().dim();
+    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\n"
+    );
+    let options = Options { truncation: Some(truncation), ..Options::default() };
+    Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
+}

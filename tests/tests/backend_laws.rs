@@ -1,0 +1,290 @@
+//! The laws of maps for the steps of kernels, on every group and chart, through every back end of the machine: the
+//! interpreter, C where there is a compiler, and with the feature `jit` Cranelift.
+//!
+//! All back ends make the same bits, which is tested here on every group and chart, in scalars and lanes, of steps that
+//! are made and steps that are refused. So the laws are measured on one of them, the interpreter.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint::groups::MatrixGroup;
+use coadjoint::laws::{OrderError, measured_order, symplectic_defect_of};
+use coadjoint::{LieGroup, Phase, StepError};
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie;
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_program::{Kernel, Stepper, WIDTH};
+use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
+use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::kernels::{SYSTEMS, integrator};
+use coadjoint_tests::stress::Random;
+use nalgebra::{DMatrix, DVector};
+
+/// The truncation of all series, and the step that laws are tried with.
+const TRUNCATION: usize = 3;
+const STEP: f64 = 0.2;
+
+/// Laws that need derivatives hold to this, those that do not to this.
+const DIFFERENCES: f64 = 1e-9;
+const ROUNDING: f64 = 1e-12;
+
+/// A system as a kernel, and as the runtime's group.
+struct Subject {
+    name: String,
+    integrator: Integrator,
+    step: Step,
+    group: MatrixGroup,
+}
+
+impl Subject {
+    /// All groups with all charts they have.
+    fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for (group, hamiltonian) in SYSTEMS {
+            let algebra = lie::catalogue::lookup(group).unwrap();
+            for chart in ["exp", "cayley"] {
+                if chart == "cayley" && lie::Chart::Cayley.check(&algebra).is_err() {
+                    continue;
+                }
+                let integrator = integrator(group, hamiltonian, chart, TRUNCATION);
+                let step = Step::build(&integrator, REACH).unwrap();
+                let group = matrix_group(&algebra).unwrap();
+                let name = format!("{hamiltonian} on {}, {chart}", algebra.name());
+                all.push(Self { name, integrator, step, group });
+            }
+        }
+        assert!(all.len() > 18, "{}", all.len());
+        all
+    }
+
+    fn slots(&self, h: f64) -> Vec<f64> {
+        self.step.slots(&self.integrator.coefficients.fold(h, &[]), f64::MAX)
+    }
+
+    /// An element near the identity and a momentum of at most this size.
+    fn draw(&self, random: &mut Random, size: f64) -> Phase<MatrixGroup> {
+        let n = self.group.dim();
+        let x = DVector::from_fn(n, |_, _| random.between(-0.4, 0.4));
+        let mu = DVector::from_fn(n, |_, _| random.between(-size, size));
+        Phase::<MatrixGroup>::new(self.group.exp(&x), mu)
+    }
+
+    /// Makes so many steps of a state.
+    fn advance(
+        &self,
+        stepper: &dyn Stepper,
+        slots: &[f64],
+        phase: &mut Phase<MatrixGroup>,
+        steps: u64,
+    ) -> Result<(), StepError> {
+        let mut g = numbers_of(&self.step, &self.group, &phase.group_element);
+        let mut mu = phase.momentum.as_slice().to_vec();
+        let made = stepper.advance(slots, &mut g, &mut mu, steps);
+        *phase = phase_of(self.step.kernel(), &self.group, &g, &mu);
+        // A refusal has no reason of its own.
+        if made.steps == steps { Ok(()) } else { Err(StepError::NonFiniteState) }
+    }
+}
+
+/// The largest difference of two matrices or vectors, relative to the larger of them or to one.
+fn difference<'a>(
+    a: impl IntoIterator<Item = &'a f64>,
+    b: impl IntoIterator<Item = &'a f64>,
+) -> f64 {
+    let (mut worst, mut scale) = (0.0_f64, 1.0_f64);
+    for (a, b) in a.into_iter().zip(b) {
+        assert!(a.is_finite() && b.is_finite());
+        worst = worst.max((a - b).abs());
+        scale = scale.max(a.abs());
+    }
+    worst / scale
+}
+
+/// B_jk(μ) = −⟨μ, [e_j, e_k]⟩.
+fn tensor(group: &MatrixGroup, mu: &DVector<f64>) -> DMatrix<f64> {
+    let n = group.dim();
+    let unit = |i| DVector::from_fn(n, |k, _| if i == k { 1.0 } else { 0.0 });
+    DMatrix::from_fn(n, n, |j, k| -mu.dot(&group.bracket(&unit(j), &unit(k))))
+}
+
+/// How far DΦ B(μ) DΦᵀ is from B(Φ(μ)), the derivative by differences of eighth order.
+fn poisson_defect(
+    group: &MatrixGroup,
+    mu: &DVector<f64>,
+    map: &dyn Fn(&DVector<f64>) -> DVector<f64>,
+) -> f64 {
+    const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let (n, step) = (group.dim(), 4e-3);
+    let columns: Vec<DVector<f64>> = (0..n)
+        .map(|i| {
+            let at = |offset: f64| {
+                let mut moved = mu.clone();
+                moved[i] += offset;
+                map(&moved)
+            };
+            let mut slope = DVector::zeros(n);
+            for (k, weight) in WEIGHTS.into_iter().enumerate() {
+                let offset = step * (k + 1) as f64;
+                slope += (at(offset) - at(-offset)) * (weight / step);
+            }
+            slope
+        })
+        .collect();
+    let derivative = DMatrix::from_columns(&columns);
+    let found = &derivative * tensor(group, mu) * derivative.transpose();
+    difference(found.iter(), tensor(group, &map(mu)).iter())
+}
+
+/// Every law at one state.
+fn laws_hold(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
+    let Subject { name, group, .. } = subject;
+    let (forward, backward) = (subject.slots(STEP), subject.slots(-STEP));
+    let point = subject.draw(random, 0.7);
+    let step = |slots: &[f64], state: &mut Phase<MatrixGroup>| {
+        subject.advance(stepper, slots, state, 1).unwrap_or_else(|_| panic!("{name}: refused"));
+    };
+    let image_of = |point: &Phase<MatrixGroup>| {
+        let mut image = point.clone();
+        step(&forward, &mut image);
+        image
+    };
+    let holds = |law: &str, value: f64, bound: f64| {
+        assert!(value <= bound, "{name}: {law} {value:e} exceeds {bound:e}");
+    };
+    let identity = group.identity();
+    let reduced = |mu: &DVector<f64>| {
+        image_of(&Phase::<MatrixGroup>::new(identity.clone(), mu.clone())).momentum
+    };
+    holds("poisson", poisson_defect(group, &point.momentum, &reduced), DIFFERENCES);
+
+    let mut map = |state: &mut Phase<MatrixGroup>| {
+        step(&forward, state);
+        Ok(())
+    };
+    let symplectic = symplectic_defect_of(group, &point, &mut map).unwrap();
+    holds("symplectic", symplectic.unwrap_or_else(|| panic!("{name}: no logarithm")), DIFFERENCES);
+
+    let image = image_of(&point);
+    assert!(difference(&image.momentum, &point.momentum) > 1e-4, "{name}: nothing moves");
+    let shift = subject.draw(random, 1.0).group_element;
+    let moved = Phase::<MatrixGroup>::new(
+        group.compose(&shift, &point.group_element),
+        point.momentum.clone(),
+    );
+    let moved = image_of(&moved);
+    let expected = group.compose(&shift, &image.group_element);
+    holds("equivariant", difference(&moved.group_element, &expected), ROUNDING);
+    holds("diagram", difference(&moved.momentum, &image.momentum), ROUNDING);
+
+    let (before, after) = (point.spatial_momentum(group), image.spatial_momentum(group));
+    holds("momentum", difference(&after, &before), ROUNDING);
+    for i in 0..group.casimir_count() {
+        let (before, after) =
+            (group.casimir(i, &point.momentum), group.casimir(i, &image.momentum));
+        holds("casimir", difference([&after], [&before]), ROUNDING);
+    }
+
+    let mut back = image;
+    step(&backward, &mut back);
+    holds("symmetric", difference(&back.momentum, &point.momentum), ROUNDING);
+    holds("symmetric", difference(&back.group_element, &point.group_element), ROUNDING);
+}
+
+/// The order of the steps from a state, where it shows between rounding and refusal.
+fn order_from(subject: &Subject, stepper: &dyn Stepper, start: &Phase<MatrixGroup>) -> Option<f64> {
+    let mut order = None;
+    // The finest halving still well above rounding shows the order best. Coarse steps may be refused.
+    for steps in [1, 2, 4, 8, 16, 32, 64] {
+        let measured = measured_order(&subject.group, start, 4.0, steps, |h, steps, state| {
+            subject.advance(stepper, &subject.slots(h), state, u64::from(steps))
+        });
+        match measured {
+            Ok(value) => order = Some(value),
+            Err(OrderError::OutOfRange { fine, .. }) if fine < 1e-12 => break,
+            Err(_) => {}
+        }
+    }
+    order
+}
+
+/// The order of the kernel's steps is K + 1.
+fn order_holds(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
+    let name = &subject.name;
+    // Some motions are slow.
+    let order = (0..5).find_map(|_| {
+        let start = subject.draw(random, 0.9);
+        order_from(subject, stepper, &start)
+    });
+    let order = order.unwrap_or_else(|| panic!("{name}: no order seen"));
+    let expected = TRUNCATION as f64 + 1.0;
+    assert!((order - expected).abs() < 0.3, "{name}: order {order:.2}, not {expected}");
+}
+
+#[test]
+fn steps_of_kernels_obey_the_laws() {
+    let mut random = Random::new(17);
+    for subject in Subject::all() {
+        let stepper = Backend::Interpreter.stepper(subject.step.kernel()).unwrap();
+        for _ in 0..2 {
+            laws_hold(&subject, &*stepper, &mut random);
+        }
+        order_holds(&subject, &*stepper, &mut random);
+    }
+}
+
+fn bits(list: &[f64]) -> Vec<u64> {
+    // Which of the many NaNs comes out is left open by IEEE 754.
+    list.iter().map(|x| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }).collect()
+}
+
+/// The states of one lane after the other as numbers side by side.
+fn side_by_side(lists: &[Vec<f64>]) -> Vec<f64> {
+    let length = lists.first().map_or(0, Vec::len);
+    (0..length).flat_map(|i| lists.iter().map(move |list| list[i])).collect()
+}
+
+/// Trajectories from random states, the last ones driven too hard, by one back end and the kernel itself.
+fn has_the_bits(subject: &Subject, compiled: &AnyStepper, random: &mut Random) {
+    const STEPS: u64 = 300;
+    let Subject { name, step, group, .. } = subject;
+    let kernel: &Kernel = step.kernel();
+    let slots = subject.slots(STEP);
+    let (mut elements, mut momenta) = (Vec::new(), Vec::new());
+    for lane in 0..WIDTH {
+        let size = if lane + 2 < WIDTH { 0.2 + 0.15 * lane as f64 } else { 1e3 };
+        let phase = subject.draw(random, size);
+        elements.push(numbers_of(step, group, &phase.group_element));
+        momenta.push(phase.momentum.as_slice().to_vec());
+    }
+    let mut live = [true; WIDTH];
+    live[random.below(WIDTH)] = false;
+    let run = |stepper: &dyn Stepper| {
+        let (mut g, mut mu) = (side_by_side(&elements), side_by_side(&momenta));
+        let made = stepper.advance_lanes(&slots, &mut g, &mut mu, STEPS, live);
+        (made, bits(&g), bits(&mu))
+    };
+    let together = run(kernel);
+    assert_eq!(together, run(&**compiled), "{name}: lanes");
+    assert!(together.0.contains(&STEPS) && together.0.contains(&0), "{name}: {:?}", together.0);
+    for lane in 0..WIDTH {
+        let run = |stepper: &dyn Stepper| {
+            let (mut g, mut mu) = (elements[lane].clone(), momenta[lane].clone());
+            let made = stepper.advance(&slots, &mut g, &mut mu, STEPS);
+            (made, bits(&g), bits(&mu))
+        };
+        let alone = run(kernel);
+        assert_eq!(alone, run(&**compiled), "{name}, lane {lane}");
+        if live[lane] {
+            assert_eq!(alone.0.steps, together.0[lane], "{name}, lane {lane}");
+        }
+    }
+}
+
+#[test]
+fn every_back_end_makes_the_same_bits() {
+    let subjects = Subject::all();
+    for backend in Backend::ALL.iter().filter(|&&backend| backend != Backend::Interpreter) {
+        for (seed, subject) in subjects.iter().enumerate() {
+            let Some(compiled) = backend.stepper(subject.step.kernel()) else { break };
+            has_the_bits(subject, &compiled, &mut Random::new(seed as u64));
+        }
+    }
+}
