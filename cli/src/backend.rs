@@ -25,23 +25,26 @@ pub enum Backend {
     Jit,
 }
 
-/// Nanoseconds that the interpreter takes for an operation, and machine code; measured on a processor of 2022, and
-/// enough to tell seconds from minutes.
+/// Nanoseconds that the interpreter takes for an operation, and machine code; measured on a processor of 2022
+/// (`docs/measurements/backends.md`), and enough to tell seconds from minutes.
 const INTERPRETED: f64 = 2.0;
-const COMPILED: f64 = 0.3;
+const COMPILED: f64 = 0.2;
 
 /// Seconds that a C compiler takes: to start, and for each operation.
-const COMPILER_STARTS: f64 = 0.15;
-const COMPILER_OPERATION: f64 = 1.2e-3;
+const COMPILER_STARTS: f64 = 0.25;
+const COMPILER_OPERATION: f64 = 2.2e-4;
 
 /// Programs of more operations than this are not given to a C compiler unless it is named: its time grows faster.
-const MOST_FOR_COMPILER: f64 = 15_000.0;
+const MOST_FOR_COMPILER: f64 = 40_000.0;
 
 /// The same of Cranelift.
 #[cfg(feature = "jit")]
-const JIT_STARTS: f64 = 2e-3;
+const JIT_STARTS: f64 = 4e-3;
 #[cfg(feature = "jit")]
-const JIT_OPERATION: f64 = 1.4e-5;
+const JIT_OPERATION: f64 = 8e-6;
+/// How much longer its code takes than that of a C compiler.
+#[cfg(feature = "jit")]
+const JIT_SLOWER: f64 = 1.7;
 
 /// What made the steps of a run.
 #[derive(Clone, Debug)]
@@ -119,7 +122,7 @@ impl Code {
         };
         #[cfg(feature = "jit")]
         {
-            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(1.4 * COMPILED);
+            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(JIT_SLOWER * COMPILED);
             let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
             if by_cranelift < interpreted && !slower {
                 match Self::by_cranelift(kernel, trajectories) {
