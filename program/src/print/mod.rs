@@ -2,7 +2,7 @@
 //!
 //! - [`Signature`] names what a program of a kernel reads and writes; [`signatures`] are those of a kernel.
 //! - [`Dialect`] is how one language writes numbers, operations and the head of a function; [`function`] prints a
-//!   program in it, one operation a line.
+//!   program in it, one operation a line, and [`pieces`] a long one as several functions.
 //! - [`C`] is the dialect of C and of languages like it; [`native_unit`] is a kernel as a unit of C to be compiled for
 //!   the machine at hand.
 
@@ -18,4 +18,5 @@ pub use c::C;
 pub use dialect::Dialect;
 pub use function::{function, statements};
 pub use native::{ABI, native_unit};
+pub use pieces::pieces;
 pub use signature::{Field, Signature, signatures};

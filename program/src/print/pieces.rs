@@ -13,7 +13,8 @@ use super::signature::Signature;
 
 /// The function of a signature in a dialect based on `c`, as pieces of at most so many operations and a function that
 /// calls them. What a piece leaves for later ones is in an array `w`.
-pub(super) fn pieces(
+#[must_use]
+pub fn pieces(
     dialect: &impl Dialect,
     c: &C,
     signature: &Signature<'_>,
@@ -36,6 +37,10 @@ pub(super) fn pieces(
     for number in 0..count {
         let name = format!("{}_{number}", signature.name);
         text.push_str(&format!("{} {name}({parameters})\n{{\n", c.head));
+        // Which of them a piece reads is the compiler's business.
+        for argument in arguments.split(", ") {
+            text.push_str(&format!("    (void){argument};\n"));
+        }
         let mut passed = Vec::new();
         while next < nodes.len() && piece[next] == number {
             let node = nodes[next];
