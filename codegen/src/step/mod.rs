@@ -18,6 +18,7 @@ mod vector;
 
 use coadjoint_program::{Kernel, ProgramError};
 
+use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::problem::Solver;
@@ -123,6 +124,24 @@ impl Step {
         slots.extend(bound);
         slots.push(radius * radius);
         slots
+    }
+
+    /// g, g⁻¹, μ ↦ Ad\*_g μ, the spatial momentum, which every step conserves. Of g⁻¹ only the matrices of
+    /// [`Step::inverted`] are read.
+    #[must_use]
+    pub fn spatial(&self) -> Program {
+        let (n, m) = (self.group.dim(), self.group.element());
+        let mut graph = Graph::new();
+        let ids: Vec<Id> = (0..m + m + n).map(|i| graph.input(i)).collect();
+        let spatial = self.group.spatial(&mut graph, &ids[..m], &ids[m..m + m], &ids[m + m..]);
+        graph.finish(m + m + n, &spatial)
+    }
+
+    /// Parts of an element that are matrices by rows, other than rotations and motions: where each begins in the
+    /// element's numbers, and how many rows it has.
+    #[must_use]
+    pub fn inverted(&self) -> Vec<(usize, usize)> {
+        self.group.inverted()
     }
 
     /// The numbers of the group element with this matrix, row by row; factors are its diagonal blocks.

@@ -298,6 +298,12 @@ impl Part for Motion {
         Some(Self::moved(graph, g, mu, angle.half_cosine, &u, &place))
     }
 
+    fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
+        let (pi, gamma) = (rotate(graph, g, &three(mu, 0)), rotate(graph, g, &three(mu, 3)));
+        let arm = cross(graph, &three(g, 4), &gamma);
+        join(&sum(graph, &pi, &arm), &gamma)
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let turn = self.rotation().extent(graph, &x[..3]);
         let rest = finite(graph, &x[3..]);

@@ -30,6 +30,15 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
     fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
 
+    /// Ad\*_g μ, the spatial momentum. `back` has the numbers of g⁻¹ where [`Part::inverted`] asks for them, else
+    /// anything.
+    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id>;
+
+    /// Parts of an element that are matrices with an inverse that formulas do not give: where each begins, and its rows.
+    fn inverted(&self) -> Vec<(usize, usize)> {
+        Vec::new()
+    }
+
     /// How far x goes into the chart: the square of its share of a half turn, or a bound on it; not a number where x is not
     /// finite. These formulas hold up to half a half turn.
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id;

@@ -84,6 +84,11 @@ impl Part for Plane {
         self.space().move_frame(graph, &g, &y, &mu).map(|moved| flat(&moved))
     }
 
+    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+        let (g, mu) = (lift(graph, g, &NUMBERS, [(); 7]), lift(graph, mu, &PLACES, [(); 6]));
+        drop(&self.space().spatial(graph, &g, back, &mu), &PLACES)
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let x = lift(graph, x, &PLACES, [(); 6]);
         self.space().extent(graph, &x)

@@ -96,6 +96,24 @@ impl Part for Product {
         Some(moved)
     }
 
+    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+        let factors = self.factors().into_iter();
+        factors
+            .flat_map(|Factor { part, own, element }| {
+                part.spatial(graph, &g[element.clone()], &back[element], &mu[own])
+            })
+            .collect()
+    }
+
+    fn inverted(&self) -> Vec<(usize, usize)> {
+        let factors = self.factors().into_iter();
+        let shifted = |Factor { part, element, .. }: Factor<'_>| {
+            let places = part.inverted().into_iter();
+            places.map(|(at, rows)| (element.start + at, rows)).collect::<Vec<_>>()
+        };
+        factors.flat_map(shifted).collect()
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let extents: Vec<Id> = self
             .factors()

@@ -283,6 +283,11 @@ impl Part for Rotation {
         Some(Moved { g: compose(graph, g, angle.half_cosine, &u), mu: moved.to_vec() })
     }
 
+    fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
+        let back = minus(graph, &three(g, 1));
+        rotate_back(graph, g[0], &back, &three(mu, 0)).to_vec()
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let square = dot(graph, x, x);
         let limit = match (self.chart, self.double_cover) {

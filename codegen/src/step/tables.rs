@@ -24,7 +24,7 @@ pub struct Tables {
     structure: Vec<(usize, usize, usize, f64)>,
     /// The matrices of the basis, as entries.
     basis: Vec<Entries>,
-    /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ.
+    /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ; none for adjoint matrices in the exponential chart, which need none.
     dual: Vec<Entries>,
     /// The norm of ad_x and of X up to which series are exact to rounding.
     reach: f64,
@@ -63,9 +63,9 @@ impl Tables {
             entries.filter(|entry| entry.2 != 0.0).collect::<Vec<_>>()
         };
         let basis = matrices.iter().map(entries).collect();
-        let dual = match chart {
-            Chart::Cayley => dual_of(matrices)?.iter().map(entries).collect(),
-            Chart::Exponential => Vec::new(),
+        let dual = match (chart, algebra.basis()) {
+            (Chart::Exponential, None) => Vec::new(),
+            _ => dual_of(matrices)?.iter().map(entries).collect(),
         };
         Some(Self { chart, dim, size, structure, basis, dual, reach, slope })
     }
@@ -396,6 +396,23 @@ impl Part for Tables {
     fn move_frame(&self, _: &mut Graph, _: &[Id], _: &[Id], _: &[Id]) -> Option<Moved> {
         // Frames move on by any angle, which series of a fixed length cannot follow.
         None
+    }
+
+    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+        let matrix = |list: &[Id]| Matrix::new(self.size, self.size, |i, j| list[i * self.size + j]);
+        let (g, back) = (matrix(g), matrix(back));
+        if self.dual.is_empty() {
+            // Elements are adjoint matrices.
+            return Matrix::new(self.size, self.size, |i, j| back.at(j, i)).apply(graph, mu);
+        }
+        // ⟨Ad*_g μ, Eₖ⟩ = ⟨W, g⁻¹ Eₖ g⟩ = ⟨g⁻ᵀ W gᵀ, Eₖ⟩
+        let w = self.functional(graph, mu);
+        let z = self.between(graph, &back, &w, &g);
+        self.coordinates(graph, &z)
+    }
+
+    fn inverted(&self) -> Vec<(usize, usize)> {
+        vec![(0, self.size)]
     }
 
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
