@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use coadjoint_codegen::emit::c::Language;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
 
@@ -184,6 +185,35 @@ pub struct EmitOptions {
     /// Keep the parameters as arguments of the integrator instead of putting in their values
     #[arg(long)]
     pub keep_parameters: bool,
+    /// What to write
+    #[arg(long, value_enum, default_value_t)]
+    pub language: LanguageName,
+    /// What all names in C begin with; from the system's name if not given
+    #[arg(long, value_name = "NAME")]
+    pub prefix: Option<String>,
+}
+
+/// A language to emit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum LanguageName {
+    /// A Rust module
+    #[default]
+    Rust,
+    /// One header of C99, for embedded and flight software
+    C,
+    /// The same with a class of C++11
+    Cpp,
+}
+
+impl LanguageName {
+    /// The language of a header, if it is one.
+    pub fn of_header(self) -> Option<Language> {
+        match self {
+            Self::Rust => None,
+            Self::C => Some(Language::C),
+            Self::Cpp => Some(Language::Cpp),
+        }
+    }
 }
 
 /// What to run beside the integrator.

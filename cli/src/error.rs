@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use coadjoint::{StepError, groups::ElementError, groups::TableError};
 use coadjoint_codegen::emit::TooManyTerms;
+use coadjoint_codegen::emit::c::HeaderError;
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
 use coadjoint_codegen::tolerance::ToleranceError;
 
@@ -59,6 +60,14 @@ pub enum CliError {
         file: PathBuf,
         /// Why.
         source: TooManyTerms,
+    },
+    /// The system is not written as C.
+    #[error("{}: {source}", .file.display())]
+    Header {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: HeaderError,
     },
     /// The data defines no group.
     #[error("{}: {source}", .file.display())]
@@ -141,6 +150,7 @@ impl CliError {
             | Self::Derive { .. }
             | Self::Tolerance { .. }
             | Self::Size { .. }
+            | Self::Header { .. }
             | Self::Group { .. }
             | Self::Element { .. } => 2,
             Self::Learn(error) => {

@@ -107,6 +107,34 @@ fn emit_writes_a_module() {
     assert!(kept.contains("I1: T"), "{kept}");
 }
 
+#[test]
+fn emit_writes_a_header() {
+    let (code, header, err) =
+        run(&["emit", "examples/c/toutatis.toml", "--language", "c", "--truncation", "7"]);
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(
+        header,
+        std::fs::read_to_string(support::root().join("examples/c/toutatis.h")).unwrap()
+    );
+
+    let class = ["emit", "examples/rigid_body.toml", "--language", "cpp", "--keep-parameters"];
+    let (code, header, _) = run(&[&class[..], &["--prefix", "sat-1"]].concat());
+    assert_eq!(code, 0);
+    assert!(header.contains("class Sat1 {") && header.contains("    double I1;"), "{header}");
+
+    for (file, refusal) in [
+        ("examples/satellite.toml", "the kicks of a potential are not written as C"),
+        ("examples/spin_chain_64.toml", "dimensions are solved by the fixed point"),
+    ] {
+        let (code, out, err) = run(&["emit", file, "--language", "c", "--truncation", "1"]);
+        assert_eq!((code, out.as_str()), (2, ""));
+        assert!(err.contains(file) && err.contains(refusal) && err.lines().count() == 1, "{err}");
+    }
+    let (code, _, err) = run(&["emit", "examples/rigid_body.toml", "--prefix", "body"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("--language c"), "{err}");
+}
+
 /// se(3): Π·Γ and |Γ|².
 #[test]
 fn casimirs_of_the_heavy_top() {

@@ -1,10 +1,11 @@
-//! Writing an integrator as Rust.
+//! Writing an integrator as Rust, or as a header of C ([`c`]).
 //!
 //! One struct holding the folded coefficients, its constructor, and the implementation of
 //! `coadjoint::GeneratingFunction`. Everything is generic over the scalar, allocates nothing, and
 //! names the runtime by absolute path.
 
 mod body;
+pub mod c;
 mod constructor;
 mod file;
 mod generating_function;

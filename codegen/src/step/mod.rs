@@ -144,6 +144,12 @@ impl Step {
         self.group.inverted()
     }
 
+    /// What the numbers of a group element are, in words; those of factors one after the other.
+    #[must_use]
+    pub fn element_about(&self) -> String {
+        self.group.about()
+    }
+
     /// The numbers of the group element with this matrix, row by row; factors are its diagonal blocks.
     #[must_use]
     pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {

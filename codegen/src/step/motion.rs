@@ -327,6 +327,11 @@ impl Part for Motion {
         })
     }
 
+    fn about(&self) -> String {
+        "a unit quaternion (w, x, y, z), the rotation from body to space, then the translation"
+            .into()
+    }
+
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         let mut element = quaternion_of(matrix, 4);
         let place = |i: usize| matrix.get(i * 4 + 3).copied().unwrap_or(0.0);

@@ -49,6 +49,9 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// The matrix of g.
     fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix;
 
+    /// What the numbers of an element are, in words.
+    fn about(&self) -> String;
+
     /// The numbers of the element with this matrix, row by row.
     fn element_of(&self, matrix: &[f64]) -> Vec<f64>;
 }

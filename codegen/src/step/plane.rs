@@ -106,6 +106,10 @@ impl Part for Plane {
         Matrix::new(3, 3, |i, j| whole.at(KEPT[i], KEPT[j]))
     }
 
+    fn about(&self) -> String {
+        "the cosine and the sine of half the angle from body to space, then the translation".into()
+    }
+
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         let m = |i: usize, j: usize| matrix.get(i * 3 + j).copied().unwrap_or(0.0);
         let space = [

@@ -163,6 +163,11 @@ impl Part for Product {
         whole
     }
 
+    fn about(&self) -> String {
+        let factors: Vec<String> = self.0.iter().map(|part| part.about()).collect();
+        factors.join("; ")
+    }
+
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         let sizes: Vec<usize> = self.0.iter().map(|part| Self::size(part.as_ref())).collect();
         let size: usize = sizes.iter().sum();

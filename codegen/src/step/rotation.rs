@@ -317,6 +317,11 @@ impl Part for Rotation {
         Matrix::new(4, 4, |i, j| rows[i][j])
     }
 
+    fn about(&self) -> String {
+        let of = if self.double_cover { "" } else { ", the rotation from body to space" };
+        format!("a unit quaternion (w, x, y, z){of}")
+    }
+
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         if !self.double_cover {
             return quaternion_of(matrix, 3);

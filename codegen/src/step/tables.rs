@@ -399,7 +399,8 @@ impl Part for Tables {
     }
 
     fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
-        let matrix = |list: &[Id]| Matrix::new(self.size, self.size, |i, j| list[i * self.size + j]);
+        let matrix =
+            |list: &[Id]| Matrix::new(self.size, self.size, |i, j| list[i * self.size + j]);
         let (g, back) = (matrix(g), matrix(back));
         if self.dual.is_empty() {
             // Elements are adjoint matrices.
@@ -466,6 +467,10 @@ impl Part for Tables {
 
     fn matrix(&self, _: &mut Graph, g: &[Id]) -> Matrix {
         Matrix::new(self.size, self.size, |i, j| g[i * self.size + j])
+    }
+
+    fn about(&self) -> String {
+        format!("its matrix of {} rows, row by row", self.size)
     }
 
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {

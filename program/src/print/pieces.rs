@@ -14,12 +14,7 @@ use super::signature::Signature;
 /// The function of a signature in a dialect based on `c`, as pieces of at most so many operations and a function that
 /// calls them. What a piece leaves for later ones is in an array `w`.
 #[must_use]
-pub fn pieces(
-    dialect: &impl Dialect,
-    c: &C,
-    signature: &Signature<'_>,
-    longest: usize,
-) -> String {
+pub fn pieces(dialect: &impl Dialect, c: &C, signature: &Signature<'_>, longest: usize) -> String {
     let nodes = signature.program.nodes();
     let operations = nodes.iter().filter(|node| node.operands().next().is_some()).count();
     if operations <= longest {

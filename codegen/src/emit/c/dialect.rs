@@ -1,0 +1,95 @@
+//! C99 for any compiler: numbers in decimals, coefficients where the header has them.
+
+use std::collections::BTreeMap;
+
+use coadjoint_program::Node;
+use coadjoint_program::print::{C, Dialect, Signature};
+
+use super::names::Names;
+
+/// The dialect of headers.
+#[derive(Clone, Debug)]
+pub struct Portable {
+    /// What it is based on.
+    pub c: C,
+    /// The place of each coefficient that is read.
+    pub places: BTreeMap<usize, usize>,
+}
+
+impl Portable {
+    /// The dialect for these names.
+    pub fn new(names: &Names, places: BTreeMap<usize, usize>) -> Self {
+        let restrict = format!("{}_RESTRICT", names.upper);
+        let c = C {
+            head: "static inline void".into(),
+            slots: format!("const double *{restrict}"),
+            pointer: format!("*{restrict} "),
+            functions: [&format!("{}_FMA", names.upper), "sqrt", "fabs", "rint"].map(String::from),
+            ..C::default()
+        };
+        Self { c, places }
+    }
+}
+
+/// The shortest decimals that are read as this number.
+#[must_use]
+pub fn decimal(value: f64) -> String {
+    if value.is_nan() {
+        return "NAN".into();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "INFINITY".into() } else { "(-INFINITY)".into() };
+    }
+    match value.is_sign_negative() {
+        true => format!("({value:?})"),
+        false => format!("{value:?}"),
+    }
+}
+
+impl Dialect for Portable {
+    fn head(&self, signature: &Signature<'_>) -> String {
+        self.c.head(signature)
+    }
+
+    fn declare(&self, name: &str, expression: &str) -> String {
+        self.c.declare(name, expression)
+    }
+
+    fn store(&self, place: &str, value: &str) -> String {
+        self.c.store(place, value)
+    }
+
+    fn single(&self, name: &str) -> String {
+        self.c.single(name)
+    }
+
+    fn constant(&self, value: f64) -> String {
+        decimal(value)
+    }
+
+    fn slot(&self, index: usize) -> String {
+        format!("c[{}]", self.places.get(&index).copied().unwrap_or(0))
+    }
+
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        self.c.operation(node, operands)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_read_back_to_the_bit() {
+        for value in
+            [0.1, 1.0 / 3.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e300, 4.0 * f64::EPSILON]
+        {
+            assert_eq!(decimal(value).parse(), Ok(value));
+        }
+        assert_eq!(decimal(3.0), "3.0");
+        assert_eq!(decimal(1e-17), "1e-17");
+        assert_eq!(decimal(-0.5), "(-0.5)");
+        assert_eq!(decimal(f64::INFINITY), "INFINITY");
+    }
+}

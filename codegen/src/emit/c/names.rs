@@ -1,0 +1,181 @@
+//! Names in C, and text in its comments.
+
+use std::collections::BTreeSet;
+
+use super::{HeaderOptions, Language};
+use crate::emit::{camel_case, fresh};
+use crate::problem::Problem;
+
+/// Words that C99 or C++ keep for themselves, as far as they are in lower case.
+const KEYWORDS: &str = " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
+    char32_t class co_await co_return co_yield compl concept const consteval constexpr constinit const_cast continue \
+    decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto if \
+    inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
+    register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
+    switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void volatile \
+    wchar_t while xor xor_eq asm fortran linux unix ";
+
+/// What the names of a system's header begin with: `rigid_body` for `rigid-body` and `RigidBody`'s words alike.
+#[must_use]
+pub fn prefix(name: &str) -> String {
+    let name = identifier(name).to_lowercase();
+    let name = name.trim_matches('_');
+    match name.chars().next() {
+        Some(first) if first.is_ascii_alphabetic() => name.to_owned(),
+        Some(_) => format!("system_{name}"),
+        None => "system".to_owned(),
+    }
+}
+
+/// Letters and digits of ASCII; what else there is becomes an underscore, several of them one.
+fn identifier(name: &str) -> String {
+    let mut result = String::new();
+    for letter in name.chars() {
+        if letter.is_ascii_alphanumeric() {
+            result.push(letter);
+        } else if !result.ends_with('_') {
+            result.push('_');
+        }
+    }
+    result
+}
+
+/// The names of a header.
+#[derive(Debug)]
+pub struct Names {
+    /// What functions and types begin with.
+    pub lower: String,
+    /// What macros and constants begin with.
+    pub upper: String,
+    /// The class of C++.
+    pub class: String,
+    /// Members for the parameters, in their order.
+    pub parameters: Vec<String>,
+    ending: &'static str,
+}
+
+impl Names {
+    /// The names for a problem.
+    pub fn new(problem: &Problem, options: &HeaderOptions) -> Self {
+        let lower = prefix(&options.prefix);
+        let mut taken = BTreeSet::new();
+        let mut member = |name: &str| {
+            let name = match identifier(name).trim_start_matches('_') {
+                "" => "parameter".to_owned(),
+                name if name.starts_with(|first: char| first.is_ascii_digit()) => {
+                    format!("p{name}")
+                }
+                name if KEYWORDS.contains(&format!(" {name} ")) => format!("{name}_"),
+                name => name.to_owned(),
+            };
+            let name = fresh(&name, &taken);
+            taken.insert(name.clone());
+            name
+        };
+        Self {
+            upper: lower.to_uppercase(),
+            class: camel_case(&lower),
+            parameters: problem
+                .parameters
+                .iter()
+                .map(|parameter| member(&parameter.name))
+                .collect(),
+            ending: match options.language {
+                Language::C => "H",
+                Language::Cpp => "HPP",
+            },
+            lower,
+        }
+    }
+
+    /// The macro that guards against including the header twice.
+    pub fn guard(&self) -> String {
+        format!("{}_{}", self.upper, self.ending)
+    }
+
+    /// The name of the file.
+    pub fn file(&self) -> String {
+        format!("{}.{}", self.lower, self.ending.to_lowercase())
+    }
+
+    /// A template with its names put in: `@p@` and `@P@` for the prefix, `@G@` for the guard.
+    pub fn fill(&self, template: &str) -> String {
+        template
+            .replace("@p@", &self.lower)
+            .replace("@P@", &self.upper)
+            .replace("@G@", &self.guard())
+            .replace("@C@", &self.class)
+    }
+}
+
+/// Letters that comments are likely to have, in ASCII.
+const LETTERS: [(char, &str); 34] = [
+    ('²', "^2"),
+    ('³', "^3"),
+    ('⁻', "^-"),
+    ('¹', "1"),
+    ('·', "*"),
+    ('×', "x"),
+    ('°', "deg"),
+    ('½', "1/2"),
+    ('−', "-"),
+    ('–', "-"),
+    ('α', "alpha"),
+    ('β', "beta"),
+    ('γ', "gamma"),
+    ('δ', "delta"),
+    ('ε', "epsilon"),
+    ('η', "eta"),
+    ('θ', "theta"),
+    ('κ', "kappa"),
+    ('λ', "lambda"),
+    ('μ', "mu"),
+    ('µ', "micro"),
+    ('ν', "nu"),
+    ('ξ', "xi"),
+    ('π', "pi"),
+    ('ρ', "rho"),
+    ('σ', "sigma"),
+    ('τ', "tau"),
+    ('φ', "phi"),
+    ('χ', "chi"),
+    ('ψ', "psi"),
+    ('ω', "omega"),
+    ('Γ', "Gamma"),
+    ('Π', "Pi"),
+    ('Ω', "Omega"),
+];
+
+/// Text on one line of ASCII that may stand in a comment.
+#[must_use]
+pub fn plain(text: &str) -> String {
+    let mut result = String::new();
+    for letter in text.split_whitespace().collect::<Vec<_>>().join(" ").chars() {
+        match LETTERS.iter().find(|(known, _)| *known == letter) {
+            Some((_, ascii)) => result.push_str(ascii),
+            None if letter.is_ascii_graphic() || letter == ' ' => result.push(letter),
+            None => result.push('_'),
+        }
+    }
+    // Neither comments nor trigraphs begin or end in it, and no line goes on.
+    result.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_c() {
+        assert_eq!(prefix("rigid-body"), "rigid_body");
+        assert_eq!(prefix("  Ω body 3!"), "body_3");
+        assert_eq!(prefix("3 bodies"), "system_3_bodies");
+        assert_eq!(prefix("…"), "system");
+    }
+
+    #[test]
+    fn comments_end_where_they_should() {
+        assert_eq!(plain("a */ b /* c"), "a * / b / * c");
+        assert_eq!(plain("kg m²/s\n\\ ??/ é"), "kg m^2/s _ ? ?/ _");
+    }
+}

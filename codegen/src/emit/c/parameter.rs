@@ -1,0 +1,102 @@
+//! Opaque coefficients as expressions of C in the user's parameters.
+
+use super::dialect::decimal;
+use super::names::Names;
+use crate::expr::{Function, ParameterExpr};
+use crate::problem::{Parameter, Shape};
+
+/// The scalars of the parameters as members of the structure `parameters`, in their order.
+pub fn scalars(parameters: &[Parameter], names: &Names) -> Vec<String> {
+    let members = parameters.iter().zip(&names.parameters);
+    members
+        .flat_map(|(parameter, name)| {
+            let place = move |i: usize| format!("parameters->{name}{}", index(&parameter.shape, i));
+            (0..parameter.shape.len()).map(place).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// The index of scalar number `i` of a parameter.
+fn index(shape: &Shape, i: usize) -> String {
+    match shape {
+        Shape::Scalar => String::new(),
+        Shape::Array(_) | Shape::Vector(_) => format!("[{i}]"),
+        Shape::Grid(_, columns) | Shape::Matrix(_, columns) => {
+            format!("[{}][{}]", i / columns, i % columns)
+        }
+    }
+}
+
+/// A member of the structure of parameters.
+pub fn member(shape: &Shape, name: &str) -> String {
+    match shape {
+        Shape::Scalar => format!("double {name}"),
+        Shape::Array(n) | Shape::Vector(n) => format!("double {name}[{n}]"),
+        Shape::Grid(rows, columns) | Shape::Matrix(rows, columns) => {
+            format!("double {name}[{rows}][{columns}]")
+        }
+    }
+}
+
+/// Whether a power is in an expression that C has to compute.
+pub fn has_power(expr: &ParameterExpr) -> bool {
+    match expr {
+        ParameterExpr::Rational(_) | ParameterExpr::Parameter(_) => false,
+        ParameterExpr::Add(a, b)
+        | ParameterExpr::Sub(a, b)
+        | ParameterExpr::Mul(a, b)
+        | ParameterExpr::Div(a, b) => has_power(a) || has_power(b),
+        ParameterExpr::Neg(a) | ParameterExpr::Call(_, a) => has_power(a),
+        ParameterExpr::Powi(a, _) => has_parameter(a),
+    }
+}
+
+fn has_parameter(expr: &ParameterExpr) -> bool {
+    match expr {
+        ParameterExpr::Rational(_) => false,
+        ParameterExpr::Parameter(_) => true,
+        ParameterExpr::Add(a, b)
+        | ParameterExpr::Sub(a, b)
+        | ParameterExpr::Mul(a, b)
+        | ParameterExpr::Div(a, b) => has_parameter(a) || has_parameter(b),
+        ParameterExpr::Neg(a) | ParameterExpr::Call(_, a) | ParameterExpr::Powi(a, _) => {
+            has_parameter(a)
+        }
+    }
+}
+
+/// The value of `expr`; what has no parameter in it is a number already. `scalars` are the expressions of the parameters.
+pub fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names) -> String {
+    let sub = |e: &ParameterExpr| expression(e, scalars, names);
+    if !has_parameter(expr) {
+        return decimal(expr.evaluate(&[]));
+    }
+    match expr {
+        ParameterExpr::Rational(_) => decimal(expr.evaluate(&[])),
+        ParameterExpr::Parameter(i) => {
+            scalars.get(*i).cloned().unwrap_or_else(|| decimal(f64::NAN))
+        }
+        ParameterExpr::Add(a, b) => format!("({} + {})", sub(a), sub(b)),
+        ParameterExpr::Sub(a, b) => format!("({} - {})", sub(a), sub(b)),
+        ParameterExpr::Mul(a, b) => format!("({} * {})", sub(a), sub(b)),
+        ParameterExpr::Div(a, b) => format!("({} / {})", sub(a), sub(b)),
+        ParameterExpr::Neg(a) => format!("(-{})", sub(a)),
+        ParameterExpr::Powi(a, n) => {
+            let function = format!("{}_internal_power", names.lower);
+            let power = format!("{function}({}, {}u)", sub(a), n.unsigned_abs());
+            if *n < 0 { format!("(1.0 / {power})") } else { power }
+        }
+        ParameterExpr::Call(function, a) => {
+            let name = match function {
+                Function::Sqrt => "sqrt",
+                Function::Sin => "sin",
+                Function::Cos => "cos",
+                Function::Tan => "tan",
+                Function::Exp => "exp",
+                Function::Ln => "log",
+                Function::Abs => "fabs",
+            };
+            format!("{name}({})", sub(a))
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! The programs of a step as functions of C.
+
+use coadjoint_program::print::{Field, Signature, pieces, signatures};
+use coadjoint_program::{Graph, Program};
+
+use super::dialect::Portable;
+use super::fold::Fold;
+use super::names::Names;
+use super::template::INVERT;
+use crate::step::Step;
+
+/// Operations of a function at most: compilers allot registers in a time that grows faster than its length.
+const LONGEST: usize = 1000;
+
+/// Some outputs of the program that watches a state, as a program of μ alone, which is all that it reads.
+fn watched(step: &Step, outputs: std::ops::Range<usize>) -> Program {
+    let kernel = step.kernel();
+    let (n, m) = (kernel.dim(), kernel.element());
+    let mut graph = Graph::new();
+    let zero = graph.zero();
+    let mut inputs = vec![zero; m];
+    inputs.extend((0..n).map(|i| graph.input(i)));
+    let all = graph.call(&kernel.programs().watch, &inputs);
+    graph.finish(n, all.get(outputs).unwrap_or(&[]))
+}
+
+/// How many Casimirs are watched.
+pub fn casimirs(step: &Step) -> usize {
+    step.kernel().programs().watch.outputs().len().saturating_sub(1)
+}
+
+/// All programs, and what they need.
+pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
+    let kernel = step.kernel();
+    let dialect = Portable::new(names, fold.places.clone());
+    let prefix = format!("{}_internal_", names.lower);
+    let (n, m) = (kernel.dim(), kernel.element());
+    let mut text = String::new();
+    if !step.inverted().is_empty() {
+        text.push_str(&names.fill(INVERT));
+    }
+    let mut print = |about: &str, signature: &Signature<'_>| {
+        text.push_str(&format!("\n/* Internal: {about}. */\n"));
+        text.push_str(&pieces(&dialect, &dialect.c, signature, LONGEST));
+    };
+    for signature in signatures(kernel, &prefix) {
+        let about = match signature.name.strip_prefix(&prefix).unwrap_or_default() {
+            "guess" => "mu to a first guess of p, and constants of the solve",
+            "correct" => "one correction of Newton's method",
+            "accept" => "1 where a step is right",
+            "transport" => "the state moved by the increment x",
+            "frame" => "the state moved on by the comoving frame",
+            "sound" => "1 where a state is finite and on the group",
+            "matrix" => "the matrix of a group element",
+            _ => continue,
+        };
+        print(about, &signature);
+    }
+    let array = Field::array;
+    let (energy, count) = (watched(step, 0..1), casimirs(step));
+    let mu = || vec![array("mu", n)];
+    let name = |name: &str| format!("{prefix}{name}");
+    let outputs = vec![Field::number("energy")];
+    print(
+        "the energy",
+        &Signature { name: name("energy"), program: &energy, inputs: mu(), outputs },
+    );
+    if count > 0 {
+        let program = &watched(step, 1..1 + count);
+        let outputs = vec![array("casimirs", count)];
+        let signature = Signature { name: name("casimirs"), program, inputs: mu(), outputs };
+        print("the Casimirs", &signature);
+    }
+    let inputs = vec![array("g", m), array("back", m), array("mu", n)];
+    let outputs = vec![array("spatial", n)];
+    let program = &step.spatial();
+    let signature = Signature { name: name("spatial"), program, inputs, outputs };
+    print("the spatial momentum", &signature);
+    text
+}

@@ -1,0 +1,184 @@
+//! Types of a header, and functions of a state.
+
+use std::fmt::Write;
+
+use coadjoint_program::BLOCK;
+use num_traits::ToPrimitive;
+
+use super::dialect::decimal;
+use super::fold::Fold;
+use super::names::{Names, plain};
+use super::programs::casimirs;
+use super::template::{CASIMIRS, STATE, TEXT};
+use super::{HeaderOptions, parameter};
+use crate::integrator::Integrator;
+use crate::step::Step;
+
+/// How many rows the matrix of an element has.
+fn rows(step: &Step) -> usize {
+    let entries = step.kernel().programs().matrix.outputs().len();
+    (0..=entries).find(|rows| rows * rows >= entries).unwrap_or(0)
+}
+
+/// Sizes, the status, and the structures.
+pub fn types(
+    integrator: &Integrator,
+    step: &Step,
+    fold: &Fold,
+    names: &Names,
+    options: &HeaderOptions,
+) -> String {
+    let kernel = step.kernel();
+    let problem = &integrator.problem;
+    let mut text = String::from("\n");
+    let mut size = |name: &str, value: usize, about: &str| {
+        let _ = writeln!(text, "/** {about} */\n#define @P@_{name} {value}u");
+    };
+    size("DIMENSION", kernel.dim(), "Coordinates of the momentum.");
+    size("ELEMENT", kernel.element(), "Numbers of a group element.");
+    size("ROWS", rows(step), "Rows of its matrix.");
+    if casimirs(step) > 0 {
+        size("CASIMIRS", casimirs(step), "Casimirs of degree three at most that are looked at.");
+    }
+    size("COEFFICIENTS", fold.len, "Folded coefficients.");
+    size("BLOCK", BLOCK as usize, "Steps after which the state is looked at.");
+    if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
+        size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");
+    }
+    text.push_str(&STATUS.replace(
+        "/*ONLY*/",
+        match options.only_step {
+            Some(_) => ", or not the one step that was learned",
+            None => "",
+        },
+    ));
+    if !problem.parameters.is_empty() {
+        text.push_str("\n/** Parameters of the Hamiltonian. */\ntypedef struct @p@_parameters {\n");
+        for (parameter, name) in problem.parameters.iter().zip(&names.parameters) {
+            let member = parameter::member(&parameter.shape, name);
+            let own = plain(&parameter.name);
+            let note = if own == *name { String::new() } else { format!(" /**< {own} */") };
+            let _ = writeln!(text, "    {member};{note}");
+        }
+        text.push_str("} @p@_parameters;\n");
+    }
+    text.push_str("\n/** A state. Copy it as you like. */\ntypedef struct @p@_state {\n");
+    let _ = writeln!(
+        text,
+        "    /** The group element: {}. */\n    double g[@P@_ELEMENT];",
+        step.element_about()
+    );
+    text.push_str("    /** The body momentum, in the order of the basis of the Lie algebra:\n");
+    for (i, name) in problem.coordinates.iter().enumerate() {
+        let unit = options.momentum.get(i).and_then(Option::as_ref);
+        let unit = unit.map_or(String::new(), |unit| format!(" in {}", plain(unit)));
+        let _ = writeln!(text, "     *  mu[{i}] = {}{unit}", plain(name));
+    }
+    text.push_str("     */\n    double mu[@P@_DIMENSION];\n} @p@_state;\n");
+    text.push_str(MAP);
+    names.fill(&text)
+}
+
+/// Functions of a state, and the status in words.
+pub fn functions(integrator: &Integrator, step: &Step, names: &Names) -> String {
+    let rows = rows(step);
+    let identity: Vec<f64> =
+        (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();
+    let mut numbers = String::new();
+    for row in step.element_of(&identity).chunks(8) {
+        let row: Vec<String> = row.iter().map(|&value| decimal(value)).collect();
+        let _ = writeln!(numbers, "        {},", row.join(", "));
+    }
+    let inverted = step.inverted();
+    let mut back = String::new();
+    if !inverted.is_empty() {
+        back.push_str("    double back[@P@_ELEMENT];\n    uint32_t i;\n");
+        back.push_str("    for (i = 0u; i < @P@_ELEMENT; i++) {\n        back[i] = 0.0;\n    }\n");
+        for (at, rows) in &inverted {
+            let _ =
+                writeln!(back, "    @p@_internal_invert(&state->g[{at}], &back[{at}], {rows}u);");
+        }
+    }
+    let singular = match inverted.is_empty() {
+        true => "",
+        false => " It is not finite\n * where the matrix has no inverse.",
+    };
+    let mut text = STATE
+        .replace("/*IDENTITY*/", &numbers)
+        .replace("/*BACK*/", &back)
+        .replace("/*ARGUMENT*/", if inverted.is_empty() { "none" } else { "back" })
+        .replace("/*SINGULAR*/", singular);
+    if casimirs(step) > 0 {
+        text.push_str(CASIMIRS);
+    }
+    text.push_str(
+        &TEXT.replace(
+            "/*BAD_STEP*/",
+            "the step size is zero, not finite, or not one that was learned",
+        ),
+    );
+    if integrator.problem.parameters.iter().any(|parameter| parameter.default.is_some()) {
+        text.push_str(&defaults(integrator, names));
+    }
+    names.fill(&text)
+}
+
+/// The values that the system file gives to its parameters.
+fn defaults(integrator: &Integrator, names: &Names) -> String {
+    let problem = &integrator.problem;
+    let scalars = parameter::scalars(&problem.parameters, names);
+    let values = problem.parameters.iter().flat_map(|parameter| {
+        (0..parameter.shape.len()).map(move |i| {
+            let value = parameter.default.as_ref().and_then(|list| list.get(i));
+            value.and_then(ToPrimitive::to_f64).unwrap_or(f64::NAN)
+        })
+    });
+    let mut text = String::from(
+        "\n/** The parameters as the system file has them. */\nstatic inline void \
+         @p@_default_parameters(@p@_parameters *parameters)\n{\n",
+    );
+    for (scalar, value) in scalars.iter().zip(values) {
+        let value = if value.is_nan() { "(double)NAN".to_owned() } else { decimal(value) };
+        let _ = writeln!(text, "    {scalar} = {value};");
+    }
+    text.push_str("}\n");
+    text
+}
+
+const STATUS: &str = "
+/**
+ * What became of a call. Whatever is not @P@_OK left the state (the last one made) as it was.
+ *
+ * What asks for a smaller step: make another map with half the step size, make two steps with it, and go back to the
+ * first map. There is no other rescue in this header; it refuses steps that might be wrong, and now and then one that
+ * would have been right.
+ */
+typedef enum @p@_status {
+    /** Fine. */
+    @P@_OK = 0,
+    /** The step size is zero or not finite/*ONLY*/: fix the call of @p@_init. */
+    @P@_BAD_STEP = 1,
+    /** A coefficient is not finite: a parameter is not, or one that is divided by is zero. */
+    @P@_BAD_PARAMETER = 2,
+    /** A number of the state is not finite, or became so: the state given was broken, or the motion escapes. */
+    @P@_NOT_FINITE = 3,
+    /** The group element is none of the group (a quaternion that is not a unit one): normalise it. */
+    @P@_OFF_GROUP = 4,
+    /** The equation of the step was not solved to rounding near the first guess: take a smaller step. */
+    @P@_NOT_SOLVED = 5,
+    /** The momentum is so large that the series cannot be trusted: take a smaller step. */
+    @P@_BEYOND_SERIES = 6,
+    /** The step goes too far at once for the group's chart: take a smaller step. */
+    @P@_BEYOND_CHART = 7
+} @p@_status;
+";
+
+const MAP: &str = "
+/** The step for one step size and one set of parameters; made by @p@_init, and only read after that. */
+typedef struct @p@_map {
+    /** Folded coefficients. */
+    double c[@P@_COEFFICIENTS];
+    /** Whether steps can be made with it. */
+    @p@_status status;
+} @p@_map;
+";

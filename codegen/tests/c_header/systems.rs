@@ -1,0 +1,325 @@
+//! Systems that are written as headers.
+
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use coadjoint_codegen::emit::c::{HeaderError, HeaderOptions, Language, header};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::system::{self, Options, Parameters};
+use num_traits::ToPrimitive;
+
+use super::tools::{FLAGS_CPP, Tool, output};
+
+/// A system and how it is written.
+pub struct System {
+    pub name: &'static str,
+    /// The text of a system file, or its path from the root.
+    pub text: &'static str,
+    pub truncation: usize,
+    pub chart: Chart,
+    pub parameters: Parameters,
+    pub language: Language,
+    /// Whether its header is committed.
+    pub golden: bool,
+    /// Whether compilers take long for it.
+    pub large: bool,
+}
+
+/// A cubic Hamiltonian with an irrational number, in the Cayley chart.
+const CAYLEY_BODY: &str = "name = \"cayley-body\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+    hamiltonian = \"x^2/3 + sqrt(2)*y^2/6 + z^2/5 + x^3/10\"\n\
+    [integrator]\nstep = 0.1\n[initial]\nmomentum = [1.0, 0.5, -0.7]\n";
+
+/// A symmetric body in a fluid, in the comoving frame.
+const COMOVING_BODY: &str = "name = \"comoving-body\"\ngroup = \"SE3\"\n\
+    coordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
+    hamiltonian = \"(a^2 + b^2)/(2*I1) + c^2/(2*I3) + (u^2 + v^2)/(2*M1) + w^2/(2*M3)\"\n\
+    [parameters]\nI1 = 2\nI3 = 3\nM1 = 1.5\nM3 = 2.5\n\
+    [integrator]\nframe = \"comoving\"\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
+
+/// Three resonant waves: a group by tables, a parameter with a power and a function, names that C keeps for itself.
+const THREE_WAVE: &str = "name = \"three-wave\"\ngroup = \"SL2\"\ncoordinates = [\"h\", \"e\", \"f\"]\n\
+    hamiltonian = \"h^2/(8*double^3) + sin(s)*e*f\"\n\
+    [parameters]\ndouble = 1.25\ns = 0.4\n[units]\ntime = \"s\"\nmomentum = \"kg m²/s\"\n\
+    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.8, -0.3, 0.5]\n";
+
+/// A motion of the plane beside a rotation of a quaternion.
+const PRODUCT: &str = "name = \"plane and spin\"\ngroup = \"SE2*SU2\"\n\
+    coordinates = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\"]\n\
+    hamiltonian = \"a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9\"\n\
+    [integrator]\nstep = 0.2\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
+
+/// An algebra known by its brackets alone, whose elements are adjoint matrices.
+const BRACKETS: &str = "name = \"brackets\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/4 + c^2/5\"\n\
+    [algebra]\ngenerators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = C\", \"[B, C] = A\", \"[C, A] = B\"]\n\
+    [integrator]\nstep = 0.2\n[initial]\nmomentum = [0.4, 0.3, 0.9]\n";
+
+const SYSTEMS: &[System] = &[
+    System {
+        name: "rigid_body",
+        text: "examples/rigid_body.toml",
+        truncation: 7,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: true,
+        large: false,
+    },
+    System {
+        name: "heavy_top",
+        text: "examples/heavy_top.toml",
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Kept,
+        language: Language::C,
+        golden: true,
+        large: false,
+    },
+    System {
+        name: "cayley_body",
+        text: CAYLEY_BODY,
+        truncation: 3,
+        chart: Chart::Cayley,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: true,
+        large: false,
+    },
+    System {
+        name: "comoving_body",
+        text: COMOVING_BODY,
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Kept,
+        language: Language::C,
+        golden: false,
+        large: false,
+    },
+    System {
+        name: "three_wave",
+        text: THREE_WAVE,
+        truncation: 5,
+        chart: Chart::Exponential,
+        parameters: Parameters::Kept,
+        language: Language::Cpp,
+        golden: true,
+        large: false,
+    },
+    System {
+        name: "three_wave_cayley",
+        text: THREE_WAVE,
+        truncation: 3,
+        chart: Chart::Cayley,
+        parameters: Parameters::Kept,
+        language: Language::C,
+        golden: false,
+        large: false,
+    },
+    System {
+        name: "su3",
+        text: "examples/su3_quadratic.toml",
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: false,
+        large: true,
+    },
+    System {
+        name: "plane_and_spin",
+        text: PRODUCT,
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: false,
+        large: false,
+    },
+    System {
+        name: "brackets",
+        text: BRACKETS,
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: false,
+        large: false,
+    },
+];
+
+/// All systems, built once.
+pub fn all() -> &'static [Built] {
+    static ALL: LazyLock<Vec<Built>> = LazyLock::new(|| SYSTEMS.iter().map(Built::new).collect());
+    &ALL
+}
+
+/// A system with its header.
+pub struct Built {
+    pub system: &'static System,
+    pub integrator: Integrator,
+    /// A step of it as programs.
+    pub programs: Step,
+    /// The step size.
+    pub step: f64,
+    pub momentum: Vec<f64>,
+    pub symbols: Vec<f64>,
+    /// Whether elements are matrices.
+    pub by_tables: bool,
+    pub file: String,
+    pub header: String,
+    prefix: String,
+}
+
+impl Built {
+    pub fn new(system: &'static System) -> Self {
+        let options = Options {
+            parameters: system.parameters,
+            truncation: Some(system.truncation),
+            chart: Some(system.chart),
+            ..Options::default()
+        };
+        let read = system::read(&text(system.text), options).unwrap();
+        let (units, run) = (read.units, read.run);
+        let integrator = Integrator::build(read.problem, TermLimit::default()).unwrap();
+        let problem = &integrator.problem;
+        let style = HeaderOptions {
+            language: system.language,
+            prefix: problem.name.clone(),
+            time: units.time.clone(),
+            momentum: (0..problem.algebra.dim())
+                .map(|i| units.coordinate(i).map(str::to_owned))
+                .collect(),
+            only_step: None,
+        };
+        let header = header(&integrator, &style).unwrap();
+        let values: Vec<f64> = problem
+            .parameters
+            .iter()
+            .flat_map(|parameter| parameter.default.clone().unwrap())
+            .map(|value| value.to_f64().unwrap())
+            .collect();
+        let symbols = problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&values)).collect();
+        let prefix = coadjoint_codegen::emit::c::prefix(&problem.name);
+        let ending = if system.language == Language::Cpp { "hpp" } else { "h" };
+        let programs = Step::build(&integrator, REACH).unwrap();
+        Self {
+            system,
+            step: run.step.unwrap(),
+            momentum: run.momentum.unwrap(),
+            symbols,
+            by_tables: !programs.inverted().is_empty(),
+            programs,
+            file: format!("{prefix}.{ending}"),
+            header,
+            prefix,
+            integrator,
+        }
+    }
+
+    fn fill(&self, template: &str) -> String {
+        let parameters = &self.integrator.problem.parameters;
+        let with = !parameters.is_empty();
+        let list: Vec<String> = self.momentum.iter().map(|value| format!("{value:?}")).collect();
+        let declared = "    @p@_parameters parameters;\n    @p@_default_parameters(&parameters);";
+        let broken = "    parameters.@first@ = (double)NAN;\n    \
+            status = @p@_init(&broken, @step@, &parameters);\n    \
+            printf(\"parameter %d %d\\n\", (int)status, (int)@p@_step(&broken, &state));";
+        let first = parameters.first().map_or("", |parameter| match parameter.name.as_str() {
+            "double" => "double_",
+            name => name,
+        });
+        template
+            .replace("@parameters@", if with { declared } else { "" })
+            .replace("@broken@", if with { broken } else { "" })
+            .replace("@first@", first)
+            .replace("@passed@", if with { ", &parameters" } else { "" })
+            .replace("@by_value@", if with { ", parameters" } else { "" })
+            .replace("@file@", &self.file)
+            .replace("@momentum@", &list.join(", "))
+            .replace("@step@", &format!("{:?}", self.step))
+            .replace("@steps@", &super::STEPS.to_string())
+            .replace("@C@", &coadjoint_codegen::emit::camel_case(&self.prefix))
+            .replace("@P@", &self.prefix.to_uppercase())
+            .replace("@p@", &self.prefix)
+    }
+
+    fn write(&self, folder: &Path, name: &str, template: &str) -> PathBuf {
+        std::fs::write(folder.join(&self.file), &self.header).unwrap();
+        let source = folder.join(name);
+        std::fs::write(&source, self.fill(template)).unwrap();
+        source
+    }
+
+    /// The header and a program that drives it; its source.
+    pub fn write_main(&self, folder: &Path) -> PathBuf {
+        self.write(folder, "main.c", include_str!("main.c"))
+    }
+
+    /// What the program prints as C++, where the class makes the same steps; nothing without a compiler.
+    pub fn by_class(&self, folder: &Path) -> Vec<String> {
+        let Some(compiler) = Tool::find("g++") else { return Vec::new() };
+        let mut flags = FLAGS_CPP.to_vec();
+        flags.extend(["-O2", "-ffp-contract=off"]);
+        let main = self.write(folder, "main.cpp", include_str!("main.c"));
+        compiler.compile(&flags, &main, &folder.join("functions"), &["-lm"]);
+        let found = output(&folder.join("functions"), &[]);
+        let class = self.write(folder, "class.cpp", include_str!("class.cpp"));
+        compiler.compile(&flags, &class, &folder.join("class"), &["-lm"]);
+        let by_class = output(&folder.join("class"), &[]);
+        for line in by_class[0].lines().take(2) {
+            assert!(found[0].contains(&format!("\n{line}\n")), "{line} in\n{}", found[0]);
+        }
+        assert!(by_class[0].ends_with("\n0 0\n"), "{}", by_class[0]);
+        found
+    }
+}
+
+/// A text, or that of a file.
+fn text(text: &str) -> String {
+    match text.ends_with(".toml") {
+        true => std::fs::read_to_string(root().join(text)).unwrap(),
+        false => text.to_owned(),
+    }
+}
+
+/// The root of the workspace.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A file is what is written now, or becomes it.
+pub fn check_golden(path: &str, text: &str) {
+    let path = root().join(path);
+    if std::env::var_os("COADJOINT_BLESS").is_some() {
+        std::fs::write(&path, text).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == text, "{} differs from what is written now", path.display());
+}
+
+/// The system of `examples/c`.
+const TOUTATIS: System = System {
+    name: "toutatis",
+    text: "examples/c/toutatis.toml",
+    truncation: 7,
+    chart: Chart::Exponential,
+    parameters: Parameters::Substituted,
+    language: Language::C,
+    golden: true,
+    large: false,
+};
+
+/// It with its header.
+pub fn toutatis() -> Built {
+    Built::new(&TOUTATIS)
+}
+
+/// The header of a system file as it stands.
+pub fn attempt(text: &str) -> Result<String, HeaderError> {
+    let problem = system::read(text, Options::default()).unwrap().problem;
+    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
+    header(&integrator, &HeaderOptions::default())
+}
