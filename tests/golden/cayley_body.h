@@ -45,6 +45,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 /** The version of coadjoint that wrote this. */
@@ -125,14 +126,14 @@ extern "C" {
 
 /* Functions whose names have `internal` in them are not to be called from outside. */
 
-/* Internal: 1 where all numbers of a list are finite. */
-static inline int cayley_body_internal_finite(const double *list, uint32_t length)
+/* Internal: whether all numbers of a list are finite. */
+static inline bool cayley_body_internal_finite(const double *list, uint32_t length)
 {
-    int finite = 1;
+    bool finite = true;
     uint32_t i;
     for (i = 0u; i < length; i++) {
         if (!(fabs(list[i]) <= DBL_MAX)) {
-            finite = 0;
+            finite = false;
         }
     }
     return finite;
@@ -750,18 +751,18 @@ static inline void cayley_body_internal_solve(const double *CAYLEY_BODY_RESTRICT
     double moved = 0.0;
     uint32_t correction = 0u;
     uint32_t i;
-    int open = 1;
+    bool open = true;
     cayley_body_internal_guess(c, mu, p, k);
     *left = 1.0;
     *way = 0.0;
-    while ((open == 1) && (correction < 12u)) {
+    while (open && (correction < 12u)) {
         cayley_body_internal_correct(c, p, mu, k, p_next, x, left, &moved);
         for (i = 0u; i < CAYLEY_BODY_DIMENSION; i++) {
             p[i] = p_next[i];
         }
         *way = *way + moved;
         correction++;
-        open = ((!(*left <= 8.881784197001252e-16)) && (*way <= 0.05)) ? 1 : 0;
+        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
     }
 }
 
@@ -774,7 +775,7 @@ static inline cayley_body_status cayley_body_internal_reason(const double *c, co
     for (i = 0u; i < CAYLEY_BODY_DIMENSION; i++) {
         square = CAYLEY_BODY_FMA(mu[i], mu[i], square);
     }
-    if (cayley_body_internal_finite(mu, CAYLEY_BODY_DIMENSION) == 0) {
+    if (!cayley_body_internal_finite(mu, CAYLEY_BODY_DIMENSION)) {
         status = CAYLEY_BODY_NOT_FINITE;
     } else if (!(square <= c[CAYLEY_BODY_COEFFICIENTS - 1u])) {
         status = CAYLEY_BODY_BEYOND_SERIES;
@@ -793,11 +794,11 @@ static inline cayley_body_status cayley_body_internal_reason(const double *c, co
  * as any other, and the status says why the next step was refused: see cayley_body_status.
  * The state is looked at every CAYLEY_BODY_BLOCK steps and at the end; where it is found broken, it is that of the last look.
  */
-static inline cayley_body_status cayley_body_advance(const cayley_body_map *map, cayley_body_state *state, uint32_t steps, uint32_t *made)
+static inline cayley_body_status cayley_body_advance(const cayley_body_map *map, cayley_body_state *state, uint32_t steps,
+    uint32_t *made)
 {
-    cayley_body_state now = *state;
-    cayley_body_state begun = *state;
-    cayley_body_state next = *state;
+    cayley_body_state now;
+    cayley_body_state next;
     cayley_body_status status = map->status;
     double x[CAYLEY_BODY_DIMENSION];
     double left = 1.0;
@@ -808,9 +809,15 @@ static inline cayley_body_status cayley_body_advance(const cayley_body_map *map,
     for (i = 0u; i < CAYLEY_BODY_DIMENSION; i++) {
         x[i] = 0.0;
     }
+    now = *state;
+    next = *state;
     while ((status == CAYLEY_BODY_OK) && (done < steps)) {
-        const uint32_t length = ((steps - done) < CAYLEY_BODY_BLOCK) ? (steps - done) : CAYLEY_BODY_BLOCK;
+        uint32_t length = steps - done;
         uint32_t count = 0u;
+        cayley_body_state begun;
+        if (length > CAYLEY_BODY_BLOCK) {
+            length = CAYLEY_BODY_BLOCK;
+        }
         begun = now;
         while ((status == CAYLEY_BODY_OK) && (count < length)) {
             cayley_body_internal_solve(map->c, now.mu, x, &left, &way);
@@ -826,9 +833,10 @@ static inline cayley_body_status cayley_body_advance(const cayley_body_map *map,
         if (count > 0u) {
             cayley_body_internal_sound(map->c, now.g, now.mu, &right);
             if (!(right > 0.5)) {
-                const int finite = (cayley_body_internal_finite(now.g, CAYLEY_BODY_ELEMENT) == 1)
-                    && (cayley_body_internal_finite(now.mu, CAYLEY_BODY_DIMENSION) == 1);
-                status = finite ? CAYLEY_BODY_OFF_GROUP : CAYLEY_BODY_NOT_FINITE;
+                status = CAYLEY_BODY_OFF_GROUP;
+                if ((!cayley_body_internal_finite(now.g, CAYLEY_BODY_ELEMENT)) || (!cayley_body_internal_finite(now.mu, CAYLEY_BODY_DIMENSION))) {
+                    status = CAYLEY_BODY_NOT_FINITE;
+                }
                 now = begun;
                 count = 0u;
             }
@@ -860,14 +868,14 @@ static inline double cayley_body_internal_polynomial(const double *coefficients,
     return sum;
 }
 
-/* Internal: 1 where the last term of the series is at most half the one before for |p| up to r. */
-static inline int cayley_body_internal_within(const double *last, const double *before, double r)
+/* Internal: whether the last term of the series is at most half the one before for |p| up to r. */
+static inline bool cayley_body_internal_within(const double *last, const double *before, double r)
 {
     const double size = cayley_body_internal_polynomial(last, r);
     const double whole = cayley_body_internal_polynomial(before, r);
-    const int nothing = ((whole <= 0.0) || (size <= (16.0 * DBL_EPSILON))) ? 1 : 0;
-    const int bounded = ((size <= (0.5 * whole)) || (nothing == 1)) ? 1 : 0;
-    return ((bounded == 1) && (size <= DBL_MAX)) ? 1 : 0;
+    /* Without a term to compare with there is no ratio, and rounding's own is none. */
+    const bool nothing = (whole <= 0.0) || (size <= (16.0 * DBL_EPSILON));
+    return ((size <= (0.5 * whole)) || nothing) && (size <= DBL_MAX);
 }
 
 /* Internal: how far, in |p|, the series can be trusted. */
@@ -883,10 +891,10 @@ static inline double cayley_body_internal_radius(const double *last, const doubl
     if ((size > 0.0) || (size < 0.0) || !(fabs(size) <= DBL_MAX)) {
         const double smallest = 1.1754943508222875e-38;
         uint32_t i;
-        r = (cayley_body_internal_within(last, before, smallest) == 1) ? smallest : 0.0;
+        r = cayley_body_internal_within(last, before, smallest) ? smallest : 0.0;
         for (i = 0u; i < 13u; i++) {
             const double next = r * longer[i];
-            if (cayley_body_internal_within(last, before, next) == 1) {
+            if (cayley_body_internal_within(last, before, next)) {
                 r = next;
             }
         }

@@ -45,6 +45,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 /** The version of coadjoint that wrote this. */
@@ -138,14 +139,14 @@ extern "C" {
 
 /* Functions whose names have `internal` in them are not to be called from outside. */
 
-/* Internal: 1 where all numbers of a list are finite. */
-static inline int heavy_top_internal_finite(const double *list, uint32_t length)
+/* Internal: whether all numbers of a list are finite. */
+static inline bool heavy_top_internal_finite(const double *list, uint32_t length)
 {
-    int finite = 1;
+    bool finite = true;
     uint32_t i;
     for (i = 0u; i < length; i++) {
         if (!(fabs(list[i]) <= DBL_MAX)) {
-            finite = 0;
+            finite = false;
         }
     }
     return finite;
@@ -1588,18 +1589,18 @@ static inline void heavy_top_internal_solve(const double *HEAVY_TOP_RESTRICT c, 
     double moved = 0.0;
     uint32_t correction = 0u;
     uint32_t i;
-    int open = 1;
+    bool open = true;
     heavy_top_internal_guess(c, mu, p, k);
     *left = 1.0;
     *way = 0.0;
-    while ((open == 1) && (correction < 12u)) {
+    while (open && (correction < 12u)) {
         heavy_top_internal_correct(c, p, mu, k, p_next, x, left, &moved);
         for (i = 0u; i < HEAVY_TOP_DIMENSION; i++) {
             p[i] = p_next[i];
         }
         *way = *way + moved;
         correction++;
-        open = ((!(*left <= 8.881784197001252e-16)) && (*way <= 0.05)) ? 1 : 0;
+        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
     }
 }
 
@@ -1612,7 +1613,7 @@ static inline heavy_top_status heavy_top_internal_reason(const double *c, const 
     for (i = 0u; i < HEAVY_TOP_DIMENSION; i++) {
         square = HEAVY_TOP_FMA(mu[i], mu[i], square);
     }
-    if (heavy_top_internal_finite(mu, HEAVY_TOP_DIMENSION) == 0) {
+    if (!heavy_top_internal_finite(mu, HEAVY_TOP_DIMENSION)) {
         status = HEAVY_TOP_NOT_FINITE;
     } else if (!(square <= c[HEAVY_TOP_COEFFICIENTS - 1u])) {
         status = HEAVY_TOP_BEYOND_SERIES;
@@ -1631,11 +1632,11 @@ static inline heavy_top_status heavy_top_internal_reason(const double *c, const 
  * as any other, and the status says why the next step was refused: see heavy_top_status.
  * The state is looked at every HEAVY_TOP_BLOCK steps and at the end; where it is found broken, it is that of the last look.
  */
-static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy_top_state *state, uint32_t steps, uint32_t *made)
+static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy_top_state *state, uint32_t steps,
+    uint32_t *made)
 {
-    heavy_top_state now = *state;
-    heavy_top_state begun = *state;
-    heavy_top_state next = *state;
+    heavy_top_state now;
+    heavy_top_state next;
     heavy_top_status status = map->status;
     double x[HEAVY_TOP_DIMENSION];
     double left = 1.0;
@@ -1646,9 +1647,15 @@ static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy
     for (i = 0u; i < HEAVY_TOP_DIMENSION; i++) {
         x[i] = 0.0;
     }
+    now = *state;
+    next = *state;
     while ((status == HEAVY_TOP_OK) && (done < steps)) {
-        const uint32_t length = ((steps - done) < HEAVY_TOP_BLOCK) ? (steps - done) : HEAVY_TOP_BLOCK;
+        uint32_t length = steps - done;
         uint32_t count = 0u;
+        heavy_top_state begun;
+        if (length > HEAVY_TOP_BLOCK) {
+            length = HEAVY_TOP_BLOCK;
+        }
         begun = now;
         while ((status == HEAVY_TOP_OK) && (count < length)) {
             heavy_top_internal_solve(map->c, now.mu, x, &left, &way);
@@ -1664,9 +1671,10 @@ static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy
         if (count > 0u) {
             heavy_top_internal_sound(map->c, now.g, now.mu, &right);
             if (!(right > 0.5)) {
-                const int finite = (heavy_top_internal_finite(now.g, HEAVY_TOP_ELEMENT) == 1)
-                    && (heavy_top_internal_finite(now.mu, HEAVY_TOP_DIMENSION) == 1);
-                status = finite ? HEAVY_TOP_OFF_GROUP : HEAVY_TOP_NOT_FINITE;
+                status = HEAVY_TOP_OFF_GROUP;
+                if ((!heavy_top_internal_finite(now.g, HEAVY_TOP_ELEMENT)) || (!heavy_top_internal_finite(now.mu, HEAVY_TOP_DIMENSION))) {
+                    status = HEAVY_TOP_NOT_FINITE;
+                }
                 now = begun;
                 count = 0u;
             }
@@ -1698,14 +1706,14 @@ static inline double heavy_top_internal_polynomial(const double *coefficients, d
     return sum;
 }
 
-/* Internal: 1 where the last term of the series is at most half the one before for |p| up to r. */
-static inline int heavy_top_internal_within(const double *last, const double *before, double r)
+/* Internal: whether the last term of the series is at most half the one before for |p| up to r. */
+static inline bool heavy_top_internal_within(const double *last, const double *before, double r)
 {
     const double size = heavy_top_internal_polynomial(last, r);
     const double whole = heavy_top_internal_polynomial(before, r);
-    const int nothing = ((whole <= 0.0) || (size <= (16.0 * DBL_EPSILON))) ? 1 : 0;
-    const int bounded = ((size <= (0.5 * whole)) || (nothing == 1)) ? 1 : 0;
-    return ((bounded == 1) && (size <= DBL_MAX)) ? 1 : 0;
+    /* Without a term to compare with there is no ratio, and rounding's own is none. */
+    const bool nothing = (whole <= 0.0) || (size <= (16.0 * DBL_EPSILON));
+    return ((size <= (0.5 * whole)) || nothing) && (size <= DBL_MAX);
 }
 
 /* Internal: how far, in |p|, the series can be trusted. */
@@ -1721,10 +1729,10 @@ static inline double heavy_top_internal_radius(const double *last, const double 
     if ((size > 0.0) || (size < 0.0) || !(fabs(size) <= DBL_MAX)) {
         const double smallest = 1.1754943508222875e-38;
         uint32_t i;
-        r = (heavy_top_internal_within(last, before, smallest) == 1) ? smallest : 0.0;
+        r = heavy_top_internal_within(last, before, smallest) ? smallest : 0.0;
         for (i = 0u; i < 13u; i++) {
             const double next = r * longer[i];
-            if (heavy_top_internal_within(last, before, next) == 1) {
+            if (heavy_top_internal_within(last, before, next)) {
                 r = next;
             }
         }

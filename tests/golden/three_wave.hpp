@@ -45,6 +45,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 /** The version of coadjoint that wrote this. */
@@ -113,7 +114,7 @@ typedef struct three_wave_parameters {
 
 /** A state. Copy it as you like. */
 typedef struct three_wave_state {
-    /** The group element: its matrix, row by row. */
+    /** The group element: its matrix of 2 rows, row by row. */
     double g[THREE_WAVE_ELEMENT];
     /** The body momentum, in the order of the basis of the Lie algebra:
      *  mu[0] = h in kg m^2/s
@@ -137,14 +138,14 @@ extern "C" {
 
 /* Functions whose names have `internal` in them are not to be called from outside. */
 
-/* Internal: 1 where all numbers of a list are finite. */
-static inline int three_wave_internal_finite(const double *list, uint32_t length)
+/* Internal: whether all numbers of a list are finite. */
+static inline bool three_wave_internal_finite(const double *list, uint32_t length)
 {
-    int finite = 1;
+    bool finite = true;
     uint32_t i;
     for (i = 0u; i < length; i++) {
         if (!(fabs(list[i]) <= DBL_MAX)) {
-            finite = 0;
+            finite = false;
         }
     }
     return finite;
@@ -2083,18 +2084,18 @@ static inline void three_wave_internal_solve(const double *THREE_WAVE_RESTRICT c
     double moved = 0.0;
     uint32_t correction = 0u;
     uint32_t i;
-    int open = 1;
+    bool open = true;
     three_wave_internal_guess(c, mu, p, k);
     *left = 1.0;
     *way = 0.0;
-    while ((open == 1) && (correction < 12u)) {
+    while (open && (correction < 12u)) {
         three_wave_internal_correct(c, p, mu, k, p_next, x, left, &moved);
         for (i = 0u; i < THREE_WAVE_DIMENSION; i++) {
             p[i] = p_next[i];
         }
         *way = *way + moved;
         correction++;
-        open = ((!(*left <= 8.881784197001252e-16)) && (*way <= 0.05)) ? 1 : 0;
+        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
     }
 }
 
@@ -2107,7 +2108,7 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
     for (i = 0u; i < THREE_WAVE_DIMENSION; i++) {
         square = THREE_WAVE_FMA(mu[i], mu[i], square);
     }
-    if (three_wave_internal_finite(mu, THREE_WAVE_DIMENSION) == 0) {
+    if (!three_wave_internal_finite(mu, THREE_WAVE_DIMENSION)) {
         status = THREE_WAVE_NOT_FINITE;
     } else if (!(square <= c[THREE_WAVE_COEFFICIENTS - 1u])) {
         status = THREE_WAVE_BEYOND_SERIES;
@@ -2126,11 +2127,11 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
  * as any other, and the status says why the next step was refused: see three_wave_status.
  * The state is looked at every THREE_WAVE_BLOCK steps and at the end; where it is found broken, it is that of the last look.
  */
-static inline three_wave_status three_wave_advance(const three_wave_map *map, three_wave_state *state, uint32_t steps, uint32_t *made)
+static inline three_wave_status three_wave_advance(const three_wave_map *map, three_wave_state *state, uint32_t steps,
+    uint32_t *made)
 {
-    three_wave_state now = *state;
-    three_wave_state begun = *state;
-    three_wave_state next = *state;
+    three_wave_state now;
+    three_wave_state next;
     three_wave_status status = map->status;
     double x[THREE_WAVE_DIMENSION];
     double left = 1.0;
@@ -2141,9 +2142,15 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
     for (i = 0u; i < THREE_WAVE_DIMENSION; i++) {
         x[i] = 0.0;
     }
+    now = *state;
+    next = *state;
     while ((status == THREE_WAVE_OK) && (done < steps)) {
-        const uint32_t length = ((steps - done) < THREE_WAVE_BLOCK) ? (steps - done) : THREE_WAVE_BLOCK;
+        uint32_t length = steps - done;
         uint32_t count = 0u;
+        three_wave_state begun;
+        if (length > THREE_WAVE_BLOCK) {
+            length = THREE_WAVE_BLOCK;
+        }
         begun = now;
         while ((status == THREE_WAVE_OK) && (count < length)) {
             three_wave_internal_solve(map->c, now.mu, x, &left, &way);
@@ -2159,9 +2166,10 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
         if (count > 0u) {
             three_wave_internal_sound(map->c, now.g, now.mu, &right);
             if (!(right > 0.5)) {
-                const int finite = (three_wave_internal_finite(now.g, THREE_WAVE_ELEMENT) == 1)
-                    && (three_wave_internal_finite(now.mu, THREE_WAVE_DIMENSION) == 1);
-                status = finite ? THREE_WAVE_OFF_GROUP : THREE_WAVE_NOT_FINITE;
+                status = THREE_WAVE_OFF_GROUP;
+                if ((!three_wave_internal_finite(now.g, THREE_WAVE_ELEMENT)) || (!three_wave_internal_finite(now.mu, THREE_WAVE_DIMENSION))) {
+                    status = THREE_WAVE_NOT_FINITE;
+                }
                 now = begun;
                 count = 0u;
             }
@@ -2211,14 +2219,14 @@ static inline double three_wave_internal_polynomial(const double *coefficients, 
     return sum;
 }
 
-/* Internal: 1 where the last term of the series is at most half the one before for |p| up to r. */
-static inline int three_wave_internal_within(const double *last, const double *before, double r)
+/* Internal: whether the last term of the series is at most half the one before for |p| up to r. */
+static inline bool three_wave_internal_within(const double *last, const double *before, double r)
 {
     const double size = three_wave_internal_polynomial(last, r);
     const double whole = three_wave_internal_polynomial(before, r);
-    const int nothing = ((whole <= 0.0) || (size <= (16.0 * DBL_EPSILON))) ? 1 : 0;
-    const int bounded = ((size <= (0.5 * whole)) || (nothing == 1)) ? 1 : 0;
-    return ((bounded == 1) && (size <= DBL_MAX)) ? 1 : 0;
+    /* Without a term to compare with there is no ratio, and rounding's own is none. */
+    const bool nothing = (whole <= 0.0) || (size <= (16.0 * DBL_EPSILON));
+    return ((size <= (0.5 * whole)) || nothing) && (size <= DBL_MAX);
 }
 
 /* Internal: how far, in |p|, the series can be trusted. */
@@ -2234,10 +2242,10 @@ static inline double three_wave_internal_radius(const double *last, const double
     if ((size > 0.0) || (size < 0.0) || !(fabs(size) <= DBL_MAX)) {
         const double smallest = 1.1754943508222875e-38;
         uint32_t i;
-        r = (three_wave_internal_within(last, before, smallest) == 1) ? smallest : 0.0;
+        r = three_wave_internal_within(last, before, smallest) ? smallest : 0.0;
         for (i = 0u; i < 13u; i++) {
             const double next = r * longer[i];
-            if (three_wave_internal_within(last, before, next) == 1) {
+            if (three_wave_internal_within(last, before, next)) {
                 r = next;
             }
         }
@@ -2572,6 +2580,7 @@ public:
     {
         three_wave_casimirs(&state, values);
     }
+
     /** As three_wave_spatial_momentum. */
     static void spatial_momentum(const State &state, double (&spatial)[THREE_WAVE_DIMENSION]) noexcept
     {

@@ -10,6 +10,8 @@ mod comment;
 mod dialect;
 mod drive;
 mod fold;
+mod fold_table;
+mod fold_text;
 mod names;
 mod parameter;
 mod programs;
