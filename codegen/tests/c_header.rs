@@ -11,7 +11,7 @@ mod systems;
 mod tools;
 
 use coadjoint_codegen::emit::c::Language;
-use coadjoint_program::Scratch;
+use coadjoint_program::{Scratch, Stepper};
 use systems::Built;
 use tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 

@@ -1,4 +1,4 @@
-//! The loop of steps, that of [`coadjoint_program::Kernel::advance`].
+//! The loop of steps, that of [`coadjoint_program::Stepper::advance`].
 
 use super::dialect::decimal;
 use super::names::Names;
