@@ -23,6 +23,7 @@ mod evaluate;
 mod kernel;
 mod node;
 mod number;
+mod precision;
 pub mod print;
 mod program;
 
@@ -31,4 +32,5 @@ pub use error::ProgramError;
 pub use kernel::{BLOCK, Kernel, Programs};
 pub use node::{Cost, Graph, Id, Node};
 pub use number::{Lanes, Number};
+pub use precision::Precision;
 pub use program::Program;
