@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_device::Device;
+use coadjoint_program::print::DeviceLanguage;
 
 use crate::backend::Backend;
-use crate::ensemble::Shard;
+use crate::ensemble::{PrecisionName, Shard};
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
@@ -184,6 +186,38 @@ pub struct EmitOptions {
     /// Keep the parameters as arguments of the integrator instead of putting in their values
     #[arg(long)]
     pub keep_parameters: bool,
+    /// What to write
+    #[arg(long, value_enum, default_value_t)]
+    pub language: LanguageName,
+    /// The step size h of a kernel for devices, which is for one step alone; instead of the file's
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// The numbers of a kernel for devices
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: PrecisionName,
+}
+
+/// A language to emit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum LanguageName {
+    /// A Rust module
+    #[default]
+    Rust,
+    /// A kernel in OpenCL C, a thread a trajectory
+    Opencl,
+    /// A kernel in CUDA C++, a thread a trajectory
+    Cuda,
+}
+
+impl LanguageName {
+    /// The language of a kernel for devices, if it is one.
+    pub fn of_device(self) -> Option<DeviceLanguage> {
+        match self {
+            Self::Opencl => Some(DeviceLanguage::OpenCl),
+            Self::Cuda => Some(DeviceLanguage::Cuda),
+            _ => None,
+        }
+    }
 }
 
 /// What to run beside the integrator.
@@ -296,6 +330,12 @@ pub struct EnsembleOptions {
     /// What evaluates the steps
     #[arg(long, value_enum, default_value_t)]
     pub backend: Backend,
+    /// Make the steps on a device, opencl[:N] or cuda[:N]. What it refuses --backend makes
+    #[arg(long, value_name = "DEVICE")]
+    pub device: Option<Device>,
+    /// The numbers that the device computes with
+    #[arg(long, value_enum, default_value_t, requires = "device")]
+    pub precision: PrecisionName,
     /// How many threads; all processors if not given. The result is the same
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,

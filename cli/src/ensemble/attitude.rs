@@ -54,7 +54,9 @@ impl Attitudes {
             }
         };
         match found {
-            Some(matrix) if distance <= TOLERANCE => Ok(Some(matrix.transpose().as_slice().to_vec())),
+            Some(matrix) if distance <= TOLERANCE => {
+                Ok(Some(matrix.transpose().as_slice().to_vec()))
+            }
             Some(_) => Err(format!("the attitude is off the group by {distance:.1e}")),
             None => Err("the attitude is no element of the group".into()),
         }

@@ -48,7 +48,10 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         fit_poisson::<G, C>(group, pairs, &PoissonOptions::degree(degree))
     };
     let figures = |model: &Model, pairs: &MomentumPairs| {
-        evaluate_momenta(&Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), model), pairs)
+        evaluate_momenta(
+            &Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), model),
+            pairs,
+        )
     };
     let mut candidates = Vec::new();
     let (degree, choice) = if let Some(degree) = request.degree {
