@@ -6,9 +6,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_device::Device;
+use coadjoint_program::print::DeviceLanguage;
 
 use crate::backend::Backend;
-use crate::ensemble::Shard;
+use crate::ensemble::{PrecisionName, Shard};
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
@@ -191,6 +193,12 @@ pub struct EmitOptions {
     /// What all names in C begin with; from the system's name if not given
     #[arg(long, value_name = "NAME")]
     pub prefix: Option<String>,
+    /// The step size h of a kernel for devices, which is for one step alone; instead of the file's
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// The numbers of a kernel for devices
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: PrecisionName,
 }
 
 /// A language to emit.
@@ -203,15 +211,28 @@ pub enum LanguageName {
     C,
     /// The same with a class of C++11
     Cpp,
+    /// A kernel in OpenCL C, a thread a trajectory
+    Opencl,
+    /// A kernel in CUDA C++, a thread a trajectory
+    Cuda,
 }
 
 impl LanguageName {
     /// The language of a header, if it is one.
     pub fn of_header(self) -> Option<Language> {
         match self {
-            Self::Rust => None,
             Self::C => Some(Language::C),
             Self::Cpp => Some(Language::Cpp),
+            _ => None,
+        }
+    }
+
+    /// The language of a kernel for devices, if it is one.
+    pub fn of_device(self) -> Option<DeviceLanguage> {
+        match self {
+            Self::Opencl => Some(DeviceLanguage::OpenCl),
+            Self::Cuda => Some(DeviceLanguage::Cuda),
+            _ => None,
         }
     }
 }
@@ -326,6 +347,12 @@ pub struct EnsembleOptions {
     /// What evaluates the steps
     #[arg(long, value_enum, default_value_t)]
     pub backend: Backend,
+    /// Make the steps on a device, opencl[:N] or cuda[:N]. What it refuses --backend makes
+    #[arg(long, value_name = "DEVICE")]
+    pub device: Option<Device>,
+    /// The numbers that the device computes with
+    #[arg(long, value_enum, default_value_t, requires = "device")]
+    pub precision: PrecisionName,
     /// How many threads; all processors if not given. The result is the same
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,

@@ -9,15 +9,19 @@ use coadjoint_codegen::system::Parameters;
 
 use crate::arguments::EmitOptions;
 use crate::error::CliError;
-use crate::{load, model, progress};
+use crate::{emit_device, load, model, progress};
 
 /// Writes the module or the header to `--out` or the standard output.
 pub fn run(options: &EmitOptions) -> Result<(), CliError> {
+    if options.language.of_header().is_none() && options.prefix.is_some() {
+        return Err(CliError::Option("--prefix is for --language c and cpp alone".into()));
+    }
+    if let Some(language) = options.language.of_device() {
+        return emit_device::run(options, language);
+    }
+    emit_device::check_unused(options)?;
     if let Some(language) = options.language.of_header() {
         return header(options, language);
-    }
-    if options.prefix.is_some() {
-        return Err(CliError::Option("--prefix is for --language c and cpp alone".into()));
     }
     if let Some(path) = &options.input.model {
         return model::emit(path, options.out.as_deref());

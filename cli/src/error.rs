@@ -131,6 +131,9 @@ pub enum CliError {
         /// The list of reasons.
         list: Option<PathBuf>,
     },
+    /// A device that failed on the way.
+    #[error("{0}")]
+    Device(coadjoint_device::DeviceError),
     /// Nothing can be said of some rows; what was found has been printed.
     #[error("{0}")]
     NotJudged(String),
@@ -161,6 +164,7 @@ impl CliError {
                 }
             }
             Self::Rows { .. }
+            | Self::Device(_)
             | Self::Write { .. }
             | Self::Step { .. }
             | Self::Run { .. }

@@ -13,6 +13,7 @@ mod casimirs;
 mod check;
 mod derive;
 mod emit;
+mod emit_device;
 mod engine;
 mod ensemble;
 mod error;

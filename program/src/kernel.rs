@@ -19,6 +19,7 @@
 //! say why there is none.
 
 use crate::error::ProgramError;
+use crate::precision::Precision;
 use crate::program::Program;
 
 /// Steps after which a comoving frame moves on and the state is checked.
@@ -56,6 +57,7 @@ pub struct Kernel {
     tolerance: f64,
     near: f64,
     corrections: u32,
+    precision: Precision,
     programs: Programs,
 }
 
@@ -95,7 +97,31 @@ impl Kernel {
             }
             slots = slots.max(program.slots());
         }
-        Ok(Self { dim, element, constants, slots, tolerance, near, corrections, programs })
+        let precision = Precision::Double;
+        Ok(Self {
+            dim,
+            element,
+            constants,
+            slots,
+            tolerance,
+            near,
+            corrections,
+            precision,
+            programs,
+        })
+    }
+
+    /// The same step, whose programs and tolerance are those for numbers of this length.
+    #[must_use]
+    pub fn in_precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
+    /// The numbers that the programs are made for. The interpreter and machine code evaluate them in 64 bits all the
+    /// same.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        self.precision
     }
 
     /// n, the dimension of the group.

@@ -11,7 +11,7 @@ use crate::error::CliError;
 
 /// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
 /// coordinates they would write out.
-const MOST_OPERATIONS: usize = 60_000;
+pub(super) const MOST_OPERATIONS: usize = 60_000;
 
 /// A state as the programs have it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! The step the command line runs: the interpreter of the expression graph on a group of tables.
 
 mod advise;
+mod card;
 mod compiled;
 mod group;
 mod interpreter;
@@ -10,6 +11,7 @@ mod restore;
 mod steep;
 
 pub use advise::advise;
+pub use card::{card, device_text};
 pub use compiled::{Compiled, Numbers};
 pub use group::{cayley_group, product_group, whole_group};
 pub use interpreter::Interpreter;

@@ -7,6 +7,7 @@ use coadjoint::{Cayley, Chart, Exponential};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 
+use super::device::{Asked, Use};
 use super::layout::{Layout, Shape};
 use super::rows::Rows;
 use super::steps::Steps;
@@ -48,7 +49,33 @@ pub trait Engine: Sync {
     /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
     /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads. `made` is
     /// told, again and again, how many steps every row has made.
-    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows, made: &dyn Fn(u64)) -> Drift;
+    ///
+    /// # Errors
+    /// Where a device fails; nothing is known of the rows then.
+    fn advance(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        rows: &mut Rows,
+        made: &dyn Fn(u64),
+    ) -> Result<Drift, CliError>;
+
+    /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
+    fn device(&self) -> Option<Use>;
+
+    /// What else evaluates steps, in a few words.
+    fn backend(&self) -> String;
+}
+
+/// What is to make the steps.
+#[derive(Clone, Copy, Debug)]
+pub struct How {
+    /// What evaluates programs.
+    pub backend: Backend,
+    /// About how many steps all lanes together make.
+    pub work: f64,
+    /// The device, where one is named.
+    pub device: Option<Asked>,
 }
 
 /// The engine of a system.
@@ -56,7 +83,7 @@ pub fn engine<'a>(
     path: &Path,
     integrator: &'a Integrator,
     step: f64,
-    how: (Backend, f64),
+    how: How,
 ) -> Result<Box<dyn Engine + 'a>, CliError> {
     let group = product_group(path, &integrator.problem.algebra)?;
     match integrator.problem.chart {
@@ -74,7 +101,7 @@ fn on<'a, G, C>(
     integrator: &'a Integrator,
     group: G,
     step: f64,
-    how: (Backend, f64),
+    how: How,
 ) -> Result<Box<dyn Engine + 'a>, CliError>
 where
     G: Restore<Element: Send + Sync> + Send + Sync + 'a,

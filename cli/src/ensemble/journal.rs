@@ -36,6 +36,12 @@ pub struct Journal {
     /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
     #[serde(default)]
     pub ratio: u64,
+    /// What has made the steps so far. The bits are the same, but for what the identity says.
+    #[serde(default)]
+    pub made_by: Vec<String>,
+    /// Rows of which a device has refused steps that others then made.
+    #[serde(default)]
+    pub redone: u64,
     /// Whether all is written and only names are to be changed.
     pub complete: bool,
 }

@@ -2,6 +2,7 @@
 //! states.
 
 mod attitude;
+mod device;
 mod engine;
 mod input;
 mod journal;
@@ -16,6 +17,7 @@ mod run;
 mod shard;
 mod steps;
 
+pub use device::PrecisionName;
 pub use shard::Shard;
 
 use std::path::Path;
@@ -23,11 +25,12 @@ use std::path::Path;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
-use coadjoint_program::WIDTH;
+use coadjoint_program::{Precision, WIDTH};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
 use crate::{load, simulate};
+use device::Use;
 use journal::{Identity, fingerprint};
 use run::Job;
 
@@ -55,16 +58,15 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let form = output::Form::of(&options.out)?;
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
-    let engine = engine::engine(
-        path,
-        &integrator,
-        step,
-        (options.backend, work(options, &integrator, steps)),
-    )?;
+    let asked = device::asked(options);
+    // What a device refuses is little.
+    let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
+    let how = engine::How { backend: options.backend, work, device: asked };
+    let engine = engine::engine(path, &integrator, step, how)?;
     let input = input::open(&options.initial, engine.shape())?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;
-    let identity: Identity = [
+    let mut identity: Identity = [
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("system file", fingerprint(path)?),
         ("initial file", fingerprint(&options.initial)?),
@@ -76,6 +78,10 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     ]
     .map(|(key, value)| (key.to_owned(), value))
     .into();
+    // In double precision all devices and processors have the same bits.
+    if let Some(Use { precision: Precision::Single, name, device, .. }) = engine.device() {
+        identity.insert("precision".to_owned(), format!("single, by {device} ({name})"));
+    }
     let job = Job {
         engine: engine.as_ref(),
         input,
@@ -102,7 +108,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         eprintln!("warning: {text}");
     }
     let text =
-        report::report(&outcome, &integrator, step, steps, engine.casimirs(), options.format);
+        report::report(&outcome, &integrator, (step, steps), engine.as_ref(), options.format);
     out!("{text}");
     if outcome.trajectories > 0 && outcome.failed == outcome.trajectories {
         return Err(CliError::Rows { failed: outcome.failed, list: outcome.list });

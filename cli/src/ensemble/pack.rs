@@ -7,6 +7,7 @@ use coadjoint::{StepError, StepReport};
 use coadjoint_program::WIDTH;
 use rayon::prelude::*;
 
+use super::steps::STRETCH;
 use crate::engine::{Compiled, Numbers};
 
 /// What makes a step that the programs have refused.
@@ -100,6 +101,34 @@ impl Pack {
         if ratio.is_nan() || ratio > self.ratio {
             self.ratio = ratio;
         }
+    }
+}
+
+/// Moves one state, whose next step was refused elsewhere, from step `made` to step `to`, with the bits that [`march`]
+/// gives it: to the end of its stretch alone, then in lanes. The largest ratio, or where and why it stopped.
+pub fn redo(
+    manner: &Manner<'_>,
+    state: &mut Numbers,
+    made: u64,
+    to: u64,
+) -> Result<f64, (u64, StepError)> {
+    let rest = (STRETCH - made % STRETCH).min(to - made);
+    let outcome = manner.compiled.advance(state, rest, manner.rescue);
+    if let Err((more, error)) = outcome {
+        return Err((made + more, error));
+    }
+    let mut pack = Pack::new(std::slice::from_ref(state));
+    pack.look((manner.ratio)(&state.mu));
+    let mut done = made + rest;
+    while done < to && pack.live[0] {
+        let length = STRETCH.min(to - done);
+        pack.advance(manner, done, length);
+        done += length;
+    }
+    *state = pack.state(0);
+    match pack.stopped[0].take() {
+        Some(stopped) => Err(stopped),
+        None => Ok(pack.ratio),
     }
 }
 

@@ -3,8 +3,10 @@
 use std::fmt::Write;
 
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_program::Precision;
 use serde_json::json;
 
+use super::engine::Engine;
 use super::run::Outcome;
 use crate::arguments::Format;
 use crate::engine::STEEP;
@@ -24,9 +26,8 @@ pub fn warning(outcome: &Outcome) -> Option<String> {
 pub fn report(
     outcome: &Outcome,
     integrator: &Integrator,
-    step: f64,
-    steps: u64,
-    casimirs: usize,
+    (step, steps): (f64, u64),
+    engine: &dyn Engine,
     format: Format,
 ) -> String {
     let truncation = integrator.problem.truncation;
@@ -46,6 +47,13 @@ pub fn report(
             "chart": chart.to_string(),
             "step": step,
             "steps": steps,
+            "made_by": outcome.made_by,
+            "device": engine.device().map(|by| json!({
+                "device": by.device.to_string(),
+                "name": by.name,
+                "precision": by.precision.to_string(),
+                "redone": outcome.redone,
+            })),
             "drift": {
                 "spatial_momentum": drift.spatial_momentum,
                 "casimirs": drift.casimirs,
@@ -69,6 +77,14 @@ pub fn report(
     if outcome.resumed > 0 {
         let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
     }
+    let _ = writeln!(out, "  steps by {}", outcome.made_by.join(", then by "));
+    if let Some(by) = engine.device() {
+        let (redone, backend) = (outcome.redone, engine.backend());
+        let _ = writeln!(out, "    rows with steps it refused, made by {backend}: {redone}");
+        if by.precision == Precision::Single {
+            let _ = writeln!(out, "    in single precision drifts are at 1e-7 and above");
+        }
+    }
     if let Some(text) = warning(outcome) {
         let _ = writeln!(out, "  warning: {text}");
     }
@@ -84,7 +100,7 @@ pub fn report(
     }
     let _ = writeln!(out, "  largest relative drift");
     let _ = writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum);
-    let _ = match casimirs {
+    let _ = match engine.casimirs() {
         0 => writeln!(out, "    Casimirs         none known"),
         count => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
     };

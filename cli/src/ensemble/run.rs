@@ -53,6 +53,10 @@ pub struct Outcome {
     pub list: Option<PathBuf>,
     /// The largest drifts.
     pub drift: Drift,
+    /// What has made the steps.
+    pub made_by: Vec<String>,
+    /// Rows of which a device has refused steps that others then made.
+    pub redone: u64,
     /// Seconds of this run.
     pub seconds: f64,
 }
@@ -116,12 +120,17 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
         first,
         list: (journal.rejected > 0).then_some(files.list),
         drift: journal.drift(),
+        made_by: journal.made_by,
+        redone: journal.redone,
         seconds: start.elapsed().as_secs_f64(),
     })
 }
 
-/// Rows taken at a time: enough for all threads, little enough to be noted often.
-fn piece(width: usize, steps: u64) -> u64 {
+/// Rows taken at a time: enough for all threads, little enough to be noted often. A card has as many threads as rows.
+fn piece(width: usize, steps: u64, card: bool) -> u64 {
+    if card {
+        return ((256 << 20) / (width as u64 * 8)).clamp(512, 1 << 20);
+    }
     let memory = (8 << 20) / (width as u64 * 8);
     (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
 }
@@ -147,17 +156,24 @@ fn advance(
     let steps = job.steps.max(1);
     let bar = progress::bar(count.saturating_mul(steps), "trajectories");
     bar.set_position(journal.rows.saturating_mul(steps));
+    let by = job.engine.device();
+    let card = by.as_ref().is_some_and(|by| !by.processor);
+    let maker = by.map_or_else(|| job.engine.backend(), |by| by.to_string());
+    if !journal.made_by.contains(&maker) {
+        journal.made_by.push(maker);
+    }
+    let earlier = journal.redone;
     let mut rows = Rows::default();
     let mut first = Vec::new();
     let mut noted = Instant::now();
     while journal.rows < count {
-        let take = piece(layout.width(), job.steps).min(count - journal.rows);
+        let take = piece(layout.width(), job.steps, card).min(count - journal.rows);
         rows.clear(job.range.start + journal.rows + 1);
         job.input.read(take as usize, &mut rows)?;
         let made = |made: u64| {
             bar.set_position(journal.rows.saturating_mul(steps).saturating_add(take * made));
         };
-        let drift = job.engine.advance(layout, job.steps, &mut rows, &made);
+        let drift = job.engine.advance(layout, job.steps, &mut rows, &made)?;
         output.append(&form.encode(layout, table.as_ref(), &rows))?;
         for rejected in &rows.rejected {
             let reason = rejected.reason.replace('"', "'");
@@ -165,6 +181,7 @@ fn advance(
         }
         first.extend(rows.rejected.iter().take(TOLD - first.len().min(TOLD)).cloned());
         journal.raise(drift);
+        journal.redone = earlier + job.engine.device().map_or(0, |by| by.redone);
         journal.rows += take;
         journal.rejected += rows.rejected.len() as u64;
         journal.position = job.input.position();

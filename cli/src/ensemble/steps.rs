@@ -1,21 +1,23 @@
 //! The steps of a system, of many states: by the programs where there are any, eight side by side, or one by one.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_program::Trajectories;
+use coadjoint_device::Card;
+use coadjoint_program::{Precision, Trajectories};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::attitude::Attitudes;
-use super::engine::{Drift, Engine, larger};
+use super::device::{self, Use};
+use super::engine::{Drift, Engine, How, larger};
 use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows};
-use crate::backend::Backend;
 use crate::engine::{
     Compiled, Interpreter, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
@@ -23,7 +25,7 @@ use crate::error::CliError;
 
 /// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
 /// forgets everything at the end of so many steps, so that cutting a run there changes no bit.
-const STRETCH: u64 = 256;
+pub const STRETCH: u64 = 256;
 
 /// Steps of a system on a group.
 pub struct Steps<'a, G, C> {
@@ -31,6 +33,10 @@ pub struct Steps<'a, G, C> {
     stepper: Interpreter<'a, G, C>,
     /// The same as programs, where it can be.
     compiled: Option<Compiled>,
+    /// The same on a device, where one is named.
+    card: Option<Mutex<Card>>,
+    /// Rows of which the device has refused a step.
+    redone: AtomicU64,
     attitudes: Attitudes,
     step: f64,
     /// Those of half the size, of a quarter, …, as far as they were needed to advise.
@@ -50,21 +56,31 @@ where
     G: Restore<Element: Send + Sync> + Send + Sync,
     C: Chart<G> + Send + Sync,
 {
-    /// Steps of this length, by this backend, for about so much work (steps of all states).
+    /// Steps of this length, by these means.
     ///
     /// # Errors
-    /// Where the step makes no sense, or the backend that the user named cannot be had.
+    /// Where the step makes no sense, or the backend or device that the user named cannot be had.
     pub fn new(
         integrator: &'a Integrator,
         group: G,
         step: f64,
-        (backend, work): (Backend, f64),
+        how: How,
     ) -> Result<Self, CliError> {
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
             .map_err(|source| CliError::Step { time: 0.0, source })?;
-        let compiled = Compiled::new(&stepper, backend, work, Trajectories::Lanes)?;
+        let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes)?;
+        let card = how.device.map(|asked| device::open(&stepper, asked)).transpose()?;
         let attitudes = Attitudes::of(&integrator.problem.algebra);
-        Ok(Self { integrator, stepper, compiled, attitudes, step, shorter: Mutex::default() })
+        Ok(Self {
+            integrator,
+            stepper,
+            compiled,
+            card: card.map(Mutex::new),
+            redone: AtomicU64::new(0),
+            attitudes,
+            step,
+            shorter: Mutex::default(),
+        })
     }
 
     /// The numbers of the element with this matrix, row by row.
@@ -90,6 +106,16 @@ where
     fn numbers(&self, phase: &Phase<G>) -> Numbers {
         let matrix = entries_of(self.stepper.group(), &phase.group_element);
         Numbers { g: self.element_of(matrix), mu: phase.momentum.as_slice().to_vec() }
+    }
+
+    /// Puts a state of single precision onto the group, as the group's own products do.
+    fn settle(&self, own: &mut Numbers) {
+        let group = self.stepper.group();
+        let (mut phase, one) = (self.phase(own), group.identity());
+        for _ in 0..2 {
+            phase.group_element = group.compose(&phase.group_element, &one);
+        }
+        *own = self.numbers(&phase);
     }
 
     /// The state of a row, or what is wrong with it.
@@ -162,7 +188,7 @@ where
         states: &mut [Numbers],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> (BTreeMap<usize, Failure>, f64) {
+    ) -> Result<(BTreeMap<usize, Failure>, f64), CliError> {
         let steepness = Steepness::new(&self.stepper);
         let ratio = |mu: &[f64]| steepness.ratio(&DVector::from_column_slice(mu));
         let before = states.iter().map(|state| ratio(&state.mu)).fold(0.0, larger);
@@ -170,7 +196,10 @@ where
             Some(compiled) => {
                 let rescue = |own: &mut Numbers| compiled.rescue(&self.stepper, own);
                 let manner = Manner { compiled, rescue: &rescue, ratio: &ratio };
-                march(&manner, states, (steps, STRETCH), made)
+                match &self.card {
+                    Some(card) => self.march_device(&manner, card, states, steps, made)?,
+                    None => march(&manner, states, (steps, STRETCH), made),
+                }
             }
             None => self.one_by_one(states, steps, &steepness, made),
         };
@@ -178,7 +207,29 @@ where
             failure.error = self.advise(failure.error, &self.phase(&states[failure.index]));
         }
         let ratio = larger(before, along);
-        (failed, if ratio <= STEEP { 0.0 } else { ratio })
+        Ok((failed, if ratio <= STEEP { 0.0 } else { ratio }))
+    }
+
+    /// The same on a device.
+    fn march_device(
+        &self,
+        manner: &Manner<'_>,
+        card: &Mutex<Card>,
+        states: &mut [Numbers],
+        steps: u64,
+        made: &dyn Fn(u64),
+    ) -> Result<(BTreeMap<usize, Failure>, f64), CliError> {
+        // A thread that panicked has left a whole card: its rows are its own.
+        let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
+        let single = card.precision() == Precision::Single;
+        let settle = |own: &mut Numbers| {
+            if single {
+                self.settle(own);
+            }
+        };
+        let moved = device::march(manner, &mut card, &settle, states, (steps, made))?;
+        self.redone.fetch_add(moved.redone, Ordering::Relaxed);
+        Ok((moved.failed, moved.ratio))
     }
 
     /// The same without programs.
@@ -230,7 +281,23 @@ where
         self.stepper.group().casimir_count()
     }
 
-    fn advance(&self, layout: &Layout, steps: u64, rows: &mut Rows, made: &dyn Fn(u64)) -> Drift {
+    fn device(&self) -> Option<Use> {
+        let card = self.card.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(Use::of(&card, self.redone.load(Ordering::Relaxed)))
+    }
+
+    fn backend(&self) -> String {
+        let words = |compiled: &Compiled| compiled.code().used().name;
+        self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), words)
+    }
+
+    fn advance(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        rows: &mut Rows,
+        made: &dyn Fn(u64),
+    ) -> Result<Drift, CliError> {
         let width = layout.width();
         let read: Vec<_> =
             rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
@@ -249,7 +316,7 @@ where
             }
         }
         let before = states.clone();
-        let (failed, ratio) = self.march(&mut states, steps, made);
+        let (failed, ratio) = self.march(&mut states, steps, made)?;
         for (place, failure) in &failed {
             rows.rejected.push(Rejected {
                 row: rows.first + places[*place] as u64,
@@ -277,7 +344,7 @@ where
             largest = largest.max(drift);
         }
         rows.rejected.sort_by_key(|r| r.row);
-        largest
+        Ok(largest)
     }
 }
 

@@ -16,7 +16,7 @@ mod solving;
 mod tables;
 mod vector;
 
-use coadjoint_program::{Kernel, ProgramError};
+use coadjoint_program::{Kernel, Precision, ProgramError};
 
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
@@ -54,6 +54,11 @@ pub enum StepError {
         /// The group.
         group: String,
     },
+    /// A comoving frame in numbers of 32 bits: whole turns cannot be taken off its angle.
+    #[error(
+        "a comoving frame has no programs in single precision; use double precision, or `frame = \"fixed\"`"
+    )]
+    SingleFrame,
     /// The matrices of the basis are linearly dependent.
     #[error("the matrices of {group} are linearly dependent")]
     Dependent {
@@ -84,7 +89,22 @@ impl Step {
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
     pub fn build(integrator: &Integrator, reach: f64) -> Result<Self, StepError> {
+        Self::build_in(integrator, reach, Precision::Double)
+    }
+
+    /// The same for numbers of this precision: what is solved, accepted and sound is judged by their rounding.
+    ///
+    /// # Errors
+    /// [`StepError`] where the step has no straight-line programs in this precision.
+    pub fn build_in(
+        integrator: &Integrator,
+        reach: f64,
+        precision: Precision,
+    ) -> Result<Self, StepError> {
         let problem = &integrator.problem;
+        if precision == Precision::Single && !integrator.frame.is_empty() {
+            return Err(StepError::SingleFrame);
+        }
         if integrator.plan.solver == Solver::FixedPoint || integrator.hessian.is_none() {
             return Err(StepError::FixedPoint { dimension: problem.algebra.dim() });
         }
@@ -100,7 +120,7 @@ impl Step {
         let bound_len = integrator.defect_len();
         let bound = integrator.defect.iter();
         let bound = bound.map(|term| (term.degree as usize, term.slot, term.weight)).collect();
-        let kernel = programs::kernel(integrator, scheme, &group, base, bound_len)?;
+        let kernel = programs::kernel(integrator, scheme, &group, (base, bound_len), precision)?;
         Ok(Self { kernel, group, base, bound, bound_len })
     }
 

@@ -1,12 +1,12 @@
 //! The programs of a step, put together.
 
-use coadjoint_program::{Kernel, Programs};
+use coadjoint_program::{Kernel, Precision, Programs};
 use num_traits::ToPrimitive;
 
 use super::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::solving::{Scheme, TOLERANCE};
+use super::solving::{Scheme, tolerance};
 use super::vector::{all_at_most, dot, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
@@ -28,7 +28,9 @@ const CORRECTIONS: u32 = 12;
 const CASIMIR_DEGREE: u32 = 3;
 
 /// How far a group element may be from the group: the square root of rounding.
-const OFF_GROUP: f64 = 1.490_116_119_384_765_6e-8;
+fn off_group(precision: Precision) -> f64 {
+    precision.epsilon().sqrt()
+}
 
 pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
@@ -40,37 +42,38 @@ pub fn kernel(
     integrator: &Integrator,
     scheme: Scheme,
     group: &Product,
-    base: usize,
-    bound_len: usize,
+    (base, bound_len): (usize, usize),
+    precision: Precision,
 ) -> Result<Kernel, StepError> {
-    let (guess, correct) = scheme.programs(integrator, group, base, bound_len);
+    let (guess, correct) = scheme.programs(integrator, group, (base, bound_len), precision);
     let programs = Programs {
         guess,
         correct,
-        accept: accept(group, base + bound_len),
+        accept: accept(group, base + bound_len, precision),
         transport: transport(group),
         frame: frame(integrator, group)?,
-        sound: sound(group),
+        sound: sound(group, precision),
         watch: watch(integrator, group),
         matrix: matrix(group),
     };
     let (dim, element) = (group.dim(), group.element());
-    Ok(Kernel::new(dim, element, TOLERANCE, NEAR, CORRECTIONS, programs)?)
+    let kernel = Kernel::new(dim, element, tolerance(precision), NEAR, CORRECTIONS, programs)?;
+    Ok(kernel.in_precision(precision))
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.
-fn accept(group: &Product, radius: usize) -> Program {
+fn accept(group: &Product, radius: usize, precision: Precision) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
     let (left, way) = (graph.input(2 * n), graph.input(2 * n + 1));
-    let (tolerance, near) = (graph.constant(TOLERANCE), graph.constant(NEAR));
+    let (tolerance, near) = (graph.constant(tolerance(precision)), graph.constant(NEAR));
     let extent = group.extent(&mut graph, &x);
     let one = graph.constant(1.0);
     let square = dot(&mut graph, &mu, &mu);
     let radius = graph.slot(radius);
     let (series, others) = (graph.constant(OF_SERIES), graph.constant(OF_OTHERS));
-    let finite = graph.constant(f64::MAX);
+    let finite = graph.constant(precision.largest());
     let share = graph.select(radius, finite, series, others);
     let extent = graph.mul(extent, share);
     let tests = [(left, tolerance), (way, near), (extent, one), (square, radius)];
@@ -113,14 +116,14 @@ fn frame(integrator: &Integrator, group: &Product) -> Result<Option<Program>, St
 }
 
 /// g, μ ↦ 1 where both are finite and g is on the group.
-fn sound(group: &Product) -> Program {
+fn sound(group: &Product, precision: Precision) -> Program {
     let (n, m) = (group.dim(), group.element());
     let mut graph = Graph::new();
     let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
     let defect = group.defect(&mut graph, &g);
     let rest = finite(&mut graph, &mu);
     let defect = graph.add(defect, rest);
-    let limit = graph.constant(OFF_GROUP);
+    let limit = graph.constant(off_group(precision));
     let verdict = all_at_most(&mut graph, &[(defect, limit)]);
     graph.finish(m + n, &[verdict])
 }

@@ -4,11 +4,15 @@ use super::part::Part;
 use super::product::Product;
 use super::programs::inputs;
 use super::vector::{Eliminated, Matrix, dot, largest};
+use coadjoint_program::Precision;
+
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 
 /// What may be left of the equation, relative to the largest coordinate of μ: four units of rounding.
-pub const TOLERANCE: f64 = 4.0 * f64::EPSILON;
+pub fn tolerance(precision: Precision) -> f64 {
+    4.0 * precision.epsilon()
+}
 
 /// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
 const TRUSTED: f64 = 1e-3;
@@ -64,12 +68,12 @@ impl Scheme {
         self,
         integrator: &Integrator,
         group: &Product,
-        base: usize,
-        bound_len: usize,
+        bound: (usize, usize),
+        precision: Precision,
     ) -> (Program, Program) {
         match self {
-            Self::Newton => (guess(integrator, group, base, bound_len), newton(integrator, group)),
-            Self::Chord => chord(integrator, group, base, bound_len),
+            Self::Newton => (guess(integrator, group, bound), newton(integrator, group, precision)),
+            Self::Chord => chord(integrator, group, bound, precision),
         }
     }
 }
@@ -109,12 +113,11 @@ fn start(
 }
 
 /// μ ↦ p, 1/scale, half the bound on what the Hessian leaves out times the scale.
-fn guess(integrator: &Integrator, group: &Product, base: usize, bound_len: usize) -> Program {
+fn guess(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let mu = inputs(&mut graph, 0, n);
-    let (mut outputs, inverse_scale, bound) =
-        start(&mut graph, integrator, group, (base, bound_len), &mu);
+    let (mut outputs, inverse_scale, bound) = start(&mut graph, integrator, group, bound, &mu);
     outputs.extend([inverse_scale, bound]);
     graph.finish(n, &outputs)
 }
@@ -183,8 +186,8 @@ fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
 
 /// What is left: the estimate where the way from the place of the matrices is short, else the correction itself; the
 /// smaller of both where the correction is below rounding.
-fn left(graph: &mut Graph, estimate: Id, relative: Id, way: Id) -> Id {
-    let (trusted, tolerance) = (graph.constant(TRUSTED), graph.constant(TOLERANCE));
+fn left(graph: &mut Graph, precision: Precision, (estimate, relative, way): (Id, Id, Id)) -> Id {
+    let (trusted, tolerance) = (graph.constant(TRUSTED), graph.constant(tolerance(precision)));
     let left = graph.select(way, trusted, estimate, relative);
     let rounded = graph.min(left, relative);
     graph.select(relative, tolerance, rounded, left)
@@ -192,7 +195,7 @@ fn left(graph: &mut Graph, estimate: Id, relative: Id, way: Id) -> Id {
 
 /// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, a bound on what is left, the
 /// length of the correction.
-fn newton(integrator: &Integrator, group: &Product) -> Program {
+fn newton(integrator: &Integrator, group: &Product, precision: Precision) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -206,7 +209,7 @@ fn newton(integrator: &Integrator, group: &Product) -> Program {
     let curved = graph.times_plus(half, stretch, bend);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, estimate, relative, relative);
+    let left = left(&mut graph, precision, (estimate, relative, relative));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, relative]).collect();
     graph.finish(2 * n + 2, &outputs)
 }
@@ -216,14 +219,13 @@ fn newton(integrator: &Integrator, group: &Product) -> Program {
 fn chord(
     integrator: &Integrator,
     group: &Product,
-    base: usize,
-    bound_len: usize,
+    bound: (usize, usize),
+    precision: Precision,
 ) -> (Program, Program) {
     let n = group.dim();
     let mut graph = Graph::new();
     let mu = inputs(&mut graph, 0, n);
-    let (p, inverse_scale, half_bound) =
-        start(&mut graph, integrator, group, (base, bound_len), &mu);
+    let (p, inverse_scale, half_bound) = start(&mut graph, integrator, group, bound, &mu);
     let (x, residual, matrices) = linearised(&mut graph, integrator, group, &p, &mu);
     let first = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
     let mut outputs = first.p;
@@ -246,7 +248,8 @@ fn chord(
     let matrices = Matrices { hessian, jacobian };
     let inputs_of_chord = n + outputs.len();
     let guess = graph.finish(n, &outputs);
-    let correct = chord_correction(chord, integrator, group, &matrices, inputs_of_chord);
+    let correct =
+        chord_correction(chord, integrator, group, &matrices, (inputs_of_chord, precision));
     (guess, correct)
 }
 
@@ -256,7 +259,7 @@ fn chord_correction(
     integrator: &Integrator,
     group: &Product,
     matrices: &Matrices,
-    inputs_of_chord: usize,
+    (inputs_of_chord, precision): (usize, Precision),
 ) -> Program {
     let n = group.dim();
     let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -280,7 +283,7 @@ fn chord_correction(
     let curved = graph.times_plus(four, bend, curved);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, estimate, relative, way);
+    let left = left(&mut graph, precision, (estimate, relative, way));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, way]).collect();
     graph.finish(inputs_of_chord, &outputs)
 }

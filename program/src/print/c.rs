@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
 use super::dialect::Dialect;
 use super::signature::{Field, Signature};
@@ -15,7 +16,8 @@ pub struct C {
     pub head: String,
     /// The type of a number: `double`.
     pub number: String,
-    /// The type of the array of folded coefficients: `const double *restrict`.
+    /// The type of the array of folded coefficients: `const double *restrict`. Where it is empty functions are not given
+    /// the array.
     pub slots: String,
     /// What stands between the type of an array and its name: `*restrict `.
     pub pointer: String,
@@ -43,9 +45,12 @@ impl C {
     pub(super) fn parameters(&self, signature: &Signature<'_>) -> (String, String) {
         let mut unused = String::new();
         let program = signature.program;
-        let mut parameters = format!("{} c", self.slots);
-        if !program.nodes().iter().any(|node| matches!(node, Node::Slot(_))) {
-            unused.push_str("    (void)c;\n");
+        let mut parameters = Vec::new();
+        if !self.slots.is_empty() {
+            parameters.push(format!("{} c", self.slots));
+            if !program.nodes().iter().any(|node| matches!(node, Node::Slot(_))) {
+                unused.push_str("    (void)c;\n");
+            }
         }
         let mut first = 0;
         for Field { name, len } in &signature.inputs {
@@ -55,9 +60,9 @@ impl C {
                 unused.push_str(&format!("    (void){name};\n"));
             }
             let number = &self.number;
-            parameters.push_str(&match len {
-                Some(_) => format!(", const {number} {}{name}", self.pointer),
-                None => format!(", {number} {name}"),
+            parameters.push(match len {
+                Some(_) => format!("const {number} {}{name}", self.pointer),
+                None => format!("{number} {name}"),
             });
             first = last;
         }
@@ -65,21 +70,23 @@ impl C {
             if *len == Some(0) {
                 unused.push_str(&format!("    (void){name};\n"));
             }
-            parameters.push_str(&format!(", {} {}{name}", self.number, self.pointer));
+            parameters.push(format!("{} {}{name}", self.number, self.pointer));
         }
-        (parameters, unused)
+        (parameters.join(", "), unused)
     }
 
     /// Parameters and arguments of the pieces of a function, which have an array `w` besides.
     pub(super) fn workspace(&self, signature: &Signature<'_>) -> (String, String) {
         let (parameters, _) = self.parameters(signature);
-        let mut arguments = String::from("c");
-        for field in signature.inputs.iter().chain(&signature.outputs) {
+        let mut arguments = String::new();
+        let slots = (!self.slots.is_empty()).then_some("c");
+        let fields = signature.inputs.iter().chain(&signature.outputs);
+        for name in slots.into_iter().chain(fields.map(|field| field.name.as_str())) {
+            arguments.push_str(name);
             arguments.push_str(", ");
-            arguments.push_str(&field.name);
         }
         let parameters = format!("{parameters}, {} {}w", self.number, self.pointer);
-        (parameters, arguments + ", w")
+        (parameters, arguments + "w")
     }
 
     /// A number in hexadecimal, which every compiler reads without rounding.

@@ -5,8 +5,11 @@
 //!   program in it, one operation a line, and [`pieces`] a long one as several functions.
 //! - [`C`] is the dialect of C and of languages like it; [`native_unit`] is a kernel as a unit of C to be compiled for
 //!   the machine at hand.
+//! - [`device_unit`] is a kernel as a text in OpenCL C or CUDA C++, a thread a trajectory.
 
 mod c;
+mod device;
+mod device_loop;
 mod dialect;
 mod function;
 mod native;
@@ -15,6 +18,7 @@ mod signature;
 mod vectors;
 
 pub use c::C;
+pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
 pub use dialect::Dialect;
 pub use function::{function, statements};
 pub use native::{ABI, native_unit};

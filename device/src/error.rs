@@ -1,0 +1,117 @@
+//! Why a device does not make steps.
+
+use crate::device::{Api, Device};
+
+/// Why a device cannot be had, or failed. Each is one line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DeviceError {
+    /// The crate was built without the feature.
+    #[error("this program was built without {api}; build it with the feature `{api}`")]
+    NotBuilt {
+        /// How the device was to be reached.
+        api: Api,
+    },
+    /// The system has no library for it.
+    #[error("there is no {library} on this machine; install {install}")]
+    NoLibrary {
+        /// Which library.
+        library: &'static str,
+        /// What brings it.
+        install: &'static str,
+    },
+    /// There is no device of this number.
+    #[error("there is no device {device}; {found}")]
+    NoDevice {
+        /// The device that was asked for.
+        device: Device,
+        /// What there is.
+        found: String,
+    },
+    /// The device has no numbers of 64 bits.
+    #[error("{device} ({name}) has no numbers of 64 bits; ask for single precision")]
+    NoDouble {
+        /// The device.
+        device: Device,
+        /// What it calls itself.
+        name: String,
+    },
+    /// Not even a small piece of the rows fits.
+    #[error("{device} ({name}) is out of memory: it has no room for {rows} trajectories")]
+    Memory {
+        /// The device.
+        device: Device,
+        /// What it calls itself.
+        name: String,
+        /// The smallest number of rows that was tried.
+        rows: usize,
+    },
+    /// The device's compiler refuses the kernel.
+    #[error("{device} ({name}) does not build the kernel: {log}")]
+    Build {
+        /// The device.
+        device: Device,
+        /// What it calls itself.
+        name: String,
+        /// The beginning of what its compiler said.
+        log: String,
+    },
+    /// A call failed.
+    #[error("{device} failed while it {doing}: {message}")]
+    Failed {
+        /// The device.
+        device: Device,
+        /// What it was to do.
+        doing: &'static str,
+        /// What it said.
+        message: String,
+    },
+    /// The kernel came back with counts that no step makes.
+    #[error(
+        "{device} ({name}) gave back what the kernel cannot have written, for trajectory {row}"
+    )]
+    Wrong {
+        /// The device.
+        device: Device,
+        /// What it calls itself.
+        name: String,
+        /// The row, from 0.
+        row: usize,
+    },
+    /// A state has not as many numbers as the kernel's.
+    #[error("trajectory {row} has not the {element} + {dim} numbers of a state")]
+    Shape {
+        /// The row, from 0.
+        row: usize,
+        /// m, the numbers of a group element.
+        element: usize,
+        /// n, the coordinates of μ.
+        dim: usize,
+    },
+}
+
+/// The first lines of what a compiler said that tell of an error, in one line.
+#[cfg(any(feature = "opencl", feature = "cuda"))]
+pub(crate) fn head(log: &str) -> String {
+    const LINES: usize = 3;
+    const LONGEST: usize = 400;
+    let lines = || log.lines().map(str::trim).filter(|line| !line.is_empty());
+    let errors: Vec<&str> = lines().filter(|line| line.contains("error")).take(LINES).collect();
+    let chosen = if errors.is_empty() { lines().take(LINES).collect() } else { errors };
+    let text: String = chosen.join("; ").chars().take(LONGEST).collect();
+    if text.is_empty() { "its compiler does not say why".into() } else { text }
+}
+
+#[cfg(all(test, any(feature = "opencl", feature = "cuda")))]
+mod tests {
+    use super::head;
+
+    #[test]
+    fn the_head_of_a_log_is_one_line_about_the_error() {
+        let log = "warning: a\n\n  x.cl:3: error: no such thing  \nnote: b\nerror: c\n";
+        assert_eq!(head(log), "x.cl:3: error: no such thing; error: c");
+        assert_eq!(head("nothing\nmore\n"), "nothing; more");
+        assert_eq!(head(" \n"), "its compiler does not say why");
+        assert!(head(&"error ".repeat(1000)).len() <= 400);
+    }
+}

@@ -1,0 +1,44 @@
+//! What a device has to be able to do.
+
+use crate::error::DeviceError;
+
+/// The arrays of a piece of rows on a device, in the order of the kernel's arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Array {
+    /// g, numbers.
+    Element,
+    /// μ, numbers.
+    Momentum,
+    /// Steps made, 64 bits each.
+    Done,
+    /// Status, 32 bits each.
+    Status,
+}
+
+impl Array {
+    pub const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
+}
+
+/// Why there is no room.
+#[cfg_attr(not(any(feature = "opencl", feature = "cuda")), allow(dead_code))]
+pub(crate) enum Room {
+    /// Memory is short: fewer rows may fit.
+    Short,
+    /// Something else.
+    Failed(DeviceError),
+}
+
+/// A device with a compiled kernel, and arrays in its memory. Bytes are in the order of this machine.
+pub(crate) trait Machine: Send {
+    /// Makes arrays of so many bytes, never none, in place of those before.
+    fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room>;
+
+    /// Writes an array from its beginning.
+    fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room>;
+
+    /// Reads an array from its beginning.
+    fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError>;
+
+    /// Moves so many rows, as many as the arrays were made for, to step `target`, and waits until they are there.
+    fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room>;
+}

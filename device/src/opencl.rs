@@ -1,0 +1,226 @@
+//! Devices of OpenCL.
+//!
+//! The calls that hand memory to the device are what no type system can vouch for. What makes them sound stands here:
+//! reads and writes wait until they are done and never pass the end of an array, since arrays are made for the very
+//! bytes they are read and written with; the kernel is printed from the [`Kernel`](coadjoint_program::Kernel) whose sizes
+//! the arrays have, gets its arguments with the types of its text, and is waited for.
+#![allow(unsafe_code)]
+
+use std::ptr;
+
+use coadjoint_program::print::{DeviceLanguage, KERNEL_NAME, device_unit};
+use coadjoint_program::{Kernel, Precision};
+use opencl3::command_queue::CommandQueue;
+use opencl3::context::Context;
+use opencl3::device::Device as Found;
+use opencl3::device::{
+    CL_DEVICE_TYPE_ALL, CL_DEVICE_TYPE_GPU, CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT,
+};
+use opencl3::error_codes::{
+    CL_INVALID_BUFFER_SIZE, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_HOST_MEMORY,
+    CL_OUT_OF_RESOURCES, ClError, DLOPEN_RUNTIME_LOAD_FAILED,
+};
+use opencl3::kernel::Kernel as Compiled;
+use opencl3::memory::{Buffer, CL_MEM_READ_WRITE, ClMem};
+use opencl3::platform::get_platforms;
+use opencl3::program::Program;
+use opencl3::types::{CL_BLOCKING, cl_mem};
+
+use crate::card::Opened;
+use crate::device::Device;
+use crate::error::{DeviceError, head};
+use crate::machine::{Array, Machine, Room};
+
+/// Threads are a multiple of so many, which cards take together.
+const GROUP: usize = 64;
+
+/// Opens a device and builds the kernel there.
+pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Opened, DeviceError> {
+    let found = find(device)?;
+    let call = Call { device };
+    let name = call.done("was asked for its name", found.name())?.trim().to_owned();
+    if kernel.precision() == Precision::Double && !found.double_fp_config().is_ok_and(|it| it != 0)
+    {
+        return Err(DeviceError::NoDouble { device, name });
+    }
+    let context = call.done("made a context", Context::from_device(&found))?;
+    // The newer call is missing where there is OpenCL 1.2 alone.
+    #[allow(deprecated)]
+    let queue = CommandQueue::create_default(&context, 0);
+    let queue = call.done("made a queue", queue)?;
+    let text = device_unit(kernel, slots, DeviceLanguage::OpenCl, "Written by coadjoint.");
+    let program = Program::create_from_source(&context, &text);
+    let mut program = call.done("read the kernel", program)?;
+    if let Err(error) = program.build(&[found.id()], options(&found, kernel.precision())) {
+        let log = program.get_build_log(found.id()).unwrap_or_default();
+        let log = if log.trim().is_empty() { error.to_string() } else { head(&log) };
+        return Err(DeviceError::Build { device, name, log });
+    }
+    let compiled = call.done("made the kernel", Compiled::create(&program, KERNEL_NAME))?;
+    let memory = (found.global_mem_size().unwrap_or(0), found.max_mem_alloc_size().unwrap_or(0));
+    // A driver that does not know leaves it to the allocations.
+    let memory = [memory.0, memory.1].map(|bytes| if bytes == 0 { u64::MAX } else { bytes });
+    let processor = found.dev_type().is_ok_and(|it| it & CL_DEVICE_TYPE_GPU == 0);
+    let machine = OpenCl { call, queue, compiled, arrays: None, context, _program: program };
+    // Not all of the memory is ours.
+    let memory = (memory[0] / 4 * 3, memory[1]);
+    Ok(Opened { machine: Box::new(machine), name, processor, memory })
+}
+
+/// Divisions and roots of 32 bits as IEEE 754 has them, where the device can.
+fn options(found: &Found, precision: Precision) -> &'static str {
+    let rounds = || {
+        let config = found.single_fp_config();
+        config.is_ok_and(|config| config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT != 0)
+    };
+    match precision {
+        Precision::Single if rounds() => "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt",
+        _ => "-cl-std=CL1.2",
+    }
+}
+
+/// The device of this number: cards first, platform by platform.
+fn find(device: Device) -> Result<Found, DeviceError> {
+    let platforms = match get_platforms() {
+        Ok(platforms) => platforms,
+        Err(ClError(DLOPEN_RUNTIME_LOAD_FAILED)) => {
+            return Err(DeviceError::NoLibrary {
+                library: "OpenCL library",
+                install: "the driver of the card, or ocl-icd-libopencl1 and pocl-opencl-icd for the processor",
+            });
+        }
+        // The loader without a platform says so by an error.
+        Err(_) => Vec::new(),
+    };
+    let mut found: Vec<Found> = Vec::new();
+    for platform in &platforms {
+        // A platform without devices says so by an error.
+        found
+            .extend(platform.get_devices(CL_DEVICE_TYPE_ALL).into_iter().flatten().map(Found::new));
+    }
+    found.sort_by_key(|one| !one.dev_type().is_ok_and(|it| it & CL_DEVICE_TYPE_GPU != 0));
+    let named = |one: (usize, &Found)| {
+        format!("opencl:{} is {}", one.0, one.1.name().unwrap_or_default().trim())
+    };
+    let list: Vec<String> = found.iter().enumerate().map(named).collect();
+    found.into_iter().nth(device.number).ok_or_else(|| DeviceError::NoDevice {
+        device,
+        found: if list.is_empty() { "OpenCL finds none".into() } else { list.join(", ") },
+    })
+}
+
+/// Errors of calls.
+#[derive(Clone, Copy)]
+struct Call {
+    device: Device,
+}
+
+impl Call {
+    fn done<T>(self, doing: &'static str, result: Result<T, ClError>) -> Result<T, DeviceError> {
+        result.map_err(|error| self.failed(doing, error))
+    }
+
+    fn failed(self, doing: &'static str, error: ClError) -> DeviceError {
+        DeviceError::Failed { device: self.device, doing, message: error.to_string() }
+    }
+
+    /// The same for calls that may run out of memory.
+    fn room<T>(self, doing: &'static str, result: Result<T, ClError>) -> Result<T, Room> {
+        result.map_err(|error| match error.0 {
+            CL_MEM_OBJECT_ALLOCATION_FAILURE
+            | CL_OUT_OF_RESOURCES
+            | CL_OUT_OF_HOST_MEMORY
+            | CL_INVALID_BUFFER_SIZE => Room::Short,
+            _ => Room::Failed(self.failed(doing, error)),
+        })
+    }
+}
+
+/// An opened device with the kernel.
+struct OpenCl {
+    call: Call,
+    queue: CommandQueue,
+    compiled: Compiled,
+    arrays: Option<([Buffer<u8>; 4], [usize; 4])>,
+    context: Context,
+    _program: Program,
+}
+
+impl OpenCl {
+    fn array(&mut self, array: Array) -> Option<(&mut Buffer<u8>, usize)> {
+        let (arrays, bytes) = self.arrays.as_mut()?;
+        Some((&mut arrays[array as usize], bytes[array as usize]))
+    }
+}
+
+impl Machine for OpenCl {
+    fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room> {
+        if self.arrays.as_ref().is_some_and(|(_, now)| *now == bytes) {
+            return Ok(());
+        }
+        self.arrays = None;
+        let make = |bytes: usize| {
+            // SAFETY: no memory of ours is handed over.
+            let buffer = unsafe {
+                Buffer::<u8>::create(&self.context, CL_MEM_READ_WRITE, bytes, ptr::null_mut())
+            };
+            self.call.room("made room", buffer)
+        };
+        let [a, b, c, d] = bytes;
+        self.arrays = Some(([make(a)?, make(b)?, make(c)?, make(d)?], bytes));
+        Ok(())
+    }
+
+    fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room> {
+        let call = self.call;
+        let Some((buffer, length)) = self.array(array) else { return Err(Room::Short) };
+        let bytes = &bytes[..bytes.len().min(length)];
+        let buffer: *mut Buffer<u8> = buffer;
+        // SAFETY: the array is as long as the bytes, and the call waits until they are read. The pointer is to the
+        // array of this very machine, which nothing else touches here.
+        let written =
+            unsafe { self.queue.enqueue_write_buffer(&mut *buffer, CL_BLOCKING, 0, bytes, &[]) };
+        call.room("took numbers", written).map(|_| ())
+    }
+
+    fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError> {
+        let Some((arrays, lengths)) = &self.arrays else { return Ok(()) };
+        let length = bytes.len().min(lengths[array as usize]);
+        let (buffer, bytes) = (&arrays[array as usize], &mut bytes[..length]);
+        // SAFETY: the array is as long as the bytes, and the call waits until they are written.
+        let read = unsafe { self.queue.enqueue_read_buffer(buffer, CL_BLOCKING, 0, bytes, &[]) };
+        self.call.done("gave numbers", read).map(|_| ())
+    }
+
+    fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room> {
+        let Some((arrays, _)) = &self.arrays else { return Err(Room::Short) };
+        let kernel = &self.compiled;
+        let set = || -> Result<(), ClError> {
+            for (place, buffer) in (0_u32..).zip(arrays) {
+                let memory: cl_mem = buffer.get();
+                // SAFETY: the kernel's first four arguments are arrays.
+                unsafe { kernel.set_arg(place, &memory) }?;
+            }
+            for (place, number) in [(4, rows), (5, target)] {
+                // SAFETY: the kernel's last two arguments are numbers of 64 bits.
+                unsafe { kernel.set_arg(place, &number) }?;
+            }
+            Ok(())
+        };
+        self.call.room("took arguments", set())?;
+        let threads = (rows as usize).next_multiple_of(GROUP);
+        // SAFETY: the arrays are made for so many rows; threads beyond do nothing; the call below waits.
+        let started = unsafe {
+            self.queue.enqueue_nd_range_kernel(
+                kernel.get(),
+                1,
+                ptr::null(),
+                [threads].as_ptr(),
+                ptr::null(),
+                &[],
+            )
+        };
+        self.call.room("started the kernel", started)?;
+        self.call.room("ran the kernel", self.queue.finish())
+    }
+}

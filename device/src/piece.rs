@@ -1,0 +1,195 @@
+//! Rows that are in a device's memory together.
+
+use std::time::{Duration, Instant};
+
+use coadjoint_program::{BLOCK, Precision};
+
+use crate::card::{Advanced, Card, Redo, Refused, Row, Status};
+use crate::error::DeviceError;
+use crate::machine::{Array, Room};
+
+/// Why a piece was not moved; its rows are as they were.
+pub(crate) enum Stopped {
+    /// Memory is short.
+    Short,
+    /// Something else.
+    Failed(DeviceError),
+}
+
+impl From<Room> for Stopped {
+    fn from(room: Room) -> Self {
+        match room {
+            Room::Short => Self::Short,
+            Room::Failed(error) => Self::Failed(error),
+        }
+    }
+}
+
+impl From<DeviceError> for Stopped {
+    fn from(error: DeviceError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// A launch longer than this is not doubled: cards that draw the screen are taken from kernels that run for seconds.
+const LONG: Duration = Duration::from_millis(150);
+
+/// A row that stays where it is.
+const NEVER: u64 = u64::MAX;
+
+/// The numbers of rows, number i of row r at `i * rows + r`, as bytes in a precision.
+struct Numbers {
+    bytes: Vec<u8>,
+    rows: usize,
+    precision: Precision,
+}
+
+impl Numbers {
+    fn new(count: usize, rows: usize, precision: Precision) -> Self {
+        // A group of no numbers still has an array.
+        Self { bytes: vec![0; (count * rows).max(1) * precision.bytes()], rows, precision }
+    }
+
+    fn put(&mut self, row: usize, values: &[f64]) {
+        for (i, &value) in values.iter().enumerate() {
+            let place = (i * self.rows + row) * self.precision.bytes();
+            match self.precision {
+                Precision::Double => {
+                    self.bytes[place..place + 8].copy_from_slice(&value.to_ne_bytes());
+                }
+                Precision::Single => {
+                    self.bytes[place..place + 4].copy_from_slice(&(value as f32).to_ne_bytes());
+                }
+            }
+        }
+    }
+
+    fn get(&self, row: usize, values: &mut [f64]) {
+        for (i, value) in values.iter_mut().enumerate() {
+            let place = (i * self.rows + row) * self.precision.bytes();
+            *value = match self.precision {
+                Precision::Double => f64::from_ne_bytes(word(&self.bytes, place)),
+                Precision::Single => f64::from(f32::from_ne_bytes(word(&self.bytes, place))),
+            };
+        }
+    }
+}
+
+fn word<const N: usize>(bytes: &[u8], place: usize) -> [u8; N] {
+    std::array::from_fn(|i| bytes[place + i])
+}
+
+/// Moves these rows, all at once, to step `steps`; `first` is the place of the first of them.
+pub(crate) fn advance(
+    card: &mut Card,
+    (first, rows): (usize, &mut [Row]),
+    steps: u64,
+    redo: &mut Redo<'_>,
+    told: &dyn Fn(u64),
+    advanced: &mut Advanced,
+) -> Result<(), Stopped> {
+    let count = rows.len();
+    let mut element = Numbers::new(card.element, count, card.precision);
+    let mut momentum = Numbers::new(card.dim, count, card.precision);
+    let mut done = vec![0; count * 8];
+    let mut status = vec![0; count * 4];
+    for (place, row) in rows.iter().enumerate() {
+        element.put(place, &row.g);
+        momentum.put(place, &row.mu);
+        done[8 * place..8 * place + 8].copy_from_slice(&counted(row).to_ne_bytes());
+    }
+    let bytes = [&element.bytes, &momentum.bytes, &done, &status].map(Vec::len);
+    card.machine.reserve(bytes)?;
+    for (array, bytes) in
+        Array::ALL.into_iter().zip([&element.bytes, &momentum.bytes, &done, &status])
+    {
+        card.machine.write(array, bytes)?;
+    }
+    let going = rows.iter().filter(|row| !row.ended);
+    let mut at = going.map(|row| row.made).min().unwrap_or(steps);
+    let mut length = BLOCK;
+    // What failed before a step was made may be tried again with fewer rows; the caller's rows are still the first ones.
+    let mut begun = false;
+    while at < steps {
+        let target = steps.min(at.saturating_add(length));
+        let start = Instant::now();
+        match card.machine.launch(count as u64, target) {
+            Err(Room::Short) if begun => {
+                let (device, name) = (card.device, card.name.clone());
+                return Err(DeviceError::Memory { device, name, rows: count }.into());
+            }
+            other => other?,
+        }
+        begun = true;
+        let took = start.elapsed();
+        advanced.launches += 1;
+        advanced.running += took;
+        if took < LONG {
+            length = length.saturating_mul(2);
+        }
+        card.machine.read(Array::Done, &mut done)?;
+        card.machine.read(Array::Status, &mut status)?;
+        let mut refused: Vec<(usize, u64, Status)> = Vec::new();
+        for (place, row) in rows.iter().enumerate() {
+            let made = u64::from_ne_bytes(word(&done, 8 * place));
+            let why = u32::from_ne_bytes(word(&status, 4 * place));
+            let (device, name) = (card.device, &card.name);
+            let wrong = || DeviceError::Wrong { device, name: name.clone(), row: first + place };
+            match row.ended {
+                true if made == NEVER => {}
+                false if made == target => {}
+                false if row.made <= made && made < target => {
+                    refused.push((place, made, Status::of(why).ok_or_else(wrong)?));
+                }
+                _ => return Err(wrong().into()),
+            }
+        }
+        if !refused.is_empty() {
+            card.machine.read(Array::Element, &mut element.bytes)?;
+            card.machine.read(Array::Momentum, &mut momentum.bytes)?;
+            advanced.refused += refused.len() as u64;
+            let mut list = Vec::with_capacity(refused.len());
+            let mut next = refused.iter().peekable();
+            for (place, row) in rows.iter_mut().enumerate() {
+                if let Some(&&(_, made, why)) = next.peek().filter(|one| one.0 == place) {
+                    next.next();
+                    element.get(place, &mut row.g);
+                    momentum.get(place, &mut row.mu);
+                    row.made = made;
+                    list.push(Refused { place: first + place, row, why });
+                }
+            }
+            redo(&mut list, target);
+            for &(place, ..) in &refused {
+                let row = &rows[place];
+                element.put(place, &row.g);
+                momentum.put(place, &row.mu);
+                done[8 * place..8 * place + 8].copy_from_slice(&counted(row).to_ne_bytes());
+            }
+            let zeros = vec![0; status.len()];
+            for (array, bytes) in
+                Array::ALL.into_iter().zip([&element.bytes, &momentum.bytes, &done, &zeros])
+            {
+                card.machine.write(array, bytes)?;
+            }
+        }
+        at = target;
+        told(at);
+    }
+    card.machine.read(Array::Element, &mut element.bytes)?;
+    card.machine.read(Array::Momentum, &mut momentum.bytes)?;
+    for (place, row) in rows.iter_mut().enumerate().filter(|(_, row)| !row.ended) {
+        element.get(place, &mut row.g);
+        momentum.get(place, &mut row.mu);
+        row.made = steps;
+    }
+    Ok(())
+}
+
+/// What a row's count on the device is.
+fn counted(row: &Row) -> u64 {
+    if row.ended { NEVER } else { row.made }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,271 @@
+//! A kernel for graphics cards and whatever else OpenCL and CUDA drive: a thread a trajectory.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::{String, ToString};
+
+use super::c::C;
+use super::device_loop::{FRAME, HEAD_CUDA, HEAD_OPENCL, LOOP};
+use super::dialect::Dialect;
+use super::pieces::pieces;
+use super::signature::{Signature, signatures};
+use crate::kernel::{BLOCK, Kernel};
+use crate::node::Node;
+use crate::precision::Precision;
+
+/// The name of the kernel in the text of [`device_unit`]. (`step` is a function of OpenCL.)
+pub const KERNEL_NAME: &str = "coadjoint_steps";
+
+/// What the names of the text's functions begin with.
+const PREFIX: &str = "coadjoint_";
+
+/// What stands before functions that become part of the kernel, and before those that are called.
+const INLINE: &str = "INLINE void";
+const CALLED: &str = "CALLED void";
+
+/// The languages of devices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DeviceLanguage {
+    /// OpenCL C 1.2.
+    OpenCl,
+    /// CUDA C++ 17.
+    Cuda,
+}
+
+/// Folded coefficients that fit into the 64 KiB of a card's constant memory, with room for the compiler's own.
+const CONSTANT_BYTES: usize = 60_000;
+
+/// Operations of a step up to which its programs become part of the kernel; beyond, they are called.
+const INLINED: usize = 4000;
+
+/// Operations of a function that is called at most: compilers allot registers in a time that grows with the square of
+/// the length.
+const LONGEST: usize = 1000;
+
+/// A text with the kernel [`KERNEL_NAME`], which moves trajectories by the steps of [`Kernel::advance`], a thread each:
+///
+/// ```text
+/// coadjoint_steps(g, mu, done, status, rows, target)
+/// ```
+///
+/// Number i of trajectory r is at `i * rows + r` of `g` and `mu`. Trajectory r is moved from step `done[r]` to step
+/// `target`, or to the step before the one that is refused; `done[r]` is then how far it came, and `status[r]` is 0, or
+/// 1 (the equation is not solved), 2 (its solution is far from the first guess), 3 (the step is not in the domain where
+/// it is accepted at once) or 4 (the state is not finite or not on the group). Blocks are counted from `done[r]`: where
+/// targets are multiples of [`BLOCK`], cutting a run there changes no bit.
+///
+/// `slots` are the folded coefficients, which stand in the text; those that the programs do not read are left out.
+/// Numbers have the kernel's [precision](Kernel::precision). No operation is contracted: in 64 bits the results have the
+/// bits of the interpreter wherever the language's operations are rounded as IEEE 754 says. `about` is what the text says of
+/// itself, a line or several.
+#[must_use]
+pub fn device_unit(
+    kernel: &Kernel,
+    slots: &[f64],
+    language: DeviceLanguage,
+    about: &str,
+) -> String {
+    let precision = kernel.precision();
+    let device = Device::new(kernel, language);
+    let mut text = comment(kernel, about);
+    text.push_str(match language {
+        DeviceLanguage::OpenCl => HEAD_OPENCL,
+        DeviceLanguage::Cuda => HEAD_CUDA,
+    });
+    text.push_str(&device.sizes(kernel));
+    text.push_str(&device.coefficients(slots, precision));
+    for signature in driven(kernel) {
+        text.push('\n');
+        text.push_str(&pieces(&device, &device.called(), &signature, device.longest));
+    }
+    let frame = if kernel.programs().frame.is_some() { FRAME } else { "" };
+    text.push_str(&LOOP.replace("/*FRAME*/", frame));
+    text
+}
+
+/// The signatures of the programs that the loop calls.
+fn driven(kernel: &Kernel) -> impl Iterator<Item = Signature<'_>> {
+    const CALLED: [&str; 6] = ["guess", "correct", "accept", "transport", "frame", "sound"];
+    let called = |name: &str| name.strip_prefix(PREFIX).is_some_and(|name| CALLED.contains(&name));
+    signatures(kernel, PREFIX).into_iter().filter(move |one| called(&one.name))
+}
+
+fn comment(kernel: &Kernel, about: &str) -> String {
+    let mut text = String::from("/*\n");
+    for line in about.lines() {
+        text.push_str(&format!(" * {}\n", line.replace("*/", "* /")));
+    }
+    let programs = kernel.programs();
+    let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
+    let fixed = of(&[&programs.guess, &programs.accept, &programs.transport]);
+    let (n, m, correction) = (kernel.dim(), kernel.element(), of(&[&programs.correct]));
+    text.push_str(&format!(
+        " *\n\
+         \x20* coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of {} precision.\n\
+         \x20* Number i of trajectory r is at i * rows + r of g ({m} numbers each) and mu ({n} each). Trajectory r goes from\n\
+         \x20* step done[r] on to step target, or as far as steps are accepted: done[r] says how far, status[r] why no farther:\n\
+         \x20* 0 it is at the target, 1 the equation of a step is not solved, 2 its solution is far from the first guess,\n\
+         \x20* 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.\n\
+         \x20* Let targets be multiples of {BLOCK}, or one.\n\
+         \x20*\n\
+         \x20* A step takes {fixed} operations and {correction} for each correction, most often one.\n\
+         \x20*/\n",
+        kernel.precision(),
+    ));
+    text
+}
+
+/// C as these languages have it; coefficients are in an array of the text.
+struct Device {
+    c: C,
+    language: DeviceLanguage,
+    precision: Precision,
+    /// Operations of a function at most.
+    longest: usize,
+    /// The place of a folded coefficient in the array.
+    places: BTreeMap<usize, usize>,
+}
+
+impl Device {
+    fn new(kernel: &Kernel, language: DeviceLanguage) -> Self {
+        let precision = kernel.precision();
+        let total: usize = driven(kernel).map(|one| one.program.cost().total()).sum();
+        let inlined = total <= INLINED;
+        let (number, suffix) = match precision {
+            Precision::Double => ("double", ""),
+            Precision::Single => ("float", "f"),
+        };
+        let c = C {
+            head: if inlined { INLINE } else { CALLED }.into(),
+            number: number.into(),
+            slots: String::new(),
+            pointer: "*RESTRICT ".into(),
+            suffix: suffix.into(),
+            ..C::default()
+        };
+        let mut places = BTreeMap::new();
+        for signature in driven(kernel) {
+            for node in signature.program.nodes() {
+                if let Node::Slot(index) = *node {
+                    places.insert(index as usize, 0);
+                }
+            }
+        }
+        for (place, value) in places.values_mut().enumerate() {
+            *value = place;
+        }
+        let longest = if inlined { usize::MAX } else { LONGEST };
+        Self { c, language, precision, longest, places }
+    }
+
+    /// The same for functions that are called.
+    fn called(&self) -> C {
+        C { head: CALLED.into(), ..self.c.clone() }
+    }
+
+    fn literal(&self, value: f64) -> String {
+        self.c.literal(self.precision.round(value))
+    }
+
+    /// What the loop needs to know, as macros; arrays have one number at least.
+    fn sizes(&self, kernel: &Kernel) -> String {
+        let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
+        let literal = |value| self.literal(value);
+        let array = |length: usize| length.max(1);
+        let plus = match (self.language, self.precision) {
+            (DeviceLanguage::OpenCl, _) => "((a) + (b))",
+            (DeviceLanguage::Cuda, Precision::Double) => "__dadd_rn(a, b)",
+            (DeviceLanguage::Cuda, Precision::Single) => "__fadd_rn(a, b)",
+        };
+        format!(
+            "#define NUMBER {}\n#define PLUS(a, b) {plus}\n#define ZERO {}\n#define ONE {}\n\
+             #define DIM {n}\n#define ELEMENT {m}\n\
+             #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n#define CONSTANT_ARRAY {}\n\
+             #define TOLERANCE {}\n#define NEAR {}\n#define CORRECTIONS {}u\n#define BLOCK {BLOCK}\n",
+            self.c.number,
+            literal(0.0),
+            literal(1.0),
+            array(n),
+            array(m),
+            array(k),
+            literal(kernel.tolerance()),
+            literal(kernel.near()),
+            kernel.corrections(),
+        )
+    }
+
+    /// The array of the folded coefficients that the programs read.
+    fn coefficients(&self, slots: &[f64], precision: Precision) -> String {
+        let count = self.places.len();
+        if count == 0 {
+            return String::new();
+        }
+        let space = match self.language {
+            DeviceLanguage::OpenCl => "__constant",
+            DeviceLanguage::Cuda if count * precision.bytes() <= CONSTANT_BYTES => {
+                "static __constant__ const"
+            }
+            DeviceLanguage::Cuda => "static __device__ const",
+        };
+        let mut text = format!("\n{space} NUMBER coadjoint_slots[{count}] = {{\n");
+        for &index in self.places.keys() {
+            let value = slots.get(index).copied().unwrap_or(0.0);
+            text.push_str(&format!("    {},\n", self.literal(value)));
+        }
+        text.push_str("};\n");
+        text
+    }
+}
+
+impl Dialect for Device {
+    fn head(&self, signature: &Signature<'_>) -> String {
+        self.c.head(signature)
+    }
+
+    fn declare(&self, name: &str, expression: &str) -> String {
+        self.c.declare(name, expression)
+    }
+
+    fn store(&self, place: &str, value: &str) -> String {
+        self.c.store(place, value)
+    }
+
+    fn single(&self, name: &str) -> String {
+        self.c.single(name)
+    }
+
+    fn constant(&self, value: f64) -> String {
+        self.literal(value)
+    }
+
+    fn slot(&self, index: usize) -> String {
+        let place = self.places.get(&index).map_or_else(|| index.to_string(), usize::to_string);
+        format!("coadjoint_slots[{place}]")
+    }
+
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        if self.language == DeviceLanguage::OpenCl {
+            return self.c.operation(node, operands);
+        }
+        // Functions that are rounded as they say: the compiler neither contracts nor replaces them.
+        let letter = match self.precision {
+            Precision::Double => 'd',
+            Precision::Single => 'f',
+        };
+        let (fused, tail) = match self.precision {
+            Precision::Double => ("__fma_rn", ""),
+            Precision::Single => ("__fmaf_rn", "f"),
+        };
+        match (node, operands) {
+            (Node::Add(..), [a, b]) => format!("__{letter}add_rn({a}, {b})"),
+            (Node::Sub(..), [a, b]) => format!("__{letter}sub_rn({a}, {b})"),
+            (Node::Mul(..), [a, b]) => format!("__{letter}mul_rn({a}, {b})"),
+            (Node::Div(..), [a, b]) => format!("__{letter}div_rn({a}, {b})"),
+            (Node::TimesPlus(..), [a, b, c]) => format!("{fused}({a}, {b}, {c})"),
+            (Node::Sqrt(_), [a]) => format!("__{letter}sqrt_rn({a})"),
+            (Node::Abs(_), [a]) => format!("fabs{tail}({a})"),
+            (Node::Round(_), [a]) => format!("rint{tail}({a})"),
+            _ => self.c.operation(node, operands),
+        }
+    }
+}

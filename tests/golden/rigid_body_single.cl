@@ -1,0 +1,961 @@
+/*
+ * rigid_body, K = 7, h = 0.1
+ *
+ * coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of single precision.
+ * Number i of trajectory r is at i * rows + r of g (4 numbers each) and mu (3 each). Trajectory r goes from
+ * step done[r] on to step target, or as far as steps are accepted: done[r] says how far, status[r] why no farther:
+ * 0 it is at the target, 1 the equation of a step is not solved, 2 its solution is far from the first guess,
+ * 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.
+ * Let targets be multiples of 256, or one.
+ *
+ * A step takes 439 operations and 460 for each correction, most often one.
+ */
+
+#pragma OPENCL FP_CONTRACT OFF
+#define KERNEL __kernel
+#define INLINE static
+#define CALLED static
+#define GLOBAL __global
+#define RESTRICT restrict
+#define COUNT ulong
+#define ROW get_global_id(0)
+#define NUMBER float
+#define PLUS(a, b) ((a) + (b))
+#define ZERO 0.0f
+#define ONE 1.0f
+#define DIM 3
+#define ELEMENT 4
+#define DIM_ARRAY 3
+#define ELEMENT_ARRAY 4
+#define CONSTANT_ARRAY 2
+#define TOLERANCE 0x1p-21f
+#define NEAR 0x1.99999ap-5f
+#define CORRECTIONS 12u
+#define BLOCK 256
+
+__constant NUMBER coadjoint_slots[225] = {
+    0x1.111112p-4f,
+    0x1.8daea2p-19f,
+    0x1.b25ffep-32f,
+    0x1.e31d2cp-45f,
+    0x1.f11a4ap-21f,
+    0x1.140254p-32f,
+    0x1.f98c5p-45f,
+    0x1.b9297ep-34f,
+    0x1.c6a7aep-45f,
+    0x1.91ec5ap-47f,
+    (-0x1.821c7p-34f),
+    (-0x1.1e2d9ep-46f),
+    0x1.0066e2p-33f,
+    0x1.7252ccp-44f,
+    0x1.18f118p-45f,
+    0x1.b74fp-47f,
+    0x1.253304p-47f,
+    0x1.99999ap-5f,
+    0x1.2a42fap-21f,
+    0x1.665bfep-35f,
+    0x1.c6f782p-49f,
+    (-0x1.e8abfep-36f),
+    (-0x1.abdaeep-48f),
+    0x1.755074p-49f,
+    0x1.b9297ep-33f,
+    0x1.c6a7aep-44f,
+    0x1.2d7144p-45f,
+    0x1.0066e2p-34f,
+    0x1.7252ccp-45f,
+    0x1.86eebp-49f,
+    0x1.47ae14p-5f,
+    0x1.665bfep-34f,
+    0x1.5539a2p-47f,
+    (-0x1.e8abfep-37f),
+    0x1.f1c09ap-51f,
+    0x1.b25ffep-31f,
+    0x1.6a55ep-43f,
+    0x1.f98c5p-44f,
+    (-0x1.821c7p-35f),
+    0x1.24df56p-48f,
+    (-0x1.821c7p-33f),
+    (-0x1.1e2d9ep-45f),
+    0x1.0066e2p-32f,
+    0x1.7252ccp-43f,
+    0x1.18f118p-44f,
+    0x1.b74fp-45f,
+    0x1.253304p-45f,
+    0x1.f11a4ap-20f,
+    0x1.140254p-31f,
+    0x1.b9297ep-32f,
+    0x1.c6a7aep-43f,
+    0x1.2d7144p-44f,
+    0x1.18f118p-43f,
+    0x1.253304p-46f,
+    0x1.8daea2p-18f,
+    0x1.b25ffep-30f,
+    0x1.6a55ep-42f,
+    0x1.f98c5p-43f,
+    (-0x1.1e2d9ep-44f),
+    0x1.b74fp-46f,
+    (-0x1.e8abfep-35f),
+    (-0x1.abdaeep-47f),
+    0x1.755074p-47f,
+    0x1.2d7144p-43f,
+    0x1.2a42fap-20f,
+    0x1.665bfep-33f,
+    0x1.5539a2p-46f,
+    (-0x1.abdaeep-46f),
+    0x1.755074p-48f,
+    0x1.5539a2p-45f,
+    0x1.6a55ep-41f,
+    (-0x1.47ae14p-8f),
+    0x1.65e9f8p-21f,
+    (-0x1.15fffep-40f),
+    0x1.53cc86p-52f,
+    0x1.bf6476p-23f,
+    0x1.0756fep-34f,
+    (-0x1.6ce08ep-51f),
+    0x1.3efe7ep-36f,
+    0x1.2e014cp-48f,
+    0x1.388782p-50f,
+    1.0f,
+    (-0x1.46394p-13f),
+    0x1.a4ccfep-29f,
+    (-0x1.c9823p-45f),
+    (-0x1.65d33cp-61f),
+    (-0x1.d208a6p-16f),
+    (-0x1.2e3d0ap-26f),
+    0x1.f44a26p-41f,
+    (-0x1.acad46p-56f),
+    (-0x1.23a232p-28f),
+    (-0x1.7b6c5p-40f),
+    0x1.40d7e8p-53f,
+    (-0x1.2ae43p-42f),
+    (-0x1.a31fbap-54f),
+    (-0x1.2c2e6p-56f),
+    0x1.2a42fap-20f,
+    (-0x1.50a3fep-34f),
+    0x1.3b8c92p-48f,
+    0x1.4c917ep-33f,
+    (-0x1.a343ep-46f),
+    0x1.cc89ep-47f,
+    (-0x1.a831bep-27f),
+    0x1.c89132p-45f,
+    (-0x1.11829p-59f),
+    (-0x1.a831bep-27f),
+    (-0x1.a91704p-44f),
+    (-0x1.f2e4d8p-53f),
+    (-0x1.974158p-40f),
+    0x1.513364p-53f,
+    (-0x1.0e2ccp-53f),
+    0x1.51d8e2p-36f,
+    0x1.029082p-46f,
+    0x1.9401ccp-49f,
+    (-0x1.4d28ap-39f),
+    0x1.59f094p-53f,
+    (-0x1.89773p-40f),
+    (-0x1.0516bap-51f),
+    (-0x1.03bffcp-52f),
+    0x1.4334a4p-47f,
+    (-0x1.5e1224p-52f),
+    (-0x1.df6188p-53f),
+    1.0f,
+    (-0x1.a36e2ep-14f),
+    0x1.1d0efep-29f,
+    (-0x1.eb65e6p-46f),
+    (-0x1.bc325cp-63f),
+    (-0x1.dd37f6p-28f),
+    0x1.4eec7cp-42f,
+    (-0x1.7023bep-57f),
+    (-0x1.21ca48p-41f),
+    0x1.004b9p-55f,
+    (-0x1.76f932p-55f),
+    0x1.b4e81cp-7f,
+    (-0x1.1660a4p-20f),
+    0x1.a0fffep-38f,
+    (-0x1.77f2ap-52f),
+    0x1.2a42fap-20f,
+    (-0x1.aa3afep-33f),
+    0x1.71ad9ep-48f,
+    0x1.a4ccfep-34f,
+    (-0x1.9859ep-46f),
+    0x1.363672p-47f,
+    (-0x1.36b06ep-16f),
+    0x1.8bea28p-27f,
+    (-0x1.239b16p-40f),
+    0x1.16338ap-55f,
+    (-0x1.cb8b38p-29f),
+    0x1.4ac4bcp-39f,
+    (-0x1.a35f1cp-52f),
+    (-0x1.0db404p-41f),
+    0x1.3d0e28p-52f,
+    (-0x1.c13b76p-55f),
+    0x1.091f16p-22f,
+    (-0x1.956aa8p-35f),
+    (-0x1.2bbbe6p-49f),
+    (-0x1.36b2e2p-34f),
+    0x1.b0035p-46f,
+    (-0x1.38522ap-47f),
+    0x1.1acbd4p-28f,
+    (-0x1.e5077p-40f),
+    0x1.793ba8p-52f,
+    (-0x1.d6b014p-48f),
+    (-0x1.ec3c1ep-52f),
+    (-0x1.54fcb6p-54f),
+    0x1.29a096p-34f,
+    (-0x1.a5d742p-46f),
+    0x1.d1d9a4p-47f,
+    0x1.5c1ce4p-42f,
+    0x1.fe8bdcp-57f,
+    (-0x1.4c3374p-54f),
+    0x1.e554d8p-48f,
+    0x1.55a74ap-55f,
+    1.0f,
+    0x1.5d867cp-14f,
+    (-0x1.316b7ep-28f),
+    (-0x1.a79e78p-46f),
+    (-0x1.48854p-58f),
+    0x1.dd37f6p-29f,
+    (-0x1.4af3cep-41f),
+    (-0x1.29ddc6p-58f),
+    0x1.7240c2p-43f,
+    (-0x1.09041cp-54f),
+    0x1.68c83ep-57f,
+    (-0x1.111112p-7f),
+    0x1.2a42fap-20f,
+    (-0x1.049ffep-36f),
+    0x1.182744p-50f,
+    (-0x1.36b06ep-21f),
+    0x1.b9297ep-33f,
+    (-0x1.c3277cp-48f),
+    (-0x1.754a7ep-36f),
+    0x1.82c5e2p-46f,
+    (-0x1.3c0f3cp-50f),
+    0x1.36b06ep-15f,
+    (-0x1.f1b8a8p-30f),
+    (-0x1.508ab2p-43f),
+    (-0x1.29ac6ap-58f),
+    (-0x1.2c7892p-27f),
+    0x1.e0ccdcp-41f,
+    (-0x1.59e24cp-53f),
+    (-0x1.bbe9bp-40f),
+    0x1.bfc182p-53f,
+    (-0x1.a90cfap-53f),
+    (-0x1.4b66dcp-21f),
+    0x1.ca81c4p-36f,
+    0x1.2bfc2ap-46f,
+    (-0x1.69faa8p-38f),
+    (-0x1.97edeep-51f),
+    0x1.7b7df6p-49f,
+    0x1.1acbd4p-28f,
+    (-0x1.8de0d6p-40f),
+    0x1.6f2a38p-56f,
+    0x1.cba7f2p-43f,
+    (-0x1.80de28p-51f),
+    (-0x1.26a68ap-53f),
+    (-0x1.056decp-34f),
+    0x1.0afc0ep-45f,
+    (-0x1.c075fcp-49f),
+    0x1.2b1536p-41f,
+    (-0x1.9c742p-53f),
+    (-0x1.899092p-53f),
+    (-0x1.eb9b74p-48f),
+    0x1.0ffbe4p-54f,
+    INFINITY,
+};
+
+INLINE void coadjoint_guess(const float *RESTRICT mu, float *RESTRICT p, float *RESTRICT k)
+{
+    const float t3 = mu[0] * mu[0];
+    const float t5 = mu[1] * mu[1];
+    const float t7 = mu[2] * mu[2];
+    const float t10 = fma(t7, coadjoint_slots[112], coadjoint_slots[111]);
+    const float t11 = fma(t5, coadjoint_slots[113], t10);
+    const float t12 = fma(t3, coadjoint_slots[119], t11);
+    const float t16 = fma(t7, coadjoint_slots[100], coadjoint_slots[99]);
+    const float t17 = fma(t5, coadjoint_slots[101], t16);
+    const float t20 = fma(t7, coadjoint_slots[98], coadjoint_slots[97]);
+    const float t22 = fma(t7, t20, coadjoint_slots[96]);
+    const float t23 = fma(t5, t17, t22);
+    const float t24 = fma(t3, t12, t23);
+    const float t28 = fma(t7, coadjoint_slots[79], coadjoint_slots[78]);
+    const float t29 = fma(t5, coadjoint_slots[80], t28);
+    const float t32 = fma(t7, coadjoint_slots[77], coadjoint_slots[76]);
+    const float t34 = fma(t7, t32, coadjoint_slots[75]);
+    const float t35 = fma(t5, t29, t34);
+    const float t38 = fma(t7, coadjoint_slots[74], coadjoint_slots[73]);
+    const float t40 = fma(t7, t38, coadjoint_slots[72]);
+    const float t42 = fma(t7, t40, coadjoint_slots[71]);
+    const float t43 = fma(t5, t35, t42);
+    const float t44 = fma(t3, t24, t43);
+    const float t45 = mu[1] * mu[2];
+    const float t46 = t44 * t45;
+    const float t51 = fma(t7, coadjoint_slots[117], coadjoint_slots[116]);
+    const float t52 = fma(t5, coadjoint_slots[118], t51);
+    const float t53 = fma(t3, coadjoint_slots[121], t52);
+    const float t57 = fma(t7, coadjoint_slots[109], coadjoint_slots[108]);
+    const float t58 = fma(t5, coadjoint_slots[110], t57);
+    const float t61 = fma(t7, coadjoint_slots[107], coadjoint_slots[106]);
+    const float t63 = fma(t7, t61, coadjoint_slots[105]);
+    const float t64 = fma(t5, t58, t63);
+    const float t65 = fma(t3, t53, t64);
+    const float t69 = fma(t7, coadjoint_slots[94], coadjoint_slots[93]);
+    const float t70 = fma(t5, coadjoint_slots[95], t69);
+    const float t73 = fma(t7, coadjoint_slots[92], coadjoint_slots[91]);
+    const float t75 = fma(t7, t73, coadjoint_slots[90]);
+    const float t76 = fma(t5, t70, t75);
+    const float t79 = fma(t7, coadjoint_slots[89], coadjoint_slots[88]);
+    const float t81 = fma(t7, t79, coadjoint_slots[87]);
+    const float t83 = fma(t7, t81, coadjoint_slots[86]);
+    const float t84 = fma(t5, t76, t83);
+    const float t85 = fma(t3, t65, t84);
+    const float t89 = fma(t7, coadjoint_slots[115], coadjoint_slots[114]);
+    const float t90 = fma(t3, coadjoint_slots[120], t89);
+    const float t93 = fma(t7, coadjoint_slots[104], coadjoint_slots[103]);
+    const float t95 = fma(t7, t93, coadjoint_slots[102]);
+    const float t96 = fma(t3, t90, t95);
+    const float t99 = fma(t7, coadjoint_slots[85], coadjoint_slots[84]);
+    const float t101 = fma(t7, t99, coadjoint_slots[83]);
+    const float t103 = fma(t7, t101, coadjoint_slots[82]);
+    const float t104 = fma(t3, t96, t103);
+    const float t106 = fma(t7, t104, coadjoint_slots[81]);
+    const float t107 = fma(t5, t85, t106);
+    const float t108 = fma(mu[0], t107, t46);
+    const float t113 = fma(t7, coadjoint_slots[169], coadjoint_slots[168]);
+    const float t114 = fma(t5, coadjoint_slots[170], t113);
+    const float t115 = fma(t3, coadjoint_slots[172], t114);
+    const float t119 = fma(t7, coadjoint_slots[163], coadjoint_slots[162]);
+    const float t120 = fma(t5, coadjoint_slots[164], t119);
+    const float t123 = fma(t7, coadjoint_slots[161], coadjoint_slots[160]);
+    const float t125 = fma(t7, t123, coadjoint_slots[159]);
+    const float t126 = fma(t5, t120, t125);
+    const float t127 = fma(t3, t115, t126);
+    const float t131 = fma(t7, coadjoint_slots[151], coadjoint_slots[150]);
+    const float t132 = fma(t5, coadjoint_slots[152], t131);
+    const float t135 = fma(t7, coadjoint_slots[149], coadjoint_slots[148]);
+    const float t137 = fma(t7, t135, coadjoint_slots[147]);
+    const float t138 = fma(t5, t132, t137);
+    const float t141 = fma(t7, coadjoint_slots[146], coadjoint_slots[145]);
+    const float t143 = fma(t7, t141, coadjoint_slots[144]);
+    const float t145 = fma(t7, t143, coadjoint_slots[143]);
+    const float t146 = fma(t5, t138, t145);
+    const float t147 = fma(t3, t127, t146);
+    const float t151 = fma(t7, coadjoint_slots[131], coadjoint_slots[130]);
+    const float t152 = fma(t5, coadjoint_slots[132], t151);
+    const float t155 = fma(t7, coadjoint_slots[129], coadjoint_slots[128]);
+    const float t157 = fma(t7, t155, coadjoint_slots[127]);
+    const float t158 = fma(t5, t152, t157);
+    const float t161 = fma(t7, coadjoint_slots[126], coadjoint_slots[125]);
+    const float t163 = fma(t7, t161, coadjoint_slots[124]);
+    const float t165 = fma(t7, t163, coadjoint_slots[123]);
+    const float t166 = fma(t5, t158, t165);
+    const float t168 = fma(t7, t166, coadjoint_slots[122]);
+    const float t169 = fma(t3, t147, t168);
+    const float t170 = mu[1] * t169;
+    const float t175 = fma(t7, coadjoint_slots[166], coadjoint_slots[165]);
+    const float t176 = fma(t5, coadjoint_slots[167], t175);
+    const float t177 = fma(t3, coadjoint_slots[171], t176);
+    const float t181 = fma(t7, coadjoint_slots[157], coadjoint_slots[156]);
+    const float t182 = fma(t5, coadjoint_slots[158], t181);
+    const float t185 = fma(t7, coadjoint_slots[155], coadjoint_slots[154]);
+    const float t187 = fma(t7, t185, coadjoint_slots[153]);
+    const float t188 = fma(t5, t182, t187);
+    const float t189 = fma(t3, t177, t188);
+    const float t193 = fma(t7, coadjoint_slots[141], coadjoint_slots[140]);
+    const float t194 = fma(t5, coadjoint_slots[142], t193);
+    const float t197 = fma(t7, coadjoint_slots[139], coadjoint_slots[138]);
+    const float t199 = fma(t7, t197, coadjoint_slots[137]);
+    const float t200 = fma(t5, t194, t199);
+    const float t203 = fma(t7, coadjoint_slots[136], coadjoint_slots[135]);
+    const float t205 = fma(t7, t203, coadjoint_slots[134]);
+    const float t207 = fma(t7, t205, coadjoint_slots[133]);
+    const float t208 = fma(t5, t200, t207);
+    const float t209 = fma(t3, t189, t208);
+    const float t210 = mu[0] * mu[2];
+    const float t211 = fma(t209, t210, t170);
+    const float t216 = fma(t7, coadjoint_slots[220], coadjoint_slots[219]);
+    const float t217 = fma(t5, coadjoint_slots[221], t216);
+    const float t218 = fma(t3, coadjoint_slots[223], t217);
+    const float t222 = fma(t7, coadjoint_slots[214], coadjoint_slots[213]);
+    const float t223 = fma(t5, coadjoint_slots[215], t222);
+    const float t226 = fma(t7, coadjoint_slots[212], coadjoint_slots[211]);
+    const float t228 = fma(t7, t226, coadjoint_slots[210]);
+    const float t229 = fma(t5, t223, t228);
+    const float t230 = fma(t3, t218, t229);
+    const float t234 = fma(t7, coadjoint_slots[202], coadjoint_slots[201]);
+    const float t235 = fma(t5, coadjoint_slots[203], t234);
+    const float t238 = fma(t7, coadjoint_slots[200], coadjoint_slots[199]);
+    const float t240 = fma(t7, t238, coadjoint_slots[198]);
+    const float t241 = fma(t5, t235, t240);
+    const float t244 = fma(t7, coadjoint_slots[197], coadjoint_slots[196]);
+    const float t246 = fma(t7, t244, coadjoint_slots[195]);
+    const float t248 = fma(t7, t246, coadjoint_slots[194]);
+    const float t249 = fma(t5, t241, t248);
+    const float t250 = fma(t3, t230, t249);
+    const float t254 = fma(t7, coadjoint_slots[182], coadjoint_slots[181]);
+    const float t255 = fma(t5, coadjoint_slots[183], t254);
+    const float t258 = fma(t7, coadjoint_slots[180], coadjoint_slots[179]);
+    const float t260 = fma(t7, t258, coadjoint_slots[178]);
+    const float t261 = fma(t5, t255, t260);
+    const float t264 = fma(t7, coadjoint_slots[177], coadjoint_slots[176]);
+    const float t266 = fma(t7, t264, coadjoint_slots[175]);
+    const float t268 = fma(t7, t266, coadjoint_slots[174]);
+    const float t269 = fma(t5, t261, t268);
+    const float t271 = fma(t5, t269, coadjoint_slots[173]);
+    const float t272 = fma(t3, t250, t271);
+    const float t273 = mu[2] * t272;
+    const float t278 = fma(t7, coadjoint_slots[217], coadjoint_slots[216]);
+    const float t279 = fma(t5, coadjoint_slots[218], t278);
+    const float t280 = fma(t3, coadjoint_slots[222], t279);
+    const float t284 = fma(t7, coadjoint_slots[208], coadjoint_slots[207]);
+    const float t285 = fma(t5, coadjoint_slots[209], t284);
+    const float t288 = fma(t7, coadjoint_slots[206], coadjoint_slots[205]);
+    const float t290 = fma(t7, t288, coadjoint_slots[204]);
+    const float t291 = fma(t5, t285, t290);
+    const float t292 = fma(t3, t280, t291);
+    const float t296 = fma(t7, coadjoint_slots[192], coadjoint_slots[191]);
+    const float t297 = fma(t5, coadjoint_slots[193], t296);
+    const float t300 = fma(t7, coadjoint_slots[190], coadjoint_slots[189]);
+    const float t302 = fma(t7, t300, coadjoint_slots[188]);
+    const float t303 = fma(t5, t297, t302);
+    const float t306 = fma(t7, coadjoint_slots[187], coadjoint_slots[186]);
+    const float t308 = fma(t7, t306, coadjoint_slots[185]);
+    const float t310 = fma(t7, t308, coadjoint_slots[184]);
+    const float t311 = fma(t5, t303, t310);
+    const float t312 = fma(t3, t292, t311);
+    const float t313 = mu[0] * mu[1];
+    const float t314 = fma(t312, t313, t273);
+    const float t317 = fabs(mu[0]);
+    const float t318 = fabs(mu[1]);
+    const float t319 = (t318 <= t317) ? t317 : t318;
+    const float t320 = fabs(mu[2]);
+    const float t321 = (t320 <= t319) ? t319 : t320;
+    const float t322 = 0x1p-126f + t321;
+    const float t324 = 1.0f / t322;
+    p[0] = t108;
+    p[1] = t211;
+    p[2] = t314;
+    k[0] = t324;
+    k[1] = 0.0f;
+}
+
+INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu, const float *RESTRICT k, float *RESTRICT p_next, float *RESTRICT x, float *RESTRICT left, float *RESTRICT moved)
+{
+    const float t8 = p[1] * p[1];
+    const float t9 = p[0] * p[0];
+    const float t12 = p[2] * p[2];
+    const float t15 = fma(t12, coadjoint_slots[13], coadjoint_slots[12]);
+    const float t16 = fma(t8, coadjoint_slots[14], t15);
+    const float t17 = fma(t9, coadjoint_slots[16], t16);
+    const float t21 = fma(t12, coadjoint_slots[8], coadjoint_slots[7]);
+    const float t22 = fma(t8, coadjoint_slots[9], t21);
+    const float t25 = fma(t12, coadjoint_slots[6], coadjoint_slots[5]);
+    const float t27 = fma(t12, t25, coadjoint_slots[4]);
+    const float t28 = fma(t8, t22, t27);
+    const float t29 = fma(t9, t17, t28);
+    const float t33 = fma(t12, coadjoint_slots[11], coadjoint_slots[10]);
+    const float t34 = fma(t9, coadjoint_slots[15], t33);
+    const float t37 = fma(t12, coadjoint_slots[3], coadjoint_slots[2]);
+    const float t39 = fma(t12, t37, coadjoint_slots[1]);
+    const float t40 = fma(t9, t34, t39);
+    const float t42 = fma(t12, t40, coadjoint_slots[0]);
+    const float t43 = fma(t8, t29, t42);
+    const float t44 = p[0] * t43;
+    const float t48 = fma(t12, coadjoint_slots[28], coadjoint_slots[27]);
+    const float t49 = fma(t8, coadjoint_slots[14], t48);
+    const float t50 = fma(t9, coadjoint_slots[29], t49);
+    const float t54 = fma(t12, coadjoint_slots[25], coadjoint_slots[24]);
+    const float t55 = fma(t8, coadjoint_slots[26], t54);
+    const float t56 = fma(t8, t55, t27);
+    const float t57 = fma(t9, t50, t56);
+    const float t61 = fma(t12, coadjoint_slots[22], coadjoint_slots[21]);
+    const float t62 = fma(t8, coadjoint_slots[23], t61);
+    const float t65 = fma(t12, coadjoint_slots[20], coadjoint_slots[19]);
+    const float t67 = fma(t12, t65, coadjoint_slots[18]);
+    const float t68 = fma(t8, t62, t67);
+    const float t70 = fma(t12, t68, coadjoint_slots[17]);
+    const float t71 = fma(t9, t57, t70);
+    const float t72 = p[1] * t71;
+    const float t75 = fma(t12, coadjoint_slots[11], coadjoint_slots[38]);
+    const float t76 = fma(t8, coadjoint_slots[28], t75);
+    const float t77 = fma(t9, coadjoint_slots[39], t76);
+    const float t79 = fma(t12, coadjoint_slots[37], coadjoint_slots[5]);
+    const float t80 = fma(t8, coadjoint_slots[8], t79);
+    const float t83 = fma(t12, coadjoint_slots[36], coadjoint_slots[35]);
+    const float t84 = fma(t12, t83, coadjoint_slots[1]);
+    const float t85 = fma(t8, t80, t84);
+    const float t86 = fma(t9, t77, t85);
+    const float t89 = fma(t12, coadjoint_slots[22], coadjoint_slots[33]);
+    const float t90 = fma(t8, coadjoint_slots[34], t89);
+    const float t93 = fma(t12, coadjoint_slots[32], coadjoint_slots[31]);
+    const float t94 = fma(t12, t93, coadjoint_slots[18]);
+    const float t95 = fma(t8, t90, t94);
+    const float t97 = fma(t8, t95, coadjoint_slots[30]);
+    const float t98 = fma(t9, t86, t97);
+    const float t99 = p[2] * t98;
+    const float t104 = fma(t12, coadjoint_slots[43], coadjoint_slots[42]);
+    const float t105 = fma(t8, coadjoint_slots[44], t104);
+    const float t106 = fma(t9, coadjoint_slots[46], t105);
+    const float t110 = fma(t12, coadjoint_slots[41], coadjoint_slots[40]);
+    const float t111 = fma(t9, coadjoint_slots[45], t110);
+    const float t112 = t12 * t111;
+    const float t113 = fma(t8, t106, t112);
+    const float t114 = t9 * t113;
+    const float t115 = t43 + t114;
+    const float t116 = p[0] * p[1];
+    const float t119 = fma(t8, coadjoint_slots[52], t104);
+    const float t120 = fma(t9, coadjoint_slots[53], t119);
+    const float t124 = fma(t12, coadjoint_slots[50], coadjoint_slots[49]);
+    const float t125 = fma(t8, coadjoint_slots[51], t124);
+    const float t127 = fma(t12, coadjoint_slots[37], coadjoint_slots[48]);
+    const float t129 = fma(t12, t127, coadjoint_slots[47]);
+    const float t130 = fma(t8, t125, t129);
+    const float t131 = fma(t9, t120, t130);
+    const float t132 = t116 * t131;
+    const float t133 = p[0] * p[2];
+    const float t136 = fma(t12, coadjoint_slots[58], coadjoint_slots[40]);
+    const float t137 = fma(t8, coadjoint_slots[43], t136);
+    const float t138 = fma(t9, coadjoint_slots[59], t137);
+    const float t140 = fma(t12, coadjoint_slots[57], coadjoint_slots[48]);
+    const float t141 = fma(t8, coadjoint_slots[25], t140);
+    const float t144 = fma(t12, coadjoint_slots[56], coadjoint_slots[55]);
+    const float t146 = fma(t12, t144, coadjoint_slots[54]);
+    const float t147 = fma(t8, t141, t146);
+    const float t148 = fma(t9, t138, t147);
+    const float t149 = t133 * t148;
+    const float t151 = fma(t8, coadjoint_slots[63], t124);
+    const float t152 = fma(t9, coadjoint_slots[44], t151);
+    const float t156 = fma(t12, coadjoint_slots[61], coadjoint_slots[60]);
+    const float t157 = fma(t8, coadjoint_slots[62], t156);
+    const float t158 = t12 * t157;
+    const float t159 = fma(t9, t152, t158);
+    const float t160 = t8 * t159;
+    const float t161 = t71 + t160;
+    const float t162 = p[1] * p[2];
+    const float t163 = fma(t8, coadjoint_slots[50], t140);
+    const float t164 = fma(t9, coadjoint_slots[13], t163);
+    const float t167 = fma(t12, coadjoint_slots[67], coadjoint_slots[60]);
+    const float t168 = fma(t8, coadjoint_slots[68], t167);
+    const float t171 = fma(t12, coadjoint_slots[66], coadjoint_slots[65]);
+    const float t173 = fma(t12, t171, coadjoint_slots[64]);
+    const float t174 = fma(t8, t168, t173);
+    const float t175 = fma(t9, t164, t174);
+    const float t176 = t162 * t175;
+    const float t178 = fma(t12, coadjoint_slots[70], coadjoint_slots[55]);
+    const float t179 = fma(t8, coadjoint_slots[57], t178);
+    const float t180 = fma(t9, coadjoint_slots[41], t179);
+    const float t182 = fma(t12, coadjoint_slots[69], coadjoint_slots[65]);
+    const float t183 = fma(t8, coadjoint_slots[61], t182);
+    const float t184 = t8 * t183;
+    const float t185 = fma(t9, t180, t184);
+    const float t186 = t12 * t185;
+    const float t187 = t98 + t186;
+    const float t191 = t44 * t44;
+    const float t192 = fma(t72, t72, t191);
+    const float t193 = fma(t99, t99, t192);
+    const float t204 = fma(t193, (-0x1.555556p-5f), 0x1p-1f);
+    const float t205 = fma(t193, (-0x1.a01a02p-16f), 0x1.6c16c2p-10f);
+    const float t206 = fma(t193, (-0x1.1eed8ep-29f), 0x1.27e4fcp-22f);
+    const float t207 = fma(t193, (-0x1.ae7f3ep-45f), 0x1.93974ap-37f);
+    const float t208 = fma(t193, (-0x1.e542bap-62f), 0x1.682786p-53f);
+    const float t209 = t193 * t193;
+    const float t210 = fma(t205, t209, t204);
+    const float t211 = fma(t207, t209, t206);
+    const float t212 = fma(0x1.0ce396p-70f, t209, t208);
+    const float t213 = t209 * t209;
+    const float t214 = fma(t211, t213, t210);
+    const float t215 = t213 * t213;
+    const float t216 = fma(t212, t215, t214);
+    const float t227 = fma(t193, (-0x1.111112p-7f), 0x1.555556p-3f);
+    const float t228 = fma(t193, (-0x1.71de3ap-19f), 0x1.a01a02p-13f);
+    const float t229 = fma(t193, (-0x1.612462p-33f), 0x1.ae6456p-26f);
+    const float t230 = fma(t193, (-0x1.952c78p-49f), 0x1.ae7f3ep-41f);
+    const float t231 = fma(t193, (-0x1.71b8fp-66f), 0x1.2f49b4p-57f);
+    const float t232 = fma(t209, t228, t227);
+    const float t233 = fma(t209, t230, t229);
+    const float t234 = fma(t213, t233, t232);
+    const float t235 = fma(t215, t231, t234);
+    const float t242 = fma(t193, 0x1.6c16c2p-9f, (-0x1.555556p-5f));
+    const float t243 = fma(t193, 0x1.27e4fcp-20f, (-0x1.381382p-14f));
+    const float t244 = fma(t193, 0x1.2eb178p-34f, (-0x1.66a8f2p-27f));
+    const float t245 = fma(t209, t243, t242);
+    const float t246 = fma(t209, (-0x1.78af56p-42f), t244);
+    const float t247 = fma(t213, t246, t245);
+    const float t254 = fma(t193, 0x1.a01a02p-12f, (-0x1.111112p-7f));
+    const float t255 = fma(t193, 0x1.ae6456p-24f, (-0x1.1566acp-17f));
+    const float t256 = fma(t193, 0x1.42df6ep-38f, (-0x1.b96d7ap-31f));
+    const float t257 = fma(t209, t255, t254);
+    const float t258 = fma(t209, (-0x1.6286e8p-46f), t256);
+    const float t259 = fma(t213, t258, t257);
+    const float t260 = mu[1] * t99;
+    const float t261 = -mu[2];
+    const float t262 = fma(t72, t261, t260);
+    const float t263 = mu[2] * t44;
+    const float t264 = -mu[0];
+    const float t265 = fma(t99, t264, t263);
+    const float t266 = mu[0] * t72;
+    const float t267 = -mu[1];
+    const float t268 = fma(t44, t267, t266);
+    const float t269 = t99 * t265;
+    const float t270 = -t268;
+    const float t271 = fma(t72, t270, t269);
+    const float t272 = t44 * t268;
+    const float t273 = -t262;
+    const float t274 = fma(t99, t273, t272);
+    const float t275 = t72 * t262;
+    const float t276 = -t265;
+    const float t277 = fma(t44, t276, t275);
+    const float t278 = fma(t216, t262, mu[0]);
+    const float t279 = fma(t216, t265, mu[1]);
+    const float t280 = fma(t216, t268, mu[2]);
+    const float t281 = fma(t235, t271, t278);
+    const float t282 = fma(t235, t274, t279);
+    const float t283 = fma(t235, t277, t280);
+    const float t285 = t247 * t262;
+    const float t286 = t247 * t265;
+    const float t287 = t247 * t268;
+    const float t288 = fma(t259, t271, t285);
+    const float t289 = fma(t259, t274, t286);
+    const float t290 = fma(t259, t277, t287);
+    const float t291 = 2.0f * t288;
+    const float t292 = 2.0f * t289;
+    const float t293 = 2.0f * t290;
+    const float t294 = -t235;
+    const float t295 = fma(mu[0], t294, t291);
+    const float t296 = fma(mu[1], t294, t292);
+    const float t297 = fma(mu[2], t294, t293);
+    const float t298 = mu[0] * t216;
+    const float t299 = mu[1] * t216;
+    const float t300 = mu[2] * t216;
+    const float t301 = fma(t235, t262, t298);
+    const float t302 = fma(t235, t265, t299);
+    const float t303 = fma(t235, t268, t300);
+    const float t304 = mu[0] * t44;
+    const float t305 = fma(mu[1], t72, t304);
+    const float t306 = fma(mu[2], t99, t305);
+    const float t307 = t235 * t306;
+    const float t308 = -t301;
+    const float t309 = -t302;
+    const float t310 = -t303;
+    const float t311 = fma(t44, t295, t307);
+    const float t312 = fma(t72, t295, t310);
+    const float t313 = fma(t99, t295, t302);
+    const float t314 = fma(t44, t296, t303);
+    const float t315 = fma(t72, t296, t307);
+    const float t316 = fma(t99, t296, t308);
+    const float t317 = fma(t44, t297, t309);
+    const float t318 = fma(t72, t297, t301);
+    const float t319 = fma(t99, t297, t307);
+    const float t320 = t115 * t311;
+    const float t321 = fma(t132, t312, t320);
+    const float t322 = fma(t149, t313, t321);
+    const float t323 = t132 * t311;
+    const float t324 = fma(t161, t312, t323);
+    const float t325 = fma(t176, t313, t324);
+    const float t326 = t149 * t311;
+    const float t327 = fma(t176, t312, t326);
+    const float t328 = fma(t187, t313, t327);
+    const float t329 = t115 * t314;
+    const float t330 = fma(t132, t315, t329);
+    const float t331 = fma(t149, t316, t330);
+    const float t332 = t132 * t314;
+    const float t333 = fma(t161, t315, t332);
+    const float t334 = fma(t176, t316, t333);
+    const float t335 = t149 * t314;
+    const float t336 = fma(t176, t315, t335);
+    const float t337 = fma(t187, t316, t336);
+    const float t338 = t115 * t317;
+    const float t339 = fma(t132, t318, t338);
+    const float t340 = fma(t149, t319, t339);
+    const float t341 = t132 * t317;
+    const float t342 = fma(t161, t318, t341);
+    const float t343 = fma(t176, t319, t342);
+    const float t344 = t149 * t317;
+    const float t345 = fma(t176, t318, t344);
+    const float t346 = fma(t187, t319, t345);
+    const float t347 = 1.0f - t322;
+    const float t348 = -t325;
+    const float t349 = -t328;
+    const float t350 = -t331;
+    const float t351 = 1.0f - t334;
+    const float t352 = -t337;
+    const float t353 = -t340;
+    const float t354 = -t343;
+    const float t355 = 1.0f - t346;
+    const float t356 = p[0] - t281;
+    const float t357 = p[1] - t282;
+    const float t358 = p[2] - t283;
+    const float t359 = 1.0f / t347;
+    const float t360 = t350 * t359;
+    const float t361 = -t360;
+    const float t362 = fma(t348, t361, t351);
+    const float t363 = fma(t349, t361, t352);
+    const float t364 = fma(t356, t361, t357);
+    const float t365 = t353 * t359;
+    const float t366 = -t365;
+    const float t367 = fma(t348, t366, t354);
+    const float t368 = fma(t349, t366, t355);
+    const float t369 = fma(t356, t366, t358);
+    const float t370 = 1.0f / t362;
+    const float t371 = t367 * t370;
+    const float t372 = -t371;
+    const float t373 = fma(t363, t372, t368);
+    const float t374 = fma(t364, t372, t369);
+    const float t375 = 1.0f / t373;
+    const float t376 = t374 * t375;
+    const float t377 = -t363;
+    const float t378 = fma(t376, t377, t364);
+    const float t379 = t370 * t378;
+    const float t380 = fma(t325, t379, t356);
+    const float t381 = fma(t328, t376, t380);
+    const float t382 = t359 * t381;
+    const float t383 = t115 * t382;
+    const float t384 = fma(t132, t379, t383);
+    const float t385 = fma(t149, t376, t384);
+    const float t386 = t132 * t382;
+    const float t387 = fma(t161, t379, t386);
+    const float t388 = fma(t176, t376, t387);
+    const float t389 = t149 * t382;
+    const float t390 = fma(t176, t379, t389);
+    const float t391 = fma(t187, t376, t390);
+    const float t392 = p[0] - t382;
+    const float t393 = p[1] - t379;
+    const float t394 = p[2] - t376;
+    const float t395 = t44 - t385;
+    const float t396 = t72 - t388;
+    const float t397 = t99 - t391;
+    const float t398 = fabs(t382);
+    const float t399 = fabs(t379);
+    const float t400 = (t399 <= t398) ? t398 : t399;
+    const float t401 = fabs(t376);
+    const float t402 = (t401 <= t400) ? t400 : t401;
+    const float t403 = k[0] * t402;
+    const float t404 = fabs(t385);
+    const float t405 = fabs(t388);
+    const float t406 = (t405 <= t404) ? t404 : t405;
+    const float t407 = fabs(t391);
+    const float t408 = (t407 <= t406) ? t406 : t407;
+    const float t409 = fabs(t44);
+    const float t410 = fabs(t72);
+    const float t411 = (t410 <= t409) ? t409 : t410;
+    const float t412 = fabs(t99);
+    const float t413 = (t412 <= t411) ? t411 : t412;
+    const float t414 = t413 * t413;
+    const float t415 = 0x1p-2f * t414;
+    const float t416 = t403 * t415;
+    const float t417 = fma(0x1p-1f, t408, t416);
+    const float t418 = k[1] * t403;
+    const float t419 = fma(t408, t417, t418);
+    const float t422 = (t403 <= 0x1.0624dep-10f) ? t419 : t403;
+    const float t423 = (t422 <= t403) ? t422 : t403;
+    const float t424 = (t403 <= 0x1p-21f) ? t423 : t422;
+    p_next[0] = t392;
+    p_next[1] = t393;
+    p_next[2] = t394;
+    x[0] = t395;
+    x[1] = t396;
+    x[2] = t397;
+    *left = t424;
+    *moved = t403;
+}
+
+INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, float left, float way, float *RESTRICT right)
+{
+    const float t11 = x[0] * x[0];
+    const float t12 = fma(x[1], x[1], t11);
+    const float t13 = fma(x[2], x[2], t12);
+    const float t15 = t13 * 0x1.9f02f6p-4f;
+    const float t16 = fabs(t15);
+    const float t19 = (t15 <= INFINITY) ? 0.0f : 1.0f;
+    const float t20 = t19 + t19;
+    const float t21 = t16 + t20;
+    const float t22 = mu[0] * mu[0];
+    const float t23 = fma(mu[1], mu[1], t22);
+    const float t24 = fma(mu[2], mu[2], t23);
+    const float t29 = (coadjoint_slots[224] <= 0x1.fffffep+127f) ? 4.0f : 9.0f;
+    const float t30 = t21 * t29;
+    const float t31 = (t24 <= coadjoint_slots[224]) ? 1.0f : 0.0f;
+    const float t32 = (t30 <= 1.0f) ? t31 : 0.0f;
+    const float t33 = (way <= 0x1.99999ap-5f) ? t32 : 0.0f;
+    const float t34 = (left <= 0x1p-21f) ? t33 : 0.0f;
+    *right = t34;
+}
+
+INLINE void coadjoint_transport(const float *RESTRICT g, const float *RESTRICT mu, const float *RESTRICT x, float *RESTRICT g_next, float *RESTRICT mu_next)
+{
+    const float t10 = x[0] * x[0];
+    const float t11 = fma(x[1], x[1], t10);
+    const float t12 = fma(x[2], x[2], t11);
+    const float t22 = fma(t12, (-0x1p-3f), 1.0f);
+    const float t23 = fma(t12, (-0x1.6c16c2p-16f), 0x1.555556p-9f);
+    const float t24 = fma(t12, (-0x1.27e4fcp-32f), 0x1.a01a02p-24f);
+    const float t25 = fma(t12, (-0x1.93974ap-51f), 0x1.1eed8ep-41f);
+    const float t26 = t12 * t12;
+    const float t27 = fma(t23, t26, t22);
+    const float t28 = fma(t25, t26, t24);
+    const float t29 = t26 * t26;
+    const float t30 = fma(t28, t29, t27);
+    const float t31 = t29 * t29;
+    const float t32 = fma(0x1.ae7f3ep-61f, t31, t30);
+    const float t42 = fma(t12, (-0x1.555556p-6f), 0x1p-1f);
+    const float t43 = fma(t12, (-0x1.a01a02p-20f), 0x1.111112p-12f);
+    const float t44 = fma(t12, (-0x1.ae6456p-37f), 0x1.71de3ap-28f);
+    const float t45 = fma(t12, (-0x1.ae7f3ep-56f), 0x1.612462p-46f);
+    const float t46 = fma(t26, t43, t42);
+    const float t47 = fma(t26, t45, t44);
+    const float t48 = fma(t29, t47, t46);
+    const float t49 = fma(t31, 0x1.952c78p-66f, t48);
+    const float t50 = x[0] * t49;
+    const float t51 = x[1] * t49;
+    const float t52 = x[2] * t49;
+    const float t54 = mu[1] * t52;
+    const float t55 = -mu[2];
+    const float t56 = fma(t51, t55, t54);
+    const float t57 = mu[2] * t50;
+    const float t58 = -mu[0];
+    const float t59 = fma(t52, t58, t57);
+    const float t60 = mu[0] * t51;
+    const float t61 = -mu[1];
+    const float t62 = fma(t50, t61, t60);
+    const float t63 = 2.0f * t56;
+    const float t64 = 2.0f * t59;
+    const float t65 = 2.0f * t62;
+    const float t66 = t52 * t64;
+    const float t67 = -t65;
+    const float t68 = fma(t51, t67, t66);
+    const float t69 = t50 * t65;
+    const float t70 = -t63;
+    const float t71 = fma(t52, t70, t69);
+    const float t72 = t51 * t63;
+    const float t73 = -t64;
+    const float t74 = fma(t50, t73, t72);
+    const float t75 = fma(t32, t63, mu[0]);
+    const float t76 = fma(t32, t64, mu[1]);
+    const float t77 = fma(t32, t65, mu[2]);
+    const float t78 = t68 + t75;
+    const float t79 = t71 + t76;
+    const float t80 = t74 + t77;
+    const float t81 = g[1] * t50;
+    const float t82 = fma(g[2], t51, t81);
+    const float t83 = fma(g[3], t52, t82);
+    const float t84 = -t83;
+    const float t85 = fma(g[0], t32, t84);
+    const float t86 = g[2] * t52;
+    const float t87 = -g[3];
+    const float t88 = fma(t51, t87, t86);
+    const float t89 = g[3] * t50;
+    const float t90 = -g[1];
+    const float t91 = fma(t52, t90, t89);
+    const float t92 = g[1] * t51;
+    const float t93 = -g[2];
+    const float t94 = fma(t50, t93, t92);
+    const float t95 = fma(g[0], t50, t88);
+    const float t96 = fma(g[0], t51, t91);
+    const float t97 = fma(g[0], t52, t94);
+    const float t98 = fma(g[1], t32, t95);
+    const float t99 = fma(g[2], t32, t96);
+    const float t100 = fma(g[3], t32, t97);
+    const float t101 = t85 * t85;
+    const float t102 = fma(t98, t98, t101);
+    const float t103 = fma(t99, t99, t102);
+    const float t104 = fma(t100, t100, t103);
+    const float t107 = fma(t104, (-0x1p-1f), 0x1.8p+0f);
+    const float t108 = t85 * t107;
+    const float t109 = t98 * t107;
+    const float t110 = t99 * t107;
+    const float t111 = t100 * t107;
+    g_next[0] = t108;
+    g_next[1] = t109;
+    g_next[2] = t110;
+    g_next[3] = t111;
+    mu_next[0] = t78;
+    mu_next[1] = t79;
+    mu_next[2] = t80;
+}
+
+INLINE void coadjoint_sound(const float *RESTRICT g, const float *RESTRICT mu, float *RESTRICT right)
+{
+    const float t8 = g[0] * g[0];
+    const float t9 = fma(g[1], g[1], t8);
+    const float t10 = fma(g[2], g[2], t9);
+    const float t11 = fma(g[3], g[3], t10);
+    const float t13 = t11 - 1.0f;
+    const float t14 = fabs(t13);
+    const float t15 = mu[0] - mu[0];
+    const float t16 = mu[1] - mu[1];
+    const float t17 = t15 + t16;
+    const float t18 = mu[2] - mu[2];
+    const float t19 = t17 + t18;
+    const float t20 = t14 + t19;
+    const float t22 = (t20 <= 0x1.6a09e6p-12f) ? 1.0f : 0.0f;
+    *right = t22;
+}
+
+KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *RESTRICT mu_state,
+    GLOBAL COUNT *RESTRICT done, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
+    const COUNT target)
+{
+    const COUNT row = ROW;
+    NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY], g_next[ELEMENT_ARRAY], mu_next[DIM_ARRAY];
+    NUMBER right;
+    COUNT total;
+    unsigned int why = 0u;
+    if (row >= rows) {
+        return;
+    }
+    total = done[row];
+    if (total >= target) {
+        return;
+    }
+    for (int i = 0; i < ELEMENT; i++) {
+        g[i] = g_state[i * rows + row];
+    }
+    for (int i = 0; i < DIM; i++) {
+        mu[i] = mu_state[i * rows + row];
+    }
+    while (total < target && why == 0u) {
+        const COUNT most = target - total < BLOCK ? target - total : BLOCK;
+        COUNT made = 0;
+        while (made < most) {
+            NUMBER p[DIM_ARRAY], p_next[DIM_ARRAY], x[DIM_ARRAY], k[CONSTANT_ARRAY];
+            NUMBER left = ONE, way = ZERO, moved;
+            coadjoint_guess(mu, p, k);
+            for (unsigned int correction = 1u; correction <= CORRECTIONS; correction++) {
+                coadjoint_correct(p, mu, k, p_next, x, &left, &moved);
+                for (int i = 0; i < DIM; i++) {
+                    p[i] = p_next[i];
+                }
+                way = PLUS(way, moved);
+                if (left <= TOLERANCE || !(way <= NEAR)) {
+                    break;
+                }
+            }
+            coadjoint_accept(mu, x, left, way, &right);
+            if (!(right == ONE)) {
+                why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;
+                break;
+            }
+            coadjoint_transport(g, mu, x, g_next, mu_next);
+            for (int i = 0; i < ELEMENT; i++) {
+                g[i] = g_next[i];
+            }
+            for (int i = 0; i < DIM; i++) {
+                mu[i] = mu_next[i];
+            }
+            made++;
+        }
+        if (made > 0) {
+            coadjoint_sound(g, mu, &right);
+            if (!(right == ONE)) {
+                why = 4u;
+                break;
+            }
+            for (int i = 0; i < ELEMENT; i++) {
+                g_state[i * rows + row] = g[i];
+            }
+            for (int i = 0; i < DIM; i++) {
+                mu_state[i * rows + row] = mu[i];
+            }
+            total += made;
+        }
+    }
+    done[row] = total;
+    status[row] = why;
+}
