@@ -12,7 +12,7 @@ use coadjoint_codegen::step::{REACH, Step, StepError};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_device::{Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
-use coadjoint_program::{Kernel, Precision};
+use coadjoint_program::{Kernel, Precision, Stepper};
 use nalgebra::DMatrix;
 
 /// A step with its folded coefficients.

@@ -16,7 +16,7 @@ use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_device::{Api, Card, Device, DeviceError, Refused, Row};
 use coadjoint_native::{COptions, Native};
-use coadjoint_program::{Kernel, Precision, Scratch, WIDTH};
+use coadjoint_program::{Kernel, Precision, Scratch, Stepper, WIDTH};
 
 #[derive(Parser)]
 struct Arguments {

@@ -1,10 +1,11 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
+use coadjoint_program::Precision;
+
 use super::part::Part;
 use super::product::Product;
 use super::programs::inputs;
 use super::vector::{Eliminated, Matrix, dot, largest};
-use coadjoint_program::Precision;
 
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
