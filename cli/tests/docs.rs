@@ -94,7 +94,9 @@ fn run(path: &str, folder: &Path) -> usize {
     std::fs::create_dir_all(folder.join("examples")).unwrap();
     for entry in std::fs::read_dir(support::root().join("examples")).unwrap() {
         let file = entry.unwrap().path();
-        std::fs::copy(&file, folder.join("examples").join(file.file_name().unwrap())).unwrap();
+        if file.is_file() {
+            std::fs::copy(&file, folder.join("examples").join(file.file_name().unwrap())).unwrap();
+        }
     }
     for block in blocks(&page, "toml") {
         let first = block.lines().next().unwrap_or_default();
