@@ -7,6 +7,7 @@
 #![allow(unsafe_code)]
 
 use std::ptr;
+use std::sync::{Mutex, PoisonError};
 
 use coadjoint_program::print::{DeviceLanguage, KERNEL_NAME, device_unit};
 use coadjoint_program::{Kernel, Precision};
@@ -79,8 +80,12 @@ fn options(found: &Found, precision: Precision) -> &'static str {
     }
 }
 
+/// Held while devices are looked for: pocl sets its own up when it is first asked, and not for two threads at once.
+static LOOKING: Mutex<()> = Mutex::new(());
+
 /// The device of this number: cards first, platform by platform.
 fn find(device: Device) -> Result<Found, DeviceError> {
+    let _one_at_a_time = LOOKING.lock().unwrap_or_else(PoisonError::into_inner);
     let platforms = match get_platforms() {
         Ok(platforms) => platforms,
         Err(ClError(DLOPEN_RUNTIME_LOAD_FAILED)) => {

@@ -1,7 +1,5 @@
 //! What generated code calls. Not part of the public interface; it may change at any time.
 
-use core::any::Any;
-
 use crate::error::StepError;
 use crate::generating::ScalarOf;
 use crate::generating::{Term, TermOf};
@@ -10,10 +8,8 @@ use crate::number::scalar::Scalar;
 pub use crate::solve::wide::{
     LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
 };
-use crate::solve::{Integrator, LOOK_AHEAD};
+use crate::solve::Integrator;
 use crate::step::phase::Phase;
-use nalgebra::SimdValue;
-use simba::simd::WideF64x4;
 
 /// A monomial, as pairs of a coordinate and its exponent.
 pub type Monomial = &'static [(u32, u32)];
@@ -287,32 +283,4 @@ const MOST_HALVINGS: u32 = 24;
 pub trait FinePart<C, const SLOTS: usize, const N: usize> {
     /// The fine part at `input`.
     fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], input: &[T; N]) -> [T; N];
-}
-
-/// [`FinePart::fine`] at several points: in the lanes of one number if coefficients are `f64`.
-#[inline(always)]
-pub fn fine_parts<C, P, P64, const SLOTS: usize, const N: usize>(
-    c: &[C; SLOTS],
-    points: &[[C; N]; LOOK_AHEAD],
-) -> [[C; N]; LOOK_AHEAD]
-where
-    C: Scalar,
-    P: FinePart<C, SLOTS, N>,
-    P64: FinePart<f64, SLOTS, N>,
-{
-    // Decided when compiled: `Any` only tells the compiler what `C` is.
-    let numbers = (c as &dyn Any).downcast_ref::<[f64; SLOTS]>();
-    let places = (points as &dyn Any).downcast_ref::<[[f64; N]; LOOK_AHEAD]>();
-    if let (Some(c), Some(points)) = (numbers, places) {
-        // As many steps as lanes, or this does not compile.
-        let lanes: [WideF64x4; N] =
-            core::array::from_fn(|i| WideF64x4::from(points.map(|point| point[i])));
-        let fine = P64::fine(c, &lanes);
-        let found: [[f64; N]; LOOK_AHEAD] =
-            core::array::from_fn(|k| core::array::from_fn(|i| fine[i].extract(k)));
-        if let Some(found) = (&found as &dyn Any).downcast_ref::<[[C; N]; LOOK_AHEAD]>() {
-            return *found;
-        }
-    }
-    points.map(|point| P::fine(c, &point))
 }

@@ -222,11 +222,11 @@ fn method(
     match (integrator.plan.solver, &integrator.parts) {
         (Solver::FixedPoint, _) => method(quote!(FixedPoint)),
         (Solver::Newton, None) => method(quote!(Newton<Self>)),
-        (Solver::Newton, Some(_)) if !in_blocks => method(quote!(LaggedNewton<Self>)),
+        (Solver::Newton, Some(_)) if !in_blocks => method(quote!(LaggedNewton)),
         (Solver::Newton, Some(_)) => {
             // Where registers are narrow, several steps at once take longer than one by one.
             let (several, single) =
-                (method(quote!(BlockNewton<Self>)), method(quote!(LaggedNewton<Self>)));
+                (method(quote!(BlockNewton<Self>)), method(quote!(LaggedNewton)));
             quote! {
                 #[cfg(target_feature = "avx2")]
                 #several
@@ -290,19 +290,6 @@ fn lagged_model(
                     &::core::convert::Into::into(*p),
                 );
                 ::core::convert::Into::into(fine)
-            }
-
-            #[inline(always)]
-            fn fine_gradients(
-                &self,
-                p: &[#vector; #krate::solve::LOOK_AHEAD],
-            ) -> [#vector; #krate::solve::LOOK_AHEAD] {
-                let p = <[#vector; #krate::solve::LOOK_AHEAD]>::map(*p, ::core::convert::Into::into);
-                let fine = #krate::plumbing::fine_parts::<T, Self, #name<f64>, #slots, #n>(
-                    &self.coefficients,
-                    &p,
-                );
-                <[[T; #n]; #krate::solve::LOOK_AHEAD]>::map(fine, ::core::convert::Into::into)
             }
 
             #[inline(always)]

@@ -92,8 +92,6 @@ struct Followed<V, T> {
 /// enough, steps go by [`LaggedNewton`].
 #[derive(Debug)]
 pub struct BlockNewton<S: BlockModel + ?Sized> {
-    /// How steps go that are not made at once.
-    otherwise: LaggedNewton<S>,
     /// Not made for a single step.
     block: Option<Block<S>>,
 }
@@ -129,8 +127,8 @@ struct Distance<T> {
 
 impl<S: BlockModel + ?Sized> Method<S> for BlockNewton<S> {
     #[inline(always)]
-    fn begin(generating: &S) -> Self {
-        Self { otherwise: LaggedNewton::begin(generating), block: None }
+    fn begin(_: &S) -> Self {
+        Self { block: None }
     }
 
     #[inline(always)]
@@ -143,12 +141,12 @@ impl<S: BlockModel + ?Sized> Method<S> for BlockNewton<S> {
     ) -> CandidateOf<S> {
         if !settings.goes_one_by_one() && (left >= LEAST || self.block.is_some()) {
             let block = self.block.get_or_insert_with(|| Block::new(generating));
-            let candidate = block.propose(generating, mu, left, settings, &mut self.otherwise);
+            let candidate = block.propose(generating, mu, left, settings);
             if let Some(candidate) = candidate {
                 return candidate;
             }
         }
-        one_by_one(&mut self.otherwise, generating, mu, left, settings)
+        one_by_one(generating, mu, left, settings)
     }
 
     #[inline(always)]
@@ -156,7 +154,6 @@ impl<S: BlockModel + ?Sized> Method<S> for BlockNewton<S> {
         if let Some(block) = &mut self.block {
             block.forget();
         }
-        self.otherwise.forget();
     }
 
     fn propose_from(
@@ -182,13 +179,12 @@ impl<S: BlockModel + ?Sized> Method<S> for BlockNewton<S> {
 /// A step without this, out of the way of what is fast.
 #[inline(never)]
 fn one_by_one<S: BlockModel + ?Sized>(
-    otherwise: &mut LaggedNewton<S>,
     generating: &S,
     mu: &VectorOf<S>,
     left: u64,
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
-    otherwise.next(generating, mu, left, settings)
+    LaggedNewton.propose(generating, mu, left, settings)
 }
 
 impl<S: BlockModel + ?Sized> Block<S> {
@@ -217,7 +213,6 @@ impl<S: BlockModel + ?Sized> Block<S> {
         mu: &VectorOf<S>,
         left: u64,
         settings: Settings<ScalarOf<S>>,
-        otherwise: &mut LaggedNewton<S>,
     ) -> Option<CandidateOf<S>> {
         // As often as the steps before were refined, there is no asking whether it takes that.
         let mut refinements = 0;
@@ -228,7 +223,6 @@ impl<S: BlockModel + ?Sized> Block<S> {
             if !self.look(generating, mu, left, settings) {
                 return None;
             }
-            otherwise.forget();
             refinements = core::mem::take(&mut self.needed);
         }
         loop {

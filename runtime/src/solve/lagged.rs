@@ -2,7 +2,6 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use super::look_ahead::LookAhead;
 use super::newton::{careful_newton, newton};
 use super::{Candidate, CandidateOf, Method, NewtonModel, Predict, Settings, Yardstick};
 use crate::chart::{Chart, half_turn};
@@ -10,9 +9,6 @@ use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-
-/// Steps of which the fine gradients are taken at once ([`LaggedModel::fine_gradients`]).
-pub const LOOK_AHEAD: usize = 4;
 
 /// Fine gradients taken, and corrections with the same one, before Newton's method takes over.
 const FINE_GRADIENTS: u32 = 4;
@@ -26,12 +22,6 @@ pub trait LaggedModel: NewtonModel + Predict {
     /// The fine gradient at p, ∂S/∂p less the coarse one; [`NewtonModel::hessian_defect`] bounds its derivative.
     fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self>;
 
-    /// The fine gradient at several points, those of steps to come.
-    #[inline(always)]
-    fn fine_gradients(&self, p: &[VectorOf<Self>; LOOK_AHEAD]) -> [VectorOf<Self>; LOOK_AHEAD] {
-        core::array::from_fn(|k| self.fine_gradient(&p[k]))
-    }
-
     /// The product of the Hessian of S₁ (the leading order in the step size) at p with `direction`.
     fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self>;
 }
@@ -43,46 +33,13 @@ pub trait LaggedModel: NewtonModel + Predict {
 /// two to three digits at h|Ω| = 0.4. Elimination would wait for divisions and for itself, and matrices
 /// go through memory: on SE(3) that takes longer than polynomials do. Where corrections gain little, [`Newton`](super::Newton)'s
 /// method takes over.
-#[derive(Clone, Debug)]
-pub struct LaggedNewton<S: LaggedModel + ?Sized> {
-    ahead: Guesses<LookAhead<VectorOf<S>, ScalarOf<S>>>,
-}
+#[derive(Clone, Copy, Debug)]
+pub struct LaggedNewton;
 
-/// Guesses for several steps.
-#[derive(Clone, Debug)]
-enum Guesses<A> {
-    /// Not asked for yet: a single step has no use for them.
-    Unknown,
-    /// The function offers none.
-    None,
-    Some(A),
-}
-
-impl<S: LaggedModel + ?Sized> LaggedNewton<S> {
-    /// As [`Method::propose`], in a run of several steps.
-    #[inline(always)]
-    pub(super) fn next(
-        &mut self,
-        generating: &S,
-        mu: &VectorOf<S>,
-        left: u64,
-        settings: Settings<ScalarOf<S>>,
-    ) -> CandidateOf<S> {
-        if left > 1 && matches!(self.ahead, Guesses::Unknown) {
-            self.ahead = LookAhead::new(generating).map_or(Guesses::None, Guesses::Some);
-        }
-        let start = match &mut self.ahead {
-            Guesses::Some(ahead) => ahead.next(generating, mu, left),
-            _ => Start::predicted(generating, mu),
-        };
-        lagged_newton(generating, mu, start, settings)
-    }
-}
-
-impl<S: LaggedModel + ?Sized> Method<S> for LaggedNewton<S> {
+impl<S: LaggedModel + ?Sized> Method<S> for LaggedNewton {
     #[inline(always)]
     fn begin(_: &S) -> Self {
-        Self { ahead: Guesses::Unknown }
+        Self
     }
 
     #[inline(always)]
@@ -90,18 +47,14 @@ impl<S: LaggedModel + ?Sized> Method<S> for LaggedNewton<S> {
         &mut self,
         generating: &S,
         mu: &VectorOf<S>,
-        left: u64,
+        _left: u64,
         settings: Settings<ScalarOf<S>>,
     ) -> CandidateOf<S> {
-        self.next(generating, mu, left, settings)
+        lagged_newton(generating, mu, Start::predicted(generating, mu), settings)
     }
 
     #[inline(always)]
-    fn forget(&mut self) {
-        if let Guesses::Some(ahead) = &mut self.ahead {
-            ahead.forget();
-        }
-    }
+    fn forget(&mut self) {}
 
     #[inline(always)]
     fn propose_from(
@@ -110,7 +63,7 @@ impl<S: LaggedModel + ?Sized> Method<S> for LaggedNewton<S> {
         guess: VectorOf<S>,
         settings: Settings<ScalarOf<S>>,
     ) -> CandidateOf<S> {
-        lagged_newton(generating, mu, Start::new(generating, None, guess), settings)
+        lagged_newton(generating, mu, Start { p: guess, x: None }, settings)
     }
 
     fn propose_scaled(
@@ -126,54 +79,36 @@ impl<S: LaggedModel + ?Sized> Method<S> for LaggedNewton<S> {
 
 /// Where the solve starts.
 #[derive(Clone, Debug)]
-pub(super) struct Start<V, T> {
+struct Start<V> {
     /// A first guess of p.
-    pub p: V,
-    /// A first guess of x, where there is one.
-    pub x: Option<V>,
-    /// Whether that p is (d^R τ_x)ᵀ μ.
-    pub settled: bool,
-    /// The fine gradient at p.
-    pub fine: V,
-    /// How much the fine gradient changes with p: |δ fine| / |δp| between the places of some steps, where
-    /// they are known.
-    pub slope: Option<T>,
+    p: V,
+    /// The x from which p was had, p = (d^R τ_x)ᵀ μ, where it was had so.
+    x: Option<V>,
 }
 
-impl<V: Coordinates<T>, T: Scalar> Start<V, T> {
-    /// A guess of p, with the x from which it was had, and the fine gradient there.
-    #[inline(always)]
-    pub fn new<S>(generating: &S, x: Option<V>, p: V) -> Self
-    where
-        S: LaggedModel + ?Sized,
-        S::Group: LieGroup<Vector = V, Scalar = T>,
-    {
-        let fine = generating.fine_gradient(&p);
-        Self { p, settled: x.is_some(), x, fine, slope: None }
-    }
-
+impl<V> Start<V> {
     /// The guess that `generating` makes from μ.
     #[inline(always)]
-    pub fn predicted<S>(generating: &S, mu: &V) -> Self
+    fn predicted<S>(generating: &S, mu: &V) -> Self
     where
         S: LaggedModel + ?Sized,
-        S::Group: LieGroup<Vector = V, Scalar = T>,
+        S::Group: LieGroup<Vector = V>,
     {
         let x = generating.predict_increment(mu);
         let p = match &x {
             Some(x) => S::Chart::default().pull_back(generating.group(), x, mu),
             None => generating.predict(mu),
         };
-        Self::new(generating, x, p)
+        Self { p, x }
     }
 }
 
 /// A step by [`LaggedNewton`].
 #[inline(always)]
-pub(super) fn lagged_newton<S: LaggedModel + ?Sized>(
+fn lagged_newton<S: LaggedModel + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
-    start: Start<VectorOf<S>, ScalarOf<S>>,
+    start: Start<VectorOf<S>>,
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     let (group, chart) = (generating.group(), S::Chart::default());
@@ -185,12 +120,12 @@ pub(super) fn lagged_newton<S: LaggedModel + ?Sized>(
     // Corrections are cheap: they leave less than rounding does.
     let rounding = half * ScalarOf::<S>::epsilon();
 
-    let Start { p: guess, x: known, mut settled, mut fine, slope } = start;
+    let Start { p: guess, x: known } = start;
+    let mut settled = known.is_some();
+    let mut fine = generating.fine_gradient(&guess);
     // D times the derivative of the fine gradient, |D| ≈ |μ|/2. Of the bound on it, which adds up the monomials'
-    // largest values, a quarter: it was found 2 to 60 times too large (tops, bodies in a fluid). Of what it
-    // was from step to step four times as much, for it may be larger in other directions.
-    let bound = half * half * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
-    let derivative = slope.map_or(bound, |slope| bound.simd_min(ScalarOf::<S>::of(4.0) * slope));
+    // largest values, a quarter: it was found 2 to 60 times too large (tops, bodies in a fluid).
+    let derivative = half * half * generating.hessian_defect(mu.pairing(mu).simd_sqrt());
     let defect = half * scale * derivative;
     let mut base = guess.clone();
     let mut solved = known.unwrap_or_else(|| generating.coarse_gradient(&base).plus(&fine));
