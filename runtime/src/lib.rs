@@ -49,7 +49,7 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 // Generated code names the runtime by its absolute path, here too.
-#[cfg(feature = "systems")]
+#[cfg(all(feature = "systems", not(test)))]
 extern crate self as coadjoint;
 
 mod chart;
@@ -67,7 +67,8 @@ pub mod plumbing;
 pub mod solve;
 mod step;
 pub mod steps;
-#[cfg(feature = "systems")]
+// Without tests of their own here (`tests/tests/systems_*.rs` has them), and half a minute of derivations.
+#[cfg(all(feature = "systems", not(test)))]
 pub mod systems;
 mod table;
 pub mod tune;

@@ -5,10 +5,10 @@ use crate::generating::ScalarOf;
 use crate::generating::{Term, TermOf};
 pub use crate::number::lift::Lift;
 use crate::number::scalar::Scalar;
+use crate::solve::Integrator;
 pub use crate::solve::wide::{
     LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
 };
-use crate::solve::Integrator;
 use crate::step::phase::Phase;
 
 /// A monomial, as pairs of a coordinate and its exponent.
