@@ -2,7 +2,7 @@
 //!
 //! Nothing here is added up and nothing fused, so the bits do not depend on the width.
 
-use pulp::Arch;
+use multiversion::multiversion;
 
 use super::activation::{Activation, Curve, Logistic, Tanh};
 
@@ -10,15 +10,15 @@ use super::activation::{Activation, Curve, Logistic, Tanh};
 macro_rules! with_curve {
     ($activation:expr, $work:ident($($argument:expr),*)) => {
         match $activation {
-            Activation::Tanh => Arch::new().dispatch(|| $work::<Tanh>($($argument),*)),
-            Activation::Logistic => Arch::new().dispatch(|| $work::<Logistic>($($argument),*)),
+            Activation::Tanh => $work::<Tanh>($($argument),*),
+            Activation::Logistic => $work::<Logistic>($($argument),*),
         }
     };
 }
 
 /// A ← σ(A).
 pub(super) fn apply(activation: Activation, values: &mut [f64]) {
-    #[inline(always)]
+    #[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
     fn work<C: Curve>(values: &mut [f64]) {
         values.iter_mut().for_each(|z| *z = C::value(*z));
     }
@@ -27,7 +27,7 @@ pub(super) fn apply(activation: Activation, values: &mut [f64]) {
 
 /// C ← B∘σ′, σ being A.
 pub(super) fn inner(activation: Activation, value: &[f64], above: &[f64], inner: &mut [f64]) {
-    #[inline(always)]
+    #[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
     fn work<C: Curve>(value: &[f64], above: &[f64], inner: &mut [f64]) {
         for ((c, b), a) in inner.iter_mut().zip(above).zip(value) {
             *c = b * C::slope(*a);
@@ -44,7 +44,7 @@ pub(super) fn upwards(
     by_above: &mut [f64],
     by_input: &mut [f64],
 ) {
-    #[inline(always)]
+    #[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
     fn work<C: Curve>(value: &[f64], above: &[f64], by_above: &mut [f64], by_input: &mut [f64]) {
         let targets = by_above.iter_mut().zip(by_input);
         for ((up, input), (a, b)) in targets.zip(value.iter().zip(above)) {
@@ -62,7 +62,7 @@ pub(super) fn downwards(
     by_value: &[f64],
     by_input: &mut [f64],
 ) {
-    #[inline(always)]
+    #[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
     fn work<C: Curve>(value: &[f64], by_value: &[f64], by_input: &mut [f64]) {
         for ((input, by_value), a) in by_input.iter_mut().zip(by_value).zip(value) {
             *input += by_value * C::slope(*a);

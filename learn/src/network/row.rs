@@ -3,7 +3,7 @@
 //! Long rows are cut into blocks which threads share. The cuts and the order of additions are part of
 //! the result, so they are fixed: the bits do not depend on how many threads there are.
 
-use pulp::{Arch, Simd, WithSimd};
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 /// Entries of a block: enough work to be worth handing to a thread.
@@ -21,17 +21,9 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     in_order(blocks.map(|(a, b)| dot_of_block(a, b)))
 }
 
+#[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
 fn dot_of_block(a: &[f64], b: &[f64]) -> f64 {
-    struct Work<'a>(&'a [f64], &'a [f64]);
-    impl WithSimd for Work<'_> {
-        type Output = f64;
-
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, _: S) -> f64 {
-            products(self.0, self.1)
-        }
-    }
-    Arch::new().dispatch(Work(a, b))
+    products(a, b)
 }
 
 fn in_order(sums: impl IndexedParallelIterator<Item = f64>) -> f64 {
@@ -66,21 +58,22 @@ pub(super) fn add_and_dot(
     other: &[f64],
     with: &[f64],
 ) -> f64 {
-    struct Work<'a>(&'a mut [f64], f64, f64, &'a [f64], &'a [f64]);
-    impl WithSimd for Work<'_> {
-        type Output = f64;
-
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, _: S) -> f64 {
-            let Self(target, scale, factor, other, with) = self;
-            target.iter_mut().zip(other).for_each(|(t, o)| *t = scale * *t + factor * o);
-            products(target, with)
-        }
-    }
     let blocks = target.par_chunks_mut(BLOCK).zip(other.par_chunks(BLOCK));
     in_order(blocks.zip(with.par_chunks(BLOCK)).map(|((target, other), with)| {
-        Arch::new().dispatch(Work(target, scale, factor, other, with))
+        add_and_dot_of_block(target, scale, factor, other, with)
     }))
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]
+fn add_and_dot_of_block(
+    target: &mut [f64],
+    scale: f64,
+    factor: f64,
+    other: &[f64],
+    with: &[f64],
+) -> f64 {
+    target.iter_mut().zip(other).for_each(|(t, o)| *t = scale * *t + factor * o);
+    products(target, with)
 }
 
 /// f of the entries of N rows of one length.
