@@ -5,12 +5,12 @@ use std::fmt::Write;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 
-use super::Derived;
+use super::Series;
 use super::coefficient::terms;
 
 /// A head, then one polynomial per order.
-pub fn series(derived: &Derived) -> String {
-    let Derived { problem, series } = derived;
+pub fn series(derived: &Series) -> String {
+    let Series { problem, series } = derived;
     let mut out = String::new();
     let _ = writeln!(
         out,

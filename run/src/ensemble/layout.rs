@@ -1,6 +1,6 @@
 //! Which columns a row of states has, in files as in memory.
 
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// How a row gives the attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl Layout {
 
     /// The layout of a file with named columns, and for each of its columns the number in the
     /// file. Other columns are not looked at.
-    pub fn find(shape: Shape, header: &[String]) -> Result<(Self, Vec<usize>), CliError> {
+    pub fn find(shape: Shape, header: &[String]) -> Result<(Self, Vec<usize>), RunError> {
         let any = |attitude| {
             let names = Self { shape, attitude }.names();
             names.into_iter().skip(shape.dim).find(|name| header.contains(name))
@@ -67,7 +67,7 @@ impl Layout {
             ["q_w", "q_x", "q_y", "q_z"].into_iter().find(|q| header.iter().any(|h| h == q));
         let attitude = match (any(Attitude::Matrix), quaternion) {
             (Some(g), Some(q)) => {
-                return Err(CliError::Option(format!(
+                return Err(RunError::Option(format!(
                     "columns {g} and {q} both give the attitude: keep either g_… or q_w, q_x, q_y, q_z"
                 )));
             }
@@ -76,7 +76,7 @@ impl Layout {
             (None, None) => Attitude::None,
         };
         if attitude == Attitude::Quaternion && !shape.quaternions {
-            return Err(CliError::Option(format!(
+            return Err(RunError::Option(format!(
                 "columns q_w … q_z: elements of this group are no quaternions; give the attitude \
                  as a {d}×{d} matrix, {first} …",
                 d = shape.matrix_size
@@ -85,7 +85,7 @@ impl Layout {
         for (column, name) in header.iter().enumerate() {
             let index = name.strip_prefix("mu_").and_then(|index| index.parse::<usize>().ok());
             if index.is_some_and(|index| index == 0 || index > shape.dim) {
-                return Err(CliError::Option(format!(
+                return Err(RunError::Option(format!(
                     "column {name}: the momentum of this system has the coordinates mu_1 … mu_{}; \
                      take it out or give it another name",
                     shape.dim
@@ -93,7 +93,7 @@ impl Layout {
             }
             let ours = Self { shape, attitude }.names().contains(name);
             if let Some(before) = header[..column].iter().position(|h| ours && h == name) {
-                return Err(CliError::Option(format!(
+                return Err(RunError::Option(format!(
                     "column {name} is there twice, in row 1 as cells {} and {}: keep one",
                     before + 1,
                     column + 1
@@ -103,7 +103,7 @@ impl Layout {
         let layout = Self { shape, attitude };
         let place = |name: String| {
             header.iter().position(|h| *h == name).ok_or_else(|| {
-                CliError::Option(format!(
+                RunError::Option(format!(
                     "column {name} is missing: this system needs {}; the file has {}",
                     layout.names().join(", "),
                     header.join(", ")
@@ -115,14 +115,14 @@ impl Layout {
     }
 
     /// The layout of a matrix without names, by its width.
-    pub fn of_width(shape: Shape, width: usize) -> Result<Self, CliError> {
+    pub fn of_width(shape: Shape, width: usize) -> Result<Self, RunError> {
         let forms = [Attitude::None, Attitude::Matrix, Attitude::Quaternion];
         let layouts = forms.map(|attitude| Self { shape, attitude });
         let possible = |l: &&Self| l.attitude != Attitude::Quaternion || shape.quaternions;
         let widths: Vec<String> =
             layouts.iter().filter(possible).map(|l| l.width().to_string()).collect();
         layouts.iter().filter(possible).find(|l| l.width() == width).copied().ok_or_else(|| {
-            CliError::Option(format!(
+            RunError::Option(format!(
                 "the array has {width} columns; this system needs {}: {} for the momentum alone, \
                  more with the attitude",
                 widths.join(" or "),
@@ -137,31 +137,4 @@ fn matrix(size: usize) -> Vec<String> {
     let separator = if size > 9 { "_" } else { "" };
     let places = (1..=size).flat_map(|i| (1..=size).map(move |j| (i, j)));
     places.map(|(i, j)| format!("g_{i}{separator}{j}")).collect()
-}
-
-/// All columns of a file of names, in its order.
-#[derive(Clone, Debug)]
-pub struct Table {
-    /// The names.
-    pub header: Vec<String>,
-    /// For each cell of a row, the number of the layout's column, or nothing where it is carried
-    /// through as it is.
-    pub own: Vec<Option<usize>>,
-}
-
-impl Table {
-    /// Of a header, in which the layout's columns are at `places`.
-    pub fn new(header: Vec<String>, places: &[usize]) -> Self {
-        let mut own = vec![None; header.len()];
-        for (column, &place) in places.iter().enumerate() {
-            own[place] = Some(column);
-        }
-        Self { header, own }
-    }
-
-    /// The names of the columns that are carried through.
-    pub fn others(&self) -> impl Iterator<Item = &str> + '_ {
-        let names = self.header.iter().zip(&self.own);
-        names.filter(|(_, own)| own.is_none()).map(|(name, _)| name.as_str())
-    }
 }

@@ -1,11 +1,9 @@
 //! A piece of an ensemble in memory.
 
-use ::csv::ByteRecord;
-
 /// A row that has no end state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rejected {
-    /// Its number in the input file, from 1, the line of names not counted.
+    /// Its number, from 1; in a file the line of names is not counted.
     pub row: u64,
     /// The step that could not be made, from 1; 0 where the row itself is at fault.
     pub step: u64,
@@ -16,12 +14,10 @@ pub struct Rejected {
 /// Consecutive rows, numbers side by side.
 #[derive(Clone, Debug, Default)]
 pub struct Rows {
-    /// The number of the first one in the input file, from 1.
+    /// The number of the first one, from 1.
     pub first: u64,
     /// Row-major.
     pub values: Vec<f64>,
-    /// For each row the cells of the columns that are carried through, where there are any.
-    pub others: Vec<ByteRecord>,
     /// Rows already known to be bad, ascending.
     pub rejected: Vec<Rejected>,
 }
@@ -31,7 +27,6 @@ impl Rows {
     pub fn clear(&mut self, first: u64) {
         self.first = first;
         self.values.clear();
-        self.others.clear();
         self.rejected.clear();
     }
 

@@ -7,13 +7,13 @@ use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 use num_traits::{One, Signed};
 
-use super::Derived;
+use super::Series;
 use super::coefficient::terms;
 
 /// An `align` environment with one row per order that does not vanish; in a comoving frame S generates
 /// the flow of H₀.
-pub fn series(derived: &Derived) -> String {
-    let Derived { problem, series } = derived;
+pub fn series(derived: &Series) -> String {
+    let Series { problem, series } = derived;
     let mut rows = vec![format!("H &= {}", polynomial(problem, &problem.hamiltonian))];
     if let Some(frame) = &problem.comoving {
         rows.push(format!("H - H_0 &= {}", polynomial(problem, &frame.energy())));
@@ -24,7 +24,8 @@ pub fn series(derived: &Derived) -> String {
     format!("\\begin{{align}}\n{}\n\\end{{align}}\n", rows.join(" \\\\\n"))
 }
 
-fn polynomial(problem: &Problem, polynomial: &Polynomial) -> String {
+/// A polynomial in the momentum.
+pub fn polynomial(problem: &Problem, polynomial: &Polynomial) -> String {
     let mut out = String::new();
     for term in terms(problem, polynomial) {
         let negative = term.number().is_some_and(Rational::is_negative);

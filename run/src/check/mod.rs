@@ -1,25 +1,21 @@
-//! `coadjoint check`: the laws of the method, tried on this system at random points.
+//! The laws of the method, tried on a system at random points.
 
 mod order;
-mod report;
 
 use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
-use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::system::{Parameters, System};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::arguments::CheckOptions;
 use crate::engine::{
     Forces, Group, Interpreter, STEEP, Steepness, advise, cayley_group, product_group,
 };
-use crate::error::CliError;
-use crate::load;
+use crate::error::RunError;
+use crate::load::Derived;
 
-/// The step of a file that names none.
-const DEFAULT_STEP: f64 = 0.1;
+/// The step of a system that names none.
+pub const DEFAULT_STEP: f64 = 0.1;
 
 /// A law and how well it holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,46 +30,6 @@ pub struct Law {
     pub bound: f64,
     /// Whether it holds.
     pub pass: bool,
-}
-
-/// Tries all laws, prints them, and fails if one does not hold.
-pub fn run(options: &CheckOptions) -> Result<(), CliError> {
-    let path = &options.source.file;
-    let System { problem, potential, run, .. } =
-        load::source(&options.source, options.truncation, Parameters::Substituted)?;
-    let step = options.step.or(run.step).unwrap_or(DEFAULT_STEP);
-    if step == 0.0 || !step.is_finite() {
-        let what = "--step must be finite and other than zero; try --step 0.1";
-        return Err(CliError::Option(what.to_owned()));
-    }
-    if options.points == 0 {
-        return Err(CliError::Option("--points counts from 1; try --points 3".to_owned()));
-    }
-    let size = run.momentum.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
-    let group = product_group(path, &problem.algebra)?;
-    let integrator = load::integrator(path, problem)?;
-    let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
-    let trial = Trial {
-        integrator: &integrator,
-        forces: forces.as_ref(),
-        step,
-        size: if size > 0.0 { size } else { 1.0 },
-        points: options.points,
-        seed: options.seed,
-    };
-    let (laws, warning) = match integrator.problem.chart {
-        lie::Chart::Exponential => trial.laws::<_, Exponential>(group)?,
-        lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?)?,
-    };
-    if let Some(warning) = &warning {
-        eprintln!("warning: {}", warning.text());
-    }
-    out!("{}", report::report(&trial, &laws, warning.as_ref(), options.format));
-    let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
-    if failed.is_empty() {
-        return Ok(());
-    }
-    Err(CliError::Laws(format!("these laws do not hold: {}", failed.join(", "))))
 }
 
 /// The series hardly converges at a point.
@@ -95,14 +51,39 @@ impl Steep {
 }
 
 /// What is tried: a system, a step size, and points of a size.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Trial<'a> {
-    integrator: &'a Integrator,
-    forces: Option<&'a Forces>,
-    step: f64,
-    size: f64,
-    points: usize,
-    seed: u64,
+    /// The system.
+    pub system: &'a Derived,
+    /// The step size.
+    pub step: f64,
+    /// How large momenta are.
+    pub size: f64,
+    /// How many points.
+    pub points: usize,
+    /// The seed of the points.
+    pub seed: u64,
+}
+
+/// Tries all laws; and what there is to be said of the series.
+///
+/// # Errors
+/// Settings that make no sense, and steps that cannot be made.
+pub fn check(trial: &Trial<'_>) -> Result<(Vec<Law>, Option<Steep>), RunError> {
+    if trial.step == 0.0 || !trial.step.is_finite() {
+        let what = "--step must be finite and other than zero; try --step 0.1";
+        return Err(RunError::Option(what.to_owned()));
+    }
+    if trial.points == 0 {
+        return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
+    }
+    let path = &trial.system.file;
+    let problem = &trial.system.integrator.problem;
+    let group = product_group(path, &problem.algebra)?;
+    match problem.chart {
+        lie::Chart::Exponential => trial.laws::<_, Exponential>(group),
+        lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?),
+    }
 }
 
 /// The laws of [`coadjoint::laws::check`] that are printed: its name, ours, and what it says.
@@ -116,12 +97,12 @@ const LAWS: [(&str, &str, &str); 6] = [
 ];
 
 impl Trial<'_> {
-    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), CliError> {
+    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let points: Vec<_> =
             (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();
-        let at = |source| CliError::Step { time: 0.0, source };
-        let make = |h| Interpreter::<G, C>::new(self.integrator, group.clone(), h);
+        let at = |source| RunError::Step { time: 0.0, source };
+        let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
         let map = |h| make(h).map_err(at);
         let there = map(self.step)?;
         let steepness = Steepness::new(&there);
@@ -141,12 +122,12 @@ impl Trial<'_> {
         });
         let mut laws: Vec<Law> = printed.collect();
         let start = random_phase(&group, self.size, &mut random);
-        let expected = self.integrator.order() as f64;
+        let expected = self.system.integrator.order() as f64;
         laws.push(order::measure(self.step, expected, &group, &start, |h, steps, state| {
-            let map = Interpreter::<G, C>::new(self.integrator, group.clone(), h)?;
+            let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         }));
-        if let Some(forces) = self.forces {
+        if let Some(forces) = &self.system.forces {
             laws.extend(self.kicked::<G, C>(forces, &group, &points, &start).map_err(at)?);
         }
         Ok((laws, steep))
@@ -160,7 +141,7 @@ impl Trial<'_> {
         points: &[Phase<G>],
         start: &Phase<G>,
     ) -> Result<Vec<Law>, StepError> {
-        let make = |h| forces.step::<G, C>(self.integrator, group, h);
+        let make = |h| forces.step::<G, C>(&self.system.integrator, group, h);
         let (there, back) = (make(self.step)?, make(-self.step)?);
         let (mut symplectic, mut symmetric) = (None, 0.0_f64);
         for point in points {
@@ -185,7 +166,7 @@ impl Trial<'_> {
         }
         let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
         result.push(law("symmetric+V", statement, symmetric, 1e-11));
-        let expected = forces.order().min(self.integrator.order() as u32);
+        let expected = forces.order().min(self.system.integrator.order() as u32);
         let order = order::measure(self.step, expected.into(), group, start, |h, steps, state| {
             let step = make(h)?;
             (0..steps).try_for_each(|n| step(state, f64::from(n) * h))

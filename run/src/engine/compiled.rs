@@ -7,7 +7,7 @@ use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 use super::restore::{entries_of, phase_of};
 use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
 /// coordinates they would write out.
@@ -48,10 +48,10 @@ impl Compiled {
         backend: Backend,
         steps: f64,
         trajectories: Trajectories,
-    ) -> Result<Option<Self>, CliError> {
+    ) -> Result<Option<Self>, RunError> {
         let unfit = |why: &dyn std::fmt::Display| match backend {
             Backend::Auto | Backend::Interpreter => Ok(None),
-            _ => Err(CliError::Option(format!("--backend: {why}"))),
+            _ => Err(RunError::Option(format!("--backend: {why}"))),
         };
         let step = match Step::build(interpreter.integrator, REACH) {
             Ok(step) => step,

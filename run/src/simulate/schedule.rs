@@ -4,8 +4,8 @@ use std::path::Path;
 
 use coadjoint_codegen::system::Run;
 
-use super::number::shortest;
-use crate::error::CliError;
+use crate::number::shortest;
+use crate::error::RunError;
 
 /// The most steps of a run: beyond, the time is surely a slip.
 const MOST_STEPS: f64 = 1e12;
@@ -35,15 +35,23 @@ impl Schedule {
         step: Option<f64>,
         time: Option<f64>,
         run: &Run,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let missing =
-            |key, example, option| CliError::Missing { file: file.into(), key, example, option };
+            |key, example, option| RunError::Missing { file: file.into(), key, example, option };
         let asked = step.or(run.step);
         let asked =
             asked.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
         let time = time.or(run.time);
         let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
-        let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
+        Self::of(asked, time)
+    }
+
+    /// Steps of about this size that end at this time.
+    ///
+    /// # Errors
+    /// Where the step or the time makes no sense.
+    pub fn of(asked: f64, time: f64) -> Result<Self, RunError> {
+        let refuse = |what: &str| Err(RunError::Option(what.to_owned()));
         if asked == 0.0 || !asked.is_finite() {
             return refuse("--step must be finite and other than zero; try --step 0.1");
         }
@@ -81,21 +89,6 @@ impl Schedule {
             )
         })
     }
-}
-
-/// The step size used and how many steps end at the time T, by the options, else by the file. Where it is
-/// not the step asked for, a line on the error stream says so.
-pub fn schedule(
-    file: &Path,
-    step: Option<f64>,
-    time: Option<f64>,
-    run: &Run,
-) -> Result<(f64, u64), CliError> {
-    let schedule = Schedule::new(file, step, time, run)?;
-    if let Some(line) = schedule.announcement() {
-        eprintln!("{line}");
-    }
-    Ok((schedule.step, schedule.steps))
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use super::number::shortest;
+use crate::number::shortest;
 use super::schedule::Schedule;
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// How many times are written out in full where a run is described.
 const LISTED: usize = 16;
@@ -21,21 +21,29 @@ impl Times {
     ///
     /// # Errors
     /// Where it is neither, or a time is not in the run.
-    pub fn read(argument: &str, schedule: &Schedule) -> Result<Self, CliError> {
-        let refuse = |what: String| CliError::Option(format!("--at {argument}: {what}"));
+    pub fn read(argument: &str, schedule: &Schedule) -> Result<Self, RunError> {
+        let refuse = |what: String| RunError::Option(format!("--at {argument}: {what}"));
         let list = argument.split(',').map(|word| word.trim().parse::<f64>());
-        let mut times = match list.collect::<Result<Vec<f64>, _>>() {
+        let times = match list.collect::<Result<Vec<f64>, _>>() {
             Ok(times) => times,
             Err(_) => file(Path::new(argument)).map_err(refuse)?,
         };
+        Self::new(times, schedule).map_err(refuse)
+    }
+
+    /// These times, which must be in the run.
+    ///
+    /// # Errors
+    /// Where there are none, or one is not in the run.
+    pub fn new(mut times: Vec<f64>, schedule: &Schedule) -> Result<Self, String> {
         if times.is_empty() {
-            return Err(refuse("no times are given".into()));
+            return Err("no times are given".into());
         }
         let end = schedule.end;
         let within = |t: &f64| (0.0..=end.abs()).contains(&(t * end.signum()));
         if let Some(outside) = times.iter().find(|time| !within(time)) {
             let end = shortest(end);
-            return Err(refuse(format!("{outside} is not between 0 and the end, {end}")));
+            return Err(format!("{outside} is not between 0 and the end, {end}"));
         }
         times.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         times.dedup();

@@ -13,7 +13,7 @@ use coadjoint_codegen::potential::Potential;
 use nalgebra::DMatrix;
 use num_traits::ToPrimitive;
 
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// The degree up to which Casimirs are looked for to watch their drift.
 const CASIMIR_DEGREE: u32 = 3;
@@ -22,7 +22,7 @@ const CASIMIR_DEGREE: u32 = 3;
 pub fn product_group(
     path: &Path,
     algebra: &LieAlgebra,
-) -> Result<DirectProduct<MatrixGroup>, CliError> {
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
     let mut known: Vec<(LieAlgebra, MatrixGroup)> = Vec::new();
     let group = |factor: LieAlgebra| {
         if let Some((_, group)) = known.iter().find(|(other, _)| *other == factor) {
@@ -32,7 +32,7 @@ pub fn product_group(
         known.push((factor, group.clone()));
         Ok(group)
     };
-    let groups: Result<Vec<_>, CliError> = algebra.factors().into_iter().map(group).collect();
+    let groups: Result<Vec<_>, RunError> = algebra.factors().into_iter().map(group).collect();
     Ok(DirectProduct::new(groups?))
 }
 
@@ -40,10 +40,10 @@ pub fn product_group(
 pub fn cayley_group(
     path: &Path,
     group: &DirectProduct<MatrixGroup>,
-) -> Result<DirectProduct<CayleyMatrixGroup>, CliError> {
+) -> Result<DirectProduct<CayleyMatrixGroup>, RunError> {
     let factors: Result<Vec<_>, TableError> =
         group.factors().map(|factor| factor.clone().into_cayley()).collect();
-    let failed = |source| CliError::Group { file: path.into(), source };
+    let failed = |source| RunError::Group { file: path.into(), source };
     Ok(DirectProduct::new(factors.map_err(failed)?))
 }
 
@@ -53,7 +53,7 @@ pub fn whole_group(
     path: &Path,
     algebra: &LieAlgebra,
     potential: Option<&Potential>,
-) -> Result<DirectProduct<MatrixGroup>, CliError> {
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
     Ok(DirectProduct::new(vec![matrix_group(path, algebra, potential)?]))
 }
 
@@ -64,7 +64,7 @@ fn matrix_group(
     path: &Path,
     algebra: &LieAlgebra,
     potential: Option<&Potential>,
-) -> Result<MatrixGroup, CliError> {
+) -> Result<MatrixGroup, RunError> {
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
     let group = match algebra.basis() {
@@ -78,7 +78,7 @@ fn matrix_group(
     let terms = casimirs(algebra).iter().filter(kept).map(terms).collect();
     group
         .and_then(|group| group.with_casimirs(terms))
-        .map_err(|source| CliError::Group { file: path.into(), source })
+        .map_err(|source| RunError::Group { file: path.into(), source })
 }
 
 /// The Casimirs whose drift is watched: generators up to the highest degree that is not too much

@@ -9,15 +9,15 @@ use coadjoint_program::print::{DeviceLanguage, device_unit};
 
 use super::Interpreter;
 use super::compiled::MOST_OPERATIONS;
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
 fn programs<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     interpreter: &Interpreter<'_, G, C>,
     precision: Precision,
     option: &str,
-) -> Result<(Step, Vec<f64>), CliError> {
-    let failed = |why: &dyn std::fmt::Display| CliError::Option(format!("{option}: {why}"));
+) -> Result<(Step, Vec<f64>), RunError> {
+    let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
     let step = Step::build_in(interpreter.integrator, REACH, precision);
     let step = step.map_err(|error| failed(&error))?;
     let programs = step.kernel().programs();
@@ -39,10 +39,10 @@ pub fn card<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     interpreter: &Interpreter<'_, G, C>,
     device: Device,
     precision: Precision,
-) -> Result<Card, CliError> {
+) -> Result<Card, RunError> {
     let (step, slots) = programs(interpreter, precision, "--device")?;
     let card = Card::new(device, step.kernel(), &slots);
-    card.map_err(|error| CliError::Option(format!("--device: {error}")))
+    card.map_err(|error| RunError::Option(format!("--device: {error}")))
 }
 
 /// The kernel that makes the steps of `interpreter`, as a text that says `about` of itself.
@@ -54,7 +54,7 @@ pub fn device_text<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     precision: Precision,
     language: DeviceLanguage,
     about: &str,
-) -> Result<String, CliError> {
+) -> Result<String, RunError> {
     let (step, slots) = programs(interpreter, precision, "--language")?;
     Ok(device_unit(step.kernel(), &slots, language, about))
 }

@@ -12,40 +12,16 @@ use rayon::prelude::*;
 
 use super::engine::larger;
 use super::pack::{Manner, redo};
-use crate::arguments::EnsembleOptions;
 use crate::engine::{Interpreter, Numbers, card};
-use crate::error::CliError;
-
-/// A precision by its name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum PrecisionName {
-    /// 64 bits: the bits of every other way
-    #[default]
-    Double,
-    /// 32 bits: faster on most cards; what is conserved drifts by 1e-7 and above
-    Single,
-}
-
-impl From<PrecisionName> for Precision {
-    fn from(name: PrecisionName) -> Self {
-        match name {
-            PrecisionName::Double => Self::Double,
-            PrecisionName::Single => Self::Single,
-        }
-    }
-}
+use crate::error::RunError;
 
 /// The device that is to make the steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    device: Device,
-    precision: Precision,
-}
-
-/// What the command line asks for.
-pub fn asked(options: &EnsembleOptions) -> Option<Asked> {
-    let precision = options.precision.into();
-    options.device.map(|device| Asked { device, precision })
+    /// Which.
+    pub device: Device,
+    /// Its numbers.
+    pub precision: Precision,
 }
 
 /// The device that makes the steps.
@@ -89,7 +65,7 @@ impl std::fmt::Display for Use {
 pub fn open<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     interpreter: &Interpreter<'_, G, C>,
     asked: Asked,
-) -> Result<Card, CliError> {
+) -> Result<Card, RunError> {
     card(interpreter, asked.device, asked.precision)
 }
 
@@ -117,7 +93,7 @@ pub fn march(
     settle: &(dyn Fn(&mut Numbers) + Sync),
     states: &mut [Numbers],
     (steps, told): (u64, &dyn Fn(u64)),
-) -> Result<Moved, CliError> {
+) -> Result<Moved, RunError> {
     let mut rows: Vec<Row> = states
         .iter_mut()
         .map(|own| Row {
@@ -169,6 +145,6 @@ fn note(failed: &Mutex<BTreeMap<usize, Failure>>, index: usize, step: u64, error
     failed.insert(index, Failure { index, step, error });
 }
 
-fn stopped(error: DeviceError) -> CliError {
-    CliError::Device(error)
+fn stopped(error: DeviceError) -> RunError {
+    RunError::Device(error)
 }

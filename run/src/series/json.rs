@@ -5,11 +5,11 @@ use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 use serde::Serialize;
 
-use super::Derived;
+use super::Series;
 use super::coefficient::terms;
 
 #[derive(Serialize)]
-struct Series {
+struct Object {
     system: String,
     group: String,
     #[serde(rename = "H")]
@@ -34,9 +34,9 @@ struct Term {
 }
 
 /// The whole object.
-pub fn series(derived: &Derived) -> String {
-    let Derived { problem, series } = derived;
-    let object = Series {
+pub fn series(derived: &Series) -> String {
+    let Series { problem, series } = derived;
+    let object = Object {
         system: problem.name.clone(),
         group: problem.algebra.name().to_owned(),
         hamiltonian: list(problem, &problem.hamiltonian),

@@ -13,7 +13,7 @@ use super::rows::Rows;
 use super::steps::Steps;
 use crate::backend::Backend;
 use crate::engine::{Restore, cayley_group, product_group};
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// The largest drifts over an ensemble, each row's relative to its own size.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,13 +58,16 @@ pub trait Engine: Sync {
         steps: u64,
         rows: &mut Rows,
         made: &dyn Fn(u64),
-    ) -> Result<Drift, CliError>;
+    ) -> Result<Drift, RunError>;
 
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
     fn device(&self) -> Option<Use>;
 
     /// What else evaluates steps, in a few words.
     fn backend(&self) -> String;
+
+    /// What could not be had, and what takes its place.
+    fn notes(&self) -> &[String];
 }
 
 /// What is to make the steps.
@@ -84,7 +87,7 @@ pub fn engine<'a>(
     integrator: &'a Integrator,
     step: f64,
     how: How,
-) -> Result<Box<dyn Engine + 'a>, CliError> {
+) -> Result<Box<dyn Engine + 'a>, RunError> {
     let group = product_group(path, &integrator.problem.algebra)?;
     match integrator.problem.chart {
         lie::Chart::Exponential => {
@@ -102,7 +105,7 @@ fn on<'a, G, C>(
     group: G,
     step: f64,
     how: How,
-) -> Result<Box<dyn Engine + 'a>, CliError>
+) -> Result<Box<dyn Engine + 'a>, RunError>
 where
     G: Restore<Element: Send + Sync> + Send + Sync + 'a,
     C: Chart<G> + Send + Sync + 'a,

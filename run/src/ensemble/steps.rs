@@ -21,7 +21,7 @@ use super::rows::{Rejected, Rows};
 use crate::engine::{
     Compiled, Interpreter, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
 /// forgets everything at the end of so many steps, so that cutting a run there changes no bit.
@@ -65,9 +65,9 @@ where
         group: G,
         step: f64,
         how: How,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
-            .map_err(|source| CliError::Step { time: 0.0, source })?;
+            .map_err(|source| RunError::Step { time: 0.0, source })?;
         let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes)?;
         let card = how.device.map(|asked| device::open(&stepper, asked)).transpose()?;
         let attitudes = Attitudes::of(&integrator.problem.algebra);
@@ -188,7 +188,7 @@ where
         states: &mut [Numbers],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> Result<(BTreeMap<usize, Failure>, f64), CliError> {
+    ) -> Result<(BTreeMap<usize, Failure>, f64), RunError> {
         let steepness = Steepness::new(&self.stepper);
         let ratio = |mu: &[f64]| steepness.ratio(&DVector::from_column_slice(mu));
         let before = states.iter().map(|state| ratio(&state.mu)).fold(0.0, larger);
@@ -218,7 +218,7 @@ where
         states: &mut [Numbers],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> Result<(BTreeMap<usize, Failure>, f64), CliError> {
+    ) -> Result<(BTreeMap<usize, Failure>, f64), RunError> {
         // A thread that panicked has left a whole card: its rows are its own.
         let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
         let single = card.precision() == Precision::Single;
@@ -291,13 +291,17 @@ where
         self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), words)
     }
 
+    fn notes(&self) -> &[String] {
+        self.compiled.as_ref().map_or(&[], |compiled| compiled.code().notes())
+    }
+
     fn advance(
         &self,
         layout: &Layout,
         steps: u64,
         rows: &mut Rows,
         made: &dyn Fn(u64),
-    ) -> Result<Drift, CliError> {
+    ) -> Result<Drift, RunError> {
         let width = layout.width();
         let read: Vec<_> =
             rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();

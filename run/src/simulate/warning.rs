@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::number::shortest;
+use crate::number::shortest;
 use crate::engine::STEEP;
 
 /// Where the last two terms of the series came near to each other first.
