@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use coadjoint_codegen::emit::TooManyTerms;
-use coadjoint_codegen::emit::c::HeaderError;
 use coadjoint_learn::LearnError;
 use coadjoint_run::RunError;
 
@@ -23,22 +21,6 @@ pub enum CliError {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
-    },
-    /// The series is too large to write as Rust.
-    #[error("{}: {source}", .file.display())]
-    Size {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: TooManyTerms,
-    },
-    /// The system is not written as C.
-    #[error("{}: {source}", .file.display())]
-    Header {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: HeaderError,
     },
     /// A file that cannot be written.
     #[error("cannot write {}: {message}", .path.display())]
@@ -77,7 +59,7 @@ impl CliError {
     /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Option(_) | Self::Read { .. } | Self::Size { .. } | Self::Header { .. } => 2,
+            Self::Option(_) | Self::Read { .. } => 2,
             Self::Run(error) if error.is_input() => 2,
             Self::Run(_)
             | Self::Rows { .. }

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use coadjoint::{StepError, groups::ElementError, groups::TableError};
+use coadjoint_codegen::emit::TooManyTerms;
+use coadjoint_codegen::emit::c::HeaderError;
 use coadjoint_codegen::hamilton_jacobi::DeriveError;
 use coadjoint_codegen::tolerance::ToleranceError;
 
@@ -45,6 +47,22 @@ pub enum RunError {
         file: PathBuf,
         /// Why.
         source: ToleranceError,
+    },
+    /// The series is too large to write as Rust.
+    #[error("{}: {source}", .file.display())]
+    Size {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TooManyTerms,
+    },
+    /// The system is not written as C.
+    #[error("{}: {source}", .file.display())]
+    Header {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: HeaderError,
     },
     /// The data defines no group.
     #[error("{}: {source}", .file.display())]
@@ -105,6 +123,8 @@ impl RunError {
             | Self::Missing { .. }
             | Self::Derive { .. }
             | Self::Tolerance { .. }
+            | Self::Size { .. }
+            | Self::Header { .. }
             | Self::Group { .. }
             | Self::Element { .. } => true,
             Self::Step { .. } | Self::Run { .. } | Self::Halted { .. } | Self::Device(_) => false,

@@ -2,6 +2,7 @@
 
 mod backend;
 pub mod check;
+pub mod emit;
 pub mod engine;
 pub mod ensemble;
 mod error;

@@ -191,7 +191,8 @@ impl<'a> Keeper<'a> {
     fn tend(&mut self, standing: &Standing<'_>) -> Result<(), CliError> {
         let schedule = &self.settings.setup.schedule;
         let (n, end) = (standing.step, standing.step == schedule.steps);
-        if let Some(bar) = self.bar.as_ref().filter(|_| self.shown.elapsed() >= progress::INTERVAL) {
+        if let Some(bar) = self.bar.as_ref().filter(|_| self.shown.elapsed() >= progress::INTERVAL)
+        {
             bar.set_position(n);
             self.shown = Instant::now();
         }

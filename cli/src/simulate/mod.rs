@@ -79,7 +79,8 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let (label, coordinates) = (system.label(setup), &problem.coordinates);
         let keeper = Keeper::new(&settings, label, header.clone(), coordinates, true);
         let drive = |outlet: &mut dyn Outlet| coadjoint_run::simulate::run(&system, setup, outlet);
-        let trajectory = Trajectory { truncation: Some(problem.truncation), ..keeper.follow(drive)? };
+        let trajectory =
+            Trajectory { truncation: Some(problem.truncation), ..keeper.follow(drive)? };
         runs.push(trajectory);
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {

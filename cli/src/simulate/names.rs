@@ -42,8 +42,8 @@ pub fn columns(coordinates: &[String], blocks: &[Block], energy: bool) -> Vec<St
 
 #[cfg(test)]
 mod tests {
-    use coadjoint_run::simulate::Kind;
     use super::*;
+    use coadjoint_run::simulate::Kind;
 
     #[test]
     fn columns_have_the_names_of_the_file_and_none_twice() {

@@ -50,11 +50,9 @@ impl Steep {
     }
 }
 
-/// What is tried: a system, a step size, and points of a size.
+/// What is tried: a step size, and points of a size.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial<'a> {
-    /// The system.
-    pub system: &'a Derived,
+pub struct Trial {
     /// The step size.
     pub step: f64,
     /// How large momenta are.
@@ -65,25 +63,41 @@ pub struct Trial<'a> {
     pub seed: u64,
 }
 
+impl Trial {
+    /// Refuses settings that make no sense.
+    ///
+    /// # Errors
+    /// By the name of the setting.
+    pub fn new(step: f64, size: f64, points: usize, seed: u64) -> Result<Self, RunError> {
+        if step == 0.0 || !step.is_finite() {
+            let what = "--step must be finite and other than zero; try --step 0.1";
+            return Err(RunError::Option(what.to_owned()));
+        }
+        if points == 0 {
+            return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
+        }
+        Ok(Self { step, size, points, seed })
+    }
+}
+
 /// Tries all laws; and what there is to be said of the series.
 ///
 /// # Errors
-/// Settings that make no sense, and steps that cannot be made.
-pub fn check(trial: &Trial<'_>) -> Result<(Vec<Law>, Option<Steep>), RunError> {
-    if trial.step == 0.0 || !trial.step.is_finite() {
-        let what = "--step must be finite and other than zero; try --step 0.1";
-        return Err(RunError::Option(what.to_owned()));
-    }
-    if trial.points == 0 {
-        return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
-    }
-    let path = &trial.system.file;
-    let problem = &trial.system.integrator.problem;
+/// Where a step cannot be made.
+pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<Steep>), RunError> {
+    let path = &system.file;
+    let problem = &system.integrator.problem;
     let group = product_group(path, &problem.algebra)?;
+    let tried = Tried { system, trial };
     match problem.chart {
-        lie::Chart::Exponential => trial.laws::<_, Exponential>(group),
-        lie::Chart::Cayley => trial.laws::<_, Cayley>(cayley_group(path, &group)?),
+        lie::Chart::Exponential => tried.laws::<_, Exponential>(group),
+        lie::Chart::Cayley => tried.laws::<_, Cayley>(cayley_group(path, &group)?),
     }
+}
+
+struct Tried<'a> {
+    system: &'a Derived,
+    trial: &'a Trial,
 }
 
 /// The laws of [`coadjoint::laws::check`] that are printed: its name, ours, and what it says.
@@ -96,34 +110,36 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-impl Trial<'_> {
+impl Tried<'_> {
     fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        let points: Vec<_> =
-            (0..self.points).map(|_| random_phase(&group, self.size, &mut random)).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(self.trial.seed);
+        let points: Vec<_> = (0..self.trial.points)
+            .map(|_| random_phase(&group, self.trial.size, &mut random))
+            .collect();
         let at = |source| RunError::Step { time: 0.0, source };
         let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
         let map = |h| make(h).map_err(at);
-        let there = map(self.step)?;
+        let there = map(self.trial.step)?;
         let steepness = Steepness::new(&there);
         let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
         let ratio = ratios.fold(0.0, worse);
         let steep = (ratio > STEEP).then_some(Steep { ratio });
-        let tried = laws::check(&there, Some(&map(-self.step)?), &points).map_err(|error| {
-            let works = |step: &Interpreter<'_, G, C>| {
-                points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
-            };
-            at(advise(error, self.step, |h| make(h).is_ok_and(|step| works(&step))))
-        })?;
+        let tried =
+            laws::check(&there, Some(&map(-self.trial.step)?), &points).map_err(|error| {
+                let works = |step: &Interpreter<'_, G, C>| {
+                    points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
+                };
+                at(advise(error, self.trial.step, |h| make(h).is_ok_and(|step| works(&step))))
+            })?;
         let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
             let law = tried.iter().find(|law| law.name == known)?;
             let (value, bound, pass) = (law.value, law.bound, law.pass());
             Some(Law { name, statement, value, bound, pass })
         });
         let mut laws: Vec<Law> = printed.collect();
-        let start = random_phase(&group, self.size, &mut random);
+        let start = random_phase(&group, self.trial.size, &mut random);
         let expected = self.system.integrator.order() as f64;
-        laws.push(order::measure(self.step, expected, &group, &start, |h, steps, state| {
+        laws.push(order::measure(self.trial.step, expected, &group, &start, |h, steps, state| {
             let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         }));
@@ -142,14 +158,14 @@ impl Trial<'_> {
         start: &Phase<G>,
     ) -> Result<Vec<Law>, StepError> {
         let make = |h| forces.step::<G, C>(&self.system.integrator, group, h);
-        let (there, back) = (make(self.step)?, make(-self.step)?);
+        let (there, back) = (make(self.trial.step)?, make(-self.trial.step)?);
         let (mut symplectic, mut symmetric) = (None, 0.0_f64);
         for point in points {
             let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0))?;
             symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
             let mut state = point.clone();
             there(&mut state, 0.0)?;
-            back(&mut state, self.step)?;
+            back(&mut state, self.trial.step)?;
             let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
             symmetric = worse(symmetric, difference);
         }
@@ -167,10 +183,11 @@ impl Trial<'_> {
         let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
         result.push(law("symmetric+V", statement, symmetric, 1e-11));
         let expected = forces.order().min(self.system.integrator.order() as u32);
-        let order = order::measure(self.step, expected.into(), group, start, |h, steps, state| {
-            let step = make(h)?;
-            (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
-        });
+        let order =
+            order::measure(self.trial.step, expected.into(), group, start, |h, steps, state| {
+                let step = make(h)?;
+                (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
+            });
         let statement = "flows and kicks: that of the splitting";
         result.push(Law { name: "order+V", statement, ..order });
         Ok(result)

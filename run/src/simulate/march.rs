@@ -190,8 +190,7 @@ impl<'a, G: Restore> March<'a, G> {
                 outlet.warn(&warning.text());
             }
             self.record(state, stepper, outlet)?;
-            let standing =
-                Standing { step: state.n, state: &|| self.kept(state, stepper) };
+            let standing = Standing { step: state.n, state: &|| self.kept(state, stepper) };
             outlet.pause(&standing).map_err(|_| self.halted(state.n))?;
         }
         Ok(())

@@ -233,12 +233,7 @@ impl<'a, G: Group> Recorder<'a, G> {
     }
 
     /// The run, which ended at `phase`.
-    pub fn finish(
-        self,
-        (steps, time): (u64, f64),
-        phase: &Phase<G>,
-        moment: &Moment,
-    ) -> Outcome {
+    pub fn finish(self, (steps, time): (u64, f64), phase: &Phase<G>, moment: &Moment) -> Outcome {
         let Tally { drift, iterations, residual, steep } = self.tally;
         Outcome {
             steps,

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use coadjoint_codegen::system::Run;
 
-use crate::number::shortest;
 use crate::error::RunError;
+use crate::number::shortest;
 
 /// The most steps of a run: beyond, the time is surely a slip.
 const MOST_STEPS: f64 = 1e12;

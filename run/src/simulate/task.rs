@@ -33,11 +33,7 @@ const SIDE_STEPS: u32 = 8;
 ///
 /// # Errors
 /// Settings that make no sense, and why the run stopped.
-pub fn run(
-    system: &Derived,
-    setup: &Setup,
-    outlet: &mut dyn Outlet,
-) -> Result<Outcome, RunError> {
+pub fn run(system: &Derived, setup: &Setup, outlet: &mut dyn Outlet) -> Result<Outcome, RunError> {
     let problem = &system.integrator.problem;
     let follows = [("--tuned", setup.tuned), ("--fitted", setup.fitted.is_some())];
     if let Some((option, _)) = follows.iter().find(|(_, given)| *given)

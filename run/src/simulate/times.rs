@@ -4,9 +4,9 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::number::shortest;
 use super::schedule::Schedule;
 use crate::error::RunError;
+use crate::number::shortest;
 
 /// How many times are written out in full where a run is described.
 const LISTED: usize = 16;

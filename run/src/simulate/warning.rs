@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::number::shortest;
 use crate::engine::STEEP;
+use crate::number::shortest;
 
 /// Where the last two terms of the series came near to each other first.
 #[derive(Clone, Copy, Debug, PartialEq)]
