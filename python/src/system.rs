@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::System;
-use coadjoint_run::ensemble::{self, How, Layout, Shape, Watch};
+use coadjoint_run::ensemble::{self, Attitude, How, Layout, Shape, Watch};
 use coadjoint_run::simulate::{Outcome, Schedule, Setup, Single, Times, run, split};
 use coadjoint_run::{
     Accuracy, Backend, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
@@ -152,12 +152,8 @@ impl Core {
         let of = |i| units.coordinate(i).map(str::to_owned);
         let of: Vec<Option<String>> = (0..problem.algebra.dim()).map(of).collect();
         facts.set_item("units", of)?;
-        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
-            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
-            None => algebra.dim(),
-        };
-        let sizes: usize = problem.algebra.factors().iter().map(size).sum();
-        let whole = size(&problem.algebra);
+        let sizes: usize = problem.algebra.factors().iter().map(rows_of).sum();
+        let whole = rows_of(&problem.algebra);
         facts.set_item("matrix_size", if potential.is_some() { whole } else { sizes })?;
         Ok(facts)
     }
@@ -336,16 +332,13 @@ impl Core {
     /// rotations, with quaternions.
     fn layouts(&self) -> Vec<Vec<String>> {
         let algebra = &self.system.problem.algebra;
-        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
-            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
-            None => algebra.dim(),
-        };
-        let matrix_size = algebra.factors().iter().map(size).sum();
+        let matrix_size = algebra.factors().iter().map(rows_of).sum();
         let shape = Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" };
-        use ensemble::Attitude::{Matrix, None, Quaternion};
-        let forms =
-            if shape.quaternions { &[None, Matrix, Quaternion][..] } else { &[None, Matrix][..] };
-        forms.iter().map(|&attitude| Layout { shape, attitude }.names()).collect()
+        let mut forms = vec![Attitude::None, Attitude::Matrix];
+        if shape.quaternions {
+            forms.push(Attitude::Quaternion);
+        }
+        forms.into_iter().map(|attitude| Layout { shape, attitude }.names()).collect()
     }
 
     /// Steps of this size, ready to be made.
@@ -498,6 +491,14 @@ pub fn emitted(
     }
 }
 
+/// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
+fn rows_of(algebra: &lie::LieAlgebra) -> usize {
+    match algebra.basis() {
+        Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
+        None => algebra.dim(),
+    }
+}
+
 /// Rows that Python has given.
 struct Given {
     values: Vec<f64>,
@@ -533,12 +534,8 @@ impl verify::Rows for Given {
 fn record_size(system: &System, setup: &Setup) -> f64 {
     let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
     let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
-    let block = |algebra: &lie::LieAlgebra| {
-        let rows = algebra.basis().and_then(|basis| basis.first()).map(lie::RationalMatrix::rows);
-        rows.unwrap_or(algebra.dim()).pow(2)
-    };
     let algebra = &system.problem.algebra;
-    let entries: usize = algebra.factors().iter().map(block).sum();
+    let entries: usize = algebra.factors().iter().map(|factor| rows_of(factor).pow(2)).sum();
     if setup.recording {
         8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64
     } else {
