@@ -1,21 +1,16 @@
 //! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
 //! states.
 
-mod attitude;
 mod device;
-mod engine;
 mod input;
 mod journal;
-mod layout;
 mod output;
-mod pack;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 mod report;
-mod rows;
 mod run;
 mod shard;
-mod steps;
+mod table;
 
 pub use device::PrecisionName;
 pub use shard::Shard;
@@ -23,14 +18,13 @@ pub use shard::Shard;
 use std::path::Path;
 
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::system::{Parameters, System};
+use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
+use coadjoint_run::ensemble::{How, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
 use crate::{load, simulate};
-use device::Use;
 use journal::{Identity, fingerprint};
 use run::Job;
 
@@ -40,16 +34,8 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
-    let System { mut problem, potential, run, .. } = system;
-    // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
-    problem.solver = Some(Solver::Newton);
-    if potential.is_some() {
-        return Err(CliError::Option(
-            "ensembles of systems with a potential do not run on the command line: emit the step, \
-             and see `Kicked`"
-                .into(),
-        ));
-    }
+    let run = system.run.clone();
+    let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     if same_file(&options.initial, &options.out) {
         return Err(CliError::Option("--out must be another file than --initial".into()));
@@ -61,8 +47,9 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let asked = device::asked(options);
     // What a device refuses is little.
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
-    let how = engine::How { backend: options.backend, work, device: asked };
-    let engine = engine::engine(path, &integrator, step, how)?;
+    let how = How { backend: options.backend.into(), work, device: asked };
+    let engine = engine(path, &integrator, step, how)?;
+    engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let input = input::open(&options.initial, engine.shape())?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;
