@@ -59,9 +59,11 @@ pub(super) fn add_and_dot(
     with: &[f64],
 ) -> f64 {
     let blocks = target.par_chunks_mut(BLOCK).zip(other.par_chunks(BLOCK));
-    in_order(blocks.zip(with.par_chunks(BLOCK)).map(|((target, other), with)| {
-        add_and_dot_of_block(target, scale, factor, other, with)
-    }))
+    in_order(
+        blocks.zip(with.par_chunks(BLOCK)).map(|((target, other), with)| {
+            add_and_dot_of_block(target, scale, factor, other, with)
+        }),
+    )
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2"))]

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
-use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{Chart, LieGroup, StepError};
 use coadjoint_codegen::graph::Arithmetic;
 use coadjoint_device::{Card, Device, DeviceError, Refused, Row};
@@ -12,6 +11,7 @@ use rayon::prelude::*;
 
 use super::engine::larger;
 use super::pack::{Manner, redo};
+use super::rows::Stopped;
 use crate::engine::{Interpreter, Numbers, card};
 use crate::error::RunError;
 
@@ -73,7 +73,7 @@ pub fn open<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
 #[derive(Debug)]
 pub struct Moved {
     /// Why those stopped that did, by their places.
-    pub failed: BTreeMap<usize, Failure>,
+    pub failed: BTreeMap<usize, Stopped>,
     /// The largest ratio of the last two terms of the series that was met.
     pub ratio: f64,
     /// How many were moved in part by others, since the device refused a step.
@@ -139,10 +139,10 @@ pub fn march(
     Ok(Moved { failed, ratio, redone: places.len() as u64 })
 }
 
-fn note(failed: &Mutex<BTreeMap<usize, Failure>>, index: usize, step: u64, error: StepError) {
+fn note(failed: &Mutex<BTreeMap<usize, Stopped>>, index: usize, step: u64, error: StepError) {
     // A thread that panicked has added a whole entry or none.
     let mut failed = failed.lock().unwrap_or_else(PoisonError::into_inner);
-    failed.insert(index, Failure { index, step, error });
+    failed.insert(index, Stopped { index, step, error });
 }
 
 fn stopped(error: DeviceError) -> RunError {

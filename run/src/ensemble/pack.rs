@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{StepError, StepReport};
 use coadjoint_program::WIDTH;
 use rayon::prelude::*;
 
+use super::rows::Stopped;
 use super::steps::STRETCH;
 use crate::engine::{Compiled, Numbers};
 
@@ -145,7 +145,7 @@ pub fn march(
     states: &mut [Numbers],
     (steps, stretch): (u64, u64),
     told: &dyn Fn(u64),
-) -> (BTreeMap<usize, Failure>, f64) {
+) -> (BTreeMap<usize, Stopped>, f64) {
     let mut packs: Vec<Pack> = states.chunks(WIDTH).map(Pack::new).collect();
     let mut done = 0;
     while done < steps && !manner.stop.load(Ordering::Relaxed) {
@@ -159,7 +159,7 @@ pub fn march(
         let (pack, lane) = (&packs[place / WIDTH], place % WIDTH);
         *state = pack.state(lane);
         if let Some((step, error)) = pack.stopped[lane] {
-            failed.insert(place, Failure { index: place, step, error });
+            failed.insert(place, Stopped { index: place, step, error });
         }
     }
     let ratio =

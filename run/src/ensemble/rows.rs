@@ -1,5 +1,7 @@
 //! A piece of an ensemble in memory.
 
+use coadjoint::StepError;
+
 /// A row that has no end state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rejected {
@@ -9,6 +11,17 @@ pub struct Rejected {
     pub step: u64,
     /// Why.
     pub reason: String,
+}
+
+/// A trajectory whose next step could not be made.
+#[derive(Clone, Debug)]
+pub struct Stopped {
+    /// Which one, counted from 0.
+    pub index: usize,
+    /// The step, counted from 0. The state is the one before it.
+    pub step: u64,
+    /// Why.
+    pub error: StepError,
 }
 
 /// Consecutive rows, numbers side by side.

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_device::Card;
@@ -17,7 +16,7 @@ use super::device::{self, Use};
 use super::engine::{Drift, Engine, How, Watch, larger};
 use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
-use super::rows::{Rejected, Rows};
+use super::rows::{Rejected, Rows, Stopped};
 use crate::engine::{
     Compiled, Interpreter, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
@@ -188,7 +187,7 @@ where
         states: &mut [Numbers],
         steps: u64,
         watch: &Watch<'_>,
-    ) -> Result<(BTreeMap<usize, Failure>, f64), RunError> {
+    ) -> Result<(BTreeMap<usize, Stopped>, f64), RunError> {
         let steepness = Steepness::new(&self.stepper);
         let ratio = |mu: &[f64]| steepness.ratio(&DVector::from_column_slice(mu));
         let before = states.iter().map(|state| ratio(&state.mu)).fold(0.0, larger);
@@ -218,7 +217,7 @@ where
         states: &mut [Numbers],
         steps: u64,
         made: &dyn Fn(u64),
-    ) -> Result<(BTreeMap<usize, Failure>, f64), RunError> {
+    ) -> Result<(BTreeMap<usize, Stopped>, f64), RunError> {
         // A thread that panicked has left a whole card: its rows are its own.
         let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
         let single = card.precision() == Precision::Single;
@@ -239,7 +238,7 @@ where
         steps: u64,
         steepness: &Steepness<'_, Interpreter<'a, G, C>>,
         watch: &Watch<'_>,
-    ) -> (BTreeMap<usize, Failure>, f64) {
+    ) -> (BTreeMap<usize, Stopped>, f64) {
         let lone = |state: &Numbers| Lone { phase: self.phase(state), stopped: None, ratio: 0.0 };
         let mut moving: Vec<Lone<G>> = states.par_iter().map(lone).collect();
         let mut done = 0;
@@ -263,7 +262,7 @@ where
             *state = self.numbers(&own.phase);
             ratio = larger(ratio, own.ratio);
             if let Some((step, error)) = own.stopped {
-                failed.insert(index, Failure { index, step, error });
+                failed.insert(index, Stopped { index, step, error });
             }
         }
         (failed, ratio)
