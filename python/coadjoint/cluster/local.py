@@ -1,0 +1,138 @@
+"""Shards in processes of this machine, or in this process."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Iterable
+
+from . import shard
+from .errors import InputError, WorkerDied
+from .shard import Summary, Task
+
+_START = (
+    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "
+    "from coadjoint.cluster.worker import main; main()"
+)
+
+
+class Here:
+    """One shard after the other in this process."""
+
+    capacity = 1
+
+    def submit(self, task: Task) -> Task:
+        """Nothing is done before it is asked for."""
+        return _Handle(task)
+
+    def wait(self, handles: Iterable[_Handle]) -> list[_Handle]:
+        """All can be asked for."""
+        return list(handles)
+
+    def result(self, handle: _Handle) -> Summary:
+        """Makes the shard."""
+        return shard.run(handle.task)
+
+    def workers(self) -> int:
+        """This one."""
+        return 1
+
+    def close(self) -> None:
+        """Nothing is left."""
+
+
+class _Handle:
+    def __init__(self, task: Task) -> None:
+        self.task = task
+
+
+class Processes:
+    """Processes of this machine, each with a thread that feeds it. One that dies is replaced.
+
+    They are interpreters of their own and never import the caller's script, which therefore needs no guard
+    against being run again.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.capacity = count
+        self._threads = concurrent.futures.ThreadPoolExecutor(count, thread_name_prefix="coadjoint")
+        self._own = threading.local()
+        self._all: set[subprocess.Popen[bytes]] = set()
+        self._closed = False
+
+    def submit(self, task: Task) -> concurrent.futures.Future[Summary]:
+        """Hands the shard to the next process that is free."""
+        return self._threads.submit(self._run, task)
+
+    def wait(self, handles: Iterable[concurrent.futures.Future[Summary]]) -> Iterable:
+        """Those that are done."""
+        first = concurrent.futures.FIRST_COMPLETED
+        return concurrent.futures.wait(list(handles), timeout=0.5, return_when=first).done
+
+    def result(self, handle: concurrent.futures.Future[Summary]) -> Summary:
+        """Its summary."""
+        return handle.result()
+
+    def workers(self) -> int:
+        """Processes that run."""
+        return len(self._all)
+
+    def close(self) -> None:
+        """Ends all processes."""
+        self._closed = True
+        for process in list(self._all):
+            process.kill()
+        self._threads.shutdown(wait=True, cancel_futures=True)
+        for process in list(self._all):
+            _end(process)
+
+    def _run(self, task: Task) -> Summary:
+        process = getattr(self._own, "process", None)
+        if process is None or process.poll() is not None:
+            process = self._own.process = self._begin()
+        try:
+            pickle.dump(task, process.stdin)
+            process.stdin.flush()
+            answer = pickle.load(process.stdout)
+        except (EOFError, BrokenPipeError, pickle.UnpicklingError):
+            self._own.process = None
+            self._all.discard(process)
+            code = _end(process)
+            how = f"signal {-code}" if code < 0 else f"exit code {code}"
+            raise WorkerDied(f"the worker process {process.pid} ended by {how}") from None
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    def _begin(self) -> subprocess.Popen[bytes]:
+        if self._closed:
+            raise WorkerDied("the run has ended")
+        pipe = subprocess.PIPE
+        process = subprocess.Popen([sys.executable, "-c", _START], stdin=pipe, stdout=pipe)
+        self._all.add(process)
+        if self._closed:
+            process.kill()
+        pickle.dump([os.path.abspath(entry) for entry in sys.path], process.stdin)
+        return process
+
+
+def _end(process: subprocess.Popen[bytes]) -> int:
+    for pipe in (process.stdin, process.stdout):
+        try:
+            pipe.close()
+        except (BrokenPipeError, ValueError):
+            pass
+    return process.wait()
+
+
+def engine(workers: int | None) -> Here | Processes:
+    """This process for one worker, else so many processes; as many as there are processors if not given."""
+    if workers is None:
+        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+        raise InputError(f"workers = {workers!r}: a whole number, at least 1, is needed")
+    return Here() if workers == 1 else Processes(workers)

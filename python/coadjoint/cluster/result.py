@@ -1,0 +1,132 @@
+"""What a run has left: its parts, its bad rows, and whether all of it is as it was written."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import pyarrow.parquet as pq
+
+from . import manifest, shard
+from .errors import ClusterError, ManifestError
+from .files import Folder, absolute
+from .plan import Plan
+
+SUMMARY = "_run/summary.json"
+
+
+@dataclass(frozen=True)
+class Result:
+    """A run, or the share of one that a call has made."""
+
+    #: The folder.
+    out: str
+    #: Rows of the shards that the call was for.
+    rows: int
+    #: Rows of them without an end state: NaN in the parts, and listed.
+    bad: int
+    #: Shards that this call has made, and those that it has found finished.
+    made: int
+    kept: int
+    #: Whether the whole run is finished, not only this share.
+    complete: bool
+    #: The largest relative drifts.
+    drift: dict[str, float]
+    warnings: list[str]
+    seconds: float
+    rows_per_second: float
+    #: Seconds that each shard of this call took its worker, by its number.
+    shard_seconds: dict[int, float]
+    #: The largest memory of a worker, in bytes.
+    worker_memory: int
+    storage_options: dict[str, Any] | None = None
+
+    def bad_rows(self) -> Iterator[dict[str, Any]]:
+        """The rows without an end state: row (counted from 0), step, reason."""
+        return bad_rows(self.out, self.storage_options)
+
+
+def bad_rows(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = None) -> Iterator[dict[str, Any]]:
+    """The rows without an end state in a folder of results, in their order."""
+    folder = Folder(absolute(out), storage_options)
+    for name in folder.names("_run"):
+        if name.startswith("bad-"):
+            for line in (folder.read(f"_run/{name}") or b"").splitlines():
+                yield json.loads(line)
+
+
+def summarize(folder: Folder, plan: Plan) -> bool:
+    """Writes the record of a whole run, if it is whole; whether it is."""
+    there = set(folder.names("_run"))
+    if any(shard.record(i).removeprefix("_run/") not in there for i in range(plan.shards)):
+        return False
+    total: dict[str, Any] = {"rows": 0, "bad": 0, "shards": plan.shards, "drift": {}}
+    for i in range(plan.shards):
+        entry = json.loads(folder.read(shard.record(i)) or b"{}")
+        total["rows"] += entry["rows"]
+        total["bad"] += entry["bad"]
+        for name, value in entry["drift"].items():
+            total["drift"][name] = max(total["drift"].get(name, 0.0), value)
+    folder.write(SUMMARY, lambda file: file.write(manifest.encode(total)) and None)
+    return True
+
+
+def check(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = None) -> dict[str, Any]:
+    """Reads everything that a finished run has written and compares it with its records.
+
+    Returns the record of the run: rows, bad, shards, drift. Raises ClusterError with the shards that are missing or
+    changed; calling ``run`` again makes them.
+    """
+    folder = Folder(absolute(out), storage_options)
+    known = manifest.read(folder)
+    if known is None:
+        raise ManifestError(f"{folder.name} has no manifest: it is no folder of coadjoint.cluster.run")
+    plan = Plan(known["plan"]["rows"], known["plan"]["rows_per_shard"])
+    wrong = []
+    for number in range(plan.shards):
+        start, stop = plan.range(number)
+        if shard.finished(folder, number, start, stop, verify=True) is None:
+            wrong.append(number)
+    if wrong:
+        some = ", ".join(map(str, wrong[:10])) + (", …" if len(wrong) > 10 else "")
+        raise ClusterError(
+            f"{folder.name}: of {plan.shards} shards {len(wrong)} are missing or changed ({some}); call run again"
+        )
+    summarize(folder, plan)
+    return json.loads(folder.read(SUMMARY) or b"{}")
+
+
+def join(
+    out: str | os.PathLike[str], to: str | os.PathLike[str], storage_options: dict[str, Any] | None = None
+) -> int:
+    """Checks a finished run and writes its parts, one after the other, into one Parquet file; returns the rows.
+
+    It is rarely needed: whatever reads a folder of Parquet files reads the folder as it is.
+    """
+    check(out, storage_options)
+    folder = Folder(absolute(out), storage_options)
+    parts = [name for name in folder.names() if name.startswith("part-") and name.endswith(".parquet")]
+    target = absolute(to)
+    parent, _, name = target.rpartition("/")
+    rows = 0
+
+    def fill(file: Any) -> None:
+        nonlocal rows
+        sink = None
+        for part in parts:
+            with folder.fs.open(folder.at(part), "rb") as source, pq.ParquetFile(source) as parquet:
+                sink = sink or shard.writer(file, parquet.schema_arrow)
+                for group in range(parquet.num_row_groups):
+                    table = parquet.read_row_group(group, use_threads=False)
+                    sink.write_table(table, row_group_size=max(table.num_rows, 1))
+                    rows += table.num_rows
+        sink.close()
+
+    Folder(parent, storage_options).write(name, fill)
+    return rows
+
+
+__all__ = ["Result", "bad_rows", "check", "join", "summarize"]

@@ -1,0 +1,242 @@
+"""The one function below all engines: a range of rows in, a Parquet file and a short record out."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from . import core, states
+from .errors import ClusterError, ShardError
+from .files import LASTING, Folder
+from .manifest import encode
+from .plan import group_rows
+
+
+@dataclass(frozen=True)
+class Task:
+    """Everything that a worker needs for one shard; pickles as text and numbers."""
+
+    shard: int
+    start: int
+    stop: int
+    pieces: list[tuple[str, int, int, int]]
+    columns: list[str]
+    keep: list[str]
+    #: What makes the steps: see ``core``.
+    job: dict[str, Any]
+    #: Versions that the bytes depend on.
+    versions: dict[str, str]
+    out: str
+    storage_options: dict[str, Any] | None
+    threads: int
+    #: Whether a finished shard is read again in full before it is kept.
+    verify: bool
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What became of one shard."""
+
+    shard: int
+    rows: int
+    bad: int
+    #: The largest relative drifts, spatial momentum and Casimirs.
+    drift: dict[str, float]
+    warnings: list[str]
+    #: Whether an earlier run had made it.
+    kept: bool
+    seconds: float
+    worker: str
+    #: The largest memory of the worker so far, in bytes; 0 where the system does not say.
+    memory: int
+
+
+def number(name: str) -> int | None:
+    """The shard that a file belongs to, by its name; None for files of the run as a whole."""
+    digits = name.split(".", 1)[0].rpartition("-")[2]
+    return int(digits) if digits.isdigit() else None
+
+
+def part(shard: int) -> str:
+    """The name of the file of end states."""
+    return f"part-{shard:05}.parquet"
+
+
+def record(shard: int) -> str:
+    """The name of the record that says a shard is finished; it is written last."""
+    return f"_run/shard-{shard:05}.json"
+
+
+def bad_list(shard: int) -> str:
+    """The name of the list of rows without an end state."""
+    return f"_run/bad-{shard:05}.jsonl"
+
+
+def run(task: Task) -> Summary:
+    """Makes a shard, or keeps the finished one. Running it twice, even at once, leaves the same files."""
+    begun = time.perf_counter()
+    try:
+        found = core.versions()
+        if found != task.versions:
+            differing = ", ".join(f"{k} {found.get(k)} instead of {v}" for k, v in task.versions.items() if found.get(k) != v)
+            raise ShardError(f"the worker {_worker()} has {differing}: parts would not have the same bytes")
+        folder = Folder(task.out, task.storage_options)
+        known = finished(folder, task.shard, task.start, task.stop, task.verify)
+        entry = known if known is not None else _make(task, folder)
+    except ClusterError as error:
+        raise type(error)(_place(task, str(error))) from None
+    except OSError as error:
+        if error.errno in LASTING:
+            raise ShardError(_place(task, f"cannot write or read: {error}")) from None
+        raise
+    except (Exception, RecursionError) as error:
+        # Errors of other packages need not survive the way back.
+        raise ShardError(_place(task, f"{type(error).__name__}: {error}")) from error
+    return Summary(
+        shard=task.shard,
+        rows=entry["rows"],
+        bad=entry["bad"],
+        drift=entry["drift"],
+        warnings=entry["warnings"],
+        kept=known is not None,
+        seconds=time.perf_counter() - begun,
+        worker=_worker(),
+        memory=_memory(),
+    )
+
+
+def finished(folder: Folder, shard: int, start: int, stop: int, verify: bool) -> dict[str, Any] | None:
+    """The record of a finished shard whose files are as they were written; None where it must be made."""
+    raw = folder.read(record(shard))
+    if raw is None:
+        return None
+    try:
+        entry = json.loads(raw)
+        if (entry["start"], entry["rows"]) != (start, stop - start):
+            return None
+        wanted = [(part(shard), entry["bytes"], entry["sha256"])]
+        if entry["bad"]:
+            wanted.append((bad_list(shard), entry["bad_bytes"], entry["bad_sha256"]))
+    except (ValueError, KeyError, TypeError):
+        return None
+    for name, size, sha in wanted:
+        if folder.size(name) != size or (verify and folder.digest(name) != sha):
+            return None
+    return entry
+
+
+def _make(task: Task, folder: Folder) -> dict[str, Any]:
+    folder.remove(record(task.shard))
+    rejected: list[dict[str, Any]] = []
+    notes: dict[str, Any] = {"drift": {}, "warnings": []}
+    width = len(task.columns)
+
+    def fill(file: Any) -> None:
+        sink = None
+        row = task.start
+        for numbers, kept in _groups(task, group_rows(width)):
+            made = core.advance(task.job, numbers, task.threads)
+            for index, step, reason in made.bad:
+                rejected.append({"row": row + index, "step": step, "reason": reason})
+            for name, value in made.drift.items():
+                notes["drift"][name] = float(np.fmax(notes["drift"].get(name, 0.0), value))
+            notes["warnings"] += [text for text in made.warnings if text not in notes["warnings"]]
+            table = _table(task.columns, made.states, kept)
+            sink = sink or writer(file, table.schema)
+            sink.write_table(table, row_group_size=max(table.num_rows, 1))
+            row += len(numbers)
+        if sink is None:
+            table = _table(task.columns, np.empty((0, width)), _no_rows(task))
+            sink = writer(file, table.schema)
+            sink.write_table(table)
+        sink.close()
+        if row != task.stop:
+            raise ShardError(f"the input has {row - task.start} rows where {task.stop - task.start} were planned")
+
+    size, sha = folder.write(part(task.shard), fill)
+    entry: dict[str, Any] = {
+        "shard": task.shard,
+        "start": task.start,
+        "rows": task.stop - task.start,
+        "bytes": size,
+        "sha256": sha,
+        "bad": len(rejected),
+        **notes,
+    }
+    if rejected:
+        lines = b"".join(json.dumps(line, ensure_ascii=False).encode() + b"\n" for line in rejected)
+        entry["bad_bytes"], entry["bad_sha256"] = folder.write(
+            bad_list(task.shard), lambda file: file.write(lines) and None
+        )
+    folder.write(record(task.shard), lambda file: file.write(encode(entry)) and None)
+    return entry
+
+
+def _groups(task: Task, size: int) -> Iterator[tuple[np.ndarray, pa.Table | None]]:
+    """The rows of a shard, ``size`` at a time whatever pieces the files have them in."""
+    numbers: list[np.ndarray] = []
+    kept: list[pa.RecordBatch] = []
+    missing = size
+    for piece in task.pieces:
+        for matrix, others in states.batches(piece, task.columns, task.keep, size, task.storage_options):
+            while len(matrix):
+                take = min(missing, len(matrix))
+                numbers.append(matrix[:take])
+                matrix = matrix[take:]
+                if others is not None:
+                    kept.append(others.slice(0, take))
+                    others = others.slice(take)
+                missing -= take
+                if missing == 0:
+                    yield np.concatenate(numbers), pa.Table.from_batches(kept) if kept else None
+                    numbers, kept, missing = [], [], size
+    if numbers:
+        yield np.concatenate(numbers), pa.Table.from_batches(kept) if kept else None
+
+
+def _no_rows(task: Task) -> pa.Table | None:
+    return pa.table({name: pa.array([], pa.null()) for name in task.keep}) if task.keep else None
+
+
+def _table(columns: list[str], numbers: np.ndarray, kept: pa.Table | None) -> pa.Table:
+    fields = [pa.field(name, pa.float64(), nullable=False) for name in columns]
+    arrays = [pa.array(np.ascontiguousarray(numbers[:, place])) for place in range(len(columns))]
+    if kept is not None:
+        fields += [field.remove_metadata() for field in kept.schema]
+        arrays += [column.combine_chunks() for column in kept.columns]
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+
+
+def writer(file: Any, schema: pa.Schema) -> pq.ParquetWriter:
+    """Writes Parquet in the one way whose bytes depend on the table and on pyarrow's version alone."""
+    # Plain numbers: nothing that depends on what was written before, and end states hardly compress.
+    return pq.ParquetWriter(
+        file, schema, version="2.6", compression="none", use_dictionary=False, store_schema=False
+    )
+
+
+def _place(task: Task, text: str) -> str:
+    here = f"shard {task.shard} (rows {task.start} to {task.stop - 1})"
+    return text if text.startswith("shard ") else f"{here}: {text}"
+
+
+def _worker() -> str:
+    return f"{socket.gethostname()}:{os.getpid()}"
+
+
+def _memory() -> int:
+    try:
+        import resource
+        import sys
+    except ImportError:
+        return 0
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
