@@ -6,10 +6,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_device::Device;
 use coadjoint_program::print::DeviceLanguage;
 
-use crate::backend::Backend;
+use crate::backend::BackendName;
 use crate::ensemble::{PrecisionName, Shard};
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
@@ -128,6 +129,14 @@ pub struct Source {
     /// Solve each step this way instead of the file's
     #[arg(long)]
     pub solver: Option<SolverName>,
+}
+
+impl Source {
+    /// How the file is to be read.
+    pub fn options(&self, truncation: Option<usize>, parameters: Parameters) -> Options {
+        let (chart, solver) = (self.chart.map(Into::into), self.solver.map(Into::into));
+        Options { parameters, truncation, chart, solver }
+    }
 }
 
 /// A system file, or a learned model.
@@ -312,7 +321,7 @@ pub struct SimulateOptions {
     pub compare_tolerance: f64,
     /// What evaluates the steps
     #[arg(long, value_enum, default_value_t, conflicts_with = "model")]
-    pub backend: Backend,
+    pub backend: BackendName,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -346,7 +355,7 @@ pub struct EnsembleOptions {
     pub shard: Shard,
     /// What evaluates the steps
     #[arg(long, value_enum, default_value_t)]
-    pub backend: Backend,
+    pub backend: BackendName,
     /// Make the steps on a device, opencl[:N] or cuda[:N]. What it refuses --backend makes
     #[arg(long, value_name = "DEVICE")]
     pub device: Option<Device>,

@@ -4,10 +4,10 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::system;
+use coadjoint_run::series::polynomial;
 use serde_json::json;
 
 use crate::arguments::{CasimirOptions, Format};
-use crate::derive::polynomial;
 use crate::error::CliError;
 use crate::load;
 

@@ -2,14 +2,20 @@
 
 use std::fmt::Write;
 
+use coadjoint_codegen::problem::Problem;
+use coadjoint_run::check::{Law, Steep, Trial};
 use serde_json::{Value, json};
 
-use super::{Law, Steep, Trial};
 use crate::arguments::Format;
 
 /// The text to print.
-pub fn report(trial: &Trial<'_>, laws: &[Law], warning: Option<&Steep>, format: Format) -> String {
-    let problem = &trial.integrator.problem;
+pub fn report(
+    problem: &Problem,
+    trial: &Trial,
+    laws: &[Law],
+    warning: Option<&Steep>,
+    format: Format,
+) -> String {
     match format {
         Format::Json => {
             let list: Vec<Value> = laws

@@ -5,9 +5,9 @@ use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
+use coadjoint_run::ensemble::Drift;
 use serde::{Deserialize, Serialize};
 
-use super::engine::Drift;
 use super::output::{beside, rename, unwritten};
 use crate::error::CliError;
 

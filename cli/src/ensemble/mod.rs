@@ -1,21 +1,16 @@
 //! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
 //! states.
 
-mod attitude;
 mod device;
-mod engine;
 mod input;
 mod journal;
-mod layout;
 mod output;
-mod pack;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 mod report;
-mod rows;
 mod run;
 mod shard;
-mod steps;
+mod table;
 
 pub use device::PrecisionName;
 pub use shard::Shard;
@@ -26,11 +21,11 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Parameters, System};
 use coadjoint_program::{Precision, WIDTH};
+use coadjoint_run::ensemble::{How, Use, engine};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
 use crate::{load, simulate};
-use device::Use;
 use journal::{Identity, fingerprint};
 use run::Job;
 
@@ -61,8 +56,9 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let asked = device::asked(options);
     // What a device refuses is little.
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
-    let how = engine::How { backend: options.backend, work, device: asked };
-    let engine = engine::engine(path, &integrator, step, how)?;
+    let how = How { backend: options.backend.into(), work, device: asked };
+    let engine = engine(path, &integrator, step, how)?;
+    engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let input = input::open(&options.initial, engine.shape())?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;

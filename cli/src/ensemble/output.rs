@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use coadjoint_learn::npy_header;
 
-use super::layout::{Layout, Table};
-use super::rows::Rows;
+use super::table::{Piece, Table};
 use crate::error::CliError;
+use coadjoint_run::ensemble::Layout;
 
 /// Rows turned into text at a time.
 const PIECE: usize = 256;
@@ -66,32 +66,33 @@ impl Form {
     }
 
     /// The bytes of the rows; in CSV, in the order of the `table`'s columns.
-    pub fn encode(self, layout: &Layout, table: Option<&Table>, rows: &Rows) -> Vec<u8> {
+    pub fn encode(self, layout: &Layout, table: Option<&Table>, read: &Piece) -> Vec<u8> {
         if self != Self::Csv {
-            return rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
+            return read.rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
         }
         let width = layout.width();
         // Pieces of fixed size, joined in order: the same bytes whatever the threads.
         let own: Vec<Option<usize>> =
             table.map_or_else(|| (0..width).map(Some).collect(), |table| table.own.clone());
-        let pieces = rows.values.par_chunks(PIECE * width).enumerate().map(|(number, piece)| {
-            let mut text = Vec::with_capacity(piece.len() * 20);
-            for (place, row) in piece.chunks(width).enumerate() {
-                let mut others = rows.others.get(number * PIECE + place).into_iter().flatten();
-                for (cell, own) in own.iter().enumerate() {
-                    if cell > 0 {
-                        text.push(b',');
+        let pieces =
+            read.rows.values.par_chunks(PIECE * width).enumerate().map(|(number, piece)| {
+                let mut text = Vec::with_capacity(piece.len() * 20);
+                for (place, row) in piece.chunks(width).enumerate() {
+                    let mut others = read.others.get(number * PIECE + place).into_iter().flatten();
+                    for (cell, own) in own.iter().enumerate() {
+                        if cell > 0 {
+                            text.push(b',');
+                        }
+                        match own {
+                            // Writing into memory cannot fail.
+                            Some(column) => drop(write!(text, "{}", row[*column])),
+                            None => push_cell(&mut text, others.next().unwrap_or_default()),
+                        }
                     }
-                    match own {
-                        // Writing into memory cannot fail.
-                        Some(column) => drop(write!(text, "{}", row[*column])),
-                        None => push_cell(&mut text, others.next().unwrap_or_default()),
-                    }
+                    text.push(b'\n');
                 }
-                text.push(b'\n');
-            }
-            text
-        });
+                text
+            });
         pieces.collect::<Vec<_>>().concat()
     }
 }

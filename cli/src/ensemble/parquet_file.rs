@@ -12,7 +12,7 @@ use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::Type;
 
-use super::layout::Layout;
+use coadjoint_run::ensemble::Layout;
 
 /// Rows of a row group.
 const GROUP: usize = 1 << 17;

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_program::Precision;
+use coadjoint_run::engine::STEEP;
+use coadjoint_run::ensemble::Engine;
 use serde_json::json;
 
-use super::engine::Engine;
 use super::run::Outcome;
 use crate::arguments::Format;
-use crate::engine::STEEP;
 
 /// What there is to be said of the series, if anything is.
 pub fn warning(outcome: &Outcome) -> Option<String> {

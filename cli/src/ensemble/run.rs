@@ -5,12 +5,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::engine::{Drift, Engine};
+use coadjoint_run::ensemble::{Drift, Engine, Layout, Rejected};
+
 use super::input::Input;
 use super::journal::{Identity, Journal};
-use super::layout::Layout;
 use super::output::{Appended, Form, beside, rename, unwritten};
-use super::rows::{Rejected, Rows};
+use super::table::Piece;
 use crate::error::CliError;
 use crate::progress;
 
@@ -127,7 +127,7 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
 }
 
 /// Rows taken at a time: enough for all threads, little enough to be noted often. A card has as many threads as rows.
-fn piece(width: usize, steps: u64, card: bool) -> u64 {
+fn length(width: usize, steps: u64, card: bool) -> u64 {
     if card {
         return ((256 << 20) / (width as u64 * 8)).clamp(512, 1 << 20);
     }
@@ -163,27 +163,27 @@ fn advance(
         journal.made_by.push(maker);
     }
     let earlier = journal.redone;
-    let mut rows = Rows::default();
+    let mut piece = Piece::default();
     let mut first = Vec::new();
     let mut noted = Instant::now();
     while journal.rows < count {
-        let take = piece(layout.width(), job.steps, card).min(count - journal.rows);
-        rows.clear(job.range.start + journal.rows + 1);
-        job.input.read(take as usize, &mut rows)?;
+        let take = length(layout.width(), job.steps, card).min(count - journal.rows);
+        piece.clear(job.range.start + journal.rows + 1);
+        job.input.read(take as usize, &mut piece)?;
         let made = |made: u64| {
             bar.set_position(journal.rows.saturating_mul(steps).saturating_add(take * made));
         };
-        let drift = job.engine.advance(layout, job.steps, &mut rows, &made)?;
-        output.append(&form.encode(layout, table.as_ref(), &rows))?;
-        for rejected in &rows.rejected {
+        let drift = job.engine.advance(layout, job.steps, &mut piece.rows, &made)?;
+        output.append(&form.encode(layout, table.as_ref(), &piece))?;
+        for rejected in &piece.rows.rejected {
             let reason = rejected.reason.replace('"', "'");
             list.append(format!("{},{},\"{reason}\"\n", rejected.row, rejected.step).as_bytes())?;
         }
-        first.extend(rows.rejected.iter().take(TOLD - first.len().min(TOLD)).cloned());
+        first.extend(piece.rows.rejected.iter().take(TOLD - first.len().min(TOLD)).cloned());
         journal.raise(drift);
         journal.redone = earlier + job.engine.device().map_or(0, |by| by.redone);
         journal.rows += take;
-        journal.rejected += rows.rejected.len() as u64;
+        journal.rejected += piece.rows.rejected.len() as u64;
         journal.position = job.input.position();
         journal.output = output.length();
         journal.rejected_bytes = list.length();

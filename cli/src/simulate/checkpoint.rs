@@ -5,12 +5,11 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use coadjoint_run::simulate::{Drift, Steep, Tally};
 use serde::{Deserialize, Serialize};
 
 use super::sink::{Extent, failed};
 use super::target::beside;
-use super::trajectory::{Drift, Tally};
-use super::warning::Steep;
 use crate::error::CliError;
 
 /// The state of a run. Records that it counts are on the disk before it is. Numbers are kept as bits.

@@ -1,104 +1,13 @@
-//! Group elements by blocks: what each is, and how a person reads it.
+//! Group elements by blocks, as a person reads them.
 
-use std::ops::Range;
-
-use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, catalogue};
+use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::{Block, Kind, matrix, split};
 use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion};
-
-use super::number::shortest;
 
 /// At most so many blocks are printed.
 const MOST_BLOCKS: usize = 12;
 /// Blocks with more rows are not printed.
 const WIDEST: usize = 12;
-
-/// What a block of the matrix of a group element is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A rotation of the plane.
-    Plane,
-    /// A rotation of space.
-    Rotation,
-    /// A rigid motion of the plane.
-    PlaneMotion,
-    /// A rigid motion of space.
-    Motion,
-    /// A unit quaternion, in its real 4×4 form.
-    Quaternion,
-    /// A complex matrix A + iB as ((A, −B), (B, A)).
-    Complex,
-    /// A real matrix.
-    Real,
-    /// Ad_g, where the algebra is given by brackets.
-    Adjoint,
-}
-
-/// A diagonal block of the matrix of a group element; entries outside of all blocks are 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// Its rows and columns.
-    pub range: Range<usize>,
-    /// What it is.
-    pub kind: Kind,
-}
-
-/// The blocks of elements: one for each factor of the algebra, or those that the group knows.
-pub fn blocks(algebra: &LieAlgebra, known: Vec<Range<usize>>) -> Vec<Block> {
-    let factors = algebra.factors();
-    let mut found: Vec<Block> = Vec::with_capacity(factors.len());
-    let mut end = 0;
-    for (i, factor) in factors.iter().enumerate() {
-        let rows =
-            factor.basis().map_or(factor.dim(), |b| b.first().map_or(0, RationalMatrix::rows));
-        let kind = match found.last() {
-            Some(last) if factors[i - 1] == *factor => last.kind,
-            _ => kind(factor),
-        };
-        found.push(Block { range: end..end + rows, kind });
-        end += rows;
-    }
-    if known.last().is_some_and(|last| last.end == end) {
-        return found;
-    }
-    let kind = if algebra.basis().is_some() { Kind::Real } else { Kind::Adjoint };
-    known.into_iter().map(|range| Block { range, kind }).collect()
-}
-
-fn kind(factor: &LieAlgebra) -> Kind {
-    let Some(basis) = factor.basis() else { return Kind::Adjoint };
-    let is = |name: &str| catalogue::lookup(name).is_ok_and(|known| known.basis() == Some(basis));
-    let (n, rows) = (factor.dim(), basis.first().map_or(0, RationalMatrix::rows));
-    let half = rows / 2;
-    match (n, rows) {
-        (1, 2) if is("SO2") => Kind::Plane,
-        (3, 3) if is("SO3") => Kind::Rotation,
-        (3, 3) if is("SE2") => Kind::PlaneMotion,
-        (6, 4) if is("SE3") => Kind::Motion,
-        (3, 4) if is("SU2") => Kind::Quaternion,
-        _ if rows % 2 == 0 && n + 1 == half * half && is(&format!("SU{half}")) => Kind::Complex,
-        _ if rows % 2 == 0 && n == half * half && is(&format!("U{half}")) => Kind::Complex,
-        _ => Kind::Real,
-    }
-}
-
-/// The block's entries, which lie row by row in a slice.
-pub fn matrix(block: &Block, entries: &[f64]) -> DMatrix<f64> {
-    let size = block.range.len();
-    DMatrix::from_row_slice(size, size, entries)
-}
-
-/// The entries of each block, out of those of all blocks one after the other.
-pub fn split<'a>(
-    blocks: &'a [Block],
-    entries: &'a [f64],
-) -> impl Iterator<Item = (&'a Block, &'a [f64])> {
-    let mut rest = entries;
-    blocks.iter().map(move |block| {
-        let (own, after) = rest.split_at(block.range.len() * block.range.len());
-        rest = after;
-        (block, own)
-    })
-}
 
 /// Lines that say what the element is; zero blocks are left out.
 pub fn lines(blocks: &[Block], entries: &[f64]) -> Vec<String> {

@@ -6,24 +6,19 @@ use std::collections::BTreeMap;
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::system::Splitting;
 use coadjoint_learn::ModelFile;
+use coadjoint_run::number::shortest;
 use serde_json::{Map, Value, json};
-use sha2::{Digest, Sha256};
 
-use super::number::shortest;
-use super::setup::Setup;
+use super::setup::Settings;
 
 /// Names and values, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Header(Vec<(&'static str, Value)>);
 
-/// The SHA-256 of a text in hexadecimal digits.
-pub fn text_hash(text: &str) -> String {
-    format!("{:x}", Sha256::digest(text))
-}
-
 impl Header {
     /// The description of a run of this problem.
-    pub fn new(setup: &Setup, problem: &Problem, splitting: Option<Splitting>) -> Self {
+    pub fn new(settings: &Settings, problem: &Problem, splitting: Option<Splitting>) -> Self {
+        let setup = &settings.setup;
         let schedule = &setup.schedule;
         let solver = match problem.solver() {
             Solver::Newton => Solver::NAMES[0],
@@ -31,8 +26,8 @@ impl Header {
         };
         let mut list = vec![
             ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
-            ("system", json!(setup.file.display().to_string())),
-            ("system_sha256", json!(setup.hash)),
+            ("system", json!(settings.file.display().to_string())),
+            ("system_sha256", json!(settings.hash)),
             ("name", json!(problem.name)),
             ("group", json!(problem.algebra.name())),
             ("truncation", json!(problem.truncation)),
@@ -67,12 +62,13 @@ impl Header {
     }
 
     /// The description of a run of a learned map.
-    pub fn of_model(setup: &Setup, model: &ModelFile) -> Self {
+    pub fn of_model(settings: &Settings, model: &ModelFile) -> Self {
+        let setup = &settings.setup;
         let schedule = &setup.schedule;
         Self(vec![
             ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
-            ("model", json!(setup.file.display().to_string())),
-            ("model_sha256", json!(setup.hash)),
+            ("model", json!(settings.file.display().to_string())),
+            ("model_sha256", json!(settings.hash)),
             ("kind", json!(model.model.name())),
             ("group", json!(model.group)),
             ("chart", json!(model.chart)),

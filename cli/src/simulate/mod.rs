@@ -4,37 +4,31 @@ mod checkpoint;
 mod element;
 mod header;
 mod interrupt;
+mod keep;
 mod learned;
-mod march;
 mod names;
-mod number;
 mod plot;
 mod report;
 mod rival;
 mod samples;
-mod schedule;
 mod setup;
 mod sink;
-mod subject;
 mod target;
-mod task;
-mod times;
 mod trajectory;
-mod warning;
 
-use coadjoint::{Cayley, Exponential};
-use coadjoint_codegen::lie;
-use coadjoint_codegen::system::{self, Parameters, System, Units};
+use std::path::Path;
+
+use coadjoint_codegen::system::{Parameters, Run, System, Units};
+use coadjoint_run::simulate::{Outlet, Schedule};
+use coadjoint_run::{Derived, text_hash};
 
 use crate::arguments::SimulateOptions;
-use crate::engine::{Energy, Forces, cayley_group, product_group, whole_group};
 use crate::error::CliError;
 use crate::{load, progress};
-pub use header::text_hash;
-pub use schedule::schedule;
-use setup::Setup;
+use header::Header;
+use keep::Keeper;
+use setup::Settings;
 use target::{Place, Target};
-use task::Task;
 use trajectory::Trajectory;
 
 /// Runs every truncation asked for.
@@ -46,15 +40,11 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     let source = options.input.source();
     let path = &source.file;
     // Read once: all runs are of this text, and its hash is that of what was run.
-    let text = std::fs::read_to_string(path)
-        .map_err(|source| CliError::Read { path: path.clone(), source })?;
+    let text = load::text(path)?;
     let hash = text_hash(&text);
     let read = |truncation| {
-        let (chart, solver) = (source.chart.map(Into::into), source.solver.map(Into::into));
-        let parameters = Parameters::Substituted;
-        system::read(&text, system::Options { parameters, truncation, chart, solver }).map_err(
-            |mistakes| CliError::Input(mistakes.render(&path.display().to_string(), &text)),
-        )
+        let options = source.options(truncation, Parameters::Substituted);
+        coadjoint_run::read_with(&path.display().to_string(), &text, options)
     };
     let systems: Vec<System> = if options.truncation.is_empty() {
         vec![read(None)?]
@@ -71,48 +61,30 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         drop(phase);
-        let System { problem, potential, run, .. } = system;
-        let follows = [("--tuned", options.tuned), ("--fitted", options.fitted.is_some())];
-        if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
-            && potential.is_some()
-        {
-            let what = format!(
-                "{option} follows the flow, which kicks of a potential leave: leave it out"
-            );
-            return Err(CliError::Option(what));
-        }
-        let setup = Setup::new(options, &hash, out, &run, problem.algebra.dim())?;
+        let dim = system.problem.algebra.dim();
+        let settings = Settings::new(options, &hash, out, &system.run, dim)?;
+        let setup = &settings.setup;
         heading.iter_mut().for_each(|heading| heading.step(setup.schedule.step));
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
         }
-        let phase = progress::phase(&format!("deriving the series, K = {}", problem.truncation));
-        let kept = potential.as_ref().map(|(potential, _)| potential);
-        let algebra = &problem.algebra;
-        // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-        let group = match kept {
-            Some(potential) => whole_group(path, algebra, Some(potential))?,
-            None => product_group(path, algebra)?,
-        };
-        let energy = Energy::new(&problem, kept);
-        let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
-        let integrator = load::integrator(path, problem)?;
+        let phase =
+            progress::phase(&format!("deriving the series, K = {}", system.problem.truncation));
+        let system = Derived::of_file(path, system)?;
         drop(phase);
-        let task = Task {
-            integrator: &integrator,
-            forces: forces.as_ref(),
-            energy: &energy,
-            setup: &setup,
-        };
-        let trajectory = match integrator.problem.chart {
-            lie::Chart::Exponential => task.integrate::<_, Exponential>(&group)?,
-            lie::Chart::Cayley => task.integrate::<_, Cayley>(&cayley_group(path, &group)?)?,
-        };
+        let problem = &system.integrator.problem;
+        let splitting = system.forces.as_ref().map(|forces| forces.splitting);
+        let header = Header::new(&settings, problem, splitting);
+        let (label, coordinates) = (system.label(setup), &problem.coordinates);
+        let keeper = Keeper::new(&settings, label, header.clone(), coordinates, true);
+        let drive = |outlet: &mut dyn Outlet| coadjoint_run::simulate::run(&system, setup, outlet);
+        let trajectory =
+            Trajectory { truncation: Some(problem.truncation), ..keeper.follow(drive)? };
         runs.push(trajectory);
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
-            runs.insert(0, rival::rk45(&group, &task, options.compare_tolerance)?);
+            runs.insert(0, rival::rk45(&system, &settings, header, options.compare_tolerance)?);
         }
     }
     // The rival, if any, comes last.
@@ -135,6 +107,21 @@ fn print(runs: &[Trajectory], units: &Units, options: &SimulateOptions, out: Opt
     } else {
         out!("{report}");
     }
+}
+
+/// The step size used and how many steps end at the time T, by the options, else by the file. Where it is
+/// not the step asked for, a line on the error stream says so.
+pub fn schedule(
+    file: &Path,
+    step: Option<f64>,
+    time: Option<f64>,
+    run: &Run,
+) -> Result<(f64, u64), CliError> {
+    let schedule = Schedule::new(file, step, time, run)?;
+    if let Some(line) = schedule.announcement() {
+        eprintln!("{line}");
+    }
+    Ok((schedule.step, schedule.steps))
 }
 
 /// Where the records of each system go. Several truncations go to a file each; the names are announced.

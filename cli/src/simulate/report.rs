@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use coadjoint_codegen::system::Units;
+use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::{Block, Warning, matrix, split};
 use serde_json::{Value, json};
 
-use super::element::{lines, matrix, split};
-use super::number::shortest;
+use super::element::lines;
 use super::trajectory::Trajectory;
-use super::warning::Warning;
 use crate::arguments::Format;
 
 /// Larger group elements are given by their blocks only.
@@ -91,7 +91,7 @@ fn object(run: &Trajectory, units: &Units) -> Value {
 
 /// The blocks of the group element with the number, from 0, of the first row and column of each.
 fn blocks(run: &Trajectory) -> Value {
-    let block = |(block, entries): (&super::element::Block, &[f64])| {
+    let block = |(block, entries): (&Block, &[f64])| {
         let rows: Vec<&[f64]> = entries.chunks(block.range.len().max(1)).collect();
         json!({ "first_row": block.range.start, "matrix": rows })
     };

@@ -2,15 +2,19 @@
 
 use coadjoint::{LieGroup, Phase, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::problem::Problem;
+use coadjoint_run::Derived;
+use coadjoint_run::engine::{FloatPolynomial, Restore, Torque};
+use coadjoint_run::simulate::{Moment, Recorder};
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
 };
 use nalgebra::{DMatrix, DVector};
 use serde_json::json;
 
-use super::Task;
-use super::trajectory::{Moment, Recorder, Trajectory};
-use crate::engine::{FloatPolynomial, Restore, Torque};
+use super::header::Header;
+use super::samples::Samples;
+use super::setup::Settings;
+use super::trajectory::Trajectory;
 use crate::error::CliError;
 use crate::progress;
 
@@ -19,18 +23,24 @@ type Group = DirectProduct<MatrixGroup>;
 
 /// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at its own steps
 /// (between them it would be the interpolation that is measured).
-pub fn rk45(group: &Group, task: &Task<'_>, tolerance: f64) -> Result<Trajectory, CliError> {
+pub fn rk45(
+    system: &Derived,
+    settings: &Settings,
+    header: Header,
+    tolerance: f64,
+) -> Result<Trajectory, CliError> {
     if !(tolerance.is_finite() && tolerance > 0.0) {
         let what = "--compare-tolerance must be finite and positive; try 1e-6";
         return Err(CliError::Option(what.to_owned()));
     }
-    let Task { integrator, setup, .. } = *task;
-    let torque = task.forces.map(|forces| Torque::new(&forces.kick, group.clone()));
+    let (integrator, setup) = (&system.integrator, &settings.setup);
+    let group = &system.group()?;
+    let torque = system.forces.as_ref().map(|forces| Torque::new(&forces.kick, group.clone()));
     let (n, size) = (integrator.problem.algebra.dim(), group.matrix_size());
     let Problem { hamiltonian, symbols, .. } = &integrator.problem;
     let gradient: Vec<FloatPolynomial> =
         (0..n).map(|i| FloatPolynomial::new(&hamiltonian.derivative(i), n, symbols)).collect();
-    let start = Phase::<Group>::new(setup.element(group)?, setup.momentum.clone());
+    let start = Phase::<Group>::new(setup.element(&system.file, group)?, setup.momentum.clone());
     let mut state: Vec<f64> = start.momentum.iter().copied().collect();
     // The matrix of g column by column, as nalgebra keeps it.
     let matrix = |g: &_| DMatrix::from_fn(size, size, |i, j| group.matrix_entry(g, i, j));
@@ -52,11 +62,12 @@ pub fn rk45(group: &Group, task: &Task<'_>, tolerance: f64) -> Result<Trajectory
     };
     let end = setup.schedule.end;
     let name = format!("RK45, tolerance {tolerance:e}");
-    let mut recorder = Recorder::new(group, task.watched(), &start, setup.sampled);
+    let mut recorder = Recorder::new(group, system.watched(), &start);
+    let mut samples = Samples::new(n);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
     let moment = recorder.visit(&start).map_err(|what| failed(0.0, what))?;
-    recorder.sample(0.0, &start, &moment);
-    let mut watch = Watch { group, recorder, last: start, moment, size, failure: None };
+    samples.offer(0.0, start.momentum.as_slice(), moment.energy.unwrap_or(0.0), moment.drift);
+    let mut watch = Watch { group, recorder, samples, last: start, moment, size, failure: None };
     let _phase = progress::phase("integrating with RK45");
     let solution = IVP::ode_from_fn(flow, 0.0, end, state)
         .method(ExplicitRungeKutta::dopri5().max_steps(usize::MAX))
@@ -68,10 +79,16 @@ pub fn rk45(group: &Group, task: &Task<'_>, tolerance: f64) -> Result<Trajectory
         return Err(failed(time, what));
     }
     let solution = solution.map_err(|error| CliError::Rival(format!("{error:?}")))?;
-    let header = task.header().only(&KNOWN).with("method", json!(name));
+    let header = header.only(&KNOWN).with("method", json!(name));
     let steps = solution.steps.accepted as u64;
-    let Watch { recorder, last, moment, .. } = watch;
-    Ok(recorder.finish(name, header, (steps, end), &last, &moment))
+    let Watch { recorder, samples, last, moment, .. } = watch;
+    let outcome = recorder.finish((steps, end), &last, &moment);
+    let coordinates = &integrator.problem.coordinates;
+    let mut trajectory = Trajectory::of(outcome, name, header, coordinates);
+    if settings.sampled {
+        trajectory.records = samples.finish();
+    }
+    Ok(trajectory)
 }
 
 /// The matrix of an element of the algebra.
@@ -102,6 +119,7 @@ const KNOWN: [&str; 7] = [
 struct Watch<'a> {
     group: &'a Group,
     recorder: Recorder<'a, Group>,
+    samples: Samples,
     last: Phase<Group>,
     moment: Moment,
     /// Rows of the group's matrices.
@@ -132,7 +150,8 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
         match self.recorder.visit(&self.last) {
             Ok(moment) => {
-                self.recorder.sample(time, &self.last, &moment);
+                let energy = moment.energy.unwrap_or(0.0);
+                self.samples.offer(time, self.last.momentum.as_slice(), energy, moment.drift);
                 self.moment = moment;
                 ControlFlag::Continue
             }

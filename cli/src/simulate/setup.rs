@@ -4,48 +4,32 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use coadjoint_codegen::system::Run;
+use coadjoint_run::RunError;
+use coadjoint_run::simulate::{Schedule, Setup, Times};
 use nalgebra::DVector;
 
-use super::schedule::Schedule;
 use super::target::{Target, folder};
-use super::times::Times;
 use crate::arguments::SimulateOptions;
-use crate::backend::Backend;
-use crate::engine::Group;
 use crate::error::CliError;
 
-/// The settings of a run.
+/// The settings of a run, and what is kept of it.
 #[derive(Clone, Debug)]
-pub struct Setup {
+pub struct Settings {
     /// The system file.
     pub file: PathBuf,
     /// The SHA-256 of its text.
     pub hash: String,
-    /// In which steps the run reaches its end.
-    pub schedule: Schedule,
-    /// Every n-th step is recorded, and the last; `None` where only the times of `--at` are.
-    pub every: Option<u64>,
-    /// Times recorded besides.
-    pub at: Option<Times>,
+    /// From where, how far, in which steps.
+    pub setup: Setup,
     /// Where records go.
     pub out: Option<Target>,
     /// Whether a picture is asked for.
     pub sampled: bool,
     /// Where the state is kept, and how often.
     pub checkpoint: Option<(PathBuf, Duration)>,
-    /// Whether the tail of the series is summed for the motion from the initial momentum.
-    pub tuned: bool,
-    /// How long the motion is followed to which the coefficients are fitted, if they are.
-    pub fitted: Option<f64>,
-    /// What evaluates the programs of a step.
-    pub backend: Backend,
-    /// μ at the start.
-    pub momentum: DVector<f64>,
-    /// g at the start, row by row; the identity if it is not given.
-    pub group_element: Option<Vec<Vec<f64>>>,
 }
 
-impl Setup {
+impl Settings {
     /// Puts the settings together, or says which one is missing.
     ///
     /// # Errors
@@ -59,13 +43,12 @@ impl Setup {
     ) -> Result<Self, CliError> {
         let file = options.input.source().file;
         let schedule = Schedule::new(&file, options.accuracy.step, options.time, run)?;
-        let momentum = run.momentum.clone().ok_or_else(|| CliError::Missing {
+        let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
             file: file.clone(),
             key: "[initial] momentum",
             example: "momentum = [2.0, 0.5, 1.0]",
             option: "another file",
         })?;
-        let refuse = |what: &str| Err(CliError::Option(what.to_owned()));
         let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
         // Times alone are recorded alone; a step count in the file is then no request.
         let every = match (options.every, &at) {
@@ -73,36 +56,26 @@ impl Setup {
             (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
         };
         if momentum.len() != dim {
-            return refuse("the momentum does not fit the group");
+            return Err(CliError::Option("the momentum does not fit the group".to_owned()));
         }
         Ok(Self {
             file,
             hash: hash.to_owned(),
-            schedule,
-            every,
-            at,
+            setup: Setup {
+                schedule,
+                recording: out.is_some(),
+                every,
+                at,
+                tuned: options.tuned,
+                backend: options.backend.into(),
+                fitted: options.fitted,
+                momentum: DVector::from_vec(momentum),
+                group_element: run.group_element.clone(),
+            },
             out,
             sampled: options.plot.is_some(),
             checkpoint: checkpoint(options)?,
-            tuned: options.tuned,
-            backend: options.backend,
-            fitted: options.fitted,
-            momentum: DVector::from_vec(momentum),
-            group_element: run.group_element.clone(),
         })
-    }
-
-    /// g at the start.
-    ///
-    /// # Errors
-    /// Where the matrix given is no element of the group.
-    pub fn element<G: Group>(&self, group: &G) -> Result<G::Element, CliError> {
-        match &self.group_element {
-            None => Ok(group.identity()),
-            Some(rows) => group
-                .element_from_matrix(|i, j| rows[i][j])
-                .map_err(|source| CliError::Element { file: self.file.clone(), source }),
-        }
     }
 }
 

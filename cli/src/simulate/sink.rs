@@ -5,11 +5,11 @@ use std::io::{ErrorKind, Seek, SeekFrom, Write, stdout};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use coadjoint_run::number::shortest;
 use serde_json::{Value, json};
 
 use super::checkpoint;
 use super::header::Header;
-use super::number::shortest;
 use super::target::{Form, Place, Target};
 use crate::error::CliError;
 

@@ -18,13 +18,14 @@ use std::path::{Path, PathBuf};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::system::{self, Options, System};
+use coadjoint_codegen::system::{Options, System};
+use coadjoint_run::{RunError, read_with, text_hash};
 use serde_json::Value;
 
 use crate::arguments::{Format, VerifyOptions};
 use crate::error::CliError;
 use crate::progress;
-use crate::simulate::text_hash;
+
 use follow::Follower;
 use found::Found;
 use invariants::Invariants;
@@ -104,15 +105,14 @@ fn judge(
     });
     let chart = options.chart.map(Into::into).or(said);
     let read = Options { truncation, chart, ..Options::default() };
-    let System { problem, potential, run, .. } = system::read(&text, read).map_err(|mistakes| {
-        CliError::Input(mistakes.render(&system.display().to_string(), &text))
-    })?;
+    let System { problem, potential, run, .. } =
+        read_with(&system.display().to_string(), &text, read)?;
     if potential.is_some() {
         return refuse(
             "a system with a potential is not judged: between its kicks the motion is free",
         );
     }
-    let step = step.or(run.step).ok_or_else(|| CliError::Missing {
+    let step = step.or(run.step).ok_or_else(|| RunError::Missing {
         file: system.clone(),
         key: "[integrator] step",
         example: "step = 0.1",

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
 
 use super::{Input, damaged, unread};
-use crate::ensemble::layout::{Layout, Shape, Table};
-use crate::ensemble::rows::Rows;
+use crate::ensemble::table::{Piece, Table};
 use crate::error::CliError;
+use coadjoint_run::ensemble::{Layout, Shape};
 
 /// A CSV file; blanks around cells and lines that begin with # are passed over.
 pub struct CsvInput {
@@ -102,7 +102,8 @@ impl Input for CsvInput {
         self.reader.position().byte()
     }
 
-    fn read(&mut self, count: usize, rows: &mut Rows) -> Result<(), CliError> {
+    fn read(&mut self, count: usize, piece: &mut Piece) -> Result<(), CliError> {
+        let rows = &mut piece.rows;
         for _ in 0..count {
             let more = self
                 .reader
@@ -115,7 +116,7 @@ impl Input for CsvInput {
             if self.places.len() < self.table.own.len() {
                 let others = self.table.own.iter().enumerate().filter(|(_, own)| own.is_none());
                 let cells = others.map(|(cell, _)| self.record.get(cell).unwrap_or_default());
-                rows.others.push(cells.collect());
+                piece.others.push(cells.collect());
             }
             let length = rows.values.len();
             if let Err(reason) = self.numbers(&mut rows.values) {

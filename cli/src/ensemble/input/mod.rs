@@ -7,9 +7,9 @@ mod parquet;
 
 use std::path::Path;
 
-use super::layout::{Layout, Shape, Table};
-use super::rows::Rows;
+use super::table::{Piece, Table};
 use crate::error::CliError;
+use coadjoint_run::ensemble::{Layout, Shape};
 
 /// A file of states that is read forwards.
 pub trait Input {
@@ -32,7 +32,7 @@ pub trait Input {
     fn position(&self) -> u64;
 
     /// Adds the next `count` rows.
-    fn read(&mut self, count: usize, rows: &mut Rows) -> Result<(), CliError>;
+    fn read(&mut self, count: usize, piece: &mut Piece) -> Result<(), CliError>;
 }
 
 /// Opens a file by the ending of its name.

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use coadjoint_learn::NpyHeader;
 
 use super::{Input, damaged, unread};
-use crate::ensemble::layout::{Layout, Shape};
-use crate::ensemble::rows::Rows;
+use crate::ensemble::table::Piece;
 use crate::error::CliError;
+use coadjoint_run::ensemble::{Layout, Shape};
 
 /// A `.npy` file: n columns of momentum, then the attitude if there is one.
 pub struct NpyInput {
@@ -59,7 +59,8 @@ impl Input for NpyInput {
         self.next
     }
 
-    fn read(&mut self, count: usize, rows: &mut Rows) -> Result<(), CliError> {
+    fn read(&mut self, count: usize, piece: &mut Piece) -> Result<(), CliError> {
+        let rows = &mut piece.rows;
         let mut raw = vec![0; count * self.layout.width() * self.header.width];
         self.reader.read_exact(&mut raw).map_err(unread(&self.path))?;
         self.header.decode(&raw, &mut rows.values);

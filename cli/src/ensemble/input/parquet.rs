@@ -8,9 +8,9 @@ use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::{Input, damaged, unread};
-use crate::ensemble::layout::{Layout, Shape};
-use crate::ensemble::rows::Rows;
+use crate::ensemble::table::Piece;
 use crate::error::CliError;
+use coadjoint_run::ensemble::{Layout, Shape};
 
 /// A `.parquet` file, read row group by row group; a null is no number.
 pub struct ParquetInput {
@@ -122,7 +122,8 @@ impl Input for ParquetInput {
         self.next
     }
 
-    fn read(&mut self, count: usize, rows: &mut Rows) -> Result<(), CliError> {
+    fn read(&mut self, count: usize, piece: &mut Piece) -> Result<(), CliError> {
+        let rows = &mut piece.rows;
         let width = self.layout.width();
         let mut missing = count;
         while missing > 0 {

@@ -1,0 +1,209 @@
+//! The laws of the method, tried on a system at random points.
+
+mod order;
+
+use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
+use coadjoint_codegen::lie;
+use nalgebra::DVector;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::engine::{
+    Forces, Group, Interpreter, STEEP, Steepness, advise, cayley_group, product_group,
+};
+use crate::error::RunError;
+use crate::load::Derived;
+
+/// The step of a system that names none.
+pub const DEFAULT_STEP: f64 = 0.1;
+
+/// A law and how well it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// Its name.
+    pub name: &'static str,
+    /// What it says.
+    pub statement: &'static str,
+    /// What was measured: the largest relative violation, or the order of accuracy.
+    pub value: f64,
+    /// What it is compared with.
+    pub bound: f64,
+    /// Whether it holds.
+    pub pass: bool,
+}
+
+/// The series hardly converges at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steep {
+    /// The largest ratio of its last two terms.
+    pub ratio: f64,
+}
+
+impl Steep {
+    /// For people.
+    pub fn text(self) -> String {
+        format!(
+            "the series hardly converges at the points tried: its last two terms have the ratio {:.3}, above {STEEP}; \
+             take a smaller step",
+            self.ratio
+        )
+    }
+}
+
+/// What is tried: a step size, and points of a size.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// The step size.
+    pub step: f64,
+    /// How large momenta are.
+    pub size: f64,
+    /// How many points.
+    pub points: usize,
+    /// The seed of the points.
+    pub seed: u64,
+}
+
+impl Trial {
+    /// Refuses settings that make no sense.
+    ///
+    /// # Errors
+    /// By the name of the setting.
+    pub fn new(step: f64, size: f64, points: usize, seed: u64) -> Result<Self, RunError> {
+        if step == 0.0 || !step.is_finite() {
+            let what = "--step must be finite and other than zero; try --step 0.1";
+            return Err(RunError::Option(what.to_owned()));
+        }
+        if points == 0 {
+            return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
+        }
+        Ok(Self { step, size, points, seed })
+    }
+}
+
+/// Tries all laws; and what there is to be said of the series.
+///
+/// # Errors
+/// Where a step cannot be made.
+pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<Steep>), RunError> {
+    let path = &system.file;
+    let problem = &system.integrator.problem;
+    let group = product_group(path, &problem.algebra)?;
+    let tried = Tried { system, trial };
+    match problem.chart {
+        lie::Chart::Exponential => tried.laws::<_, Exponential>(group),
+        lie::Chart::Cayley => tried.laws::<_, Cayley>(cayley_group(path, &group)?),
+    }
+}
+
+struct Tried<'a> {
+    system: &'a Derived,
+    trial: &'a Trial,
+}
+
+/// The laws of [`coadjoint::laws::check`] that are printed: its name, ours, and what it says.
+const LAWS: [(&str, &str, &str); 6] = [
+    ("poisson", "Poisson", "DΦ B(μ) DΦᵀ = B(Φ(μ))"),
+    ("symplectic", "symplectic", "Φ*ω = ω on T*G"),
+    ("equivariant", "equivariant", "Φ(k·α) = k·Φ(α)"),
+    ("momentum", "momentum", "J_L(Φ(α)) = J_L(α)"),
+    ("diagram", "diagram", "J_R(Φ(α)) = Φ(J_R(α))"),
+    ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
+];
+
+impl Tried<'_> {
+    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
+        let mut random = ChaCha8Rng::seed_from_u64(self.trial.seed);
+        let points: Vec<_> = (0..self.trial.points)
+            .map(|_| random_phase(&group, self.trial.size, &mut random))
+            .collect();
+        let at = |source| RunError::Step { time: 0.0, source };
+        let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
+        let map = |h| make(h).map_err(at);
+        let there = map(self.trial.step)?;
+        let steepness = Steepness::new(&there);
+        let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
+        let ratio = ratios.fold(0.0, worse);
+        let steep = (ratio > STEEP).then_some(Steep { ratio });
+        let tried =
+            laws::check(&there, Some(&map(-self.trial.step)?), &points).map_err(|error| {
+                let works = |step: &Interpreter<'_, G, C>| {
+                    points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
+                };
+                at(advise(error, self.trial.step, |h| make(h).is_ok_and(|step| works(&step))))
+            })?;
+        let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
+            let law = tried.iter().find(|law| law.name == known)?;
+            let (value, bound, pass) = (law.value, law.bound, law.pass());
+            Some(Law { name, statement, value, bound, pass })
+        });
+        let mut laws: Vec<Law> = printed.collect();
+        let start = random_phase(&group, self.trial.size, &mut random);
+        let expected = self.system.integrator.order() as f64;
+        laws.push(order::measure(self.trial.step, expected, &group, &start, |h, steps, state| {
+            let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
+            (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
+        }));
+        if let Some(forces) = &self.system.forces {
+            laws.extend(self.kicked::<G, C>(forces, &group, &points, &start).map_err(at)?);
+        }
+        Ok((laws, steep))
+    }
+
+    /// The laws that are left to the whole step where a potential breaks the symmetry.
+    fn kicked<G: Group, C: Chart<G>>(
+        &self,
+        forces: &Forces,
+        group: &G,
+        points: &[Phase<G>],
+        start: &Phase<G>,
+    ) -> Result<Vec<Law>, StepError> {
+        let make = |h| forces.step::<G, C>(&self.system.integrator, group, h);
+        let (there, back) = (make(self.trial.step)?, make(-self.trial.step)?);
+        let (mut symplectic, mut symmetric) = (None, 0.0_f64);
+        for point in points {
+            let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0))?;
+            symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
+            let mut state = point.clone();
+            there(&mut state, 0.0)?;
+            back(&mut state, self.trial.step)?;
+            let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
+            symmetric = worse(symmetric, difference);
+        }
+        let law = |name, statement, value: f64, bound: f64| Law {
+            name,
+            statement,
+            value,
+            bound,
+            pass: value <= bound,
+        };
+        let mut result = Vec::new();
+        if let Some(value) = symplectic {
+            result.push(law("symplectic+V", "flows and kicks: Φ*ω = ω on T*G", value, 1e-9));
+        }
+        let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
+        result.push(law("symmetric+V", statement, symmetric, 1e-11));
+        let expected = forces.order().min(self.system.integrator.order() as u32);
+        let order =
+            order::measure(self.trial.step, expected.into(), group, start, |h, steps, state| {
+                let step = make(h)?;
+                (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
+            });
+        let statement = "flows and kicks: that of the splitting";
+        result.push(Law { name: "order+V", statement, ..order });
+        Ok(result)
+    }
+}
+
+/// The larger; NaN stays.
+fn worse(worst: f64, value: f64) -> f64 {
+    if worst.is_nan() || value <= worst { worst } else { value }
+}
+
+/// A group element within the chart, and momenta between −size and size.
+fn random_phase<G: Group>(group: &G, size: f64, random: &mut ChaCha8Rng) -> Phase<G> {
+    let mut vector = |size: f64| {
+        DVector::from_fn(group.dim(), |_, _| size * (2.0 * random.random::<f64>() - 1.0))
+    };
+    let x = vector(1.0);
+    Phase::new(group.exp(&x), vector(size))
+}

@@ -1,0 +1,141 @@
+//! Systems and learned models as code.
+
+use std::path::Path;
+
+use coadjoint::Exponential;
+use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
+use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
+use coadjoint_codegen::integrator::Kick;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::system::System;
+use coadjoint_learn::{ModelFile, problem};
+use coadjoint_program::Precision;
+use coadjoint_program::print::DeviceLanguage;
+
+use crate::engine::{Interpreter, device_text, whole_group};
+use crate::error::RunError;
+use crate::load::integrator;
+
+/// What is to be code.
+#[derive(Debug)]
+pub enum Source {
+    /// A system.
+    System(Box<System>),
+    /// A learned polynomial.
+    Model(Box<ModelFile>),
+}
+
+/// The Rust module. Of a learned polynomial: built with the model's step it is the model.
+///
+/// # Errors
+/// Where the series is too large, or the model is no polynomial.
+pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
+    let system = match source {
+        Source::System(system) => *system,
+        Source::Model(model) => {
+            let problem = problem(&model, "learned")?;
+            let style = Options::for_problem(&problem.name);
+            return Ok(format!(
+                "//! Learned for the step {step}: build it with `new({step})`; other steps mean nothing.\n{}",
+                file(&integrator(path, problem)?, &style),
+                step = model.step
+            ));
+        }
+    };
+    let style = Options::for_problem(&system.problem.name);
+    let integrator = integrator(path, system.problem)?;
+    check_size(&integrator).map_err(|error| RunError::Size { file: path.into(), source: error })?;
+    let mut module = file(&integrator, &style);
+    if let Some((potential, _)) = system.potential {
+        module.push_str(&potential_items(&Kick::build(potential), &style));
+    }
+    Ok(module)
+}
+
+/// The header of C or C++; all names in it begin with `prefix`, or with the system's name.
+///
+/// # Errors
+/// Where the series is too large, or the system is not written as C.
+pub fn header(
+    path: &Path,
+    source: Source,
+    language: Language,
+    prefix: Option<String>,
+) -> Result<String, RunError> {
+    let style = HeaderOptions { language, ..HeaderOptions::default() };
+    let (problem, style) = match source {
+        Source::Model(model) => {
+            let problem = problem(&model, "learned")?;
+            (problem, HeaderOptions { only_step: Some(model.step), ..style })
+        }
+        Source::System(system) => {
+            refuse_potential(path, &system, "C")?;
+            let units = system.units;
+            let of = |i| units.coordinate(i).map(str::to_owned);
+            let momentum = (0..system.problem.algebra.dim()).map(of).collect();
+            let time = units.time.clone();
+            (system.problem, HeaderOptions { time, momentum, ..style })
+        }
+    };
+    let prefix = prefix.unwrap_or_else(|| problem.name.clone());
+    let integrator = integrator(path, problem)?;
+    c::header(&integrator, &HeaderOptions { prefix, ..style })
+        .map_err(|error| RunError::Header { file: path.into(), source: error })
+}
+
+/// The steps as a kernel for devices, which is for one step size alone; `step` replaces that of the system, and a model
+/// has its own.
+///
+/// # Errors
+/// Where the step is missing, or the system is not written as a kernel.
+pub fn kernel(
+    path: &Path,
+    source: Source,
+    step: Option<f64>,
+    precision: Precision,
+    language: DeviceLanguage,
+) -> Result<String, RunError> {
+    let (problem, step): (Problem, f64) = match source {
+        Source::Model(model) => {
+            if step.is_some() {
+                return Err(RunError::Option("--step: a learned model has its own".into()));
+            }
+            (problem(&model, "learned")?, model.step)
+        }
+        Source::System(system) => {
+            refuse_potential(path, &system, "kernels")?;
+            let step = step.or(system.run.step).ok_or_else(|| RunError::Missing {
+                file: path.into(),
+                key: "[integrator] step",
+                example: "step = 0.1",
+                option: "--step 0.1",
+            })?;
+            (system.problem, step)
+        }
+    };
+    let integrator = integrator(path, problem)?;
+    let problem = &integrator.problem;
+    // Coefficients are those of the step, whatever the group's elements are made of.
+    let group = whole_group(path, &problem.algebra, None)?;
+    let interpreter = Interpreter::<_, Exponential>::new(&integrator, group, step)
+        .map_err(|source| RunError::Step { time: 0.0, source })?;
+    let about = format!(
+        "{} on {}, {} chart, K = {}, step {step}.\nWritten by coadjoint {}.",
+        problem.name,
+        problem.algebra.name(),
+        problem.chart,
+        problem.truncation,
+        env!("CARGO_PKG_VERSION"),
+    );
+    device_text(&interpreter, precision, language, &about)
+}
+
+fn refuse_potential(path: &Path, system: &System, what: &str) -> Result<(), RunError> {
+    if system.potential.is_none() {
+        return Ok(());
+    }
+    Err(RunError::Option(format!(
+        "{}: the kicks of a potential are not written as {what}: emit Rust, or leave `potential` out",
+        path.display()
+    )))
+}

@@ -1,0 +1,166 @@
+//! The steps of an interpreter as straight-line programs: evaluated, or as machine code.
+
+use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
+
+use super::restore::{entries_of, phase_of};
+use super::{Interpreter, Restore};
+use crate::backend::{Backend, Code};
+use crate::error::RunError;
+
+/// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
+/// coordinates they would write out.
+pub(super) const MOST_OPERATIONS: usize = 60_000;
+
+/// A state as the programs have it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers {
+    /// The group element.
+    pub g: Vec<f64>,
+    /// μ.
+    pub mu: Vec<f64>,
+}
+
+/// The steps of an interpreter as straight-line programs.
+pub struct Compiled {
+    step: Step,
+    slots: Vec<f64>,
+    code: Code,
+    /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
+    /// cut into pieces.
+    framed: bool,
+}
+
+impl std::fmt::Debug for Compiled {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Compiled").field("code", &self.code).finish_non_exhaustive()
+    }
+}
+
+impl Compiled {
+    /// The steps of `interpreter`, `steps` of which are going to be made, of these trajectories; `None` where they are not made of programs.
+    ///
+    /// # Errors
+    /// Where the backend that the user named cannot be had.
+    pub fn new<G: LieGroup<Scalar = f64>, C: Chart<G>>(
+        interpreter: &Interpreter<'_, G, C>,
+        backend: Backend,
+        steps: f64,
+        trajectories: Trajectories,
+    ) -> Result<Option<Self>, RunError> {
+        let unfit = |why: &dyn std::fmt::Display| match backend {
+            Backend::Auto | Backend::Interpreter => Ok(None),
+            _ => Err(RunError::Option(format!("--backend: {why}"))),
+        };
+        let step = match Step::build(interpreter.integrator, REACH) {
+            Ok(step) => step,
+            Err(error) => return unfit(&error),
+        };
+        let programs = step.kernel().programs();
+        let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
+        if operations > MOST_OPERATIONS {
+            let most = MOST_OPERATIONS;
+            return unfit(&format_args!(
+                "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
+            ));
+        }
+        let slots = step.slots(&interpreter.slots, interpreter.radius);
+        let framed = programs.frame.is_some();
+        let code = Code::new(step.kernel(), backend, steps, trajectories)?;
+        Ok(Some(Self { step, slots, code, framed }))
+    }
+
+    /// What makes the steps.
+    pub fn code(&self) -> &Code {
+        &self.code
+    }
+
+    /// The programs.
+    pub fn kernel(&self) -> &Kernel {
+        self.step.kernel()
+    }
+
+    /// A state as the programs have it.
+    pub fn numbers<G: Restore>(&self, group: &G, phase: &Phase<G>) -> Numbers {
+        let matrix = entries_of(group, &phase.group_element);
+        Numbers { g: self.step.element_of(&matrix), mu: phase.momentum.as_slice().to_vec() }
+    }
+
+    /// A state as the group has it.
+    pub fn phase<G: Restore>(&self, group: &G, numbers: &Numbers) -> Phase<G> {
+        phase_of(group, &self.matrix_of(&numbers.g), &numbers.mu)
+    }
+
+    /// Makes so many steps. What the programs refuse is made by `rescue`, which makes one step by other means (its
+    /// iterations and residual), or says why there is none.
+    ///
+    /// # Errors
+    /// How many steps were made, and why the next one was not; the state is then that before it.
+    pub fn advance(
+        &self,
+        numbers: &mut Numbers,
+        steps: u64,
+        mut rescue: impl FnMut(&mut Numbers) -> Result<StepReport<f64>, StepError>,
+    ) -> Result<Outcome, (u64, StepError)> {
+        let mut total = Outcome::default();
+        while total.steps < steps {
+            let asked = if self.framed { 1 } else { steps - total.steps };
+            let Numbers { g, mu } = numbers;
+            let made = self.code.stepper(self.kernel()).advance(&self.slots, g, mu, asked);
+            total.steps += made.steps;
+            note(&mut total, made.corrections, made.residual);
+            if made.steps < asked {
+                let report = rescue(numbers).map_err(|error| (total.steps, error))?;
+                note(&mut total, report.iterations, report.residual);
+                total.steps += 1;
+            }
+        }
+        Ok(total)
+    }
+
+    /// One step that the programs have refused, by the interpreter of the generating function, which follows a solution
+    /// from the identity or says why there is none.
+    pub fn rescue<G: Restore, C: Chart<G>>(
+        &self,
+        interpreter: &Interpreter<'_, G, C>,
+        numbers: &mut Numbers,
+    ) -> Result<StepReport<f64>, StepError> {
+        let group = &interpreter.group;
+        let mut phase = self.phase(group, numbers);
+        let report = coadjoint::advance(interpreter, &mut phase)?;
+        *numbers = self.numbers(group, &phase);
+        Ok(report)
+    }
+
+    /// The numbers of the element with this matrix, row by row.
+    pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        self.step.element_of(matrix)
+    }
+
+    /// The matrix of an element, row by row.
+    pub fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
+        let program = &self.kernel().programs().matrix;
+        let mut matrix = vec![0.0; program.outputs().len()];
+        program.run(g, &[], &mut Vec::new(), &mut matrix);
+        matrix
+    }
+
+    /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
+    pub fn advance_lanes(
+        &self,
+        g: &mut [f64],
+        mu: &mut [f64],
+        steps: u64,
+        live: [bool; WIDTH],
+    ) -> [u64; WIDTH] {
+        self.code.stepper(self.kernel()).advance_lanes(&self.slots, g, mu, steps, live)
+    }
+}
+
+fn note(total: &mut Outcome, corrections: u32, residual: f64) {
+    total.corrections = total.corrections.max(corrections);
+    if residual.is_nan() || residual > total.residual {
+        total.residual = residual;
+    }
+}

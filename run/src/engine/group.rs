@@ -1,0 +1,113 @@
+//! The run-time group of a Lie algebra.
+
+use std::path::Path;
+
+use coadjoint::{
+    groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup, groups::TableError,
+    groups::Terms,
+};
+use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::potential::Potential;
+use nalgebra::DMatrix;
+use num_traits::ToPrimitive;
+
+use crate::error::RunError;
+
+/// The degree up to which Casimirs are looked for to watch their drift.
+const CASIMIR_DEGREE: u32 = 3;
+
+/// The group whose Lie algebra this is, factor by factor for a direct product.
+pub fn product_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
+    let mut known: Vec<(LieAlgebra, MatrixGroup)> = Vec::new();
+    let group = |factor: LieAlgebra| {
+        if let Some((_, group)) = known.iter().find(|(other, _)| *other == factor) {
+            return Ok(group.clone());
+        }
+        let group = matrix_group(path, &factor, None)?;
+        known.push((factor, group.clone()));
+        Ok(group)
+    };
+    let groups: Result<Vec<_>, RunError> = algebra.factors().into_iter().map(group).collect();
+    Ok(DirectProduct::new(groups?))
+}
+
+/// The same group with the Cayley map.
+pub fn cayley_group(
+    path: &Path,
+    group: &DirectProduct<MatrixGroup>,
+) -> Result<DirectProduct<CayleyMatrixGroup>, RunError> {
+    let factors: Result<Vec<_>, TableError> =
+        group.factors().map(|factor| factor.clone().into_cayley()).collect();
+    let failed = |source| RunError::Group { file: path.into(), source };
+    Ok(DirectProduct::new(factors.map_err(failed)?))
+}
+
+/// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole. With a potential, only
+/// the Casimirs that its kicks leave as they are are watched.
+pub fn whole_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+    potential: Option<&Potential>,
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
+    Ok(DirectProduct::new(vec![matrix_group(path, algebra, potential)?]))
+}
+
+/// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
+/// size, or adjoint matrices where only brackets are known. With a potential, only the Casimirs
+/// that its kicks leave as they are.
+fn matrix_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+    potential: Option<&Potential>,
+) -> Result<MatrixGroup, RunError> {
+    let structure: Vec<_> =
+        algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
+    let group = match algebra.basis() {
+        Some(basis) => {
+            let basis: Vec<DMatrix<f64>> = basis.iter().map(matrix).collect();
+            MatrixGroup::from_structure_and_basis(&structure, &basis)
+        }
+        None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
+    };
+    let kept = |casimir: &&Polynomial| potential.is_none_or(|v| v.keeps(casimir));
+    let terms = casimirs(algebra).iter().filter(kept).map(terms).collect();
+    group
+        .and_then(|group| group.with_casimirs(terms))
+        .map_err(|source| RunError::Group { file: path.into(), source })
+}
+
+/// The Casimirs whose drift is watched: generators up to the highest degree that is not too much
+/// work.
+fn casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
+    (1..=CASIMIR_DEGREE)
+        .rev()
+        .find_map(|degree| lie::casimirs(algebra, degree).ok())
+        .unwrap_or_default()
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+fn matrix(exact: &RationalMatrix) -> DMatrix<f64> {
+    let mut result = DMatrix::zeros(exact.rows(), exact.columns());
+    for (i, j, value) in exact.entries() {
+        result[(i, j)] = float(value);
+    }
+    result
+}
+
+fn terms(polynomial: &Polynomial) -> Terms {
+    polynomial
+        .terms()
+        .map(|(exponents, value)| {
+            let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
+            (float(&value), powers.collect())
+        })
+        .collect()
+}

@@ -1,0 +1,119 @@
+//! What advances rows of states.
+
+use std::path::Path;
+
+use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
+use coadjoint::{Cayley, Chart, Exponential};
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie;
+
+use super::device::{Asked, Use};
+use super::layout::{Layout, Shape};
+use super::rows::Rows;
+use super::steps::Steps;
+use crate::backend::Backend;
+use crate::engine::{Restore, cayley_group, product_group};
+use crate::error::RunError;
+
+/// The largest drifts over an ensemble, each row's relative to its own size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Of the spatial momentum J_L, relative to the largest coordinate of μ.
+    pub spatial_momentum: f64,
+    /// Of the Casimirs, each relative to itself (absolute where it is 0).
+    pub casimirs: f64,
+    /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
+    /// many steps), where it is worth a warning; else 0.
+    pub ratio: f64,
+}
+
+impl Drift {
+    /// The larger of each; what is no number is larger than any.
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            spatial_momentum: larger(self.spatial_momentum, other.spatial_momentum),
+            casimirs: larger(self.casimirs, other.casimirs),
+            ratio: larger(self.ratio, other.ratio),
+        }
+    }
+}
+
+/// Something that advances rows of states.
+pub trait Engine: Sync {
+    /// What rows may hold.
+    fn shape(&self) -> Shape;
+
+    /// How many Casimirs are watched.
+    fn casimirs(&self) -> usize;
+
+    /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
+    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads. `made` is
+    /// told, again and again, how many steps every row has made.
+    ///
+    /// # Errors
+    /// Where a device fails; nothing is known of the rows then.
+    fn advance(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        rows: &mut Rows,
+        made: &dyn Fn(u64),
+    ) -> Result<Drift, RunError>;
+
+    /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
+    fn device(&self) -> Option<Use>;
+
+    /// What else evaluates steps, in a few words.
+    fn backend(&self) -> String;
+
+    /// What could not be had, and what takes its place.
+    fn notes(&self) -> &[String];
+}
+
+/// What is to make the steps.
+#[derive(Clone, Copy, Debug)]
+pub struct How {
+    /// What evaluates programs.
+    pub backend: Backend,
+    /// About how many steps all lanes together make.
+    pub work: f64,
+    /// The device, where one is named.
+    pub device: Option<Asked>,
+}
+
+/// The engine of a system.
+pub fn engine<'a>(
+    path: &Path,
+    integrator: &'a Integrator,
+    step: f64,
+    how: How,
+) -> Result<Box<dyn Engine + 'a>, RunError> {
+    let group = product_group(path, &integrator.problem.algebra)?;
+    match integrator.problem.chart {
+        lie::Chart::Exponential => {
+            on::<DirectProduct<MatrixGroup>, Exponential>(integrator, group, step, how)
+        }
+        lie::Chart::Cayley => {
+            let group = cayley_group(path, &group)?;
+            on::<DirectProduct<CayleyMatrixGroup>, Cayley>(integrator, group, step, how)
+        }
+    }
+}
+
+fn on<'a, G, C>(
+    integrator: &'a Integrator,
+    group: G,
+    step: f64,
+    how: How,
+) -> Result<Box<dyn Engine + 'a>, RunError>
+where
+    G: Restore<Element: Send + Sync> + Send + Sync + 'a,
+    C: Chart<G> + Send + Sync + 'a,
+{
+    Ok(Box::new(Steps::<G, C>::new(integrator, group, step, how)?))
+}
+
+/// The larger of two numbers; what is no number is larger than any.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}

@@ -1,0 +1,14 @@
+//! Many trajectories of one system, in memory.
+
+mod attitude;
+mod device;
+mod engine;
+mod layout;
+mod pack;
+mod rows;
+mod steps;
+
+pub use device::{Asked, Use};
+pub use engine::{Drift, Engine, How, engine};
+pub use layout::{Attitude, Layout, Shape};
+pub use rows::{Rejected, Rows};

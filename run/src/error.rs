@@ -1,0 +1,134 @@
+//! What can go wrong.
+
+use std::path::PathBuf;
+
+use coadjoint::{StepError, groups::ElementError, groups::TableError};
+use coadjoint_codegen::emit::TooManyTerms;
+use coadjoint_codegen::emit::c::HeaderError;
+use coadjoint_codegen::hamilton_jacobi::DeriveError;
+use coadjoint_codegen::tolerance::ToleranceError;
+
+/// Why a run failed.
+///
+/// Messages name settings as the command does, `--step` and so on; `file` is whatever the system was called.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// Mistakes in the text of a system, rendered with file, line and advice.
+    #[error("{0}")]
+    Input(String),
+    /// A setting that does not make sense.
+    #[error("{0}")]
+    Option(String),
+    /// Something that is neither in the text nor among the settings.
+    #[error("{file}: `{key}` is missing: write for example `{example}`, or give {option}", file = .file.display())]
+    Missing {
+        /// The system file.
+        file: PathBuf,
+        /// The key.
+        key: &'static str,
+        /// A line with it.
+        example: &'static str,
+        /// The option that replaces it.
+        option: &'static str,
+    },
+    /// The series cannot be derived, or is too large.
+    #[error("{}: {source}", .file.display())]
+    Derive {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: DeriveError,
+    },
+    /// No truncation and step can be picked.
+    #[error("{}: {source}", .file.display())]
+    Tolerance {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: ToleranceError,
+    },
+    /// The series is too large to write as Rust.
+    #[error("{}: {source}", .file.display())]
+    Size {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TooManyTerms,
+    },
+    /// The system is not written as C.
+    #[error("{}: {source}", .file.display())]
+    Header {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: HeaderError,
+    },
+    /// The data defines no group.
+    #[error("{}: {source}", .file.display())]
+    Group {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: TableError,
+    },
+    /// The initial group element is none.
+    #[error("{}: `group_element` in [initial]: {source}", .file.display())]
+    Element {
+        /// The system file.
+        file: PathBuf,
+        /// Why.
+        source: ElementError,
+    },
+    /// A step that could not be made.
+    #[error("at time {time}: {source}")]
+    Step {
+        /// When.
+        time: f64,
+        /// Why.
+        source: StepError,
+    },
+    /// A run that stopped.
+    #[error("at time {time}, step {step}: {what}")]
+    Run {
+        /// When.
+        time: f64,
+        /// The number of the step, from 1; 0 for the start.
+        step: u64,
+        /// Why.
+        what: String,
+    },
+    /// The outlet asked to stop; it knows why.
+    #[error("stopped at time {time}, after {step} steps")]
+    Halted {
+        /// When.
+        time: f64,
+        /// Steps made.
+        step: u64,
+    },
+    /// A learned model that cannot be used.
+    #[error(transparent)]
+    Learn(#[from] coadjoint_learn::LearnError),
+    /// A device that failed on the way.
+    #[error("{0}")]
+    Device(coadjoint_device::DeviceError),
+}
+
+impl RunError {
+    /// Whether what was given is at fault, not what became of it.
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Input(_)
+            | Self::Option(_)
+            | Self::Missing { .. }
+            | Self::Derive { .. }
+            | Self::Tolerance { .. }
+            | Self::Size { .. }
+            | Self::Header { .. }
+            | Self::Group { .. }
+            | Self::Element { .. } => true,
+            Self::Step { .. } | Self::Run { .. } | Self::Halted { .. } | Self::Device(_) => false,
+            Self::Learn(error) => error.is_input(),
+        }
+    }
+}

@@ -1,0 +1,23 @@
+#![doc = include_str!("../README.md")]
+
+mod backend;
+pub mod check;
+pub mod emit;
+pub mod engine;
+pub mod ensemble;
+mod error;
+mod load;
+pub mod number;
+pub mod series;
+pub mod simulate;
+
+use sha2::{Digest, Sha256};
+
+pub use backend::{Backend, Code, Used};
+pub use error::RunError;
+pub use load::{Accuracy, Derived, integrator, meet_tolerance, read, read_with};
+
+/// The SHA-256 of a text in hexadecimal digits.
+pub fn text_hash(text: &str) -> String {
+    format!("{:x}", Sha256::digest(text))
+}

@@ -1,0 +1,130 @@
+//! From the text of a system to what steps are made of.
+
+use std::path::{Path, PathBuf};
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::system::{self, Options, Run, System};
+use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
+
+use crate::engine::{Energy, Forces};
+use crate::error::RunError;
+
+/// Reads the text of a system file as it stands; `name` is what mistakes call it.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read(name: &str, text: &str) -> Result<System, RunError> {
+    read_with(name, text, Options::default())
+}
+
+/// Reads the text of a system file.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_with(name: &str, text: &str, options: Options) -> Result<System, RunError> {
+    system::read(text, options).map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
+}
+
+/// Derives and lowers a problem.
+///
+/// # Errors
+/// Where the series cannot be derived, or is too large.
+pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
+    Integrator::build(problem, TermLimit::default())
+        .map_err(|source| RunError::Derive { file: path.into(), source })
+}
+
+/// A system with its series as programs.
+#[derive(Debug)]
+pub struct Derived {
+    /// What the system is called in messages.
+    pub file: PathBuf,
+    /// The flow.
+    pub integrator: Integrator,
+    /// The energy.
+    pub energy: Energy,
+    /// The kicks of a potential.
+    pub forces: Option<Forces>,
+}
+
+impl Derived {
+    /// Derives the series of a system, which is called by its name in messages.
+    ///
+    /// # Errors
+    /// Where the series cannot be derived, or is too large.
+    pub fn of(system: System) -> Result<Self, RunError> {
+        let file = PathBuf::from(&system.problem.name);
+        Self::of_file(&file, system)
+    }
+
+    /// The same, called by the name of a file in messages.
+    ///
+    /// # Errors
+    /// Where the series cannot be derived, or is too large.
+    pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
+        let System { problem, potential, .. } = system;
+        let energy = Energy::new(&problem, potential.as_ref().map(|(potential, _)| potential));
+        let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
+        let integrator = integrator(file, problem)?;
+        Ok(Self { file: file.to_owned(), integrator, energy, forces })
+    }
+}
+
+/// Where a truncation is picked, series may become this large.
+const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
+
+/// What a step is asked for by.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Accuracy {
+    /// The step size.
+    pub step: Option<f64>,
+    /// The error wanted at the end of the run.
+    pub tolerance: Option<f64>,
+    /// The norm of the momentum up to which the tolerance is to hold; along the run if not given.
+    pub region: Option<f64>,
+    /// K, where it is not to be picked.
+    pub truncation: Option<usize>,
+    /// The duration, where it is not that of the text.
+    pub time: Option<f64>,
+}
+
+/// Picks truncation and step where a tolerance is asked for, by the settings or in the text, and puts them into the
+/// system; what was picked.
+///
+/// # Errors
+/// Where nothing can be picked.
+pub fn meet_tolerance(
+    path: &Path,
+    System { problem, potential, run, .. }: &mut System,
+    asked: &Accuracy,
+) -> Result<Option<Choice>, RunError> {
+    let replaced = asked.tolerance.is_none() && asked.step.is_some();
+    let Some(tolerance) = asked.tolerance.or(run.tolerance).filter(|_| !replaced) else {
+        return Ok(None);
+    };
+    if potential.is_some() {
+        return Err(RunError::Option(
+            "a tolerance says nothing of the kicks of a potential: give the step instead".into(),
+        ));
+    }
+    let duration = asked.time.or(run.time).ok_or_else(|| RunError::Missing {
+        file: path.into(),
+        key: "[run] time",
+        example: "time = 100.0",
+        option: "--time 100",
+    })?;
+    let target = Target {
+        tolerance,
+        duration,
+        start: run.momentum.clone(),
+        region: asked.region.map(Region::Ball).or_else(|| run.region.clone()),
+        truncation: asked.truncation.or(run.truncation),
+    };
+    let choice = tolerance::choose(problem, &target, AFFORDABLE)
+        .map_err(|source| RunError::Tolerance { file: path.into(), source })?;
+    problem.truncation = choice.truncation;
+    *run = Run { step: Some(choice.step), ..run.clone() };
+    Ok(Some(choice))
+}

@@ -1,0 +1,23 @@
+//! Trajectories of one system.
+
+mod blocks;
+mod learned;
+mod march;
+mod outlet;
+mod recorder;
+mod schedule;
+mod setup;
+mod subject;
+mod task;
+mod times;
+mod warning;
+
+pub use blocks::{Block, Kind, matrix, split};
+pub use learned::{algebra_of, run_model, schedule_of};
+pub use outlet::{Halt, Outlet, Record, Resume, Standing};
+pub use recorder::{Drift, Moment, Outcome, Recorder, Solver, Tally, Watched};
+pub use schedule::Schedule;
+pub use setup::Setup;
+pub use task::run;
+pub use times::Times;
+pub use warning::{Steep, Warning};

@@ -1,0 +1,72 @@
+//! The settings of a run.
+
+use std::path::Path;
+
+use nalgebra::DVector;
+
+use super::schedule::Schedule;
+use super::times::Times;
+use crate::backend::Backend;
+use crate::engine::Group;
+use crate::error::RunError;
+
+/// The settings of a run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// In which steps the run reaches its end.
+    pub schedule: Schedule,
+    /// Whether records are wanted at all.
+    pub recording: bool,
+    /// Every n-th step is recorded, and the last; `None` where only the times of `at` are. Not 0.
+    pub every: Option<u64>,
+    /// Times recorded besides.
+    pub at: Option<Times>,
+    /// Whether the tail of the series is summed for the motion from the initial momentum.
+    pub tuned: bool,
+    /// How long the motion is followed to which the coefficients are fitted, if they are.
+    pub fitted: Option<f64>,
+    /// What evaluates the programs of a step.
+    pub backend: Backend,
+    /// μ at the start.
+    pub momentum: DVector<f64>,
+    /// g at the start, row by row; the identity if it is not given.
+    pub group_element: Option<Vec<Vec<f64>>>,
+}
+
+impl Setup {
+    /// A run from this momentum and the identity, of which no records are kept.
+    pub fn new(schedule: Schedule, momentum: Vec<f64>) -> Self {
+        Self {
+            schedule,
+            recording: false,
+            every: Some(1),
+            at: None,
+            tuned: false,
+            fitted: None,
+            backend: Backend::Auto,
+            momentum: DVector::from_vec(momentum),
+            group_element: None,
+        }
+    }
+
+    /// g at the start.
+    ///
+    /// # Errors
+    /// Where the matrix given is no element of the group.
+    pub fn element<G: Group>(&self, file: &Path, group: &G) -> Result<G::Element, RunError> {
+        match &self.group_element {
+            None => Ok(group.identity()),
+            Some(rows) => {
+                let size = group.matrix_size();
+                if rows.len() != size || rows.iter().any(|row| row.len() != size) {
+                    return Err(RunError::Option(format!(
+                        "the group element must be a matrix of {size} rows and columns"
+                    )));
+                }
+                group
+                    .element_from_matrix(|i, j| rows[i][j])
+                    .map_err(|source| RunError::Element { file: file.into(), source })
+            }
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! What is run, whatever makes its steps.
+
+use std::path::Path;
+
+use super::recorder::Watched;
+use super::setup::Setup;
+use super::warning::Warning;
+
+/// A run as its driver knows it: of a system, or of a learned map.
+#[derive(Clone)]
+pub struct Subject<'a> {
+    /// What the system is called in messages.
+    pub file: &'a Path,
+    /// From where, how far, in which steps.
+    pub setup: &'a Setup,
+    /// What is watched.
+    pub watched: Watched<'a>,
+    /// What is known to be worth telling before the first step.
+    pub warnings: Vec<Warning>,
+}

@@ -1,0 +1,261 @@
+//! A run: flows, or flows and kicks, from the initial state to the end.
+
+use std::cell::RefCell;
+
+use coadjoint::groups::{DirectProduct, MatrixGroup};
+use coadjoint::{
+    Cayley, Chart, Exponential, GeneratingFunction, Phase, StepError, solve::Solution,
+    solve::solve, steps::reconstruct, tune::fit,
+};
+use coadjoint_codegen::lie;
+use coadjoint_program::Trajectories;
+use nalgebra::DVector;
+
+use super::march::{Made, March, Stepper, each};
+use super::outlet::Outlet;
+use super::recorder::{Outcome, Watched};
+use super::setup::Setup;
+use super::subject::Subject;
+use super::warning::Warning;
+use crate::engine::{
+    Compiled, Forces, Interpreter, Numbers, Restore, Steepness, advise, cayley_group,
+    product_group, whole_group,
+};
+use crate::error::RunError;
+use crate::load::Derived;
+use crate::number::largest;
+
+/// A step between grid points is made in so many where S was adjusted to the step of the grid: the plain
+/// series is then no less accurate.
+const SIDE_STEPS: u32 = 8;
+
+/// Runs a system from the start to the end.
+///
+/// # Errors
+/// Settings that make no sense, and why the run stopped.
+pub fn run(system: &Derived, setup: &Setup, outlet: &mut dyn Outlet) -> Result<Outcome, RunError> {
+    let problem = &system.integrator.problem;
+    let follows = [("--tuned", setup.tuned), ("--fitted", setup.fitted.is_some())];
+    if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
+        && system.forces.is_some()
+    {
+        let what =
+            format!("{option} follows the flow, which kicks of a potential leave: leave it out");
+        return Err(RunError::Option(what));
+    }
+    if setup.momentum.len() != problem.algebra.dim() {
+        return Err(RunError::Option("the momentum does not fit the group".to_owned()));
+    }
+    let group = system.group()?;
+    let task = Task { system, setup };
+    match problem.chart {
+        lie::Chart::Exponential => task.integrate::<_, Exponential>(&group, outlet),
+        lie::Chart::Cayley => {
+            task.integrate::<_, Cayley>(&cayley_group(&system.file, &group)?, outlet)
+        }
+    }
+}
+
+impl Derived {
+    /// The group that the equations are on. Kicks look at the matrices of the whole group; a flow alone goes factor by
+    /// factor.
+    ///
+    /// # Errors
+    /// Where the data defines no group.
+    pub fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
+        let algebra = &self.integrator.problem.algebra;
+        match &self.forces {
+            Some(forces) => whole_group(&self.file, algebra, Some(&forces.kick.potential)),
+            None => product_group(&self.file, algebra),
+        }
+    }
+
+    /// What is watched in a run.
+    pub fn watched(&self) -> Watched<'_> {
+        let symmetries = self.forces.as_ref().map(|forces| forces.symmetries.as_slice());
+        let problem = &self.integrator.problem;
+        let (algebra, coordinates) = (&problem.algebra, problem.coordinates.as_slice());
+        Watched { algebra, coordinates, energy: Some(&self.energy), attitude: true, symmetries }
+    }
+
+    /// What makes a run, in a few words.
+    pub fn label(&self, setup: &Setup) -> String {
+        let problem = &self.integrator.problem;
+        let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
+        if problem.comoving.is_some() {
+            label.push_str(", comoving");
+        }
+        if setup.tuned {
+            label.push_str(", tuned");
+        }
+        if setup.fitted.is_some() {
+            label.push_str(", fitted");
+        }
+        if let Some(forces) = &self.forces {
+            label = format!("{label}, {}", forces.splitting.name());
+        }
+        label
+    }
+}
+
+/// What is run.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    system: &'a Derived,
+    setup: &'a Setup,
+}
+
+impl<'a> Task<'a> {
+    /// The run as its driver knows it.
+    fn subject(&self, warnings: Vec<Warning>, outlet: &mut dyn Outlet) -> Subject<'a> {
+        warnings.iter().for_each(|warning| outlet.warn(&warning.text()));
+        let Self { system, setup } = *self;
+        Subject { file: &system.file, setup, watched: system.watched(), warnings }
+    }
+
+    /// Advances from the initial state to the end.
+    fn integrate<G: Restore, C: Chart<G>>(
+        &self,
+        group: &G,
+        outlet: &mut dyn Outlet,
+    ) -> Result<Outcome, RunError> {
+        match &self.system.forces {
+            Some(forces) => self.kicked::<G, C>(group, forces, outlet),
+            None => self.flow::<G, C>(group, outlet),
+        }
+    }
+
+    /// Flows and kicks.
+    fn kicked<G: Restore, C: Chart<G>>(
+        &self,
+        group: &G,
+        forces: &Forces,
+        outlet: &mut dyn Outlet,
+    ) -> Result<Outcome, RunError> {
+        let integrator = &self.system.integrator;
+        let h = self.setup.schedule.step;
+        let make = |h| forces.step::<G, C>(integrator, group, h);
+        let step = make(h).map_err(at_start)?;
+        let longest = h * forces.longest_flow();
+        let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest);
+        let flow = flow.map_err(at_start)?;
+        let steepness = Steepness::new(&flow);
+        let subject = self.subject(Vec::new(), outlet);
+        let stepper = Stepper {
+            steps: &each(&self.setup.schedule, |time, phase| {
+                step(phase, time).map_err(|error| {
+                    let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
+                    advise(error, h, works)
+                })?;
+                Ok(Made { solve: None })
+            }),
+            side: &|time, part, phase| make(part)?(phase, time),
+            ratio: &|mu| steepness.ratio(mu),
+            kept: None,
+        };
+        March { subject: &subject, group }.run(&stepper, outlet)
+    }
+
+    /// The flow alone.
+    fn flow<G: Restore, C: Chart<G>>(
+        &self,
+        group: &G,
+        outlet: &mut dyn Outlet,
+    ) -> Result<Outcome, RunError> {
+        let integrator = &self.system.integrator;
+        let Setup { schedule, tuned, fitted, momentum, .. } = self.setup;
+        let h = schedule.step;
+        let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
+        let mut warnings = Vec::new();
+        let step = match fitted {
+            Some(duration) => {
+                outlet.phase(Some("fitting the coefficients to the motion"));
+                let fit = fit(h, series, [momentum.clone()], *duration);
+                outlet.phase(None);
+                let fit = fit.map_err(|error| RunError::Option(format!("--fitted: {error}")))?;
+                // What is no number is not better either.
+                if !fit.unseen.lt(&fit.before) {
+                    warnings.push(Warning::FellBack { option: "--fitted" });
+                }
+                fit.integrator
+            }
+            None if *tuned => {
+                outlet.phase(Some("summing the tail of the series"));
+                let tuned = Interpreter::tuned(integrator, group.clone(), h, momentum);
+                outlet.phase(None);
+                let (step, tail) = tuned.map_err(at_start)?;
+                if tail.is_plain() {
+                    warnings.push(Warning::FellBack { option: "--tuned" });
+                }
+                step
+            }
+            None => series(h).map_err(at_start)?,
+        };
+        let count = if *tuned || fitted.is_some() { SIDE_STEPS } else { 1 };
+        let steepness = Steepness::new(&step);
+        let subject = self.subject(warnings, outlet);
+        let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
+            let solution = solve(step, &phase.momentum)?;
+            let residual = residual(step, &phase.momentum, &solution);
+            reconstruct(step, phase, &solution.x)?;
+            Ok((solution, residual))
+        };
+        let side = |_: f64, part: f64, phase: &mut Phase<G>| {
+            let step = series(part / f64::from(count))?;
+            (0..count).try_for_each(|_| one(&step, phase).map(drop))
+        };
+        let advised = |error, phase: &Phase<G>| {
+            advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
+        };
+        let (backend, steps) = (self.setup.backend, schedule.steps as f64);
+        let Some(compiled) = Compiled::new(&step, backend, steps, Trajectories::One)? else {
+            let stepper = Stepper {
+                steps: &each(schedule, |_, phase| {
+                    let (solution, residual) =
+                        one(&step, phase).map_err(|error| advised(error, phase))?;
+                    Ok(Made { solve: Some((solution.iterations, residual)) })
+                }),
+                side: &side,
+                ratio: &|mu| steepness.ratio(mu),
+                kept: None,
+            };
+            return March { subject: &subject, group }.run(&stepper, outlet);
+        };
+        compiled.code().notes().iter().for_each(|note| outlet.warn(note));
+        let kept = RefCell::new(None);
+        let stepper = Stepper {
+            steps: &|_, phase, count| {
+                let mut kept = kept.borrow_mut();
+                let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
+                let rescue = |numbers: &mut Numbers| compiled.rescue(&step, numbers);
+                let made = compiled.advance(numbers, count, rescue);
+                *phase = compiled.phase(group, numbers);
+                let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
+                // A bound, which may be far below what rounding leaves.
+                Ok(Made { solve: Some((made.corrections, made.residual.max(f64::EPSILON))) })
+            },
+            side: &side,
+            ratio: &|mu| steepness.ratio(mu),
+            kept: Some(&kept),
+        };
+        let outcome = March { subject: &subject, group }.run(&stepper, outlet)?;
+        Ok(Outcome { backend: Some(compiled.code().used()), ..outcome })
+    }
+}
+
+fn at_start(source: StepError) -> RunError {
+    RunError::Step { time: 0.0, source }
+}
+
+/// What the solve leaves of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
+/// the step itself reports an estimate. NaN where anything is NaN.
+fn residual<G: Restore, C: Chart<G>>(
+    step: &Interpreter<'_, G, C>,
+    mu: &DVector<f64>,
+    solution: &Solution<DVector<f64>, f64>,
+) -> f64 {
+    let reached = C::default().left_momentum(step.group(), &solution.x, &solution.p);
+    let left = largest((reached - mu).iter().copied());
+    let size = largest(mu.iter().copied());
+    if size == 0.0 { left } else { left / size }
+}
