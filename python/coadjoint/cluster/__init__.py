@@ -14,6 +14,7 @@ from .errors import ClusterError, InputError, ManifestError, ShardError, WorkerD
 from .launch import run
 from .progress import Progress
 from .result import Result, bad_rows, check, join
+from .shards import join_shards
 
 __all__ = [
     "ClusterError",
@@ -26,5 +27,6 @@ __all__ = [
     "bad_rows",
     "check",
     "join",
+    "join_shards",
     "run",
 ]

@@ -9,20 +9,19 @@ from .errors import InputError
 _QUATERNION = ["q_w", "q_x", "q_y", "q_z"]
 
 
-def choose(available: Sequence[str] | int, dimension: int, matrix_size: int, quaternions: bool) -> list[str]:
+def choose(available: Sequence[str] | int, layouts: Sequence[Sequence[str]]) -> list[str]:
     """The columns of a state among those of a file, in the order in which the steps want them.
 
+    ``layouts`` are what the system takes: momenta alone, with matrices, and with quaternions where these name elements.
     A file without names has a width, which says what it holds.
     """
-    momentum = [f"mu_{i}" for i in range(1, dimension + 1)]
-    between = "_" if matrix_size > 9 else ""
-    size = range(1, matrix_size + 1)
-    matrix = [f"g_{i}{between}{j}" for i in size for j in size]
-    layouts = [momentum, momentum + matrix] + ([momentum + _QUATERNION] if quaternions else [])
+    momentum, with_matrix, *with_quaternion = map(list, layouts)
+    dimension = len(momentum)
+    matrix = with_matrix[dimension:]
     if isinstance(available, int):
         for layout in layouts:
             if len(layout) == available:
-                return layout
+                return list(layout)
         widths = " or ".join(str(len(layout)) for layout in layouts)
         raise InputError(
             f"the array has {available} columns; this system needs {widths}: {dimension} for the momentum "
@@ -39,10 +38,10 @@ def choose(available: Sequence[str] | int, dimension: int, matrix_size: int, qua
     some_quaternion = [name for name in _QUATERNION if name in available]
     if some_matrix and some_quaternion:
         raise InputError(f"columns {some_matrix[0]} and {some_quaternion[0]} both give the attitude: keep one kind")
-    if some_quaternion and not quaternions:
+    if some_quaternion and not with_quaternion:
         raise InputError(
             f"column {some_quaternion[0]}: elements of this group are no quaternions; give the attitude as a "
-            f"{matrix_size}×{matrix_size} matrix, {matrix[0]} …"
+            f"matrix, {matrix[0]} … {matrix[-1]}"
         )
     wanted = momentum + (matrix if some_matrix else _QUATERNION if some_quaternion else [])
     for name in wanted:

@@ -1,16 +1,16 @@
-"""What can go wrong in a run over many machines."""
+"""What can go wrong in a run over many shards; options that make no sense are ``coadjoint.InputError``."""
+
+from __future__ import annotations
+
+from ..errors import InputError, RunError
 
 
-class ClusterError(RuntimeError):
+class ClusterError(RunError):
     """A run over many shards cannot go on; the message says what to do."""
 
 
 class ManifestError(ClusterError):
     """The folder holds another run than the one that is asked for."""
-
-
-class InputError(ClusterError, ValueError):
-    """The states cannot be read, or an option makes no sense."""
 
 
 class ShardError(ClusterError):
@@ -19,3 +19,6 @@ class ShardError(ClusterError):
 
 class WorkerDied(ClusterError):
     """A worker ended before its shard did; another one may succeed."""
+
+
+__all__ = ["ClusterError", "InputError", "ManifestError", "ShardError", "WorkerDied"]

@@ -85,15 +85,17 @@ class Folder:
         with self.fs.open(self.at(name), "rb") as file:
             return digest(file)
 
-    def write(self, name: str, fill: Callable[[BinaryIO], None]) -> tuple[int, str]:
+    def write(
+        self, name: str, fill: Callable[[BinaryIO], None], passing_in: str = "_run/partial"
+    ) -> tuple[int, str]:
         """Writes a file whole or not at all, and returns its bytes and its SHA-256.
 
-        On a local disk it is filled under a passing name in ``_run/partial``, forced to the disk, and
+        On a local disk it is filled under a passing name in the folder ``passing_in``, forced to the disk, and
         renamed. Elsewhere it is filled in a temporary file here and put as one object, which other
         machines see when it is complete.
         """
         if self.local:
-            return self._rename(name, fill)
+            return self._rename(name, fill, passing_in)
         with tempfile.NamedTemporaryFile(prefix="coadjoint-") as file:
             fill(file)
             file.flush()
@@ -103,9 +105,9 @@ class Folder:
             self.fs.put_file(file.name, self.at(name))
         return found
 
-    def _rename(self, name: str, fill: Callable[[BinaryIO], None]) -> tuple[int, str]:
+    def _rename(self, name: str, fill: Callable[[BinaryIO], None], passing_in: str) -> tuple[int, str]:
         target = self.at(name)
-        partial = self.at("_run/partial")
+        partial = self.at(passing_in) if passing_in else self.path
         os.makedirs(os.path.dirname(target), exist_ok=True)
         os.makedirs(partial, exist_ok=True)
         unique = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"

@@ -26,7 +26,9 @@ def run(
     time: float | None = None,
     step: float | None = None,
     tolerance: float | None = None,
-    backend: str | None = None,
+    region: float | None = None,
+    truncation: int | None = None,
+    backend: str = "auto",
     client: Any = None,
     workers: int | None = None,
     threads: int = 1,
@@ -57,7 +59,11 @@ def run(
         records of shards, and lists of bad rows.
     time, step, tolerance : float, optional
         The duration, and the step or the tolerance; the system's own if not given.
-    backend : str, optional
+    region : float, optional
+        The norm of momenta up to which the tolerance is to hold; along the system's own run if not given.
+    truncation : int, optional
+        S₁ … S_K are kept, K odd; the system's own if not given.
+    backend : str
         What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
     client : optional
         A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, processes of this machine.
@@ -94,7 +100,8 @@ def run(
     ClusterError
         Where not a single row reaches the end.
     """
-    job = Job(system, states, out, time, step, tolerance, backend, rows_per_shard, share, keep, storage_options)
+    asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
+    job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options)
     if isinstance(attempts, bool) or not isinstance(attempts, int) or attempts < 1:
         raise InputError(f"attempts = {attempts!r}: a whole number, at least 1, is needed")
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
@@ -128,16 +135,25 @@ class Job:
     """A run that is planned."""
 
     def __init__(
-        self, system, names, out, duration, step, tolerance, backend, rows_per_shard, share, keep, storage_options
+        self,
+        system: Any,
+        names: Any,
+        out: str | os.PathLike[str],
+        asked: dict[str, Any],
+        backend: str,
+        rows_per_shard: int | None,
+        share: tuple[int, int] | None,
+        keep: Sequence[str],
+        storage_options: dict[str, Any] | None,
     ) -> None:
         self.options = storage_options
         self.folder = Folder(absolute(out), storage_options)
         self.states = states.inspect(names, storage_options)
         # Everything that workers need to make the same steps, as text and numbers.
-        self.core = core.pin(system, duration, step, tolerance, backend)
-        self.columns = choose(self.states.columns, *core.shape(self.core))
+        self.core = core.pin(system, asked, backend)
+        self.columns = choose(self.states.columns, core.layouts(self.core))
         self.keep = self._kept(keep)
-        self.plan = plan(self.states.rows, core.steps(self.core), rows_per_shard)
+        self.plan = plan(self.states.rows, self.core["steps"], rows_per_shard)
         self.shards = range(self.plan.shards) if share is None else self.plan.share(*share)
         self.versions = core.versions()
 
@@ -159,7 +175,7 @@ class Job:
         return {
             "format": 1,
             "versions": self.versions,
-            "job": core.described(self.core),
+            "job": self.core,
             # Without folders: states may be moved between one call and the next.
             "states": [
                 {"name": file.name.rsplit("/", 1)[-1], "bytes": file.size, "rows": file.rows, "sha256": file.hash}
@@ -224,8 +240,7 @@ class Job:
         complete = result.summarize(self.folder, self.plan)
         drift: dict[str, float] = {}
         for summary in found.values():
-            for name, value in summary.drift.items():
-                drift[name] = max(drift.get(name, 0.0), value)
+            shard.raise_to(drift, summary.drift)
         seconds = time.perf_counter() - begun
         outcome = Result(
             out=self.folder.name,
@@ -235,7 +250,7 @@ class Job:
             kept=sum(summary.kept for summary in found.values()),
             complete=complete,
             drift=drift,
-            warnings=list(dict.fromkeys(text for number in sorted(found) for text in found[number].warnings)),
+            warnings=core.warnings(drift.pop("ratio", 0.0), [note for s in found.values() for note in s.notes]),
             seconds=seconds,
             rows_per_second=sum(s.rows for s in found.values() if not s.kept) / seconds,
             shard_seconds={number: found[number].seconds for number in sorted(found)},

@@ -33,8 +33,9 @@ class Result:
     kept: int
     #: Whether the whole run is finished, not only this share.
     complete: bool
-    #: The largest relative drifts.
+    #: The largest relative drifts of the spatial momentum and of the Casimirs.
     drift: dict[str, float]
+    #: What should be known of the run: a series that hardly converges, a compiler that a worker did not find.
     warnings: list[str]
     seconds: float
     rows_per_second: float
@@ -68,8 +69,7 @@ def summarize(folder: Folder, plan: Plan) -> bool:
         entry = json.loads(folder.read(shard.record(i)) or b"{}")
         total["rows"] += entry["rows"]
         total["bad"] += entry["bad"]
-        for name, value in entry["drift"].items():
-            total["drift"][name] = max(total["drift"].get(name, 0.0), value)
+        shard.raise_to(total["drift"], entry["drift"])
     folder.write(SUMMARY, lambda file: file.write(manifest.encode(total)) and None)
     return True
 
@@ -125,7 +125,7 @@ def join(
                     rows += table.num_rows
         sink.close()
 
-    Folder(parent, storage_options).write(name, fill)
+    Folder(parent or "/", storage_options).write(name, fill, passing_in="")
     return rows
 
 

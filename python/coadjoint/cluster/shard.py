@@ -15,7 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from . import core, states
-from .errors import ClusterError, ShardError
+from .errors import ClusterError, InputError, ShardError
 from .files import LASTING, Folder
 from .manifest import encode
 from .plan import group_rows
@@ -49,15 +49,24 @@ class Summary:
     shard: int
     rows: int
     bad: int
-    #: The largest relative drifts, spatial momentum and Casimirs.
+    #: The largest relative drifts of spatial momentum and Casimirs, and the largest ratio of the last two terms of the
+    #: series where it is worth a warning, else 0.
     drift: dict[str, float]
-    warnings: list[str]
+    #: What this worker could not have, such as a compiler; the bytes do not depend on it.
+    notes: list[str]
     #: Whether an earlier run had made it.
     kept: bool
     seconds: float
     worker: str
     #: The largest memory of the worker so far, in bytes; 0 where the system does not say.
     memory: int
+
+
+def raise_to(drift: dict[str, float], other: dict[str, float]) -> None:
+    """Puts the larger of each into ``drift``; what is no number is larger than any."""
+    for name, value in other.items():
+        known = drift.setdefault(name, value)
+        drift[name] = value if value > known or value != value else known
 
 
 def number(name: str) -> int | None:
@@ -91,14 +100,15 @@ def run(task: Task) -> Summary:
             raise ShardError(f"the worker {_worker()} has {differing}: parts would not have the same bytes")
         folder = Folder(task.out, task.storage_options)
         known = finished(folder, task.shard, task.start, task.stop, task.verify)
-        entry = known if known is not None else _make(task, folder)
-    except ClusterError as error:
+        notes: list[str] = []
+        entry = known if known is not None else _make(task, folder, notes)
+    except (ClusterError, InputError) as error:
         raise type(error)(_place(task, str(error))) from None
     except OSError as error:
         if error.errno in LASTING:
             raise ShardError(_place(task, f"cannot write or read: {error}")) from None
         raise
-    except (Exception, RecursionError) as error:
+    except Exception as error:
         # Errors of other packages need not survive the way back.
         raise ShardError(_place(task, f"{type(error).__name__}: {error}")) from error
     return Summary(
@@ -106,7 +116,7 @@ def run(task: Task) -> Summary:
         rows=entry["rows"],
         bad=entry["bad"],
         drift=entry["drift"],
-        warnings=entry["warnings"],
+        notes=notes,
         kept=known is not None,
         seconds=time.perf_counter() - begun,
         worker=_worker(),
@@ -134,10 +144,10 @@ def finished(folder: Folder, shard: int, start: int, stop: int, verify: bool) ->
     return entry
 
 
-def _make(task: Task, folder: Folder) -> dict[str, Any]:
+def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
     folder.remove(record(task.shard))
     rejected: list[dict[str, Any]] = []
-    notes: dict[str, Any] = {"drift": {}, "warnings": []}
+    drift: dict[str, float] = {}
     width = len(task.columns)
 
     def fill(file: Any) -> None:
@@ -147,9 +157,8 @@ def _make(task: Task, folder: Folder) -> dict[str, Any]:
             made = core.advance(task.job, numbers, task.threads)
             for index, step, reason in made.bad:
                 rejected.append({"row": row + index, "step": step, "reason": reason})
-            for name, value in made.drift.items():
-                notes["drift"][name] = float(np.fmax(notes["drift"].get(name, 0.0), value))
-            notes["warnings"] += [text for text in made.warnings if text not in notes["warnings"]]
+            raise_to(drift, made.drift)
+            notes += [text for text in made.notes if text not in notes]
             table = _table(task.columns, made.states, kept)
             sink = sink or writer(file, table.schema)
             sink.write_table(table, row_group_size=max(table.num_rows, 1))
@@ -170,7 +179,7 @@ def _make(task: Task, folder: Folder) -> dict[str, Any]:
         "bytes": size,
         "sha256": sha,
         "bad": len(rejected),
-        **notes,
+        "drift": drift,
     }
     if rejected:
         lines = b"".join(json.dumps(line, ensure_ascii=False).encode() + b"\n" for line in rejected)

@@ -85,11 +85,11 @@ def test_another_run_is_refused_and_what_differs_is_said(serial, tmp_path):
     before = support.tree(out)
     other = support.write(tmp_path / "states.parquet", support.momenta(support.ROWS))
     for options, expected in [
-        ({"step": 0.2}, r"step was 0\.1 and is 0\.2 now"),
-        ({"time": 50.0}, "steps was 1000 and is 500 now"),
+        ({"step": 0.2}, r"job\.step was 0\.1 and is 0\.2 now"),
+        ({"time": 50.0}, "job.steps was 1000 and is 500 now"),
         ({"rows_per_shard": 500}, "plan.rows_per_shard was 400 and is 500 now"),
-        ({"backend": "interpreter"}, 'backend was "auto" and is "interpreter" now'),
-        ({"system": support.body((1.5, 2.0, 2.6))}, "job.system"),
+        ({"backend": "interpreter"}, 'job.backend was "auto" and is "interpreter" now'),
+        ({"system": support.body((1.5, 2.0, 2.6))}, r"job\.text was .*I3 = 2\.5.* and is .*I3 = 2\.6"),
         ({"states": other}, r"states\[0\]\.sha256 was"),
     ]:
         with pytest.raises(cluster.ManifestError, match=expected) as refused:
