@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-from .errors import ClusterError, ShardError, WorkerDied
+from .errors import ShardError, WorkerDied
 from .shard import Summary, Task
 
 
@@ -32,8 +32,9 @@ class Engine(Protocol):
         """Stops what is still running and gives everything back."""
 
 
-def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[Summary | None], None]) -> None:
-    """Runs all tasks. ``done`` hears of every shard that is finished, and twice a second of nothing.
+def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[Summary | None], None]) -> int:
+    """Runs all tasks, and returns how often one was handed over again. ``done`` hears of every shard that is finished, and
+    twice a second of nothing.
 
     A shard whose worker died, or whose file system failed in passing, is tried ``attempts`` times. The first
     shard that cannot be made ends the run; shards that are finished stay.
@@ -52,12 +53,12 @@ def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[
                     break
                 running[engine.submit(task)] = task
             if not running:
-                return
+                return sum(tried.values())
             found = list(engine.wait(running))
             for handle in found:
                 task = running.pop(handle)
                 try:
-                    done(engine.result(handle))
+                    summary = engine.result(handle)
                 except (WorkerDied, OSError) as error:
                     count = tried[task.shard] = tried.get(task.shard, 0) + 1
                     if count >= attempts:
@@ -67,10 +68,10 @@ def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[
                             "worker) and call again"
                         ) from error
                     again.append(task)
+                else:
+                    done(summary)
             if not found:
                 done(None)
     finally:
         engine.close()
 
-
-__all__ = ["ClusterError", "Engine", "drive"]

@@ -233,7 +233,7 @@ class Job:
             counter.tell()
 
         try:
-            drive(engine, self.tasks(threads, verify), attempts, done)
+            again = drive(engine, self.tasks(threads, verify), attempts, done)
         finally:
             # What workers have left that were killed, here or elsewhere.
             self.folder.sweep(lambda name: shard.number(name) in self.shards)
@@ -248,6 +248,7 @@ class Job:
             bad=sum(summary.bad for summary in found.values()),
             made=sum(not summary.kept for summary in found.values()),
             kept=sum(summary.kept for summary in found.values()),
+            again=again,
             complete=complete,
             drift=drift,
             warnings=core.warnings(drift.pop("ratio", 0.0), [note for s in found.values() for note in s.notes]),

@@ -25,7 +25,7 @@ class Here:
 
     capacity = 1
 
-    def submit(self, task: Task) -> Task:
+    def submit(self, task: Task) -> _Handle:
         """Nothing is done before it is asked for."""
         return _Handle(task)
 
@@ -58,7 +58,8 @@ class Processes:
     """
 
     def __init__(self, count: int) -> None:
-        self.capacity = count
+        # One more for each, so that no process waits for this one.
+        self.capacity = 2 * count
         self._threads = concurrent.futures.ThreadPoolExecutor(count, thread_name_prefix="coadjoint")
         self._own = threading.local()
         self._all: set[subprocess.Popen[bytes]] = set()

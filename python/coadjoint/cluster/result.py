@@ -31,6 +31,8 @@ class Result:
     #: Shards that this call has made, and those that it has found finished.
     made: int
     kept: int
+    #: How often a shard was handed over again because its worker died; Dask does not say how often it did.
+    again: int
     #: Whether the whole run is finished, not only this share.
     complete: bool
     #: The largest relative drifts of the spatial momentum and of the Casimirs.

@@ -54,8 +54,8 @@ def test_a_killed_process_is_replaced_and_its_shard_made_again(serial, tmp_path)
 
     killer = support.Killer(victim)
     states, out, _ = serial
-    run(states, tmp_path / "killed", workers=2, progress=killer)
-    assert killer.killed is not None
+    outcome = run(states, tmp_path / "killed", workers=2, progress=killer)
+    assert killer.killed is not None and outcome.again >= 1
     support.same(out, tmp_path / "killed")
 
 
