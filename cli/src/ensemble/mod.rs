@@ -19,10 +19,9 @@ pub use shard::Shard;
 use std::path::Path;
 
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::system::{Parameters, System};
+use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
-use coadjoint_run::ensemble::{How, Use, engine};
+use coadjoint_run::ensemble::{How, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -36,16 +35,8 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
-    let System { mut problem, potential, run, .. } = system;
-    // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
-    problem.solver = Some(Solver::Newton);
-    if potential.is_some() {
-        return Err(CliError::Option(
-            "ensembles of systems with a potential do not run on the command line: emit the step, \
-             and see `Kicked`"
-                .into(),
-        ));
-    }
+    let run = system.run.clone();
+    let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     if same_file(&options.initial, &options.out) {
         return Err(CliError::Option("--out must be another file than --initial".into()));

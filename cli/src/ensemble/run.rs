@@ -3,9 +3,10 @@
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use coadjoint_run::ensemble::{Drift, Engine, Layout, Rejected};
+use coadjoint_run::ensemble::{Drift, Engine, Layout, Rejected, Watch, piece as length};
 
 use super::finished::Finished;
 use super::input::Input;
@@ -172,15 +173,6 @@ fn outcome(
     }
 }
 
-/// Rows taken at a time: enough for all threads, little enough to be noted often. A card has as many threads as rows.
-fn length(width: usize, steps: u64, card: bool) -> u64 {
-    if card {
-        return ((256 << 20) / (width as u64 * 8)).clamp(512, 1 << 20);
-    }
-    let memory = (8 << 20) / (width as u64 * 8);
-    (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
-}
-
 /// Advances the rows that are left. What is done is the same whatever the size of the pieces.
 fn advance(
     job: &mut Job<'_>,
@@ -210,6 +202,7 @@ fn advance(
     }
     let earlier = journal.redone;
     let mut piece = Piece::default();
+    let stop = AtomicBool::new(false);
     let mut first = Vec::new();
     let mut noted = Instant::now();
     while journal.rows < count {
@@ -219,7 +212,7 @@ fn advance(
         let made = |made: u64| {
             bar.set_position(journal.rows.saturating_mul(steps).saturating_add(take * made));
         };
-        let drift = job.engine.advance(layout, job.steps, &mut piece.rows, &made)?;
+        let drift = job.engine.advance(layout, job.steps, &mut piece.rows, &Watch { made: &made, stop: &stop })?;
         output.append(&form.encode(layout, table.as_ref(), &piece))?;
         for rejected in &piece.rows.rejected {
             let reason = rejected.reason.replace('"', "'");

@@ -1,6 +1,7 @@
 //! What advances rows of states.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
 use coadjoint::{Cayley, Chart, Exponential};
@@ -47,17 +48,16 @@ pub trait Engine: Sync {
     fn casimirs(&self) -> usize;
 
     /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
-    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads. `made` is
-    /// told, again and again, how many steps every row has made.
+    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads.
     ///
     /// # Errors
-    /// Where a device fails; nothing is known of the rows then.
+    /// Where a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
     fn advance(
         &self,
         layout: &Layout,
         steps: u64,
         rows: &mut Rows,
-        made: &dyn Fn(u64),
+        watch: &Watch<'_>,
     ) -> Result<Drift, RunError>;
 
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
@@ -68,6 +68,21 @@ pub trait Engine: Sync {
 
     /// What could not be had, and what takes its place.
     fn notes(&self) -> &[String];
+}
+
+/// Who looks on while rows are advanced.
+pub struct Watch<'a> {
+    /// Is told, again and again, how many steps every row has made.
+    pub made: &'a dyn Fn(u64),
+    /// Is looked at every few milliseconds; set it to stop.
+    pub stop: &'a AtomicBool,
+}
+
+impl Watch<'_> {
+    /// Whether to stop.
+    pub fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
 }
 
 /// What is to make the steps.

@@ -7,8 +7,10 @@ mod layout;
 mod pack;
 mod rows;
 mod steps;
+mod whole;
 
 pub use device::{Asked, Use};
-pub use engine::{Drift, Engine, How, engine};
+pub use engine::{Drift, Engine, How, Watch, engine};
 pub use layout::{Attitude, Layout, Shape};
 pub use rows::{Rejected, Rows};
+pub use whole::{advance_all, piece, problem_of};

@@ -1,6 +1,7 @@
 //! Trajectories side by side, advanced by the programs of a step.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::lanes::ensemble::Failure;
 use coadjoint::{StepError, StepReport};
@@ -24,6 +25,8 @@ pub struct Manner<'a> {
     pub rescue: &'a Rescue<'a>,
     /// What is looked at after each stretch.
     pub ratio: &'a Ratio<'a>,
+    /// Where it is set, nothing more is made.
+    pub stop: &'a AtomicBool,
 }
 
 /// [`WIDTH`] trajectories side by side: number i of trajectory r is at `i * WIDTH + r`.
@@ -75,7 +78,10 @@ impl Pack {
     /// Makes so many steps after the first so many. What a lane cannot do with the others it does alone, so that no
     /// trajectory depends on its neighbours.
     fn advance(&mut self, manner: &Manner<'_>, first: u64, steps: u64) {
-        let Manner { compiled, rescue, ratio } = manner;
+        let Manner { compiled, rescue, ratio, stop } = manner;
+        if stop.load(Ordering::Relaxed) {
+            return;
+        }
         let made = compiled.advance_lanes(&mut self.g, &mut self.mu, steps, self.live);
         for (lane, &made) in made.iter().enumerate() {
             if !self.live[lane] {
@@ -142,7 +148,7 @@ pub fn march(
 ) -> (BTreeMap<usize, Failure>, f64) {
     let mut packs: Vec<Pack> = states.chunks(WIDTH).map(Pack::new).collect();
     let mut done = 0;
-    while done < steps {
+    while done < steps && !manner.stop.load(Ordering::Relaxed) {
         let length = stretch.min(steps - done);
         packs.par_iter_mut().for_each(|pack| pack.advance(manner, done, length));
         done += length;

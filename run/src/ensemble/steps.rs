@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::attitude::Attitudes;
 use super::device::{self, Use};
-use super::engine::{Drift, Engine, How, larger};
+use super::engine::{Drift, Engine, How, Watch, larger};
 use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows};
@@ -187,7 +187,7 @@ where
         &self,
         states: &mut [Numbers],
         steps: u64,
-        made: &dyn Fn(u64),
+        watch: &Watch<'_>,
     ) -> Result<(BTreeMap<usize, Failure>, f64), RunError> {
         let steepness = Steepness::new(&self.stepper);
         let ratio = |mu: &[f64]| steepness.ratio(&DVector::from_column_slice(mu));
@@ -195,13 +195,14 @@ where
         let (mut failed, along) = match &self.compiled {
             Some(compiled) => {
                 let rescue = |own: &mut Numbers| compiled.rescue(&self.stepper, own);
-                let manner = Manner { compiled, rescue: &rescue, ratio: &ratio };
+                let manner =
+                    Manner { compiled, rescue: &rescue, ratio: &ratio, stop: watch.stop };
                 match &self.card {
-                    Some(card) => self.march_device(&manner, card, states, steps, made)?,
-                    None => march(&manner, states, (steps, STRETCH), made),
+                    Some(card) => self.march_device(&manner, card, states, steps, watch.made)?,
+                    None => march(&manner, states, (steps, STRETCH), watch.made),
                 }
             }
-            None => self.one_by_one(states, steps, &steepness, made),
+            None => self.one_by_one(states, steps, &steepness, watch),
         };
         for failure in failed.values_mut() {
             failure.error = self.advise(failure.error, &self.phase(&states[failure.index]));
@@ -238,20 +239,24 @@ where
         states: &mut [Numbers],
         steps: u64,
         steepness: &Steepness<'_, Interpreter<'a, G, C>>,
-        made: &dyn Fn(u64),
+        watch: &Watch<'_>,
     ) -> (BTreeMap<usize, Failure>, f64) {
         let lone = |state: &Numbers| Lone { phase: self.phase(state), stopped: None, ratio: 0.0 };
         let mut moving: Vec<Lone<G>> = states.par_iter().map(lone).collect();
         let mut done = 0;
-        while done < steps {
+        let stop = watch.stop;
+        while done < steps && !watch.stopped() {
             let stretch = STRETCH.min(steps - done);
             moving.par_iter_mut().filter(|own| own.stopped.is_none()).for_each(|own| {
+                if stop.load(Ordering::Relaxed) {
+                    return;
+                }
                 let advanced = coadjoint::advance_by(&self.stepper, &mut own.phase, stretch);
                 own.stopped = advanced.err().map(|stopped| (done + stopped.steps, stopped.error));
                 own.ratio = larger(own.ratio, steepness.ratio(&own.phase.momentum));
             });
             done += stretch;
-            made(done);
+            (watch.made)(done);
         }
         let mut failed = BTreeMap::new();
         let mut ratio = 0.0;
@@ -300,7 +305,7 @@ where
         layout: &Layout,
         steps: u64,
         rows: &mut Rows,
-        made: &dyn Fn(u64),
+        watch: &Watch<'_>,
     ) -> Result<Drift, RunError> {
         let width = layout.width();
         let read: Vec<_> =
@@ -320,7 +325,10 @@ where
             }
         }
         let before = states.clone();
-        let (failed, ratio) = self.march(&mut states, steps, made)?;
+        let (failed, ratio) = self.march(&mut states, steps, watch)?;
+        if watch.stopped() {
+            return Err(RunError::Halted { time: 0.0, step: 0 });
+        }
         for (place, failure) in &failed {
             rows.rejected.push(Rejected {
                 row: rows.first + places[*place] as u64,

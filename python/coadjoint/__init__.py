@@ -1,0 +1,29 @@
+"""Integrators for Hamiltonian systems on Lie groups that conserve momentum and Casimirs exactly.
+
+>>> import coadjoint as ca
+>>> body = ca.System("SO3", "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)", coordinates="x y z",
+...                  parameters=dict(I1=1.5, I2=2, I3=2.5))
+>>> run = body.simulate(momentum=[2, 0.5, 1], time=100, step=0.1)
+>>> run.momentum.shape
+(1001, 3)
+"""
+
+from ._core import __version__
+from .errors import CoadjointWarning, Error, InputError, RunError
+from .results import Drift, Failure, Run, States
+from .system import Law, Laws, System
+
+__all__ = [
+    "CoadjointWarning",
+    "Drift",
+    "Error",
+    "Failure",
+    "InputError",
+    "Law",
+    "Laws",
+    "Run",
+    "RunError",
+    "States",
+    "System",
+    "__version__",
+]

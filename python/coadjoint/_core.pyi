@@ -1,0 +1,59 @@
+from collections.abc import Callable
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+_Asked = dict[str, Any]
+_Progress = Callable[[int, int], object]
+
+@final
+class Core:
+    def __new__(cls, text: str, name: str) -> Core: ...
+    def facts(self) -> dict[str, Any]: ...
+    def simulate(
+        self,
+        asked: _Asked,
+        *,
+        momentum: NDArray[np.float64] | None,
+        group_element: NDArray[np.float64] | None,
+        every: int | None,
+        at: NDArray[np.float64] | None,
+        tuned: bool,
+        fitted: float | None,
+        backend: str,
+        record: bool,
+        progress: _Progress | None,
+    ) -> dict[str, Any]: ...
+    def ensemble(
+        self,
+        states: NDArray[np.float64],
+        asked: _Asked,
+        *,
+        backend: str,
+        threads: int | None,
+        progress: _Progress | None,
+    ) -> tuple[NDArray[np.float64], list[tuple[int, int, str]], dict[str, Any]]: ...
+    def layouts(self) -> list[list[str]]: ...
+    def stepper(self, step: float, backend: str) -> Stepper: ...
+    def series(self, form: str, truncation: int | None) -> str: ...
+    def casimirs(self, degree: int) -> list[str]: ...
+    def check(
+        self, step: float | None, points: int, seed: int
+    ) -> tuple[list[tuple[str, str, float, float, bool]], str | None]: ...
+    def emit(
+        self, language: str, prefix: str | None, step: float | None, single: bool
+    ) -> str: ...
+
+@final
+class Stepper:
+    @property
+    def backend(self) -> str: ...
+    def advance(
+        self,
+        momentum: NDArray[np.float64],
+        group_element: NDArray[np.float64] | None,
+        steps: int,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

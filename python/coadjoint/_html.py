@@ -1,0 +1,118 @@
+"""What notebooks show: tables, and small pictures without any library."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._arrays import Floats
+
+if TYPE_CHECKING:
+    from .results import Run
+    from .system import System
+
+_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
+_WIDTH, _HEIGHT = 360, 180
+_LEFT, _RIGHT, _TOP, _BOTTOM = 58, 10, 24, 28
+# So many points of a curve are drawn at most, and so many curves.
+_MOST, _CURVES = 600, 6
+
+
+def _rows(rows: list[tuple[str, str]]) -> str:
+    cells = (
+        f'<tr><td style="text-align:left;color:#666">{escape(name)}</td>'
+        f'<td style="text-align:left">{value}</td></tr>'
+        for name, value in rows
+    )
+    return f"<table>{''.join(cells)}</table>"
+
+
+def system(system: System) -> str:
+    """A table of what the system is."""
+    code = lambda text: f"<code>{escape(str(text))}</code>"  # noqa: E731
+    facts = system._facts
+    rows = [
+        ("group", code(system.group)),
+        ("H", code(facts["hamiltonian"])),
+        ("coordinates", code(", ".join(system.coordinates))),
+        ("method", f"K = {system.truncation}, order {system.truncation + 1}, {escape(system.chart)}"),
+    ]
+    if facts["comoving"]:
+        rows.append(("frame", "comoving"))
+    if facts["splitting"]:
+        rows.append(("potential", f"kicks by {escape(facts['splitting'])}"))
+    return f"<b>{escape(system.name)}</b>{_rows(rows)}"
+
+
+def run(run: Run) -> str:
+    """The momentum and the drift, and the figures of a run."""
+    head = (
+        f"<b>{escape(run._name)}</b>: {escape(run.label)}; {run.steps} steps of {run.step:g}, "
+        f"{len(run)} records; by {escape(run.backend)}"
+    )
+    names = run.coordinates[:_CURVES]
+    curves = [(name, run.momentum[:, i]) for i, name in enumerate(names)]
+    unit = run._units["time"]
+    across = f"t in {unit}" if unit else "t"
+    more = f" (first {_CURVES} of {run.momentum.shape[1]})" if run.momentum.shape[1] > _CURVES else ""
+    pictures = _panel(f"momentum{more}", across, run.time, curves, logarithmic=False)
+    drifts = [("spatial momentum", run.drift.spatial_momentum, run._found["conserved_momenta"])]
+    drifts.append(("Casimirs", run.drift.casimirs, run._found["casimirs"]))
+    drifts.append(("energy", run.drift.energy, run._found["has_energy"]))
+    kept = [(name, values) for name, values, known in drifts if known]
+    if kept:
+        pictures += _panel("relative drift", across, run.time, kept, logarithmic=True)
+    notes = "".join(f"<div>{escape(note)}</div>" for note in run.notes + run.warnings)
+    return f"<div>{head}</div><div>{pictures}</div>{notes}"
+
+
+def _panel(
+    title: str, across: str, time: Floats, curves: list[tuple[str, Floats]], *, logarithmic: bool
+) -> str:
+    stride = max(1, -(-len(time) // _MOST))
+    times = time[::stride]
+    shown = []
+    for name, values in curves:
+        # Of drifts the largest between two points counts.
+        if logarithmic:
+            starts = np.arange(0, len(values), stride)
+            values = np.log10(np.maximum(np.maximum.reduceat(values, starts), 1e-17))
+        else:
+            values = values[::stride]
+        shown.append((name, values))
+    every = np.concatenate([values for _, values in shown])
+    low, high = float(every.min()), float(every.max())
+    if logarithmic:
+        low, high = np.floor(low), max(np.ceil(high), np.floor(low) + 1)
+    elif high - low < 1e-12 * max(abs(low), abs(high), 1e-300):
+        low, high = low - 1, high + 1
+    first, last = float(times[0]), float(times[-1])
+    wide, tall = _WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
+    x = lambda t: _LEFT + wide * (t - first) / ((last - first) or 1)  # noqa: E731
+    y = lambda v: _TOP + tall * (high - v) / (high - low)  # noqa: E731
+    said = (lambda v: f"1e{v:.0f}") if logarithmic else (lambda v: f"{v:.3g}")
+    text = lambda at, up, what, more: f'<text x="{at:.1f}" y="{up:.1f}" {more}>{escape(what)}</text>'  # noqa: E731
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" height="{_HEIGHT}" '
+        f'viewBox="0 0 {_WIDTH} {_HEIGHT}" font-family="sans-serif" font-size="10" role="img" '
+        f'aria-label="{escape(title)}"><rect width="100%" height="100%" fill="white"/>',
+        f'<rect x="{_LEFT}" y="{_TOP}" width="{wide}" height="{tall}" fill="none" stroke="#999"/>',
+        text(_LEFT, _TOP - 8, title, 'fill="#333"'),
+        text(_LEFT + wide / 2, _HEIGHT - 4, across, 'text-anchor="middle" fill="#333"'),
+        text(_LEFT, _TOP + tall + 12, f"{first:g}", 'text-anchor="middle" fill="#333"'),
+        text(_LEFT + wide, _TOP + tall + 12, f"{last:g}", 'text-anchor="end" fill="#333"'),
+        text(_LEFT - 4, _TOP + 8, said(high), 'text-anchor="end" fill="#333"'),
+        text(_LEFT - 4, _TOP + tall, said(low), 'text-anchor="end" fill="#333"'),
+    ]
+    for i, (name, values) in enumerate(shown):
+        colour = _COLOURS[i % len(_COLOURS)]
+        points = " ".join(f"{x(t):.1f},{y(v):.1f}" for t, v in zip(times, values, strict=True))
+        parts.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.2"/>')
+    # The legend, from the right.
+    right = _LEFT + wide
+    for i, (name, _) in reversed(list(enumerate(shown))):
+        parts.append(text(right, _TOP - 8, name, f'text-anchor="end" fill="{_COLOURS[i % len(_COLOURS)]}"'))
+        right -= 6 * len(name) + 8
+    return "".join(parts) + "</svg>"

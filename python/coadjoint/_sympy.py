@@ -1,0 +1,57 @@
+"""Exact polynomials as SymPy has them."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import sympy
+
+
+def _symbols(coordinates: list[str]) -> list[Any]:
+    import sympy
+
+    return [sympy.Symbol(name) for name in coordinates]
+
+
+def polynomial(text: str, coordinates: list[str]) -> sympy.Expr:
+    """A polynomial in the notation of system files."""
+    import sympy
+
+    # Names such as mu[0] and x' are no names of Python.
+    known = {f"coordinate_{i}_": symbol for i, symbol in enumerate(_symbols(coordinates))}
+    places = {name: f"coordinate_{i}_" for i, name in enumerate(coordinates)}
+    names = sorted(map(re.escape, coordinates), key=len, reverse=True)
+    if names:
+        pattern = rf"(?<![\w'\]])({'|'.join(names)})(?![\w'\[])"
+        text = re.sub(pattern, lambda m: places[m[1]], text)
+    text = text.replace("^", "**").replace("ln(", "log(").replace("abs(", "Abs(")
+    return sympy.sympify(text, locals=known, rational=True)
+
+
+def series(text: str, coordinates: list[str]) -> dict[int, sympy.Expr]:
+    """S₁, S₃, … of the JSON of a series."""
+    import sympy
+
+    symbols = _symbols(coordinates)
+    found: dict[int, sympy.Expr] = {}
+    for order in json.loads(text)["S"]:
+        terms = [_coefficient(t["coefficient"]) * _power(symbols, t["exponents"]) for t in order["terms"]]
+        found[order["k"]] = sympy.Add(*terms)
+    return found
+
+
+def _coefficient(text: str) -> Any:
+    import sympy
+
+    if re.fullmatch(r"-?\d+(/\d+)?", text):
+        return sympy.Rational(text)
+    return polynomial(text, [])
+
+
+def _power(symbols: list[Any], exponents: list[int]) -> Any:
+    import sympy
+
+    return sympy.Mul(*(symbol**power for symbol, power in zip(symbols, exponents, strict=True) if power))

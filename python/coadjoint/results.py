@@ -1,0 +1,282 @@
+"""What runs and ensembles come to."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._arrays import Floats
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["Drift", "Failure", "Run", "States"]
+
+
+class Drift(NamedTuple):
+    """Relative differences from the start; each an array over the records, or the largest over all steps."""
+
+    spatial_momentum: Any
+    casimirs: Any
+    energy: Any
+
+
+class Failure(NamedTuple):
+    """A row of an ensemble that has no end state."""
+
+    #: Its number, from 0.
+    row: int
+    #: The step that could not be made, from 1; 0 where the row itself is at fault.
+    step: int
+    #: Why.
+    reason: str
+
+
+def _dense(entries: Floats, blocks: list[tuple[int, int]]) -> Floats:
+    """The matrices with these blocks."""
+    rows = entries.shape[0]
+    size = max((first + length for first, length in blocks), default=0)
+    if len(blocks) == 1:
+        return entries.reshape(rows, size, size)
+    found = np.zeros((rows, size, size))
+    place = 0
+    for first, length in blocks:
+        own = entries[:, place : place + length * length].reshape(rows, length, length)
+        found[:, first : first + length, first : first + length] = own
+        place += length * length
+    return found
+
+
+class Run:
+    """A trajectory: what was recorded, and how well the run kept what it must.
+
+    All arrays have one row for each record; the first is the start and the last the end.
+
+    >>> import coadjoint as ca
+    >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+    >>> run = body.simulate(momentum=[2, 0.5, 1], time=10, step=0.1)
+    >>> run.momentum.shape, run.group_element.shape
+    ((101, 3), (101, 3, 3))
+    >>> bool(run.largest_drift.spatial_momentum < 1e-13)
+    True
+    """
+
+    def __init__(self, found: dict[str, Any], coordinates: list[str], name: str, units: dict[str, Any]) -> None:
+        self._found, self._coordinates, self._name, self._units = found, coordinates, name, units
+
+    @property
+    def time(self) -> Floats:
+        """The times of the records, (N,)."""
+        return self._array("time")
+
+    @property
+    def momentum(self) -> Floats:
+        """The body momentum μ, (N, n)."""
+        return self._array("momentum")
+
+    @cached_property
+    def group_element(self) -> Floats:
+        """The matrices of the group element g, (N, d, d). For products, block by block."""
+        found = _dense(self._array("entries"), self._found["blocks"])
+        return found
+
+    @property
+    def spatial_momentum(self) -> Floats:
+        """The spatial momentum Ad*_g μ, (N, n): conserved unless a potential breaks the symmetry."""
+        return self._array("spatial_momentum")
+
+    @property
+    def energy(self) -> Floats:
+        """The energy, (N,): of H, and of V where there is a potential; NaN for learned maps, which know none."""
+        return self._array("energy")
+
+    @property
+    def drift(self) -> Drift:
+        """The relative differences from the start at the records, (N,) each."""
+        drifts = self._array("drifts")
+        return Drift(drifts[:, 0], drifts[:, 1], drifts[:, 2])
+
+    @property
+    def largest_drift(self) -> Drift:
+        """The largest relative differences of the whole run."""
+        return Drift(*self._found["largest_drift"])
+
+    @property
+    def final_momentum(self) -> Floats:
+        """The momentum at the end, (n,), recorded or not."""
+        end: Floats = self._found["end"]["momentum"]
+        return end
+
+    @property
+    def final_group_element(self) -> Floats:
+        """The group element at the end, (d, d)."""
+        end = self._found["end"]
+        return _dense(end["entries"][np.newaxis], end["blocks"])[0]
+
+    @property
+    def step(self) -> float:
+        """The step size used: the one asked for, or a little less, so that whole steps end at the time."""
+        return float(self._found["step"])
+
+    @property
+    def steps(self) -> int:
+        """How many steps were made."""
+        return int(self._found["steps"])
+
+    @property
+    def truncation(self) -> int | None:
+        """K: the method has order K + 1; none for learned maps."""
+        found: int | None = self._found.get("truncation")
+        return found
+
+    @property
+    def backend(self) -> str:
+        """What made the steps."""
+        return str(self._found["backend"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What should be known of the run."""
+        return list(self._found["warnings"])
+
+    @property
+    def notes(self) -> list[str]:
+        """What was chosen for the run: the step for a tolerance, a step that divides the time."""
+        notes = [self._found.get("choice"), self._found.get("announcement")]
+        return [note for note in notes if note]
+
+    @property
+    def label(self) -> str:
+        """What made the run, in a few words."""
+        return str(self._found["label"])
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the momentum's coordinates."""
+        return list(self._coordinates)
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The records as a pandas data frame, one column for each number."""
+        import pandas
+
+        columns = {"time": self.time}
+        columns |= {name: self.momentum[:, i] for i, name in enumerate(self._coordinates)}
+        size = self.group_element.shape[1]
+        separator = "_" if size > 9 else ""
+        if len(self._found["blocks"]) == 1:
+            for i in range(size):
+                for j in range(size):
+                    columns[f"g_{i + 1}{separator}{j + 1}"] = self.group_element[:, i, j]
+        columns["energy"] = self.energy
+        columns |= {f"{name}_drift": values for name, values in self.drift._asdict().items()}
+        return pandas.DataFrame(columns)
+
+    def plot(self, what: str = "all", *, figure: Figure | None = None) -> Figure:
+        """A picture: of the momentum, of the drift, or of both (needs matplotlib).
+
+        ``what`` is ``"all"``, ``"momentum"``, ``"drift"`` or, for motions on spheres (three coordinates of
+        SO(3) or SU(2)), ``"orbit"``.
+        """
+        from . import plots
+
+        return plots.run(self, what, figure)
+
+    def _array(self, name: str) -> Floats:
+        array: Floats = self._found[name]
+        return array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Run):
+            return NotImplemented
+        names = ["time", "momentum", "entries", "energy", "drifts"]
+        same = all(np.array_equal(self._found[n], other._found[n], equal_nan=True) for n in names)
+        return same and self._name == other._name and self.label == other.label
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        drift = self.largest_drift
+        parts = []
+        if self._found["conserved_momenta"]:
+            parts.append(f"spatial momentum {drift.spatial_momentum:.1e}")
+        if self._found["casimirs"]:
+            parts.append(f"Casimirs {drift.casimirs:.1e}")
+        if self._found["has_energy"]:
+            parts.append(f"energy {drift.energy:.1e}")
+        end = self._found["end"]["time"]
+        return (
+            f"<Run of {self._name}: {self.label}, {self.steps} steps of {self.step:g} to time {end:g}, "
+            f"{len(self)} records; largest drift: {', '.join(parts)}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from ._html import run
+
+        return run(self)
+
+
+class States(np.ndarray[Any, np.dtype[np.float64]]):
+    """The states at the end of an ensemble: an array, (N, columns), that knows how it was made.
+
+    Rows without an end state are NaN, and are listed in :attr:`failed`.
+    """
+
+    #: The rows that have no end state.
+    failed: list[Failure]
+    #: The largest drifts of all rows; of energy none is known.
+    drift: Drift
+    #: What made the steps.
+    backend: str
+    #: The names of the columns.
+    columns: list[str]
+    #: The step size used, and how many steps were made.
+    step: float
+    steps: int
+    #: K.
+    truncation: int
+    #: What was chosen: the step for a tolerance, a step that divides the time.
+    notes: list[str]
+
+    _FACTS = ("failed", "drift", "backend", "columns", "step", "steps", "truncation", "notes")
+
+    def __array_finalize__(self, other: object) -> None:
+        # Of a part of the rows, or of numbers made from them, nothing is known.
+        pass
+
+    @classmethod
+    def _of(cls, array: Floats, failed: list[tuple[int, int, str]], facts: dict[str, Any]) -> States:
+        states = array.view(cls)
+        states.failed = [Failure(*row) for row in failed]
+        states.drift = Drift(facts["spatial_momentum"], facts["casimirs"], float("nan"))
+        states.backend, states.columns = facts["backend"], facts["columns"]
+        states.step, states.steps = facts["step"], facts["steps"]
+        states.truncation = facts["truncation"]
+        notes = [facts["choice"], facts["announcement"], *facts["notes"]]
+        states.notes = [note for note in notes if note]
+        return states
+
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
+        return array[()] if return_scalar else np.asarray(array)
+
+    def __reduce__(self) -> Any:
+        make, arguments, state = super().__reduce__()  # type: ignore[misc]
+        own = {name: getattr(self, name) for name in self._FACTS if hasattr(self, name)}
+        return make, arguments, (state, own)
+
+    def __setstate__(self, state: Any) -> None:
+        state, own = state
+        super().__setstate__(state)
+        self.__dict__.update(own)
+
+    @property
+    def ok(self) -> NDArray[np.bool_]:
+        """Which rows have an end state, (N,)."""
+        return ~np.isnan(np.asarray(self)).any(axis=1)

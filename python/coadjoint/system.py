@@ -1,0 +1,571 @@
+"""Systems: a Lie group, a Hamiltonian, and what can be done with them."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import warnings
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core, _text
+from ._arrays import Floats, floats, matrix, vector
+from ._progress import Progress, listener
+from .errors import CoadjointWarning, InputError
+from .results import Run, States
+
+if TYPE_CHECKING:
+    import sympy
+
+__all__ = ["System"]
+
+
+class System:
+    """A Hamiltonian system on the dual of a Lie algebra, and on the cotangent bundle of its group.
+
+    ``group`` is a name such as ``"SO3"``, ``"SE3"``, ``"SO3^8"`` or ``"SO3 |x R3"``, or a dictionary with a ``basis`` of
+    matrices, or ``generators`` and ``brackets``. ``hamiltonian`` is text or a SymPy expression: a polynomial in the
+    ``coordinates`` of the body momentum. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
+
+    The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
+    (``"exp"`` or ``"cayley"``), ``frame`` (``"fixed"`` or ``"comoving"``), ``solver``, and for a ``potential`` V(g),
+    a polynomial in ``g[0][0]``, …, the ``splitting``. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
+    ``region`` and ``time`` are defaults of runs.
+
+    >>> import coadjoint as ca
+    >>> body = ca.System("SO3", "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)", coordinates="x y z",
+    ...                  parameters=dict(I1=1.5, I2=2, I3=2.5))
+    >>> body
+    System('SO3', 'x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)', coordinates='x y z', parameters={'I1': 1.5, 'I2': 2, 'I3': 2.5})
+    >>> run = body.simulate(momentum=[2, 0.5, 1], time=100, step=0.1)
+    >>> bool(run.largest_drift.spatial_momentum < 1e-13)
+    True
+    """
+
+    _text_: str
+    _name: str
+    _given: tuple[tuple[str, Any], ...] | None
+
+    def __init__(
+        self,
+        group: str | Mapping[str, Any],
+        hamiltonian: str | sympy.Expr,
+        *,
+        coordinates: str | Iterable[Any] | None = None,
+        parameters: Mapping[str, Any] | None = None,
+        units: Mapping[str, str] | None = None,
+        potential: str | sympy.Expr | None = None,
+        truncation: int | None = None,
+        chart: str | None = None,
+        solver: str | None = None,
+        frame: str | None = None,
+        splitting: str | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        region: Any = None,
+        momentum: Any = None,
+        group_element: Any = None,
+        time: float | None = None,
+        name: str = "system",
+    ) -> None:
+        given = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
+        defaults = {"name": "system"}
+        self._given = tuple(
+            (key, value) for key, value in given if value is not None and defaults.get(key) != value
+        )
+        quoted, number, numbers = _text.quoted, _text.number, _text.numbers
+        lines = [f"name = {quoted(name)}"]
+        if isinstance(group, str):
+            lines.append(f"group = {quoted(group)}")
+        elif not isinstance(group, Mapping):
+            raise InputError(
+                'group must be a name such as "SO3", or a dictionary with a basis, or with generators and brackets'
+            )
+        if coordinates is not None:
+            lines.append(f"coordinates = {_text.strings(_text.names(coordinates, 'coordinates'))}")
+        lines.append(f"hamiltonian = {quoted(_text.expression(hamiltonian, 'hamiltonian'))}")
+        if potential is not None:
+            lines.append(f"potential = {quoted(_text.expression(potential, 'potential'))}")
+        if not isinstance(group, str):
+            lines += ["", *_text.algebra(group)]
+        lines += _text.table(
+            "parameters",
+            [(_text.key(str(k)), numbers(v, f"parameter {k}")) for k, v in (parameters or {}).items()],
+        )
+        lines += _text.table(
+            "units", [(_text.key(str(k)), quoted(str(v))) for k, v in (units or {}).items()]
+        )
+        text = lambda value: None if value is None else quoted(str(value))  # noqa: E731
+        some = lambda value, what: None if value is None else numbers(value, what)  # noqa: E731
+        lines += _text.table(
+            "integrator",
+            [
+                ("truncation", None if truncation is None else number(truncation, "truncation")),
+                ("chart", text(chart)),
+                ("solver", text(solver)),
+                ("frame", text(frame)),
+                ("splitting", text(splitting)),
+                ("step", some(step, "step")),
+                ("tolerance", some(tolerance, "tolerance")),
+                ("region", some(region, "region")),
+            ],
+        )
+        lines += _text.table(
+            "initial",
+            [
+                ("momentum", some(momentum, "momentum")),
+                ("group_element", some(group_element, "group_element")),
+            ],
+        )
+        lines += _text.table("run", [("time", some(time, "time"))])
+        self._read("\n".join(lines) + "\n", name)
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "system") -> System:
+        """The system of the text of a system file; ``name`` is what mistakes call it.
+
+        >>> import coadjoint as ca
+        >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
+        'SO3'
+        """
+        system = cls.__new__(cls)
+        system._given = None
+        system._read(text, name)
+        return system
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> System:
+        """The system of a file, in TOML."""
+        with open(path, encoding="utf-8") as file:
+            return cls.from_text(file.read(), os.fspath(path))
+
+    def _read(self, text: str, name: str) -> None:
+        self._text_, self._name = text, name
+        self._core = _core.Core(text, name)
+        self._facts = self._core.facts()
+        self._steppers: dict[tuple[float, str], _core.Stepper] = {}
+
+    # What it is.
+
+    @property
+    def text(self) -> str:
+        """The text of the system file: the command `coadjoint` reads it too."""
+        return self._text_
+
+    @property
+    def name(self) -> str:
+        """The system's name."""
+        return str(self._facts["name"])
+
+    @property
+    def group(self) -> str:
+        """The group's name."""
+        return str(self._facts["group"])
+
+    @property
+    def dimension(self) -> int:
+        """n, the number of coordinates of the momentum."""
+        return int(self._facts["dimension"])
+
+    @property
+    def matrix_size(self) -> int:
+        """d: group elements are matrices of d rows and columns."""
+        return int(self._facts["matrix_size"])
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the momentum's coordinates."""
+        return list(self._facts["coordinates"])
+
+    @property
+    def truncation(self) -> int:
+        """K: S₁ … S_K are kept."""
+        return int(self._facts["truncation"])
+
+    @property
+    def chart(self) -> str:
+        """``"exp"`` or ``"cayley"``."""
+        return str(self._facts["chart"])
+
+    @property
+    def hamiltonian(self) -> sympy.Expr:
+        """The Hamiltonian with the values of the parameters put in, exactly, as SymPy (needs sympy).
+
+        >>> import coadjoint as ca
+        >>> ca.System("SO3", "x^2/(2*I)", coordinates="x y z", parameters=dict(I=1.5)).hamiltonian
+        x**2/3
+        """
+        from . import _sympy
+
+        return _sympy.polynomial(self._facts["hamiltonian"], self.coordinates)
+
+    @cached_property
+    def identity(self) -> str:
+        """A hash of the text and of this version: where it is the same, results have the same bits."""
+        return hashlib.sha256(f"coadjoint {_core.__version__}\n{self._text_}".encode()).hexdigest()
+
+    def layouts(self) -> list[list[str]]:
+        """The columns that rows of an ensemble may have: momenta alone, with matrices, with quaternions.
+
+        >>> import coadjoint as ca
+        >>> ca.System("SO3", "x^2", coordinates="x y z").layouts()[0]
+        ['mu_1', 'mu_2', 'mu_3']
+        """
+        return self._core.layouts()
+
+    # Runs.
+
+    def simulate(
+        self,
+        momentum: Any = None,
+        *,
+        time: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        region: float | None = None,
+        group_element: Any = None,
+        truncation: int | None = None,
+        every: int | None = None,
+        at: Any = None,
+        tuned: bool = False,
+        fitted: float | None = None,
+        backend: str = "auto",
+        progress: bool | Progress | None = None,
+    ) -> Run:
+        """One trajectory from this momentum (n,) and group element (d, d), the identity if none is given.
+
+        The run ends at ``time`` exactly; steps are of size ``step`` or a little less. ``tolerance`` picks the step (and
+        the truncation, unless it is given) for this error at the end, along the run or for momenta up to the norm
+        ``region``. Every ``every``-th step is recorded, or the times ``at`` (alone, if ``every`` is not given).
+        ``tuned`` sums the tail of the series for this motion, ``fitted`` fits the coefficients to the motion over this
+        duration. ``backend`` is ``"auto"``, ``"jit"``, ``"c"`` or ``"interpreter"``: the numbers have the same bits.
+        ``progress`` is True, False, or a function of (done, total); if not given, a bar where somebody looks on.
+
+        Raises :class:`InputError` for what makes no sense and :class:`RunError` where the run stops.
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> run = body.simulate([2, 0.5, 1], time=20, tolerance=1e-8, at=[5, 10, 20])
+        >>> run.time
+        array([ 5., 10., 20.])
+        """
+        start = None if momentum is None else vector(momentum, "momentum", self.dimension)
+        element = None if group_element is None else matrix(group_element, "group_element", self.matrix_size)
+        times = None if at is None else vector(np.atleast_1d(at), "at")
+        if every is not None and (isinstance(every, bool) or int(every) != every or every < 1):
+            raise InputError(f"every={every!r}: every counts steps from 1; try every=1")
+        told = listener(progress, "integrating")
+        try:
+            found = self._core.simulate(
+                self._asked(time, step, tolerance, region, truncation),
+                momentum=start,
+                group_element=element,
+                every=None if every is None else int(every),
+                at=times,
+                tuned=bool(tuned),
+                fitted=None if fitted is None else _real(fitted, "fitted"),
+                backend=str(backend),
+                record=True,
+                progress=told,
+            )
+        finally:
+            if told is not None:
+                told.close()
+        for text in found["warnings"]:
+            warnings.warn(text, CoadjointWarning, stacklevel=2)
+        units = {"time": self._facts["time_unit"], "momentum": self._facts["units"]}
+        return Run(found, self.coordinates, self.name, units)
+
+    def ensemble(
+        self,
+        states: Any,
+        *,
+        time: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        region: float | None = None,
+        truncation: int | None = None,
+        backend: str = "auto",
+        threads: int | None = None,
+        progress: bool | Progress | None = None,
+    ) -> States:
+        """Many trajectories: from states, a row each, to the states at the end.
+
+        A row is a momentum, (N, n), or a momentum and the entries of the matrix g row by row, (N, n + d²), or, for
+        SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). The result has the same columns; rows that
+        cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. The bits depend
+        neither on ``threads`` nor on ``backend``, nor on the other rows.
+
+        >>> import coadjoint as ca, numpy as np
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> final = body.ensemble(np.ones((1000, 3)), time=10, step=0.1)
+        >>> final.shape, final.failed
+        ((1000, 3), [])
+        """
+        rows = floats(states, "states", finite=False)
+        if rows.ndim != 2:
+            raise InputError(
+                f"states must be a table with a row for each state; its shape is {rows.shape}: "
+                f"write states[np.newaxis] for a single one"
+            )
+        told = listener(progress, "trajectories")
+        try:
+            array, failed, facts = self._core.ensemble(
+                rows,
+                self._asked(time, step, tolerance, region, truncation),
+                backend=str(backend),
+                threads=None if threads is None else _count(threads, "threads"),
+                progress=told,
+            )
+        finally:
+            if told is not None:
+                told.close()
+        found = States._of(array, failed, facts)
+        if failed:
+            row, at, reason = failed[0]
+            where = f"step {at}: " if at else ""
+            text = f"{len(failed)} of {len(rows)} rows have no end state and are NaN; the first is row {row}, {where}{reason}"
+            warnings.warn(text, CoadjointWarning, stacklevel=2)
+        if facts["ratio"]:
+            text = (
+                f"the series hardly converges for some rows: its last two terms have the ratio {facts['ratio']:.3f}, "
+                "above 0.25; the motion may be inaccurate: take a smaller step"
+            )
+            warnings.warn(text, CoadjointWarning, stacklevel=2)
+        return found
+
+    def step(
+        self,
+        momentum: Any,
+        group_element: Any = None,
+        *,
+        step: float | None = None,
+        steps: int = 1,
+        backend: str = "jit",
+    ) -> tuple[Floats, Floats]:
+        """The state after one step (or so many): the momentum (n,) and the group element (d, d).
+
+        The first call for a step size compiles it; the next ones take microseconds.
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> mu, g = body.step([2, 0.5, 1], step=0.1)
+        >>> mu, g = body.step(mu, g, step=0.1)
+        >>> (g @ mu).round(12)
+        array([2. , 0.5, 1. ])
+        """
+        size = self._facts["step"] if step is None else step
+        if size is None:
+            raise InputError("step is missing: give step=0.1")
+        key = (size, backend)
+        stepper = self._steppers.get(key)
+        if stepper is None:
+            stepper = self._core.stepper(_real(size, "step"), str(backend))
+            self._steppers[key] = stepper
+        mu = vector(momentum, "momentum")
+        g = None if group_element is None else floats(group_element, "group_element")
+        if g is not None and g.ndim != 2:
+            raise InputError(f"group_element must be a matrix; it has the shape {g.shape}")
+        return stepper.advance(mu, g, _count(steps, "steps"))
+
+    # Algebra.
+
+    def casimirs(self, degree: int = 3) -> list[sympy.Expr]:
+        """Generators of the polynomial Casimirs up to this degree, as SymPy.
+
+        >>> import coadjoint as ca
+        >>> ca.System("SO3", "x^2", coordinates="x y z").casimirs()
+        [x**2 + y**2 + z**2]
+        """
+        from . import _sympy
+
+        found = self._core.casimirs(_count(degree, "degree"))
+        return [_sympy.polynomial(text, self.coordinates) for text in found]
+
+    def series(self, k: int | None = None, *, truncation: int | None = None) -> Any:
+        """The exact generating function: S_k as a SymPy expression, or without ``k`` a dictionary of S₁, S₃, …
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/2 + y^2/4", coordinates="x y z")
+        >>> body.series(1)
+        x**2/2 + y**2/4
+        >>> body.series(3)
+        -x**2*y**2/96 + x**2*z**2/192 + y**2*z**2/384
+        """
+        from . import _sympy
+
+        if k is not None:
+            k = _count(k, "k")
+            if k % 2 == 0:
+                return _sympy.polynomial("0", self.coordinates)
+        wanted = truncation if truncation is not None else max(k or 0, 0 if k else self.truncation)
+        _odd(wanted)
+        found = _sympy.series(self._core.series("json", wanted), self.coordinates)
+        return found if k is None else found[k]
+
+    def latex(self, *, truncation: int | None = None) -> str:
+        """The Hamiltonian and the exact series as an ``align`` environment of LaTeX."""
+        if truncation is not None:
+            _odd(truncation)
+        return self._core.series("latex", truncation)
+
+    def check(self, *, step: float | None = None, points: int = 3, seed: int = 1) -> Laws:
+        """The laws of the method, tried on this system at random points.
+
+        >>> import coadjoint as ca
+        >>> laws = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z").check()
+        >>> bool(laws), laws["momentum"].holds
+        (True, True)
+        """
+        size = None if step is None else _real(step, "step")
+        found, warning = self._core.check(size, _count(points, "points"), int(seed))
+        if warning:
+            warnings.warn(warning, CoadjointWarning, stacklevel=2)
+        return Laws([Law(*law) for law in found])
+
+    def emit(
+        self,
+        language: str = "rust",
+        *,
+        prefix: str | None = None,
+        step: float | None = None,
+        single: bool = False,
+    ) -> str:
+        """The integrator as code: ``"rust"``, a header of ``"c"`` or ``"cpp"``, a kernel of ``"opencl"`` or ``"cuda"``.
+
+        ``prefix`` begins all names in a header; a kernel is for one ``step``, in ``single`` or double precision.
+
+        >>> import coadjoint as ca
+        >>> code = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z").emit("c", prefix="body")
+        >>> "body_advance" in code or "body_step" in code
+        True
+        """
+        if prefix is not None and language not in ("c", "cpp"):
+            raise InputError("prefix is for language=\"c\" and \"cpp\" alone")
+        if (step is not None or single) and language not in ("opencl", "cuda"):
+            raise InputError("step and single are for language=\"opencl\" and \"cuda\" alone")
+        return self._core.emit(language, prefix, None if step is None else _real(step, "step"), bool(single))
+
+    # Python's own.
+
+    def _asked(
+        self,
+        time: float | None,
+        step: float | None,
+        tolerance: float | None,
+        region: float | None,
+        truncation: int | None,
+    ) -> dict[str, Any]:
+        real = lambda value, what: None if value is None else _real(value, what)  # noqa: E731
+        if time is None and self._facts["time"] is None:
+            raise InputError("time is missing: give time=100")
+        if step is None and tolerance is None and self._facts["step"] is None and self._facts["tolerance"] is None:
+            raise InputError("step is missing: give step=0.1, or tolerance=1e-9 to have it chosen")
+        return {
+            "time": real(time, "time"),
+            "step": real(step, "step"),
+            "tolerance": real(tolerance, "tolerance"),
+            "region": real(region, "region"),
+            "truncation": None if truncation is None else _count(truncation, "truncation"),
+        }
+
+    def __reduce__(self) -> Any:
+        if self._given is None:
+            return System.from_text, (self._text_, self._name)
+        return _restored, (self._text_, self._name, self._given)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, System):
+            return NotImplemented
+        return self._text_ == other._text_
+
+    def __hash__(self) -> int:
+        return hash(self._text_)
+
+    def __repr__(self) -> str:
+        if self._given is None:
+            return f"System.from_text(…, name={self._name!r})"
+        given = dict(self._given)
+        first = [repr(given.pop("group")), repr(str(given.pop("hamiltonian")))]
+        return f"System({', '.join(first + [f'{key}={value!r}' for key, value in given.items()])})"
+
+    def _repr_html_(self) -> str:
+        from ._html import system
+
+        return system(self)
+
+
+class Law:
+    """A law of the method, and how well it holds."""
+
+    def __init__(self, name: str, statement: str, value: float, bound: float, holds: bool) -> None:
+        #: Its name, and what it says.
+        self.name, self.statement = name, statement
+        #: What was measured, and what it is compared with.
+        self.value, self.bound = value, bound
+        #: Whether it holds.
+        self.holds = holds
+
+    def __repr__(self) -> str:
+        verdict = "holds" if self.holds else "FAILS"
+        relation = ">=" if self.name.startswith("order") else "<="
+        return f"{self.name:<12} {self.value:9.2g} {relation} {self.bound:<7.2g} {verdict}   {self.statement}"
+
+
+class Laws:
+    """The laws that were tried; true if all hold."""
+
+    def __init__(self, laws: list[Law]) -> None:
+        self._laws = laws
+
+    def __bool__(self) -> bool:
+        return all(law.holds for law in self._laws)
+
+    def __iter__(self) -> Any:
+        return iter(self._laws)
+
+    def __len__(self) -> int:
+        return len(self._laws)
+
+    def __getitem__(self, name: str) -> Law:
+        for law in self._laws:
+            if law.name == name:
+                return law
+        raise KeyError(f"{name!r}; there are {', '.join(law.name for law in self._laws)}")
+
+    def __repr__(self) -> str:
+        return "\n".join(map(repr, self._laws))
+
+
+def _restored(text: str, name: str, given: tuple[tuple[str, Any], ...]) -> System:
+    system = System.from_text(text, name)
+    system._given = given
+    return system
+
+
+def _real(value: Any, what: str) -> float:
+    array = floats(value, what, finite=False)
+    if array.ndim != 0:
+        raise InputError(f"{what} must be one number; it has the shape {array.shape}")
+    return float(array)
+
+
+def _count(value: Any, what: str) -> int:
+    try:
+        whole = int(value)
+        same = bool(whole == value) and not isinstance(value, (bool, str))
+    except (TypeError, ValueError, OverflowError):
+        same = False
+    if not same or whole < 0 or whole >= 2**63:
+        raise InputError(f"{what}={value!r}: a whole number, not negative, is needed")
+    return whole
+
+
+def _odd(truncation: Any) -> None:
+    if _count(truncation, "truncation") % 2 == 0 or truncation > 63:
+        raise InputError(
+            f"truncation={truncation!r}: give an odd number from 1 to 63; the even terms vanish"
+        )

@@ -1,0 +1,23 @@
+//! The extension module of the Python package `coadjoint`: systems that are known as text, run by `coadjoint-run`.
+//!
+//! Python's own part of the package (`coadjoint/`) builds the text, checks what users pass, and gives results their form.
+
+mod control;
+mod error;
+mod record;
+mod system;
+
+use pyo3::prelude::*;
+
+/// The extension module.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::system::{Core, Stepper};
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        use pyo3::types::PyModuleMethods;
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

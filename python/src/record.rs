@@ -1,0 +1,67 @@
+//! The records of a run, kept for NumPy.
+
+use std::sync::atomic::Ordering;
+
+use coadjoint_run::simulate::{Block, Halt, Outlet, Record, Standing};
+
+use crate::control::Control;
+
+/// Columns of a run, a row for each record.
+#[derive(Debug, Default)]
+pub struct Table {
+    /// t.
+    pub time: Vec<f64>,
+    /// μ, row by row.
+    pub momentum: Vec<f64>,
+    /// The entries of the blocks of g, row by row.
+    pub element: Vec<f64>,
+    /// Ad*_g μ, row by row.
+    pub spatial: Vec<f64>,
+    /// H.
+    pub energy: Vec<f64>,
+    /// The drifts of the spatial momentum, the Casimirs and the energy, row by row.
+    pub drift: Vec<f64>,
+    /// The first row and the number of rows of each block of g.
+    pub blocks: Vec<(usize, usize)>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Keeps the records of a run, and hears whether it is to stop.
+pub struct Keeper<'a> {
+    /// What is kept.
+    pub table: Table,
+    /// Who may stop it.
+    pub control: &'a Control,
+}
+
+impl Outlet for Keeper<'_> {
+    fn begin(&mut self, recorded: &[Block]) -> Result<(), Halt> {
+        let place = |block: &Block| (block.range.start, block.range.len());
+        self.table.blocks = recorded.iter().map(place).collect();
+        Ok(())
+    }
+
+    fn record(&mut self, record: &Record<'_>) -> Result<(), Halt> {
+        let Table { time, momentum, element, spatial, energy, drift, .. } = &mut self.table;
+        time.push(record.time);
+        momentum.extend_from_slice(record.momentum);
+        if !record.element.is_empty() {
+            element.extend_from_slice(record.element);
+            spatial.extend((record.spatial_momentum)());
+        }
+        energy.push(record.energy.unwrap_or(f64::NAN));
+        let own = record.drift;
+        drift.extend([own.spatial_momentum, own.casimirs, own.energy]);
+        Ok(())
+    }
+
+    fn pause(&mut self, standing: &Standing<'_>) -> Result<(), Halt> {
+        self.control.done.store(standing.step, Ordering::Relaxed);
+        if self.control.stop.load(Ordering::Relaxed) { Err(Halt) } else { Ok(()) }
+    }
+
+    fn warn(&mut self, text: &str) {
+        self.table.warnings.push(text.to_owned());
+    }
+}

@@ -1,0 +1,560 @@
+//! Systems, and what can be done with them.
+
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use coadjoint_codegen::lie;
+use coadjoint_codegen::system::System;
+use coadjoint_run::ensemble::{self, How, Layout, Shape, Watch};
+use coadjoint_run::simulate::{Outcome, Schedule, Setup, Single, Times, run, split};
+use coadjoint_run::{Accuracy, Backend, Derived, RunError, check, emit, meet_tolerance, read, series};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::control::work;
+use crate::error::{raised, refused, stopped};
+use crate::record::{Keeper, Table};
+
+/// The most that records of one run may take in memory.
+const MOST_BYTES: f64 = 8e9;
+/// Single steps are compiled, whatever that takes: many of them are going to be made.
+const MANY: f64 = 1e9;
+/// So many steps at once are made without looking for signals.
+const FEW: u64 = 64;
+
+/// A system that is known as text; never changed.
+#[pyclass(frozen, module = "coadjoint._core", name = "Core")]
+pub struct Core {
+    name: String,
+    system: System,
+    /// What has been derived, by truncation, and whether it is for ensembles.
+    derived: Cache,
+}
+
+/// Systems that have been derived, by truncation, and whether they are for ensembles.
+type Cache = Arc<Mutex<Vec<((usize, bool), Arc<Derived>)>>>;
+
+/// A backend by its name.
+fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
+    match name {
+        "auto" => Ok(Backend::Auto),
+        "interpreter" => Ok(Backend::Interpreter),
+        "c" => Ok(Backend::C),
+        "jit" => Ok(Backend::Jit),
+        _ => Err(refused(
+            py,
+            format!("backend=\"{name}\": there are \"auto\", \"interpreter\", \"jit\" and \"c\""),
+        )),
+    }
+}
+
+/// Derived systems are shared by all that is done with them.
+fn derive(
+    cache: &Cache,
+    name: &str,
+    system: System,
+    ensemble: bool,
+) -> Result<Arc<Derived>, RunError> {
+    let key = (system.problem.truncation, ensemble);
+    let known = |list: &Vec<((usize, bool), Arc<Derived>)>| {
+        list.iter().find(|(other, _)| *other == key).map(|(_, derived)| derived.clone())
+    };
+    if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
+        return Ok(found);
+    }
+    let system = if ensemble {
+        System { problem: ensemble::problem_of(system.clone())?, potential: None, ..system }
+    } else {
+        system
+    };
+    let made = Arc::new(Derived::of_file(Path::new(name), system)?);
+    let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
+    if known(&list).is_none() {
+        list.push((key, made.clone()));
+    }
+    Ok(made)
+}
+
+impl Core {
+    /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
+    fn accurate(&self, accuracy: &Accuracy) -> Result<(System, Option<String>), RunError> {
+        let mut system = self.system.clone();
+        if let Some(truncation) = accuracy.truncation {
+            system.problem.truncation = truncation;
+        }
+        let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
+        Ok((system, choice.map(|choice| choice.to_string())))
+    }
+}
+
+/// What both kinds of run say of the accuracy.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Asked {
+    step: Option<f64>,
+    tolerance: Option<f64>,
+    region: Option<f64>,
+    truncation: Option<usize>,
+    time: Option<f64>,
+}
+
+impl Asked {
+    fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
+        let Self { step, tolerance, region, truncation, time } = *self;
+        if let Some(k) = truncation
+            && (k % 2 == 0 || k > 63)
+        {
+            let what = "truncation must be an odd number from 1 to 63: the even terms vanish";
+            return Err(refused(py, format!("{what}; {k} was given")));
+        }
+        if step.is_some() && tolerance.is_some() {
+            return Err(refused(py, "give step or tolerance, not both".to_owned()));
+        }
+        Ok(Accuracy { step, tolerance, region, truncation, time })
+    }
+}
+
+#[pymethods]
+impl Core {
+    /// Reads the text of a system file.
+    #[new]
+    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let system = read(name, text).map_err(|error| raised(py, &error))?;
+        Ok(Self { name: name.to_owned(), system, derived: Cache::default() })
+    }
+
+    /// Everything that the text says, and what follows from it.
+    fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let System { problem, potential, run, units } = &self.system;
+        let facts = PyDict::new(py);
+        facts.set_item("name", &problem.name)?;
+        facts.set_item("group", problem.algebra.name())?;
+        facts.set_item("dimension", problem.algebra.dim())?;
+        facts.set_item("coordinates", &problem.coordinates)?;
+        facts.set_item("truncation", problem.truncation)?;
+        facts.set_item("truncation_given", run.truncation.is_some())?;
+        facts.set_item("chart", problem.chart.name())?;
+        facts.set_item("comoving", problem.comoving.is_some())?;
+        facts.set_item("hamiltonian", series::polynomial(problem, &problem.hamiltonian))?;
+        facts.set_item("splitting", potential.as_ref().map(|(_, splitting)| splitting.name()))?;
+        facts.set_item("step", run.step)?;
+        facts.set_item("tolerance", run.tolerance)?;
+        facts.set_item("time", run.time)?;
+        facts.set_item("every", run.every)?;
+        facts.set_item("momentum", run.momentum.clone())?;
+        facts.set_item("group_element", run.group_element.clone())?;
+        facts.set_item("time_unit", units.time.clone())?;
+        let of = |i| units.coordinate(i).map(str::to_owned);
+        let of: Vec<Option<String>> = (0..problem.algebra.dim()).map(of).collect();
+        facts.set_item("units", of)?;
+        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
+            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
+            None => algebra.dim(),
+        };
+        let sizes: usize = problem.algebra.factors().iter().map(size).sum();
+        let whole = size(&problem.algebra);
+        facts.set_item("matrix_size", if potential.is_some() { whole } else { sizes })?;
+        Ok(facts)
+    }
+
+    /// One trajectory; a dictionary of arrays and facts.
+    #[pyo3(signature = (asked, *, momentum, group_element, every, at, tuned, fitted, backend, record, progress))]
+    #[allow(clippy::too_many_arguments)]
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        asked: Asked,
+        momentum: Option<PyReadonlyArray1<'py, f64>>,
+        group_element: Option<PyReadonlyArray2<'py, f64>>,
+        every: Option<u64>,
+        at: Option<PyReadonlyArray1<'py, f64>>,
+        tuned: bool,
+        fitted: Option<f64>,
+        backend: &str,
+        record: bool,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let accuracy = asked.accuracy(py)?;
+        let backend = backend_of(py, backend)?;
+        let vector = |array: PyReadonlyArray1<'py, f64>| array.as_array().to_vec();
+        let given = &self.system.run;
+        let momentum = momentum.map(vector).or_else(|| given.momentum.clone());
+        let Some(momentum) = momentum else {
+            return Err(refused(py, "momentum is missing: give momentum=[…]".to_owned()));
+        };
+        let rows = |array: PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
+            array.as_array().rows().into_iter().map(|row| row.to_vec()).collect()
+        };
+        let group_element = group_element.map(rows).or_else(|| given.group_element.clone());
+        let at = at.map(vector);
+        // Times alone are recorded alone; a step count in the text is then no request.
+        let every = match (every, &at) {
+            (None, Some(_)) => None,
+            (every, _) => Some(every.or(given.every.map(|n| n as u64)).unwrap_or(1)),
+        };
+        if every == Some(0) {
+            return Err(refused(py, "every counts steps from 1; try every=1".to_owned()));
+        }
+        let system = System { run: coadjoint_codegen::system::Run {
+            momentum: Some(momentum.clone()),
+            ..given.clone()
+        }, ..self.system.clone() };
+        let here = Self { name: self.name.clone(), system, derived: Cache::default() };
+        // What is derived stays for the next run.
+        let cache = self.derived.clone();
+        let result = work(py, progress.as_ref(), move |control| {
+            let (system, choice) = here.accurate(&accuracy)?;
+            let schedule = Schedule::new(Path::new(&here.name), accuracy.step, accuracy.time, &system.run)?;
+            let at = at.map(|at| Times::new(at, &schedule)).transpose();
+            let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
+            let setup = Setup {
+                recording: record,
+                every,
+                at,
+                tuned,
+                fitted,
+                backend,
+                group_element,
+                ..Setup::new(schedule, momentum)
+            };
+            let size: f64 = record_size(&system, &setup);
+            if size > MOST_BYTES {
+                return Err(RunError::Option(format!(
+                    "the records would take {:.0} GB of memory: keep every n-th step, every=…, or the times at=[…]",
+                    size * 1e-9
+                )));
+            }
+            let truncation = system.problem.truncation;
+            let derived = derive(&cache, &here.name, system, false)?;
+            control.total.store(schedule.steps, Ordering::Relaxed);
+            let mut keeper = Keeper { table: Table::default(), control };
+            let outcome = run(&derived, &setup, &mut keeper)?;
+            Ok((keeper.table, outcome, schedule, truncation, choice, derived.label(&setup)))
+        })?;
+        let (table, outcome, schedule, truncation, choice, label) =
+            result.map_err(|error: RunError| raised(py, &error))?;
+        let found = result_of(py, table, &outcome, &schedule)?;
+        found.set_item("truncation", truncation)?;
+        found.set_item("choice", choice)?;
+        found.set_item("label", label)?;
+        Ok(found)
+    }
+
+    /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts.
+    #[pyo3(signature = (states, asked, *, backend, threads, progress))]
+    fn ensemble<'py>(
+        &self,
+        py: Python<'py>,
+        states: PyReadonlyArray2<'py, f64>,
+        asked: Asked,
+        backend: &str,
+        threads: Option<usize>,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(u64, u64, String)>, Bound<'py, PyDict>)> {
+        let accuracy = asked.accuracy(py)?;
+        let backend = backend_of(py, backend)?;
+        let (count, width) = (states.shape()[0], states.shape()[1]);
+        let mut values: Vec<f64> = states.as_array().iter().copied().collect();
+        let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let threads = threads.unwrap_or(processors);
+        if threads == 0 || threads > 256.max(4 * processors) {
+            let what = format!("threads={threads}: give a number from 1 to {}", 256.max(4 * processors));
+            return Err(refused(py, what));
+        }
+        let here = Self { name: self.name.clone(), system: self.system.clone(), derived: Cache::default() };
+        let cache = self.derived.clone();
+        let result = work(py, progress.as_ref(), move |control| {
+            let path = Path::new(&here.name);
+            let (system, choice) = here.accurate(&accuracy)?;
+            let schedule = Schedule::new(path, accuracy.step, accuracy.time, &system.run)?;
+            let truncation = system.problem.truncation;
+            let derived = derive(&cache, &here.name, system, true)?;
+            let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
+            let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
+            let engine = ensemble::engine(path, &derived.integrator, schedule.step, how)?;
+            let layout = Layout::of_width(engine.shape(), width)?;
+            control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
+            // Threads of its own: those of a parent process are not there in a fork.
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let pool = pool.map_err(|error| RunError::Option(format!("threads={threads}: {error}")))?;
+            let engine = engine.as_ref();
+            let (failed, drift) = pool.install(|| {
+                let made = |made: u64| control.done.store(made, Ordering::Relaxed);
+                let watch = Watch { made: &made, stop: &control.stop };
+                ensemble::advance_all(engine, &layout, schedule.steps, &mut values, &watch)
+            })?;
+            let notes = engine.notes().to_vec();
+            Ok((values, failed, drift, engine.backend(), notes, layout.names(), schedule, truncation, choice))
+        })?;
+        let (values, failed, drift, backend, notes, names, schedule, truncation, choice) =
+            result.map_err(|error: RunError| raised(py, &error))?;
+        let array = values.into_pyarray(py).reshape([count, width])?;
+        let failed = failed.into_iter().map(|r| (r.row - 1, r.step, r.reason)).collect();
+        let facts = PyDict::new(py);
+        facts.set_item("spatial_momentum", drift.spatial_momentum)?;
+        facts.set_item("casimirs", drift.casimirs)?;
+        facts.set_item("ratio", drift.ratio)?;
+        facts.set_item("backend", backend)?;
+        facts.set_item("notes", notes)?;
+        facts.set_item("columns", names)?;
+        facts.set_item("step", schedule.step)?;
+        facts.set_item("steps", schedule.steps)?;
+        facts.set_item("time", schedule.end)?;
+        facts.set_item("announcement", schedule.announcement())?;
+        facts.set_item("truncation", truncation)?;
+        facts.set_item("choice", choice)?;
+        Ok((array, failed, facts))
+    }
+
+    /// What rows of an ensemble may hold: the names of the columns with momenta alone, with matrices, and, for
+    /// rotations, with quaternions.
+    fn layouts(&self) -> Vec<Vec<String>> {
+        let algebra = &self.system.problem.algebra;
+        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
+            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
+            None => algebra.dim(),
+        };
+        let matrix_size = algebra.factors().iter().map(size).sum();
+        let shape = Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" };
+        use ensemble::Attitude::{Matrix, None, Quaternion};
+        let forms = if shape.quaternions { &[None, Matrix, Quaternion][..] } else { &[None, Matrix][..] };
+        forms.iter().map(|&attitude| Layout { shape, attitude }.names()).collect()
+    }
+
+    /// Steps of this size, ready to be made.
+    fn stepper(&self, py: Python<'_>, step: f64, backend: &str) -> PyResult<Stepper> {
+        let backend = backend_of(py, backend)?;
+        let (name, system, cache) = (self.name.clone(), self.system.clone(), self.derived.clone());
+        let dimension = system.problem.algebra.dim();
+        let made = work(py, None, move |_| {
+            let derived = derive(&cache, &name, system, false)?;
+            Single::new(derived, step, backend, MANY)
+        })?;
+        let single = made.map_err(|error| raised(py, &error))?;
+        Ok(Stepper { single: Arc::new(single), dimension })
+    }
+
+    /// The exact series as `text`, `json` or `latex`.
+    fn series(&self, py: Python<'_>, form: String, truncation: Option<usize>) -> PyResult<String> {
+        let (name, mut problem) = (self.name.clone(), self.system.problem.clone());
+        if let Some(truncation) = truncation {
+            problem.truncation = truncation;
+        }
+        let made = work(py, None, move |_| {
+            let series = series::Series::derive(Path::new(&name), problem)?;
+            Ok(match form.as_str() {
+                "latex" => series::latex(&series),
+                "json" => series::json(&series),
+                _ => series::text(&series),
+            })
+        })?;
+        made.map_err(|error: RunError| raised(py, &error))
+    }
+
+    /// The generating Casimirs up to this degree, as text.
+    fn casimirs(&self, py: Python<'_>, degree: u32) -> PyResult<Vec<String>> {
+        let problem = self.system.problem.clone();
+        let made = work(py, None, move |_| {
+            let found = lie::casimirs(&problem.algebra, degree).map_err(|error| error.to_string())?;
+            Ok(found.iter().map(|casimir| series::polynomial(&problem, casimir)).collect())
+        })?;
+        made.map_err(|error: String| refused(py, format!("{error}; give a smaller degree=")))
+    }
+
+    /// The laws: (name, statement, value, bound, holds) each, and a warning.
+    #[allow(clippy::type_complexity)]
+    fn check(
+        &self,
+        py: Python<'_>,
+        step: Option<f64>,
+        points: usize,
+        seed: u64,
+    ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
+        let (name, system, cache) = (self.name.clone(), self.system.clone(), self.derived.clone());
+        let made = work(py, None, move |_| {
+            let step = step.or(system.run.step).unwrap_or(check::DEFAULT_STEP);
+            let given = system.run.momentum.iter().flatten();
+            let size = given.fold(0.0_f64, |size, x| size.max(x.abs()));
+            let size = if size > 0.0 { size } else { 1.0 };
+            let trial = check::Trial::new(step, size, points, seed)?;
+            let derived = derive(&cache, &name, system, false)?;
+            let (laws, steep) = check::check(&derived, &trial)?;
+            let law = |law: check::Law| {
+                (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)
+            };
+            let laws = laws.into_iter().map(law).collect();
+            Ok((laws, steep.map(check::Steep::text)))
+        })?;
+        made.map_err(|error: RunError| raised(py, &error))
+    }
+
+    /// The system as code.
+    fn emit(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        prefix: Option<String>,
+        step: Option<f64>,
+        single: bool,
+    ) -> PyResult<String> {
+        let source = emit::Source::System(Box::new(self.system.clone()));
+        let (name, language) = (self.name.clone(), language.to_owned());
+        let made = work(py, None, move |_| emitted(&name, source, &language, prefix, step, single))?;
+        made.map_err(|error| raised(py, &error))
+    }
+}
+
+/// The code of a system or a model in this language.
+pub fn emitted(
+    name: &str,
+    source: emit::Source,
+    language: &str,
+    prefix: Option<String>,
+    step: Option<f64>,
+    single: bool,
+) -> Result<String, RunError> {
+    use coadjoint_codegen::emit::c::Language;
+    use coadjoint_program::{Precision, print::DeviceLanguage};
+    let path = Path::new(name);
+    let precision = if single { Precision::Single } else { Precision::Double };
+    match language {
+        "rust" => emit::rust(path, source),
+        "c" => emit::header(path, source, Language::C, prefix),
+        "cpp" => emit::header(path, source, Language::Cpp, prefix),
+        "opencl" => emit::kernel(path, source, step, precision, DeviceLanguage::OpenCl),
+        "cuda" => emit::kernel(path, source, step, precision, DeviceLanguage::Cuda),
+        _ => Err(RunError::Option(format!(
+            "language=\"{language}\": there are \"rust\", \"c\", \"cpp\", \"opencl\" and \"cuda\""
+        ))),
+    }
+}
+
+/// Bytes of the records of a run, about.
+fn record_size(system: &System, setup: &Setup) -> f64 {
+    let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
+    let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
+    let block = |algebra: &lie::LieAlgebra| {
+        let rows = algebra.basis().and_then(|basis| basis.first()).map(lie::RationalMatrix::rows);
+        rows.unwrap_or(algebra.dim()).pow(2)
+    };
+    let algebra = &system.problem.algebra;
+    let entries: usize = algebra.factors().iter().map(block).sum();
+    if setup.recording { 8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64 } else { 0.0 }
+}
+
+/// What a run has come to, as Python has it.
+pub fn result_of<'py>(
+    py: Python<'py>,
+    table: Table,
+    outcome: &Outcome,
+    schedule: &Schedule,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let rows = table.time.len();
+    let wide = |values: Vec<f64>| {
+        let width = if rows == 0 { 0 } else { values.len() / rows };
+        values.into_pyarray(py).reshape([rows, width])
+    };
+    found.set_item("time", table.time.into_pyarray(py))?;
+    found.set_item("momentum", wide(table.momentum)?)?;
+    found.set_item("entries", wide(table.element)?)?;
+    found.set_item("spatial_momentum", wide(table.spatial)?)?;
+    found.set_item("energy", table.energy.into_pyarray(py))?;
+    found.set_item("drifts", wide(table.drift)?)?;
+    found.set_item("blocks", table.blocks)?;
+    found.set_item("warnings", table.warnings)?;
+    found.set_item("announcement", schedule.announcement())?;
+    found.set_item("step", schedule.step)?;
+    found.set_item("steps", outcome.steps)?;
+    let end = PyDict::new(py);
+    end.set_item("time", outcome.time)?;
+    end.set_item("momentum", PyArray1::from_slice(py, &outcome.momentum))?;
+    let blocks: Vec<(usize, usize)> =
+        outcome.blocks.iter().map(|b| (b.range.start, b.range.len())).collect();
+    end.set_item("blocks", blocks)?;
+    let own = split(&outcome.blocks, &outcome.element);
+    end.set_item("entries", PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()))?;
+    found.set_item("end", end)?;
+    let drift = outcome.drift;
+    found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
+    found.set_item("conserved_momenta", outcome.momenta)?;
+    found.set_item("casimirs", outcome.casimirs)?;
+    found.set_item("potential", outcome.potential)?;
+    found.set_item("has_energy", outcome.energy.is_some())?;
+    let used = outcome.backend.as_ref();
+    found.set_item("backend", used.map_or("interpreter", |used| used.name.as_str()))?;
+    let ready = used.and_then(|used| used.ready).map(|time| time.as_secs_f64());
+    found.set_item("ready", ready)?;
+    let solver = outcome.solver.map(|solver| (solver.most_iterations, solver.max_residual));
+    found.set_item("solver", solver)?;
+    Ok(found)
+}
+
+/// Steps of one size, ready to be made.
+#[pyclass(frozen, module = "coadjoint._core")]
+pub struct Stepper {
+    single: Arc<Single<Arc<Derived>>>,
+    dimension: usize,
+}
+
+#[pymethods]
+impl Stepper {
+    /// What makes the steps.
+    #[getter]
+    fn backend(&self) -> String {
+        self.single.backend()
+    }
+
+    /// The state after so many steps: momentum and matrix.
+    fn advance<'py>(
+        &self,
+        py: Python<'py>,
+        momentum: PyReadonlyArray1<'py, f64>,
+        group_element: Option<PyReadonlyArray2<'py, f64>>,
+        steps: u64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let size = self.single.matrix_size();
+        let mut mu = momentum.as_array().to_vec();
+        if mu.len() != self.dimension {
+            let what = format!("momentum has {} numbers; the group needs {}", mu.len(), self.dimension);
+            return Err(refused(py, what));
+        }
+        if let Some(bad) = mu.iter().find(|x| !x.is_finite()) {
+            return Err(refused(py, format!("momentum: {bad} is no finite number")));
+        }
+        let mut matrix = match group_element {
+            None => (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect(),
+            Some(given) => {
+                if given.shape() != [size, size] {
+                    let what = format!("group_element must be a matrix of {size} rows and columns");
+                    return Err(refused(py, what));
+                }
+                let given: Vec<f64> = given.as_array().iter().copied().collect();
+                self.single.element(&given).map_err(|error| raised(py, &error))?
+            }
+        };
+        let made = if steps <= FEW {
+            self.single.advance(&mut matrix, &mut mu, steps)
+        } else {
+            let single = self.single.clone();
+            let (made, new_matrix, new_mu) = work(py, None, move |control| {
+                let mut done = 0;
+                let mut made = Ok(());
+                while done < steps && made.is_ok() && !control.stop.load(Ordering::Relaxed) {
+                    let count = (steps - done).min(FEW);
+                    made = single.advance(&mut matrix, &mut mu, count);
+                    made = made.map_err(|(step, error)| (done + step, error));
+                    done += count;
+                }
+                (made, matrix, mu)
+            })?;
+            (matrix, mu) = (new_matrix, new_mu);
+            made
+        };
+        made.map_err(|(step, error)| stopped(py, step, error.to_string()))?;
+        Ok((mu.into_pyarray(py), matrix.into_pyarray(py).reshape([size, size])?))
+    }
+}
