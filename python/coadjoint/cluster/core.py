@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pyarrow
 
+from .._arrays import Floats
 from .._core import Core, __version__
 from ..system import System
 from .errors import InputError, ShardError
@@ -22,7 +23,7 @@ _SCHEDULE = ("time", "step", "steps", "truncation")
 class Made:
     """Rows at the end: NaN where there is no end state, and (index, step, reason) for each of these."""
 
-    states: np.ndarray
+    states: Floats
     bad: list[tuple[int, int, str]]
     drift: dict[str, float]
     notes: list[str]
@@ -52,7 +53,7 @@ def layouts(job: dict[str, Any]) -> list[list[str]]:
     return _core(job["text"]).layouts()
 
 
-def advance(job: dict[str, Any], numbers: np.ndarray, threads: int) -> Made:
+def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     """Advances rows."""
     asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation")}
     states, failed, facts = _core(job["text"]).ensemble(

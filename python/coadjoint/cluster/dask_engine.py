@@ -35,7 +35,7 @@ class Dask:
         self._futures.add(future)
         return future
 
-    def wait(self, handles: Iterable[Any]) -> Iterable[Any]:
+    def wait(self, handles: Iterable[Any]) -> Any:
         """Those that are done."""
         from distributed import TimeoutError, wait
 
@@ -51,7 +51,8 @@ class Dask:
 
         self._futures.discard(handle)
         try:
-            return handle.result()
+            summary: Summary = handle.result()
+            return summary
         except KilledWorker as error:
             raise ShardError(
                 f"{error.task} has ended every worker that tried it, the last one {error.last_worker.address}; often "

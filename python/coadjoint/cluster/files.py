@@ -9,13 +9,16 @@ import socket
 import tempfile
 import uuid
 from collections.abc import Callable
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 import fsspec
 from fsspec.implementations.local import LocalFileSystem
 
 #: Errors that trying again does not mend.
 LASTING = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.ENOTDIR}
+
+#: Writes a file's content.
+Fill = Callable[[IO[bytes]], None]
 
 _PIECE = 1 << 20
 
@@ -28,7 +31,8 @@ def absolute(name: str | os.PathLike[str]) -> str:
 
 def locate(name: str, options: dict[str, Any] | None = None) -> tuple[Any, str]:
     """The file system that a name belongs to, and the path on it."""
-    return fsspec.core.url_to_fs(name, **(options or {}))
+    fs, path = fsspec.core.url_to_fs(name, **(options or {}))
+    return fs, path
 
 
 def below(folder: str, name: str) -> str:
@@ -69,7 +73,7 @@ class Folder:
         """The content of a small file, or None where there is none."""
         self.fs.invalidate_cache()
         try:
-            return self.fs.cat_file(self.at(name))
+            return bytes(self.fs.cat_file(self.at(name)))
         except FileNotFoundError:
             return None
 
@@ -86,7 +90,7 @@ class Folder:
             return digest(file)
 
     def write(
-        self, name: str, fill: Callable[[BinaryIO], None], passing_in: str = "_run/partial"
+        self, name: str, fill: Fill, passing_in: str = "_run/partial"
     ) -> tuple[int, str]:
         """Writes a file whole or not at all, and returns its bytes and its SHA-256.
 
@@ -105,7 +109,15 @@ class Folder:
             self.fs.put_file(file.name, self.at(name))
         return found
 
-    def _rename(self, name: str, fill: Callable[[BinaryIO], None], passing_in: str) -> tuple[int, str]:
+    def put(self, name: str, content: bytes) -> tuple[int, str]:
+        """Writes a small file whole or not at all."""
+
+        def fill(file: IO[bytes]) -> None:
+            file.write(content)
+
+        return self.write(name, fill)
+
+    def _rename(self, name: str, fill: Fill, passing_in: str) -> tuple[int, str]:
         target = self.at(name)
         partial = self.at(passing_in) if passing_in else self.path
         os.makedirs(os.path.dirname(target), exist_ok=True)
@@ -150,7 +162,7 @@ class Folder:
             pass
 
 
-def digest(file: BinaryIO) -> str:
+def digest(file: IO[bytes]) -> str:
     """SHA-256 of what is left of a file."""
     found = hashlib.sha256()
     while piece := file.read(_PIECE):

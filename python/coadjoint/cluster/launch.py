@@ -201,7 +201,7 @@ class Job:
     def tasks(self, threads: int, verify: bool) -> Iterator[Task]:
         """The shards of this call."""
         for number in self.shards:
-            start, stop = self.plan.range(number)
+            start, stop = self.plan.rows_of(number)
             yield Task(
                 shard=number,
                 start=start,
@@ -222,7 +222,7 @@ class Job:
     ) -> Result:
         """Makes all shards of this call, and what is to be written when the last one of all is there."""
         begun = time.perf_counter()
-        rows = sum(stop - start for start, stop in map(self.plan.range, self.shards))
+        rows = sum(stop - start for start, stop in map(self.plan.rows_of, self.shards))
         counter = Counter(len(self.shards), rows, progress, engine.workers)
         found: dict[int, Summary] = {}
 

@@ -62,14 +62,14 @@ class Processes:
         self.capacity = 2 * count
         self._threads = concurrent.futures.ThreadPoolExecutor(count, thread_name_prefix="coadjoint")
         self._own = threading.local()
-        self._all: set[subprocess.Popen[bytes]] = set()
+        self._all: set[_Process] = set()
         self._closed = False
 
     def submit(self, task: Task) -> concurrent.futures.Future[Summary]:
         """Hands the shard to the next process that is free."""
         return self._threads.submit(self._run, task)
 
-    def wait(self, handles: Iterable[concurrent.futures.Future[Summary]]) -> Iterable:
+    def wait(self, handles: Iterable[concurrent.futures.Future[Summary]]) -> set[concurrent.futures.Future[Summary]]:
         """Those that are done."""
         first = concurrent.futures.FIRST_COMPLETED
         return concurrent.futures.wait(list(handles), timeout=0.5, return_when=first).done
@@ -89,45 +89,73 @@ class Processes:
             process.kill()
         self._threads.shutdown(wait=True, cancel_futures=True)
         for process in list(self._all):
-            _end(process)
+            process.end()
 
     def _run(self, task: Task) -> Summary:
-        process = getattr(self._own, "process", None)
-        if process is None or process.poll() is not None:
+        process: _Process | None = getattr(self._own, "process", None)
+        if process is None or process.ended():
             process = self._own.process = self._begin()
         try:
-            pickle.dump(task, process.stdin)
-            process.stdin.flush()
-            answer = pickle.load(process.stdout)
-        except (EOFError, BrokenPipeError, pickle.UnpicklingError):
+            return process.run(task)
+        except WorkerDied:
             self._own.process = None
             self._all.discard(process)
-            code = _end(process)
-            how = f"signal {-code}" if code < 0 else f"exit code {code}"
-            raise WorkerDied(f"the worker process {process.pid} ended by {how}") from None
-        if isinstance(answer, BaseException):
-            raise answer
-        return answer
+            raise
 
-    def _begin(self) -> subprocess.Popen[bytes]:
+    def _begin(self) -> _Process:
         if self._closed:
             raise WorkerDied("the run has ended")
-        pipe = subprocess.PIPE
-        process = subprocess.Popen([sys.executable, "-c", _START], stdin=pipe, stdout=pipe)
+        process = _Process()
         self._all.add(process)
         if self._closed:
             process.kill()
-        pickle.dump([os.path.abspath(entry) for entry in sys.path], process.stdin)
         return process
 
 
-def _end(process: subprocess.Popen[bytes]) -> int:
-    for pipe in (process.stdin, process.stdout):
+class _Process:
+    """A process and the pipes to it."""
+
+    def __init__(self) -> None:
+        pipe = subprocess.PIPE
+        self._process = subprocess.Popen([sys.executable, "-c", _START], stdin=pipe, stdout=pipe)
+        if self._process.stdin is None or self._process.stdout is None:
+            raise WorkerDied("a worker process has no pipes")
+        self._tasks, self._answers = self._process.stdin, self._process.stdout
+        self._send([os.path.abspath(entry) for entry in sys.path])
+
+    def ended(self) -> bool:
+        """Whether it is there no more."""
+        return self._process.poll() is not None
+
+    def run(self, task: Task) -> Summary:
+        """Has it make a shard, and waits."""
         try:
-            pipe.close()
-        except (BrokenPipeError, ValueError):
-            pass
-    return process.wait()
+            self._send(task)
+            answer = pickle.load(self._answers)
+        except (EOFError, BrokenPipeError, pickle.UnpicklingError):
+            code = self.end()
+            how = f"signal {-code}" if code < 0 else f"exit code {code}"
+            raise WorkerDied(f"the worker process {self._process.pid} ended by {how}") from None
+        if isinstance(answer, Summary):
+            return answer
+        raise answer
+
+    def kill(self) -> None:
+        """Ends it at once."""
+        self._process.kill()
+
+    def end(self) -> int:
+        """Waits for its end, and returns its exit code."""
+        for pipe in (self._tasks, self._answers):
+            try:
+                pipe.close()
+            except BrokenPipeError:
+                pass
+        return self._process.wait()
+
+    def _send(self, value: object) -> None:
+        pickle.dump(value, self._tasks)
+        self._tasks.flush()
 
 
 def engine(workers: int | None) -> Here | Processes:

@@ -44,7 +44,7 @@ def settle(folder: Folder, wanted: dict[str, Any]) -> bool:
             raise ManifestError(
                 f"{folder.name} has parts of another run and no manifest; give another folder as out"
             )
-        folder.write(NAME, lambda file: file.write(encode(wanted)) and None)
+        folder.put(NAME, encode(wanted))
         # Of several that begin at once the last one has written: all must want the same.
         known = read(folder) or {}
     wanted = json.loads(encode(wanted))

@@ -24,7 +24,7 @@ class Plan:
         """How many shards there are; without rows there is one, which is empty."""
         return max(1, -(-self.rows // self.rows_per_shard))
 
-    def range(self, shard: int) -> tuple[int, int]:
+    def rows_of(self, shard: int) -> tuple[int, int]:
         """The first row of a shard and the row behind its last, counted from 0."""
         start = shard * self.rows_per_shard
         return start, min(start + self.rows_per_shard, self.rows)

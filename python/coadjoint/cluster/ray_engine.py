@@ -29,7 +29,7 @@ class Ray:
         self._running.add(handle)
         return handle
 
-    def wait(self, handles: Iterable[Any]) -> Iterable[Any]:
+    def wait(self, handles: Iterable[Any]) -> Any:
         """Those that are done."""
         handles = list(handles)
         return self._ray.wait(handles, num_returns=1, timeout=0.5)[0]
@@ -39,7 +39,8 @@ class Ray:
         lost = self._ray.exceptions
         self._running.discard(handle)
         try:
-            return self._ray.get(handle)
+            summary: Summary = self._ray.get(handle)
+            return summary
         except lost.RayTaskError as error:
             cause = error.cause
             if isinstance(cause, (ImportError, AttributeError)):

@@ -72,7 +72,7 @@ def summarize(folder: Folder, plan: Plan) -> bool:
         total["rows"] += entry["rows"]
         total["bad"] += entry["bad"]
         shard.raise_to(total["drift"], entry["drift"])
-    folder.write(SUMMARY, lambda file: file.write(manifest.encode(total)) and None)
+    folder.put(SUMMARY, manifest.encode(total))
     return True
 
 
@@ -89,7 +89,7 @@ def check(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = 
     plan = Plan(known["plan"]["rows"], known["plan"]["rows_per_shard"])
     wrong = []
     for number in range(plan.shards):
-        start, stop = plan.range(number)
+        start, stop = plan.rows_of(number)
         if shard.finished(folder, number, start, stop, verify=True) is None:
             wrong.append(number)
     if wrong:
@@ -98,7 +98,7 @@ def check(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = 
             f"{folder.name}: of {plan.shards} shards {len(wrong)} are missing or changed ({some}); call run again"
         )
     summarize(folder, plan)
-    return json.loads(folder.read(SUMMARY) or b"{}")
+    return dict(json.loads(folder.read(SUMMARY) or b"{}"))
 
 
 def join(
@@ -125,7 +125,8 @@ def join(
                     table = parquet.read_row_group(group, use_threads=False)
                     sink.write_table(table, row_group_size=max(table.num_rows, 1))
                     rows += table.num_rows
-        sink.close()
+        if sink is not None:
+            sink.close()
 
     Folder(parent or "/", storage_options).write(name, fill, passing_in="")
     return rows

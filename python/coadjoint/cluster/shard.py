@@ -14,6 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from .._arrays import Floats
 from . import core, states
 from .errors import ClusterError, InputError, ShardError
 from .files import LASTING, Folder
@@ -130,7 +131,7 @@ def finished(folder: Folder, shard: int, start: int, stop: int, verify: bool) ->
     if raw is None:
         return None
     try:
-        entry = json.loads(raw)
+        entry: dict[str, Any] = json.loads(raw)
         if (entry["start"], entry["rows"]) != (start, stop - start):
             return None
         wanted = [(part(shard), entry["bytes"], entry["sha256"])]
@@ -183,16 +184,14 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
     }
     if rejected:
         lines = b"".join(json.dumps(line, ensure_ascii=False).encode() + b"\n" for line in rejected)
-        entry["bad_bytes"], entry["bad_sha256"] = folder.write(
-            bad_list(task.shard), lambda file: file.write(lines) and None
-        )
-    folder.write(record(task.shard), lambda file: file.write(encode(entry)) and None)
+        entry["bad_bytes"], entry["bad_sha256"] = folder.put(bad_list(task.shard), lines)
+    folder.put(record(task.shard), encode(entry))
     return entry
 
 
-def _groups(task: Task, size: int) -> Iterator[tuple[np.ndarray, pa.Table | None]]:
+def _groups(task: Task, size: int) -> Iterator[tuple[Floats, pa.Table | None]]:
     """The rows of a shard, ``size`` at a time whatever pieces the files have them in."""
-    numbers: list[np.ndarray] = []
+    numbers: list[Floats] = []
     kept: list[pa.RecordBatch] = []
     missing = size
     for piece in task.pieces:
@@ -216,7 +215,7 @@ def _no_rows(task: Task) -> pa.Table | None:
     return pa.table({name: pa.array([], pa.null()) for name in task.keep}) if task.keep else None
 
 
-def _table(columns: list[str], numbers: np.ndarray, kept: pa.Table | None) -> pa.Table:
+def _table(columns: list[str], numbers: Floats, kept: pa.Table | None) -> pa.Table:
     fields = [pa.field(name, pa.float64(), nullable=False) for name in columns]
     arrays = [pa.array(np.ascontiguousarray(numbers[:, place])) for place in range(len(columns))]
     if kept is not None:

@@ -8,7 +8,7 @@ import os
 import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -102,7 +102,7 @@ def _same_run(found: list[_Shard]) -> None:
             raise InputError(f"{before.path} and {after.path} are the same shard")
 
 
-def _csv(file: BinaryIO, paths: list[str]) -> None:
+def _csv(file: IO[bytes], paths: list[str]) -> None:
     for number, path in enumerate(paths):
         with open(path, encoding="utf-8", newline="") as source:
             reader = csv.reader(source)
@@ -115,7 +115,7 @@ def _csv(file: BinaryIO, paths: list[str]) -> None:
             shutil.copyfileobj(source, file, 1 << 20)
 
 
-def _npy(file: BinaryIO, paths: list[str]) -> None:
+def _npy(file: IO[bytes], paths: list[str]) -> None:
     arrays = [np.load(path, mmap_mode="r") for path in paths]
     rows = sum(len(array) for array in arrays)
     header = {"descr": "<f8", "fortran_order": False, "shape": (rows, arrays[0].shape[1])}
@@ -126,7 +126,7 @@ def _npy(file: BinaryIO, paths: list[str]) -> None:
             shutil.copyfileobj(source, file, 1 << 20)
 
 
-def _parquet(file: BinaryIO, paths: list[str]) -> None:
+def _parquet(file: IO[bytes], paths: list[str]) -> None:
     sink = None
     for path in paths:
         with pq.ParquetFile(path) as source:
@@ -134,4 +134,5 @@ def _parquet(file: BinaryIO, paths: list[str]) -> None:
             for group in range(source.num_row_groups):
                 table = source.read_row_group(group)
                 sink.write_table(table, row_group_size=max(table.num_rows, 1))
-    sink.close()
+    if sink is not None:
+        sink.close()

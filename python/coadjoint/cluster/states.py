@@ -11,8 +11,12 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from .._arrays import Floats
 from .errors import InputError
 from .files import absolute, fingerprint, locate
+
+#: Numbers as a matrix, and the columns to keep as they are.
+Batch = tuple[Floats, pa.RecordBatch | None]
 
 _PIECES = 64
 
@@ -65,15 +69,16 @@ def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, An
     if not found:
         raise InputError(f"{names}: there is no such file")
     pieces = max(2, _PIECES // len(found))
-    files, columns = [], None
+    files: list[File] = []
+    columns: tuple[str, ...] | int | None = None
     for fs, path, name in found:
         size = int(fs.info(path)["size"])
         rows, here = _header(fs, path, name)
-        if columns is not None and columns != here:
+        if columns not in (None, here):
             raise InputError(f"{name} has the columns {here}, the files before it have {columns}")
         columns = here
         files.append(File(name, size, rows, fingerprint(fs, path, size, pieces)))
-    return States(tuple(files), columns)
+    return States(tuple(files), columns or 0)
 
 
 def _expand(name: str, options: dict[str, Any] | None) -> list[tuple[Any, str, str]]:
@@ -116,11 +121,12 @@ def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...] | int]:
         raise InputError(f"{name}: {error}") from error
 
 
-def _npy(file: Any, name: str) -> tuple[tuple[int, int], np.dtype, int]:
+def _npy(file: Any, name: str) -> tuple[tuple[int, int], np.dtype[Any], int]:
     """Shape, type and length of the header."""
+    layout = np.lib.format
     try:
-        version = np.lib.format.read_magic(file)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        version = layout.read_magic(file)
+        read: Any = layout.read_array_header_1_0 if version == (1, 0) else layout.read_array_header_2_0
         shape, fortran, kind = read(file)
     except ValueError as error:
         raise InputError(f"{name}: {error}") from error
@@ -139,8 +145,8 @@ def batches(
     keep: Sequence[str],
     size: int,
     options: dict[str, Any] | None = None,
-) -> Iterator[tuple[np.ndarray, pa.Table | None]]:
-    """The rows of a piece, at most ``size`` at a time: numbers as a matrix, and the columns to keep as they are."""
+) -> Iterator[Batch]:
+    """The rows of a piece, at most ``size`` at a time."""
     name, length, start, stop = piece
     fs, path = locate(name, options)
     found = int(fs.info(path)["size"])
@@ -151,7 +157,9 @@ def batches(
         yield from read(file, name, start, stop, columns, keep, size)
 
 
-def _npy_batches(file, name, start, stop, columns, keep, size):
+def _npy_batches(
+    file: Any, name: str, start: int, stop: int, columns: Sequence[str], keep: Sequence[str], size: int
+) -> Iterator[Batch]:
     (_, width), kind, header = _npy(file, name)
     file.seek(header + start * width * kind.itemsize)
     while start < stop:
@@ -163,7 +171,9 @@ def _npy_batches(file, name, start, stop, columns, keep, size):
         start += count
 
 
-def _parquet_batches(file, name, start, stop, columns, keep, size):
+def _parquet_batches(
+    file: Any, name: str, start: int, stop: int, columns: Sequence[str], keep: Sequence[str], size: int
+) -> Iterator[Batch]:
     wanted = [*columns, *(column for column in keep if column not in columns)]
     # Buffered and not fetched ahead: memory stays small however large the row groups are.
     with pq.ParquetFile(file, buffer_size=1 << 20, pre_buffer=False) as parquet:
@@ -188,8 +198,9 @@ def _parquet_batches(file, name, start, stop, columns, keep, size):
                 break
 
 
-def _numbers(column: pa.Array, label: str, name: str) -> np.ndarray:
+def _numbers(column: pa.Array, label: str, name: str) -> Floats:
     """A column as floating-point numbers; what is missing is NaN."""
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
         raise InputError(f"{name}: column {label} is of the type {column.type}; numbers are needed")
-    return column.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    numbers: Floats = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    return numbers

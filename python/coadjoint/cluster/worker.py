@@ -23,6 +23,7 @@ def main() -> None:
             task = pickle.load(tasks)
         except EOFError:
             return
+        answer: shard.Summary | Exception
         try:
             answer = shard.run(task)
         except Exception as error:
