@@ -152,6 +152,9 @@ class Job:
         # Everything that workers need to make the same steps, as text and numbers.
         self.core = core.pin(system, asked, backend)
         self.columns = choose(self.states.columns, core.layouts(self.core))
+        for name in self.columns:
+            if name in self.states.others:
+                raise InputError(f"column {name} is of the type {self.states.others[name]}; numbers are needed")
         self.keep = self._kept(keep)
         self.plan = plan(self.states.rows, self.core["steps"], rows_per_shard)
         self.shards = range(self.plan.shards) if share is None else self.plan.share(*share)

@@ -31,8 +31,9 @@ class Plan:
 
     def share(self, index: int, count: int) -> range:
         """The shards of the share ``index`` of ``count``, from 1: consecutive, and together everything."""
-        if count < 1 or not 1 <= index <= count:
-            raise InputError(f"there is no share {index} of {count}: shares are counted from 1, as in (1, {max(count, 1)})")
+        whole = isinstance(index, int) and isinstance(count, int)
+        if not whole or count < 1 or not 1 <= index <= count:
+            raise InputError(f"there is no share {index!r} of {count!r}: shares are counted from 1, as in (1, 8)")
         return range(self.shards * (index - 1) // count, self.shards * index // count)
 
 

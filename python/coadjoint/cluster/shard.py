@@ -159,7 +159,7 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
             for index, step, reason in made.bad:
                 rejected.append({"row": row + index, "step": step, "reason": reason})
             raise_to(drift, made.drift)
-            notes += [text for text in made.notes if text not in notes]
+            notes.extend(text for text in made.notes if text not in notes)
             table = _table(task.columns, made.states, kept)
             sink = sink or writer(file, table.schema)
             sink.write_table(table, row_group_size=max(table.num_rows, 1))

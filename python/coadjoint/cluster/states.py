@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from .._arrays import Floats
-from .errors import InputError
+from .errors import InputError, ShardError
 from .files import absolute, fingerprint, locate
 
 #: Numbers as a matrix, and the columns to keep as they are.
@@ -38,6 +38,8 @@ class States:
     files: tuple[File, ...]
     #: The names of the columns; numbers, where a file has a width only.
     columns: tuple[str, ...] | int
+    #: The types of those that hold no numbers.
+    others: dict[str, str]
 
     @property
     def rows(self) -> int:
@@ -71,14 +73,16 @@ def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, An
     pieces = max(2, _PIECES // len(found))
     files: list[File] = []
     columns: tuple[str, ...] | int | None = None
+    others: dict[str, str] = {}
     for fs, path, name in found:
         size = int(fs.info(path)["size"])
-        rows, here = _header(fs, path, name)
+        rows, here, kinds = _header(fs, path, name)
+        others |= kinds
         if columns not in (None, here):
             raise InputError(f"{name} has the columns {here}, the files before it have {columns}")
         columns = here
         files.append(File(name, size, rows, fingerprint(fs, path, size, pieces)))
-    return States(tuple(files), columns or 0)
+    return States(tuple(files), columns or 0, others)
 
 
 def _expand(name: str, options: dict[str, Any] | None) -> list[tuple[Any, str, str]]:
@@ -93,7 +97,9 @@ def _expand(name: str, options: dict[str, Any] | None) -> list[tuple[Any, str, s
         paths = [path]
     else:
         raise InputError(f"{name}: there is no such file")
-    return [(fs, path, fs.unstrip_protocol(path) if "://" in name else path) for path in paths]
+    if paths == [path]:
+        return [(fs, path, name)]
+    return [(fs, each, fs.unstrip_protocol(each) if "://" in name else each) for each in paths]
 
 
 def _ending(name: str) -> str:
@@ -109,16 +115,23 @@ def _ending(name: str) -> str:
     raise InputError(f"{name}: the name must end in .parquet or .npy")
 
 
-def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...] | int]:
+def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...] | int, dict[str, str]]:
+    """Rows, columns, and the types of those that hold no numbers."""
     if _ending(name) == "npy":
         with fs.open(path, "rb") as file:
             shape, _, _ = _npy(file, name)
-        return shape[0], shape[1]
+        return shape[0], shape[1], {}
     try:
         with fs.open(path, "rb") as file, pq.ParquetFile(file) as parquet:
-            return parquet.metadata.num_rows, tuple(parquet.schema_arrow.names)
+            schema = parquet.schema_arrow
+            others = {field.name: str(field.type) for field in schema if not _is_number(field.type)}
+            return parquet.metadata.num_rows, tuple(schema.names), others
     except pa.ArrowException as error:
         raise InputError(f"{name}: {error}") from error
+
+
+def _is_number(kind: pa.DataType) -> bool:
+    return bool(pa.types.is_floating(kind) or pa.types.is_integer(kind))
 
 
 def _npy(file: Any, name: str) -> tuple[tuple[int, int], np.dtype[Any], int]:
@@ -151,7 +164,7 @@ def batches(
     fs, path = locate(name, options)
     found = int(fs.info(path)["size"])
     if found != length:
-        raise InputError(f"{name} has {found} bytes; it had {length} when the run was planned")
+        raise ShardError(f"{name} has {found} bytes; it had {length} when the run was planned")
     read = _npy_batches if _ending(name) == "npy" else _parquet_batches
     with fs.open(path, "rb") as file:
         yield from read(file, name, start, stop, columns, keep, size)
@@ -166,7 +179,7 @@ def _npy_batches(
         count = min(size, stop - start)
         raw = file.read(count * width * kind.itemsize)
         if len(raw) != count * width * kind.itemsize:
-            raise InputError(f"{name} ends before its rows do")
+            raise ShardError(f"{name} ends before its rows do")
         yield np.frombuffer(raw, kind).reshape(count, width).astype(np.float64), None
         start += count
 
@@ -192,15 +205,13 @@ def _parquet_batches(
                 batch = batch.slice(low, high - low)
                 numbers = np.empty((batch.num_rows, len(columns)))
                 for place, column in enumerate(columns):
-                    numbers[:, place] = _numbers(batch.column(column), column, name)
+                    numbers[:, place] = _numbers(batch.column(column))
                 yield numbers, batch.select(list(keep)) if keep else None
             if row >= stop:
                 break
 
 
-def _numbers(column: pa.Array, label: str, name: str) -> Floats:
+def _numbers(column: pa.Array) -> Floats:
     """A column as floating-point numbers; what is missing is NaN."""
-    if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
-        raise InputError(f"{name}: column {label} is of the type {column.type}; numbers are needed")
     numbers: Floats = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
     return numbers

@@ -49,12 +49,13 @@ def test_files_that_hold_no_states(tmp_path):
         ("twice", pa.table([pa.array([1.0])] * 4, [*names, "mu_1"]), "column mu_1 is there twice"),
         ("part", pa.table({name: [1.0] for name in [*names, "q_w"]}), "column q_x is missing"),
         ("both", pa.table({name: [1.0] for name in [*names, "q_w", "g_11"]}), "g_11 and q_w both give the attitude"),
+        ("text", pa.table({"mu_1": ["1"], "mu_2": [1.0], "mu_3": [1.0]}), "column mu_1 is of the type string"),
         ("broken", b"PAR1 and no more", "broken.parquet: "),
         ("wide", four, "the array has 4 columns; this system needs 3 or 12 or 7"),
         ("flat", three.ravel(), "it must have two dimensions"),
         ("order", np.asfortranarray(three), "must be in C order"),
         ("complex", three + 1j, "complex128"),
-        ("text", b"not an array", "text.npy: "),
+        ("bytes", b"not an array", "bytes.npy: "),
         ("table.csv", b"mu_1\n1\n", "pyarrow.csv"),
         ("table.txt", b"", "must end in .parquet or .npy"),
     ]:
@@ -65,19 +66,12 @@ def test_files_that_hold_no_states(tmp_path):
             path = tmp_path / f"{name}.npy"
             np.save(path, content)
         else:
-            ending = {"broken": ".parquet", "text": ".npy"}.get(name, "")
+            ending = {"broken": ".parquet", "bytes": ".npy"}.get(name, "")
             path = tmp_path / f"{name}{ending}"
             path.write_bytes(content)
         with pytest.raises(cluster.InputError, match=expected):
             run(path, tmp_path / "out")
     assert not (tmp_path / "out").exists()
-
-
-def test_columns_that_are_no_numbers(tmp_path):
-    path = tmp_path / "states.parquet"
-    pq.write_table(pa.table({"mu_1": ["1"], "mu_2": [1.0], "mu_3": [1.0]}), path)
-    with pytest.raises(cluster.InputError, match="column mu_1 is of the type string"):
-        run(path, tmp_path / "out")
 
 
 def test_an_input_that_changes_on_the_way(serial, tmp_path):
@@ -86,7 +80,7 @@ def test_an_input_that_changes_on_the_way(serial, tmp_path):
     def change(progress):
         support.write(tmp_path / "states.parquet", support.momenta(10))
 
-    with pytest.raises(cluster.ClusterError, match=r"shard 1 \(rows 400 to 799\): .* when the run was planned"):
+    with pytest.raises(cluster.ShardError, match=r"shard 1 \(rows 400 to 799\): .* when the run was planned"):
         run(states, tmp_path / "out", progress=change)
 
 
