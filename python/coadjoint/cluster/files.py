@@ -77,6 +77,14 @@ class Folder:
         except FileNotFoundError:
             return None
 
+    def read_all(self, names: list[str]) -> list[bytes]:
+        """The contents of many small files, at once where the file system can."""
+        found = self.fs.cat([self.at(name) for name in names]) if len(names) > 1 else None
+        if isinstance(found, dict):
+            contents = {path.rsplit("/", 1)[-1]: content for path, content in found.items()}
+            return [contents[name.rsplit("/", 1)[-1]] for name in names]
+        return [self.fs.cat_file(self.at(name)) for name in names]
+
     def remove(self, name: str) -> None:
         """Removes a file that may be missing."""
         try:

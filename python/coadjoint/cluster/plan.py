@@ -10,6 +10,8 @@ from .errors import InputError
 _NUMBERS = 1 << 19
 #: Steps of all rows of a shard together, where its rows are not given: seconds, not minutes.
 _STEPS = 200_000_000
+#: Their names have five digits, and folders with more files are slow.
+_MOST = 100_000
 
 
 @dataclass(frozen=True)
@@ -38,11 +40,19 @@ class Plan:
 
 
 def plan(rows: int, steps: int, rows_per_shard: int | None = None) -> Plan:
-    """The plan of a run. Without ``rows_per_shard`` a power of two between 256 and 2^20 by the number of steps."""
+    """The plan of a run. Without ``rows_per_shard`` a power of two between 256 and 2^20 by the number of steps, and as
+    many as it takes for 100 000 shards."""
+    least = -(-rows // _MOST)
     if rows_per_shard is None:
         rows_per_shard = 1 << min(max((_STEPS // max(steps, 1)).bit_length() - 1, 8), 20)
+        while rows_per_shard < least:
+            rows_per_shard *= 2
     if isinstance(rows_per_shard, bool) or not isinstance(rows_per_shard, int) or rows_per_shard < 1:
         raise InputError(f"rows_per_shard = {rows_per_shard!r}: a whole number of rows, at least 1, is needed")
+    if rows_per_shard < least:
+        raise InputError(
+            f"rows_per_shard = {rows_per_shard}: {rows} rows would be more than {_MOST} shards; give {least} at least"
+        )
     return Plan(rows, rows_per_shard)
 
 

@@ -57,18 +57,20 @@ def bad_rows(out: str | os.PathLike[str], storage_options: dict[str, Any] | None
     folder = Folder(absolute(out), storage_options)
     for name in folder.names("_run"):
         if name.startswith("bad-"):
-            for line in (folder.read(f"_run/{name}") or b"").splitlines():
-                yield json.loads(line)
+            for line in (folder.read(f"_run/{name}") or b"").split(b"\n"):
+                if line:
+                    yield json.loads(line)
 
 
 def summarize(folder: Folder, plan: Plan) -> bool:
     """Writes the record of a whole run, if it is whole; whether it is."""
     there = set(folder.names("_run"))
-    if any(shard.record(i).removeprefix("_run/") not in there for i in range(plan.shards)):
+    records = [shard.record(number) for number in range(plan.shards)]
+    if any(name.removeprefix("_run/") not in there for name in records):
         return False
     total: dict[str, Any] = {"rows": 0, "bad": 0, "shards": plan.shards, "drift": {}}
-    for i in range(plan.shards):
-        entry = json.loads(folder.read(shard.record(i)) or b"{}")
+    for content in folder.read_all(records):
+        entry = json.loads(content)
         total["rows"] += entry["rows"]
         total["bad"] += entry["bad"]
         shard.raise_to(total["drift"], entry["drift"])
