@@ -1,4 +1,4 @@
-"""Measures what docs/measurements/cluster.md has: python benchmarks/cluster.py [quick]."""
+"""Measures what docs/measurements/cluster.md has: python benchmarks/measure_cluster.py [quick]."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def speed() -> None:
 MEMORY = """
 import sys
 sys.path.insert(0, {here!r})
-import cluster as bench
+import measure_cluster as bench
 bench.FOLDER = bench.Path({folder!r})
 found = bench.run({rows}, {per_shard}, steps=10, group={group})
 print(found.worker_memory / 2**20, found.seconds, found.rows_per_second)
@@ -133,7 +133,9 @@ def memory() -> None:
         script = MEMORY.format(
             here=str(Path(__file__).parent), folder=str(FOLDER), rows=rows, per_shard=1 << 20, group=group
         )
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=FOLDER)
+        if done.returncode:
+            raise RuntimeError(done.stderr)
         size, seconds, speed = map(float, done.stdout.split())
         print(f"{rows:>12,} rows, row groups of {group:>10,}: {size:6.0f} MiB, {seconds:6.1f} s, {speed:12,.0f} rows/s")
 
