@@ -78,6 +78,7 @@ pub use npy::{NpyError, NpyHeader, npy_header};
 pub use save::{ModelFile, TrainingRecord};
 pub use series::Monomials;
 pub use session::{
-    Kind, NetworkSettings, Request, Summary, learn, learn_momenta, remove_checkpoints,
+    Kind, NetworkSettings, Request, Summary, learn, learn_columns, learn_momenta,
+    remove_checkpoints,
 };
 pub use type_two::{TypeTwo, TypeTwoData, canonical_pairs, type_two_data};

@@ -74,8 +74,15 @@ impl ModelFile {
     /// [`LearnError::File`] when the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), LearnError> {
         let fail = |source| LearnError::File { path: path.into(), source };
-        let text = serde_json::to_string(self).map_err(|e| fail(e.into()))?;
-        std::fs::write(path, text + "\n").map_err(fail)
+        std::fs::write(path, self.text().map_err(fail)?).map_err(fail)
+    }
+
+    /// The model as JSON, as [`ModelFile::save`] writes it.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn text(&self) -> Result<String, std::io::Error> {
+        Ok(serde_json::to_string(self)? + "\n")
     }
 
     /// Reads a model.
@@ -91,10 +98,18 @@ impl ModelFile {
             },
             _ => LearnError::File { path: path.into(), source },
         })?;
+        Self::of_text(path, &text)
+    }
+
+    /// Reads a model from its text; `path` is what mistakes call it.
+    ///
+    /// # Errors
+    /// [`LearnError::Model`] when it is damaged, of another version, or something else altogether.
+    pub fn of_text(path: &Path, text: &str) -> Result<Self, LearnError> {
         let fail = |reason: String| LearnError::Model { path: path.into(), reason };
         // What kind of file it is comes first, so that the message is about that.
         let value: serde_json::Value =
-            serde_json::from_str(&text).map_err(|e| fail(format!("it is not whole JSON: {e}")))?;
+            serde_json::from_str(text).map_err(|e| fail(format!("it is not whole JSON: {e}")))?;
         if value.get("format").and_then(|f| f.as_str()) != Some(FORMAT) {
             return Err(fail(format!("its field `format` is not `{FORMAT}`")));
         }

@@ -10,8 +10,9 @@
 
 from ._core import __version__
 from .errors import CoadjointWarning, Error, InputError, RunError
+from .learning import Model, geometrize, learn
 from .results import Drift, Failure, Run, States
-from .system import Law, Laws, System
+from .system import Law, Laws, System, Verdict
 
 __all__ = [
     "CoadjointWarning",
@@ -21,9 +22,13 @@ __all__ = [
     "InputError",
     "Law",
     "Laws",
+    "Model",
     "Run",
     "RunError",
     "States",
     "System",
+    "Verdict",
     "__version__",
+    "geometrize",
+    "learn",
 ]

@@ -43,6 +43,17 @@ class Core:
     def check(
         self, step: float | None, points: int, seed: int
     ) -> tuple[list[tuple[str, str, float, float, bool]], str | None]: ...
+    def verify(
+        self,
+        rows: NDArray[np.float64],
+        names: list[str],
+        *,
+        starts: NDArray[np.float64] | None,
+        steps: int,
+        step: float,
+        truncation: int,
+        refused_rows: list[int],
+    ) -> str: ...
     def emit(
         self, language: str, prefix: str | None, step: float | None, single: bool
     ) -> str: ...
@@ -57,3 +68,22 @@ class Stepper:
         group_element: NDArray[np.float64] | None,
         steps: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+def learn(
+    data: list[tuple[str, NDArray[np.float64]]],
+    test: list[tuple[str, NDArray[np.float64]]] | None,
+    settings: dict[str, Any],
+    progress: _Progress | None,
+) -> tuple[str, str]: ...
+@final
+class ModelCore:
+    def __new__(cls, text: str, name: str) -> ModelCore: ...
+    def facts(self) -> dict[str, Any]: ...
+    def simulate(
+        self,
+        momentum: NDArray[np.float64],
+        time: float,
+        every: int,
+        progress: _Progress | None,
+    ) -> dict[str, Any]: ...
+    def emit(self, language: str, prefix: str | None, single: bool) -> str: ...

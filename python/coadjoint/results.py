@@ -164,17 +164,15 @@ class Run:
         """The records as a pandas data frame, one column for each number."""
         import pandas
 
-        columns = {"time": self.time}
-        columns |= {name: self.momentum[:, i] for i, name in enumerate(self._coordinates)}
-        size = self.group_element.shape[1]
-        separator = "_" if size > 9 else ""
-        if len(self._found["blocks"]) == 1:
-            for i in range(size):
-                for j in range(size):
-                    columns[f"g_{i + 1}{separator}{j + 1}"] = self.group_element[:, i, j]
-        columns["energy"] = self.energy
-        columns |= {f"{name}_drift": values for name, values in self.drift._asdict().items()}
-        return pandas.DataFrame(columns)
+        return pandas.DataFrame(self._table(), columns=self._found["columns"])
+
+    def _table(self) -> Floats:
+        """All columns, as the command writes them."""
+        energy = self._found["has_energy"]
+        parts = [self.time[:, np.newaxis], self.momentum, self._array("entries")]
+        if energy:
+            parts.append(self.energy[:, np.newaxis])
+        return np.hstack([*parts, self._array("drifts")[:, : 3 if energy else 2]])
 
     def plot(self, what: str = "all", *, figure: Figure | None = None) -> Figure:
         """A picture: of the momentum, of the drift, or of both (needs matplotlib).

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import warnings
 from collections.abc import Iterable, Mapping
@@ -20,7 +21,7 @@ from .results import Run, States
 if TYPE_CHECKING:
     import sympy
 
-__all__ = ["System"]
+__all__ = ["Law", "Laws", "System", "Verdict"]
 
 
 class System:
@@ -274,6 +275,7 @@ class System:
         finally:
             if told is not None:
                 told.close()
+        found["follows"] = bool(tuned) or fitted is not None
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         units = {"time": self._facts["time_unit"], "momentum": self._facts["units"]}
@@ -426,6 +428,42 @@ class System:
             warnings.warn(warning, CoadjointWarning, stacklevel=2)
         return Laws([Law(*law) for law in found])
 
+    def verify(self, run: Run | States, states: Any = None) -> Verdict:
+        """Judges a run afterwards, step by step in doubled precision; or an ensemble, with the ``states`` it started from.
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> bool(body.verify(body.simulate([2, 0.5, 1], time=2, step=0.1)))
+        True
+        """
+        if isinstance(run, States):
+            if states is None:
+                raise InputError("states are missing: give those that the ensemble started from")
+            starts = floats(states, "states", finite=False)
+            if starts.shape != run.shape:
+                raise InputError(f"the states have the shape {starts.shape}; the ensemble has {run.shape}")
+            rows, names, steps, truncation = np.ascontiguousarray(run), [], run.steps, run.truncation
+            refused = [failure.row + 1 for failure in run.failed]
+        else:
+            if not isinstance(run, Run) or run.truncation is None:
+                raise InputError("only runs and ensembles of systems are judged")
+            if run._found["follows"]:
+                raise InputError(
+                    "a run that was tuned or fitted is not judged: its generating function is not the exact series"
+                )
+            starts, steps, truncation, refused = None, 0, run.truncation, []
+            rows, names = run._table(), run._found["columns"]
+        found = self._core.verify(
+            np.ascontiguousarray(rows),
+            names,
+            starts=starts,
+            steps=steps,
+            step=run.step,
+            truncation=truncation,
+            refused_rows=refused,
+        )
+        return Verdict(json.loads(found))
+
     def emit(
         self,
         language: str = "rust",
@@ -538,6 +576,32 @@ class Laws:
 
     def __repr__(self) -> str:
         return "\n".join(map(repr, self._laws))
+
+
+class Verdict:
+    """What a judgement found; true if every row was judged and none is wrong."""
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        #: In a few words.
+        self.text: str = found["verdict"]
+        #: What is wrong with the first wrong row.
+        self.wrong: str | None = found.get("wrong")
+        #: How many rows could not be judged, and why the first of them.
+        self.not_judged: int = found["not_judged"]
+        self.why: str | None = found.get("why_not_judged")
+        #: Rows judged, and the steps between them.
+        self.rows: int = found["rows"]
+        self.steps: int = found["steps"]
+        #: The largest deviations from the exact step, each over what rounding may do.
+        self.momentum: float | None = found.get("momentum")
+        self.group_element: float | None = found.get("group_element")
+
+    def __bool__(self) -> bool:
+        return self.wrong is None and self.not_judged == 0
+
+    def __repr__(self) -> str:
+        more = self.wrong or self.why
+        return f"<Verdict: {self.text}{': ' + more if more else ''}; {self.rows} rows, {self.steps} steps>"
 
 
 def _restored(text: str, name: str, given: tuple[tuple[str, Any], ...]) -> System:

@@ -8,10 +8,10 @@ static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
 
 /// The exception for a failure of this kind: `input`, `run` or `learn`.
 fn make(py: Python<'_>, kind: &str, message: String, at: (Option<f64>, Option<u64>)) -> PyErr {
-    let module = MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("coadjoint.errors")?.unbind()));
-    let made = module.and_then(|module| {
-        module.bind(py).call_method1("_make", (kind, message, at.0, at.1))
-    });
+    let module =
+        MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("coadjoint.errors")?.unbind()));
+    let made = module
+        .and_then(|module| module.bind(py).call_method1("_make", (kind, message, at.0, at.1)));
     match made {
         Ok(value) => PyErr::from_value(value),
         Err(error) => error,

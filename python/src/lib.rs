@@ -4,6 +4,7 @@
 
 mod control;
 mod error;
+mod learn;
 mod record;
 mod system;
 
@@ -12,6 +13,8 @@ use pyo3::prelude::*;
 /// The extension module.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::learn::{ModelCore, learn};
     #[pymodule_export]
     use super::system::{Core, Stepper};
 

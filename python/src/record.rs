@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use coadjoint_run::simulate::{Block, Halt, Outlet, Record, Standing};
+use coadjoint_run::simulate::{Block, Halt, Outlet, Record, Standing, columns};
 
 use crate::control::Control;
 
@@ -23,6 +23,8 @@ pub struct Table {
     pub drift: Vec<f64>,
     /// The first row and the number of rows of each block of g.
     pub blocks: Vec<(usize, usize)>,
+    /// The names of all columns, as the command has them.
+    pub columns: Vec<String>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -33,11 +35,16 @@ pub struct Keeper<'a> {
     pub table: Table,
     /// Who may stop it.
     pub control: &'a Control,
+    /// Names of the momentum's coordinates.
+    pub coordinates: &'a [String],
+    /// Whether an energy is known.
+    pub energy: bool,
 }
 
 impl Outlet for Keeper<'_> {
     fn begin(&mut self, recorded: &[Block]) -> Result<(), Halt> {
         let place = |block: &Block| (block.range.start, block.range.len());
+        self.table.columns = columns(self.coordinates, recorded, self.energy);
         self.table.blocks = recorded.iter().map(place).collect();
         Ok(())
     }

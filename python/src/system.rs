@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::System;
-use coadjoint_run::ensemble::{self, How, Layout, Shape, Watch};
+use coadjoint_run::ensemble::{self, Attitude, How, Layout, Shape, Watch};
 use coadjoint_run::simulate::{Outcome, Schedule, Setup, Single, Times, run, split};
-use coadjoint_run::{Accuracy, Backend, Derived, RunError, check, emit, meet_tolerance, read, series};
+use coadjoint_run::{
+    Accuracy, Backend, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
+};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -150,12 +152,8 @@ impl Core {
         let of = |i| units.coordinate(i).map(str::to_owned);
         let of: Vec<Option<String>> = (0..problem.algebra.dim()).map(of).collect();
         facts.set_item("units", of)?;
-        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
-            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
-            None => algebra.dim(),
-        };
-        let sizes: usize = problem.algebra.factors().iter().map(size).sum();
-        let whole = size(&problem.algebra);
+        let sizes: usize = problem.algebra.factors().iter().map(rows_of).sum();
+        let whole = rows_of(&problem.algebra);
         facts.set_item("matrix_size", if potential.is_some() { whole } else { sizes })?;
         Ok(facts)
     }
@@ -198,16 +196,20 @@ impl Core {
         if every == Some(0) {
             return Err(refused(py, "every counts steps from 1; try every=1".to_owned()));
         }
-        let system = System { run: coadjoint_codegen::system::Run {
-            momentum: Some(momentum.clone()),
-            ..given.clone()
-        }, ..self.system.clone() };
+        let system = System {
+            run: coadjoint_codegen::system::Run {
+                momentum: Some(momentum.clone()),
+                ..given.clone()
+            },
+            ..self.system.clone()
+        };
         let here = Self { name: self.name.clone(), system, derived: Cache::default() };
         // What is derived stays for the next run.
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let (system, choice) = here.accurate(&accuracy)?;
-            let schedule = Schedule::new(Path::new(&here.name), accuracy.step, accuracy.time, &system.run)?;
+            let schedule =
+                Schedule::new(Path::new(&here.name), accuracy.step, accuracy.time, &system.run)?;
             let at = at.map(|at| Times::new(at, &schedule)).transpose();
             let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
             let setup = Setup {
@@ -230,7 +232,8 @@ impl Core {
             let truncation = system.problem.truncation;
             let derived = derive(&cache, &here.name, system, false)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
-            let mut keeper = Keeper { table: Table::default(), control };
+            let coordinates = &derived.integrator.problem.coordinates;
+            let mut keeper = Keeper { table: Table::default(), control, coordinates, energy: true };
             let outcome = run(&derived, &setup, &mut keeper)?;
             Ok((keeper.table, outcome, schedule, truncation, choice, derived.label(&setup)))
         })?;
@@ -261,10 +264,15 @@ impl Core {
         let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = threads.unwrap_or(processors);
         if threads == 0 || threads > 256.max(4 * processors) {
-            let what = format!("threads={threads}: give a number from 1 to {}", 256.max(4 * processors));
+            let what =
+                format!("threads={threads}: give a number from 1 to {}", 256.max(4 * processors));
             return Err(refused(py, what));
         }
-        let here = Self { name: self.name.clone(), system: self.system.clone(), derived: Cache::default() };
+        let here = Self {
+            name: self.name.clone(),
+            system: self.system.clone(),
+            derived: Cache::default(),
+        };
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
@@ -279,7 +287,8 @@ impl Core {
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            let pool = pool.map_err(|error| RunError::Option(format!("threads={threads}: {error}")))?;
+            let pool =
+                pool.map_err(|error| RunError::Option(format!("threads={threads}: {error}")))?;
             let engine = engine.as_ref();
             let (failed, drift) = pool.install(|| {
                 let made = |made: u64| control.done.store(made, Ordering::Relaxed);
@@ -287,7 +296,17 @@ impl Core {
                 ensemble::advance_all(engine, &layout, schedule.steps, &mut values, &watch)
             })?;
             let notes = engine.notes().to_vec();
-            Ok((values, failed, drift, engine.backend(), notes, layout.names(), schedule, truncation, choice))
+            Ok((
+                values,
+                failed,
+                drift,
+                engine.backend(),
+                notes,
+                layout.names(),
+                schedule,
+                truncation,
+                choice,
+            ))
         })?;
         let (values, failed, drift, backend, notes, names, schedule, truncation, choice) =
             result.map_err(|error: RunError| raised(py, &error))?;
@@ -313,15 +332,13 @@ impl Core {
     /// rotations, with quaternions.
     fn layouts(&self) -> Vec<Vec<String>> {
         let algebra = &self.system.problem.algebra;
-        let size = |algebra: &lie::LieAlgebra| match algebra.basis() {
-            Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
-            None => algebra.dim(),
-        };
-        let matrix_size = algebra.factors().iter().map(size).sum();
+        let matrix_size = algebra.factors().iter().map(rows_of).sum();
         let shape = Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" };
-        use ensemble::Attitude::{Matrix, None, Quaternion};
-        let forms = if shape.quaternions { &[None, Matrix, Quaternion][..] } else { &[None, Matrix][..] };
-        forms.iter().map(|&attitude| Layout { shape, attitude }.names()).collect()
+        let mut forms = vec![Attitude::None, Attitude::Matrix];
+        if shape.quaternions {
+            forms.push(Attitude::Quaternion);
+        }
+        forms.into_iter().map(|attitude| Layout { shape, attitude }.names()).collect()
     }
 
     /// Steps of this size, ready to be made.
@@ -358,7 +375,8 @@ impl Core {
     fn casimirs(&self, py: Python<'_>, degree: u32) -> PyResult<Vec<String>> {
         let problem = self.system.problem.clone();
         let made = work(py, None, move |_| {
-            let found = lie::casimirs(&problem.algebra, degree).map_err(|error| error.to_string())?;
+            let found =
+                lie::casimirs(&problem.algebra, degree).map_err(|error| error.to_string())?;
             Ok(found.iter().map(|casimir| series::polynomial(&problem, casimir)).collect())
         })?;
         made.map_err(|error: String| refused(py, format!("{error}; give a smaller degree=")))
@@ -391,6 +409,46 @@ impl Core {
         made.map_err(|error: RunError| raised(py, &error))
     }
 
+    /// Judges rows with these names, or pairs of states without names, in doubled precision; what was found, as JSON.
+    #[pyo3(signature = (rows, names, *, starts, steps, step, truncation, refused_rows))]
+    #[allow(clippy::too_many_arguments)]
+    fn verify<'py>(
+        &self,
+        py: Python<'py>,
+        rows: PyReadonlyArray2<'py, f64>,
+        names: Vec<String>,
+        starts: Option<PyReadonlyArray2<'py, f64>>,
+        steps: u64,
+        step: f64,
+        truncation: usize,
+        refused_rows: Vec<u64>,
+    ) -> PyResult<String> {
+        if self.system.potential.is_some() {
+            let what =
+                "a system with a potential is not judged: between its kicks the motion is free";
+            return Err(refused(py, what.to_owned()));
+        }
+        let (name, mut problem) = (self.name.clone(), self.system.problem.clone());
+        problem.truncation = truncation;
+        let (mut rows, starts) = (Given::new(&rows), starts.map(|starts| Given::new(&starts)));
+        let made = work(py, None, move |_| -> Result<_, RunError> {
+            let path = Path::new(&name);
+            let judge = verify::judge_of(path, &problem)?;
+            let follower = verify::follower(&judge, &problem, step)?;
+            let columns = verify::Columns::find(&problem, &names, rows.width, path)?;
+            let found = match starts {
+                None => follower.rows(&mut rows, &columns, path)?,
+                Some(mut starts) => {
+                    let refused = refused_rows.into_iter().collect();
+                    let (starts, ends) = ((&mut starts, &columns), (&mut rows, &columns));
+                    follower.pairs(starts, ends, steps, &refused, path)?
+                }
+            };
+            Ok(serde_json::Value::Object(found.object()).to_string())
+        })?;
+        made.map_err(|error| raised(py, &error))
+    }
+
     /// The system as code.
     fn emit(
         &self,
@@ -402,7 +460,8 @@ impl Core {
     ) -> PyResult<String> {
         let source = emit::Source::System(Box::new(self.system.clone()));
         let (name, language) = (self.name.clone(), language.to_owned());
-        let made = work(py, None, move |_| emitted(&name, source, &language, prefix, step, single))?;
+        let made =
+            work(py, None, move |_| emitted(&name, source, &language, prefix, step, single))?;
         made.map_err(|error| raised(py, &error))
     }
 }
@@ -432,17 +491,56 @@ pub fn emitted(
     }
 }
 
+/// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
+fn rows_of(algebra: &lie::LieAlgebra) -> usize {
+    match algebra.basis() {
+        Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
+        None => algebra.dim(),
+    }
+}
+
+/// Rows that Python has given.
+struct Given {
+    values: Vec<f64>,
+    width: usize,
+    next: usize,
+}
+
+impl Given {
+    fn new(rows: &PyReadonlyArray2<'_, f64>) -> Self {
+        Self { values: rows.as_array().iter().copied().collect(), width: rows.shape()[1], next: 0 }
+    }
+}
+
+impl verify::Rows for Given {
+    type Error = RunError;
+
+    fn next_row(&mut self) -> Result<Option<Vec<f64>>, RunError> {
+        let row = self.values.get(self.next..self.next + self.width);
+        self.next += self.width;
+        Ok(row.filter(|row| !row.is_empty()).map(<[f64]>::to_vec))
+    }
+
+    fn value(&self, _: &str) -> Option<&str> {
+        None
+    }
+
+    fn numbers(&self, _: &str) -> Option<Vec<f64>> {
+        None
+    }
+}
+
 /// Bytes of the records of a run, about.
 fn record_size(system: &System, setup: &Setup) -> f64 {
     let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
     let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
-    let block = |algebra: &lie::LieAlgebra| {
-        let rows = algebra.basis().and_then(|basis| basis.first()).map(lie::RationalMatrix::rows);
-        rows.unwrap_or(algebra.dim()).pow(2)
-    };
     let algebra = &system.problem.algebra;
-    let entries: usize = algebra.factors().iter().map(block).sum();
-    if setup.recording { 8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64 } else { 0.0 }
+    let entries: usize = algebra.factors().iter().map(|factor| rows_of(factor).pow(2)).sum();
+    if setup.recording {
+        8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64
+    } else {
+        0.0
+    }
 }
 
 /// What a run has come to, as Python has it.
@@ -465,6 +563,7 @@ pub fn result_of<'py>(
     found.set_item("energy", table.energy.into_pyarray(py))?;
     found.set_item("drifts", wide(table.drift)?)?;
     found.set_item("blocks", table.blocks)?;
+    found.set_item("columns", table.columns)?;
     found.set_item("warnings", table.warnings)?;
     found.set_item("announcement", schedule.announcement())?;
     found.set_item("step", schedule.step)?;
@@ -476,7 +575,10 @@ pub fn result_of<'py>(
         outcome.blocks.iter().map(|b| (b.range.start, b.range.len())).collect();
     end.set_item("blocks", blocks)?;
     let own = split(&outcome.blocks, &outcome.element);
-    end.set_item("entries", PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()))?;
+    end.set_item(
+        "entries",
+        PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()),
+    )?;
     found.set_item("end", end)?;
     let drift = outcome.drift;
     found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
@@ -519,14 +621,17 @@ impl Stepper {
         let size = self.single.matrix_size();
         let mut mu = momentum.as_array().to_vec();
         if mu.len() != self.dimension {
-            let what = format!("momentum has {} numbers; the group needs {}", mu.len(), self.dimension);
+            let what =
+                format!("momentum has {} numbers; the group needs {}", mu.len(), self.dimension);
             return Err(refused(py, what));
         }
         if let Some(bad) = mu.iter().find(|x| !x.is_finite()) {
             return Err(refused(py, format!("momentum: {bad} is no finite number")));
         }
         let mut matrix = match group_element {
-            None => (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect(),
+            None => {
+                (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect()
+            }
             Some(given) => {
                 if given.shape() != [size, size] {
                     let what = format!("group_element must be a matrix of {size} rows and columns");

@@ -10,6 +10,7 @@ mod load;
 pub mod number;
 pub mod series;
 pub mod simulate;
+pub mod verify;
 
 use sha2::{Digest, Sha256};
 

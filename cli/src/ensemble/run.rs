@@ -212,7 +212,12 @@ fn advance(
         let made = |made: u64| {
             bar.set_position(journal.rows.saturating_mul(steps).saturating_add(take * made));
         };
-        let drift = job.engine.advance(layout, job.steps, &mut piece.rows, &Watch { made: &made, stop: &stop })?;
+        let drift = job.engine.advance(
+            layout,
+            job.steps,
+            &mut piece.rows,
+            &Watch { made: &made, stop: &stop },
+        )?;
         output.append(&form.encode(layout, table.as_ref(), &piece))?;
         for rejected in &piece.rows.rejected {
             let reason = rejected.reason.replace('"', "'");

@@ -5,13 +5,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use coadjoint_run::RunError;
-use coadjoint_run::simulate::{Block, Halt, Moment, Outcome, Outlet, Record, Resume, Standing};
+use coadjoint_run::simulate::{
+    Block, Halt, Moment, Outcome, Outlet, Record, Resume, Standing, columns,
+};
 use indicatif::ProgressBar;
 
 use super::checkpoint::{Checkpoint, bits, numbers};
 use super::header::Header;
 use super::interrupt::Guard;
-use super::names::columns;
 use super::samples::Samples;
 use super::setup::Settings;
 use super::sink::Sink;

@@ -6,7 +6,6 @@ mod header;
 mod interrupt;
 mod keep;
 mod learned;
-mod names;
 mod plot;
 mod report;
 mod rival;

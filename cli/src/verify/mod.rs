@@ -1,24 +1,16 @@
 //! `coadjoint verify`: judges the output of `simulate` or `ensemble` afterwards, in doubled precision.
-// A comparison with what is not a number must refuse.
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
 
-mod follow;
-mod found;
-mod invariants;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod record;
 mod report;
 mod table;
-mod twins;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options, System};
+use coadjoint_run::verify::{Columns, Found, Rows, follower, judge_of};
 use coadjoint_run::{RunError, read_with, text_hash};
 use serde_json::Value;
 
@@ -26,10 +18,6 @@ use crate::arguments::{Format, VerifyOptions};
 use crate::error::CliError;
 use crate::progress;
 
-use follow::Follower;
-use found::Found;
-use invariants::Invariants;
-use record::Columns;
 use table::Table;
 
 /// Judges the file and prints what was found.
@@ -99,7 +87,7 @@ fn judge(
     let (system, text) = system_of(named, &table, output)?;
     let step = options.step.or_else(|| table.number("step"));
     let truncation = options.truncation.or_else(|| table.number("truncation").map(|k| k as usize));
-    let said = table.value("chart").map(|name| match name.as_str() {
+    let said = table.value("chart").map(|name| match name {
         "cayley" => Chart::Cayley,
         _ => Chart::Exponential,
     });
@@ -118,15 +106,9 @@ fn judge(
         example: "step = 0.1",
         option: "--step 0.1",
     })?;
-    if step == 0.0 || !step.is_finite() {
-        return Err(CliError::Option("--step must be finite and other than zero".into()));
-    }
     let _phase = progress::phase("judging");
-    let judge = Judge::of_problem(&problem, TermLimit::default())
-        .map_err(|error| CliError::Option(format!("{}: {error}", system.display())))?;
-    // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-    let symbols: Vec<f64> = problem.symbols.iter().map(|s| s.expr.evaluate(&[])).collect();
-    let follower = Follower::new(&judge, Invariants::new(&problem), step, symbols)?;
+    let judge = judge_of(&system, &problem)?;
+    let follower = follower(&judge, &problem, step)?;
     let columns = Columns::find(&problem, table.names(), table.width(), output)?;
     let Some(input) = &options.input else {
         return follower.rows(&mut table, &columns, output);
@@ -158,7 +140,7 @@ fn system_of(
     let text = std::fs::read_to_string(&system)
         .map_err(|source| CliError::Read { path: system.clone(), source })?;
     match table.value("system_sha256") {
-        Some(hash) if *hash != text_hash(&text) => Err(CliError::Option(format!(
+        Some(hash) if hash != text_hash(&text) => Err(CliError::Option(format!(
             "{}: {} is not the system file of this run: its text has another hash",
             output.display(),
             system.display()

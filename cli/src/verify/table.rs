@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use coadjoint_run::verify::Rows;
 use serde_json::Value;
 
 use super::report;
@@ -171,19 +172,9 @@ impl Table {
         })
     }
 
-    /// What the file says under a name; what it says at its end is known once all rows are read.
-    pub fn value(&self, name: &str) -> Option<&String> {
-        self.head.get(name)
-    }
-
-    /// The same as a number.
+    /// What the head says under this name, as a number.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.value(name)?.parse().ok()
-    }
-
-    /// The same as numbers between commas.
-    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
-        self.value(name)?.split(',').map(|number| number.trim().parse().ok()).collect()
     }
 
     /// The names of the columns; none where the file has none.
@@ -194,26 +185,6 @@ impl Table {
     /// The number of columns.
     pub fn width(&self) -> usize {
         self.width
-    }
-
-    /// The next row. Cells that are no numbers, such as names of rows, are NaN.
-    ///
-    /// # Errors
-    /// Where the file cannot be read, or a row is longer or shorter than the first.
-    pub fn next_row(&mut self) -> Result<Option<Vec<f64>>, CliError> {
-        match &mut self.source {
-            Source::Matrix(_, 0) => Ok(None),
-            Source::Matrix(reader, left) => {
-                *left -= 1;
-                let mut bytes = vec![0; 8 * self.width];
-                reader.read_exact(&mut bytes).map_err(unread(&self.path))?;
-                Ok(Some(bytes.as_chunks::<8>().0.iter().map(|&b| f64::from_le_bytes(b)).collect()))
-            }
-            Source::Rows(rows) => Ok(rows.next()),
-            #[cfg(feature = "parquet")]
-            Source::Parquet(rows) => rows.next_row(),
-            Source::Text(..) => self.next_text_row(),
-        }
     }
 
     fn next_text_row(&mut self) -> Result<Option<Vec<f64>>, CliError> {
@@ -235,6 +206,34 @@ impl Table {
             }
             return Ok(Some(cells.iter().map(|c| c.trim().parse().unwrap_or(f64::NAN)).collect()));
         }
+    }
+}
+
+impl Rows for Table {
+    type Error = CliError;
+
+    fn next_row(&mut self) -> Result<Option<Vec<f64>>, CliError> {
+        match &mut self.source {
+            Source::Matrix(_, 0) => Ok(None),
+            Source::Matrix(reader, left) => {
+                *left -= 1;
+                let mut bytes = vec![0; 8 * self.width];
+                reader.read_exact(&mut bytes).map_err(unread(&self.path))?;
+                Ok(Some(bytes.as_chunks::<8>().0.iter().map(|&b| f64::from_le_bytes(b)).collect()))
+            }
+            Source::Rows(rows) => Ok(rows.next()),
+            #[cfg(feature = "parquet")]
+            Source::Parquet(rows) => rows.next_row(),
+            Source::Text(..) => self.next_text_row(),
+        }
+    }
+
+    fn value(&self, name: &str) -> Option<&str> {
+        self.head.get(name).map(String::as_str)
+    }
+
+    fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        self.value(name)?.split(',').map(|number| number.trim().parse().ok()).collect()
     }
 }
 

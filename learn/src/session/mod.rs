@@ -13,7 +13,8 @@ pub use neural::{NetworkSettings, remove_checkpoints};
 
 use crate::catalogue::{Visitor, visit};
 use crate::data::{
-    MomentumPairs, PairRows, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce,
+    Columns, MomentumPairs, PairRows, Recording, Reduction, RowPolicy, Tolerances, read_columns,
+    reduce,
 };
 use crate::error::{BadRow, LearnError};
 use crate::evaluate::{Drifts, Figures, drifts, evaluate};
@@ -114,7 +115,22 @@ pub fn learn(
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<(ModelFile, Summary), LearnError> {
     check(request)?;
-    visit(&request.group, &request.chart, Learner { request, progress })?
+    visit(&request.group, &request.chart, Learner { request, given: None, progress })?
+}
+
+/// As [`learn`], from columns in memory that are named as those of files; `request.data` and `request.test` are not read.
+///
+/// # Errors
+/// [`LearnError`] naming what is wrong with the data or the request.
+pub fn learn_columns(
+    request: &Request,
+    data: &Columns,
+    test: Option<&Columns>,
+    progress: &mut dyn FnMut(usize, usize, f64),
+) -> Result<(ModelFile, Summary), LearnError> {
+    check(request)?;
+    let given = Some((data, test));
+    visit(&request.group, &request.chart, Learner { request, given, progress })?
 }
 
 /// Learns the Poisson map nearest to pairs of momenta made by any method; `request.data` and
@@ -167,6 +183,8 @@ fn check(request: &Request) -> Result<(), LearnError> {
 
 struct Learner<'a> {
     request: &'a Request,
+    /// Training and test data that are not in files.
+    given: Option<(&'a Columns, Option<&'a Columns>)>,
     progress: &'a mut dyn FnMut(usize, usize, f64),
 }
 
@@ -174,13 +192,14 @@ impl Visitor for Learner<'_> {
     type Output = Result<(ModelFile, Summary), LearnError>;
 
     fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
-        let Self { request, progress } = self;
-        let read = |path: &PathBuf| {
-            let (dim, size) = (group.dim(), group.matrix_size());
-            Recording::from_columns(&read_columns(path, dim, size)?, dim, size)
+        let Self { request, given, progress } = self;
+        let (dim, size) = (group.dim(), group.matrix_size());
+        let of = |columns: &Columns| Recording::from_columns(columns, dim, size);
+        let read = |path: &PathBuf| of(&read_columns(path, dim, size)?);
+        let (recording, test) = match given {
+            Some((data, test)) => (of(data)?, test.map(of).transpose()?),
+            None => (read(&request.data)?, request.test.as_ref().map(read).transpose()?),
         };
-        let recording = read(&request.data)?;
-        let test = request.test.as_ref().map(read).transpose()?;
         if let Some(start) = &request.start
             && start.len() != group.dim()
         {

@@ -195,8 +195,7 @@ where
         let (mut failed, along) = match &self.compiled {
             Some(compiled) => {
                 let rescue = |own: &mut Numbers| compiled.rescue(&self.stepper, own);
-                let manner =
-                    Manner { compiled, rescue: &rescue, ratio: &ratio, stop: watch.stop };
+                let manner = Manner { compiled, rescue: &rescue, ratio: &ratio, stop: watch.stop };
                 match &self.card {
                     Some(card) => self.march_device(&manner, card, states, steps, watch.made)?,
                     None => march(&manner, states, (steps, STRETCH), watch.made),

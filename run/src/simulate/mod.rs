@@ -3,6 +3,7 @@
 mod blocks;
 mod learned;
 mod march;
+mod names;
 mod outlet;
 mod recorder;
 mod schedule;
@@ -15,6 +16,7 @@ mod warning;
 
 pub use blocks::{Block, Kind, matrix, split};
 pub use learned::{algebra_of, run_model, schedule_of};
+pub use names::columns;
 pub use outlet::{Halt, Outlet, Record, Resume, Standing};
 pub use recorder::{Drift, Moment, Outcome, Recorder, Solver, Tally, Watched};
 pub use schedule::Schedule;

@@ -110,9 +110,7 @@ impl<S: AsRef<Derived>> Single<S> {
         mu: &mut [f64],
         steps: u64,
     ) -> Result<(), (u64, StepError)> {
-        let make = |h| {
-            Interpreter::<G, C>::new(&self.system.as_ref().integrator, group.clone(), h)
-        };
+        let make = |h| Interpreter::<G, C>::new(&self.system.as_ref().integrator, group.clone(), h);
         let advised = |error, matrix: &[f64], mu: &[f64]| {
             advise(error, self.step, |h| {
                 let mut phase = phase_of(group, matrix, mu);
@@ -125,14 +123,13 @@ impl<S: AsRef<Derived>> Single<S> {
             let made = coadjoint::advance_by(&step, &mut phase, steps);
             matrix.copy_from_slice(&entries_of(group, &phase.group_element));
             mu.copy_from_slice(phase.momentum.as_slice());
-            return made.map(drop).map_err(|stopped| {
-                (stopped.steps + 1, advised(stopped.error, matrix, mu))
-            });
+            return made
+                .map(drop)
+                .map_err(|stopped| (stopped.steps + 1, advised(stopped.error, matrix, mu)));
         };
         let mut numbers = Numbers { g: compiled.element_of(matrix), mu: mu.to_vec() };
-        let made = compiled.advance(&mut numbers, steps, |numbers| {
-            compiled.rescue(&make(self.step)?, numbers)
-        });
+        let made = compiled
+            .advance(&mut numbers, steps, |numbers| compiled.rescue(&make(self.step)?, numbers));
         matrix.copy_from_slice(&compiled.matrix_of(&numbers.g));
         mu.copy_from_slice(&numbers.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, advised(error, matrix, mu)))

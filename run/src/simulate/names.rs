@@ -1,6 +1,6 @@
 //! The names of the columns of records.
 
-use coadjoint_run::simulate::Block;
+use super::blocks::Block;
 
 /// What a record ends with.
 const LAST: [&str; 4] = ["energy", "spatial_momentum_drift", "casimir_drift", "energy_drift"];
@@ -42,8 +42,8 @@ pub fn columns(coordinates: &[String], blocks: &[Block], energy: bool) -> Vec<St
 
 #[cfg(test)]
 mod tests {
+    use super::super::blocks::Kind;
     use super::*;
-    use coadjoint_run::simulate::Kind;
 
     #[test]
     fn columns_have_the_names_of_the_file_and_none_twice() {

@@ -9,8 +9,9 @@ pub struct Found {
     pub rows: u64,
     /// Steps made.
     pub steps: u64,
-    /// The largest deviation over its bound, of momenta and of group elements.
+    /// The largest deviation of a momentum over its bound.
     pub momentum: f64,
+    /// The same of group elements.
     pub element: f64,
     /// The largest drift of a Casimir from row to row, relative to its terms.
     pub casimir: f64,
@@ -52,7 +53,7 @@ impl Found {
     }
 
     /// In a few words.
-    fn verdict(&self) -> &'static str {
+    pub fn verdict(&self) -> &'static str {
         match (&self.wrong, self.unjudged) {
             (Some(_), _) => "wrong",
             (None, 0) => "no row is wrong",

@@ -5,7 +5,7 @@ use std::path::Path;
 use coadjoint_codegen::lie::RationalMatrix;
 use coadjoint_codegen::problem::Problem;
 
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// The places of the time, the momentum and the group element in a row.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Columns {
         names: &[String],
         width: usize,
         file: &Path,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let dim = problem.algebra.dim();
         let size = problem
             .algebra
@@ -55,7 +55,7 @@ impl Columns {
                     Element::Matrix((0..n).map(|at| (at, dim + at)).collect())
                 }
                 _ => {
-                    return Err(CliError::Option(format!(
+                    return Err(RunError::Option(format!(
                         "{}: {width} columns without names; this system has {dim} momenta, and {} \
                          entries of a group element",
                         file.display(),
@@ -73,7 +73,7 @@ impl Columns {
                 .or_else(|| place(&format!("momentum_{name}")))
                 .or_else(|| place(name));
             momentum.push(found.ok_or_else(|| {
-                CliError::Option(format!(
+                RunError::Option(format!(
                     "{}: no column {name} or {numbered}; the file has {}",
                     file.display(),
                     names.join(", ")
@@ -90,7 +90,7 @@ impl Columns {
         let element = match <[usize; 4]>::try_from(quaternion) {
             Ok(places) if rotations && matrix.is_empty() => Element::Quaternion(places),
             Ok(_) => {
-                return Err(CliError::Option(format!(
+                return Err(RunError::Option(format!(
                     "{}: columns {} are attitudes of SO3; the elements of {} are matrices of {size} rows",
                     file.display(),
                     QUATERNION.join(", "),

@@ -6,12 +6,12 @@ use std::path::Path;
 use coadjoint_codegen::judge::{Branch, Inside, Judge, Motion, Setting, Stop};
 use nalgebra::DVector;
 
+use super::Rows;
 use super::found::{Found, maximum};
 use super::invariants::{DRIFT, Invariants};
 use super::record::Columns;
-use super::table::Table;
 use super::twins::{Twins, matrix};
-use crate::error::CliError;
+use crate::error::RunError;
 
 /// The unit roundoff of what is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -55,8 +55,8 @@ impl<'a> Follower<'a> {
         invariants: Invariants,
         step: f64,
         symbols: Vec<f64>,
-    ) -> Result<Self, CliError> {
-        judge.at(step, &symbols).map_err(|error| CliError::Option(error.to_string()))?;
+    ) -> Result<Self, RunError> {
+        judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;
         Ok(Self { judge, step, symbols, invariants })
     }
 
@@ -64,17 +64,18 @@ impl<'a> Follower<'a> {
     ///
     /// # Errors
     /// Where the file cannot be read.
-    pub fn rows(
+    pub fn rows<T: Rows>(
         &self,
-        table: &mut Table,
+        table: &mut T,
         columns: &Columns,
         file: &Path,
-    ) -> Result<Found, CliError> {
+    ) -> Result<Found, T::Error> {
         let Some(time) = columns.time else {
-            return Err(CliError::Option(format!(
+            return Err(RunError::Option(format!(
                 "{}: no column time: for the output of an ensemble give --input STATES and --steps N",
                 file.display()
-            )));
+            ))
+            .into());
         };
         let mut found = Found::default();
         let mut last: Option<Vec<f64>> = None;
@@ -102,7 +103,7 @@ impl<'a> Follower<'a> {
                         "{place}: {steps} steps of {} after the last row; give the run's --step",
                         self.step
                     );
-                    return Err(CliError::Option(format!("{}: {what}", file.display())));
+                    return Err(RunError::Option(format!("{}: {what}", file.display())).into());
                 }
                 let (count, rest) = if grid {
                     (whole as u64, 0.0)
@@ -125,8 +126,8 @@ impl<'a> Follower<'a> {
     }
 
     /// What the file says of its end must be true.
-    fn judge_end(&self, table: &Table, rows: u64, found: &mut Found) {
-        found.part = table.value("part").cloned();
+    fn judge_end<T: Rows>(&self, table: &T, rows: u64, found: &mut Found) {
+        found.part = table.value("part").map(str::to_owned);
         if let Some(said) = table.value("complete").and_then(|text| text.split(' ').next())
             && let Ok(said) = said.parse::<u64>()
             && said != rows
@@ -142,23 +143,24 @@ impl<'a> Follower<'a> {
     ///
     /// # Errors
     /// Where a file cannot be read, or has fewer rows than the other.
-    pub fn pairs(
+    pub fn pairs<T: Rows>(
         &self,
-        (starts, before): (&mut Table, &Columns),
-        (ends, columns): (&mut Table, &Columns),
+        (starts, before): (&mut T, &Columns),
+        (ends, columns): (&mut T, &Columns),
         steps: u64,
         refused: &BTreeSet<u64>,
         file: &Path,
-    ) -> Result<Found, CliError> {
+    ) -> Result<Found, T::Error> {
         let mut found = Found::default();
         let mut number = 0;
         while let Some(end) = ends.next_row()? {
             number += 1;
             let Some(start) = starts.next_row()? else {
-                return Err(CliError::Option(format!(
+                return Err(RunError::Option(format!(
                     "{}: row {number} has no start in the input",
                     file.display()
-                )));
+                ))
+                .into());
             };
             if columns.is_refused(&end) && refused.contains(&number) {
                 found.refused += 1;

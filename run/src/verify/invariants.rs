@@ -6,7 +6,7 @@ use coadjoint_codegen::problem::Problem;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
 
-use coadjoint_run::engine::FloatPolynomial;
+use crate::engine::FloatPolynomial;
 
 /// Casimirs up to this degree are looked at.
 const DEGREE: u32 = 2;

@@ -1,0 +1,196 @@
+//! Learned maps.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
+use coadjoint_learn::{Kind, ModelFile, NetworkSettings, Request, learn_columns};
+use coadjoint_run::simulate::{Setup, algebra_of, run_model, schedule_of};
+use coadjoint_run::{RunError, emit};
+use numpy::{PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::control::work;
+use crate::error::{raised, refused};
+use crate::record::{Keeper, Table};
+use crate::system::{emitted, result_of};
+
+/// Named columns of numbers.
+type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
+
+/// What to learn, and how.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Settings {
+    group: String,
+    chart: String,
+    step: f64,
+    kind: String,
+    degree: Option<usize>,
+    ridge: f64,
+    group_loss: bool,
+    tolerance: f64,
+    drop: bool,
+    momenta_only: bool,
+    start: Option<Vec<f64>>,
+    seed: u64,
+    widths: Vec<usize>,
+    activation: String,
+    evaluations: usize,
+    drift_steps: usize,
+}
+
+impl Settings {
+    fn request(self, py: Python<'_>) -> PyResult<Request> {
+        let kind = match self.kind.as_str() {
+            "auto" => Kind::Auto,
+            "polynomial" => Kind::Polynomial,
+            "gp" => Kind::GaussianProcess,
+            "network" => Kind::Network,
+            "hybrid" => Kind::Hybrid,
+            other => {
+                let what = "there are \"auto\", \"polynomial\", \"gp\", \"network\" and \"hybrid\"";
+                return Err(refused(py, format!("model=\"{other}\": {what}")));
+            }
+        };
+        if !["exp", "cayley"].contains(&self.chart.as_str()) {
+            let what = "there are \"exp\" and \"cayley\"";
+            return Err(refused(py, format!("chart=\"{}\": {what}", self.chart)));
+        }
+        let activation = self.activation.parse();
+        let activation = activation.map_err(|error| raised(py, &RunError::Learn(error)))?;
+        Ok(Request {
+            data: PathBuf::from("the data"),
+            test: None,
+            group: self.group,
+            chart: self.chart,
+            step: self.step,
+            kind,
+            degree: self.degree,
+            ridge: self.ridge,
+            group_loss: self.group_loss,
+            tolerances: Tolerances { attitude: self.tolerance, momentum: self.tolerance },
+            policy: if self.drop { RowPolicy::Drop } else { RowPolicy::Refuse },
+            momenta_only: self.momenta_only,
+            start: self.start,
+            seed: self.seed,
+            network: NetworkSettings {
+                widths: self.widths,
+                activation,
+                evaluations: self.evaluations,
+                checkpoint: None,
+            },
+            drift_steps: self.drift_steps,
+        })
+    }
+}
+
+fn columns(named: Named<'_>) -> Result<Columns, RunError> {
+    let own = named.into_iter().map(|(name, values)| (name, values.as_array().to_vec()));
+    Ok(Columns::new(own)?)
+}
+
+/// Learns a map from columns: the model as text, and a summary as JSON.
+#[pyfunction]
+pub fn learn<'py>(
+    py: Python<'py>,
+    data: Named<'py>,
+    test: Option<Named<'py>>,
+    settings: Settings,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, String)> {
+    let request = settings.request(py)?;
+    let data = columns(data).map_err(|error| raised(py, &error))?;
+    let test = test.map(columns).transpose().map_err(|error| raised(py, &error))?;
+    let made = work(py, progress.as_ref(), move |control| -> Result<_, RunError> {
+        let mut told = |step: usize, total: usize, _: f64| {
+            control.total.store(total as u64, Ordering::Relaxed);
+            control.done.store(step as u64, Ordering::Relaxed);
+        };
+        let (file, summary) = learn_columns(&request, &data, test.as_ref(), &mut told)?;
+        let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
+        let text = file.text().map_err(|error| unwritten(&error))?;
+        let summary = serde_json::to_string(&summary).map_err(|error| unwritten(&error))?;
+        Ok((text, summary))
+    })?;
+    made.map_err(|error| raised(py, &error))
+}
+
+/// A learned map; never changed.
+#[pyclass(frozen, module = "coadjoint._core")]
+pub struct ModelCore {
+    name: String,
+    model: Arc<ModelFile>,
+}
+
+#[pymethods]
+impl ModelCore {
+    /// Reads the text of a model file.
+    #[new]
+    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let model = ModelFile::of_text(Path::new(name), text);
+        let model = model.map_err(|error| raised(py, &RunError::Learn(error)))?;
+        Ok(Self { name: name.to_owned(), model: Arc::new(model) })
+    }
+
+    /// What the model is.
+    fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let facts = PyDict::new(py);
+        let algebra = algebra_of(&self.model).map_err(|error| raised(py, &error))?;
+        facts.set_item("group", &self.model.group)?;
+        facts.set_item("dimension", algebra.dim())?;
+        facts.set_item("chart", &self.model.chart)?;
+        facts.set_item("step", self.model.step)?;
+        facts.set_item("attitude", self.model.attitude)?;
+        facts.set_item("kind", self.model.model.name())?;
+        facts.set_item("choice", &self.model.training.choice)?;
+        Ok(facts)
+    }
+
+    /// A trajectory of the learned map; as that of a system.
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        momentum: PyReadonlyArray1<'py, f64>,
+        time: f64,
+        every: u64,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let momentum = momentum.as_array().to_vec();
+        let (model, name) = (self.model.clone(), self.name.clone());
+        let made = work(py, progress.as_ref(), move |control| -> Result<_, RunError> {
+            let schedule = schedule_of(time, model.step)?;
+            control.total.store(schedule.steps, Ordering::Relaxed);
+            let setup =
+                Setup { recording: true, every: Some(every), ..Setup::new(schedule, momentum) };
+            let names: Vec<String> =
+                (0..setup.momentum.len()).map(|i| format!("mu[{i}]")).collect();
+            let mut keeper =
+                Keeper { table: Table::default(), control, coordinates: &names, energy: false };
+            let outcome = run_model(Path::new(&name), &model, &setup, &mut keeper)?;
+            let label = format!("learned {}, {}", model.model.name(), model.chart);
+            Ok((keeper.table, outcome, schedule, label))
+        })?;
+        let (table, outcome, schedule, label) = made.map_err(|error| raised(py, &error))?;
+        let found = result_of(py, table, &outcome, &schedule)?;
+        found.set_item("label", label)?;
+        Ok(found)
+    }
+
+    /// A learned polynomial as code.
+    fn emit(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        prefix: Option<String>,
+        single: bool,
+    ) -> PyResult<String> {
+        let source = emit::Source::Model(Box::new((*self.model).clone()));
+        let (name, language) = (self.name.clone(), language.to_owned());
+        let made =
+            work(py, None, move |_| emitted(&name, source, &language, prefix, None, single))?;
+        made.map_err(|error| raised(py, &error))
+    }
+}

@@ -1,0 +1,92 @@
+"""Maps learned from arrays and frames."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+
+import coadjoint as ca
+from coadjoint import InputError
+
+STEP = 0.1
+
+
+def pairs(body: ca.System, count: int, seed: int) -> tuple[np.ndarray, ...]:
+    """Momenta and attitudes before and after a step of the true motion."""
+    random = np.random.default_rng(seed)
+    before = random.uniform(-1, 1, (count, 3))
+    attitude = np.tile(np.eye(3).ravel(), (count, 1))
+    after = np.asarray(body.ensemble(np.hstack([before, attitude]), time=STEP, step=STEP / 4))
+    return before, after[:, :3], np.tile(np.eye(3), (count, 1, 1)), after[:, 3:].reshape(-1, 3, 3)
+
+
+def test_learned_maps_keep_momentum_and_casimirs(body: ca.System, tmp_path: Path) -> None:
+    before, after, g, g_next = pairs(body, 300, 1)
+    model = ca.learn(before, after, attitudes=(g, g_next), step=STEP, test=pairs(body, 50, 2), degree=4)
+    assert model.attitude and model.summary["test"]["max_error"]["momentum"] < 1e-6
+    run = model.simulate([0.5, 0.2, 0.7], time=100)
+    assert run.largest_drift.spatial_momentum < 1e-12 and run.largest_drift.casimirs < 1e-12
+    true = body.simulate([0.5, 0.2, 0.7], time=10, step=STEP)
+    assert np.abs(model.simulate([0.5, 0.2, 0.7], time=10).momentum - true.momentum).max() < 1e-4
+    assert np.isnan(run.energy).all() and run.group_element.shape == (1001, 3, 3)
+    model.save(tmp_path / "model.json")
+    assert ca.Model.load(tmp_path / "model.json") == model == pickle.loads(pickle.dumps(model))
+    assert "pub struct" in model.emit("rust") and "SO3" in repr(model)
+
+
+def test_frames_and_dictionaries_are_read_by_their_names(body: ca.System) -> None:
+    before, after, *_ = pairs(body, 100, 3)
+    names = [f"mu_{i}" for i in (1, 2, 3)] + [f"mu_next_{i}" for i in (1, 2, 3)]
+    frame = pandas.DataFrame(np.hstack([before, after]), columns=names)
+    by_frame = ca.geometrize(frame, step=STEP, degree=4)
+    by_arrays = ca.geometrize(before, after, step=STEP, degree=4)
+    by_dictionary = ca.geometrize({name: frame[name].to_numpy() for name in names}, step=STEP, degree=4)
+    assert by_frame == by_arrays == by_dictionary and not by_frame.attitude
+
+
+def test_a_poisson_map_is_found_beside_euler(body: ca.System) -> None:
+    inertia = np.array([1.5, 2, 2.5])
+    before = np.random.default_rng(5).uniform(-1, 1, (300, 3))
+    after = before + STEP * np.cross(before, before / inertia)
+    model = ca.geometrize(before, after, step=STEP)
+    with pytest.warns(ca.CoadjointWarning, match="attitude"):
+        run = model.simulate([0.5, 0.2, 0.7], time=100)
+    assert run.largest_drift.casimirs < 1e-12 and run.group_element.shape == (1001, 0, 0)
+
+
+def test_data_that_make_no_sense_are_refused(body: ca.System) -> None:
+    before, after, g, g_next = pairs(body, 20, 4)
+    bad = after.copy()
+    bad[3, 1] = np.nan
+    for arguments, message in [
+        ((before, bad), "row"),
+        ((before, after[:10]), "column|length|10"),
+        ((before[:, :2], after[:, :2]), "mu_3"),
+        ((before[0], after[0]), "shape"),
+        ((before,), "after"),
+        (({"mu_1": before[:, 0]},), "mu_2"),
+    ]:
+        with pytest.raises(InputError, match=message):
+            ca.learn(*arguments, step=STEP, degree=2)
+    for settings, message in [
+        (dict(model="forest"), "forest"),
+        (dict(chart="polar"), "polar"),
+        (dict(loss="l1"), "l1"),
+        (dict(group="SO99x"), "SO99x"),
+        (dict(attitudes=g), "pair"),
+        (dict(attitudes=(g, 2 * g_next)), "group|row"),
+        (dict(seed=-1), "seed"),
+    ]:
+        with pytest.raises(InputError, match=message):
+            ca.learn(before, after, **{"step": STEP, "degree": 2, **settings})
+    with pytest.warns(ca.CoadjointWarning, match="1 rows were left out"):
+        assert ca.geometrize(before, bad, step=STEP, degree=2, drop_bad_rows=True).summary["dropped"]
+    model = ca.geometrize(before, after, step=STEP, degree=2)
+    with pytest.raises(InputError, match="whole number of steps"):
+        model.simulate([1, 0, 0], time=0.25)
+    with pytest.raises(InputError, match="JSON"):
+        ca.Model("nonsense")

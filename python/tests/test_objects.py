@@ -1,0 +1,128 @@
+"""Systems and results as objects: they pickle, compare, print, and show pictures; work can be interrupted."""
+
+from __future__ import annotations
+
+import copy
+import os
+import pickle
+import signal
+import sys
+import threading
+import time
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+import coadjoint as ca
+
+
+def test_systems_pickle_by_their_text(body: ca.System) -> None:
+    body.step([1, 0, 0.5], step=0.1)
+    data = pickle.dumps(body)
+    assert len(data) < 1000
+    for again in [pickle.loads(data), copy.deepcopy(body)]:
+        assert again == body and hash(again) == hash(body) and repr(again) == repr(body)
+        assert again.identity == body.identity
+        np.testing.assert_array_equal(
+            again.simulate([1, 0, 0.5], time=1, step=0.1).momentum,
+            body.simulate([1, 0, 0.5], time=1, step=0.1).momentum,
+        )
+    named = ca.System.from_text(body.text, "named")
+    assert pickle.loads(pickle.dumps(named)) == body
+
+
+def test_other_systems_are_not_equal(body: ca.System) -> None:
+    other = ca.System("SO3", "x^2", coordinates="x y z")
+    assert other != body and other.identity != body.identity and body != 3
+
+
+def test_reprs_make_the_object_again(body: ca.System) -> None:
+    assert eval(repr(body), {"System": ca.System}) == body
+
+
+def test_runs_pickle_and_compare(body: ca.System) -> None:
+    run = body.simulate([2, 0.5, 1], time=1, step=0.1)
+    again = pickle.loads(pickle.dumps(run))
+    assert again == run and again.largest_drift == run.largest_drift
+    assert run != body.simulate([2, 0.5, 1.1], time=1, step=0.1)
+    assert "10 steps of 0.1 to time 1, 11 records" in repr(run) and len(run) == 11
+
+
+def test_notebooks_show_tables_and_pictures(body: ca.System) -> None:
+    run = body.simulate([2, 0.5, 1], time=100, step=0.1)
+    html = run._repr_html_()
+    pictures = html.split("<svg")[1:]
+    assert len(pictures) == 2
+    for picture in pictures:
+        tree = ET.fromstring("<svg" + picture.split("</svg>")[0] + "</svg>")
+        assert sum(node.tag.endswith("polyline") for node in tree.iter()) == 3
+        assert "nan" not in picture
+    assert "1/3*x^2" in body._repr_html_() and "SO3" in body._repr_html_()
+
+
+def test_frames_have_the_columns_of_the_command(body: ca.System) -> None:
+    frame = body.simulate([2, 0.5, 1], time=1, step=0.1).to_frame()
+    assert list(frame.columns[:5]) == ["time", "x", "y", "z", "g_11"] and len(frame) == 11
+    assert list(frame.columns[-3:]) == ["spatial_momentum_drift", "casimir_drift", "energy_drift"]
+
+
+def test_progress_is_told(body: ca.System) -> None:
+    told: list[tuple[int, int]] = []
+    run = body.simulate([2, 0.5, 1], time=1000, step=0.1, every=1000, progress=lambda *p: told.append(p))
+    assert told[-1] == (run.steps, run.steps)
+    told.clear()
+    body.ensemble(np.ones((10, 3)), time=10, step=0.1, progress=lambda *p: told.append(p))
+    assert told[-1] == (1000, 1000)
+
+
+def test_an_exception_of_the_listener_ends_the_run(body: ca.System) -> None:
+    def listener(done: int, total: int) -> None:
+        raise OSError("enough")
+
+    with pytest.raises(OSError, match="enough"):
+        body.simulate([2, 0.5, 1], time=1e9, step=0.1, every=10**9, progress=listener)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent otherwise there")
+@pytest.mark.parametrize("what", ["simulate", "ensemble", "derive"])
+def test_control_c_ends_what_takes_long(body: ca.System, what: str) -> None:
+    work = {
+        "simulate": lambda: body.simulate([2, 0.5, 1], time=1e9, step=0.1, every=10**9),
+        "ensemble": lambda: body.ensemble(np.ones((2000, 3)), time=1e9, step=0.1),
+        "derive": lambda: ca.System("SE3^3", "sum(i, 0..3, x[i]^4 + y[i]^3*u[i] + z[i]*v[i]^2) + x[0]*u[1]*w[2]",
+                                    coordinates="x y z u v w").series(truncation=9),
+    }[what]
+    sent = []
+
+    def interrupt() -> None:
+        time.sleep(0.5)
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert sent
+    thread.join()
+
+
+def test_threads_run_side_by_side(body: ca.System) -> None:
+    """The interpreter is free while steps are made: a thread goes on counting."""
+    count = 0
+    done = threading.Event()
+
+    def counting() -> None:
+        nonlocal count
+        while not done.is_set():
+            count += 1
+
+    thread = threading.Thread(target=counting)
+    thread.start()
+    before = count
+    body.simulate([2, 0.5, 1], time=200_000, step=0.1, every=10**7)
+    after = count
+    done.set()
+    thread.join()
+    assert after - before > 1000
