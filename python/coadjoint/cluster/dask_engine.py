@@ -55,8 +55,8 @@ class Dask:
             return summary
         except KilledWorker as error:
             raise ShardError(
-                f"{error.task} has ended every worker that tried it, the last one {error.last_worker.address}; often "
-                "there is too little memory for a worker (Dask's setting distributed.scheduler.allowed-failures "
+                f"it has ended every worker that tried it, the last one {error.last_worker.address}; often there is "
+                "too little memory for a worker (Dask's setting distributed.scheduler.allowed-failures "
                 "says how often a shard is tried). Finished shards are kept: mend the cause and call again"
             ) from None
         except FutureCancelledError as error:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
 from .errors import ShardError, WorkerDied
-from .shard import Summary, Task
+from .shard import Summary, Task, placed
 
 
 class Engine(Protocol):
@@ -62,12 +62,14 @@ def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[
                 except (WorkerDied, OSError) as error:
                     count = tried[task.shard] = tried.get(task.shard, 0) + 1
                     if count >= attempts:
-                        raise ShardError(
-                            f"shard {task.shard} (rows {task.start} to {task.stop - 1}) was tried {count} times: "
-                            f"{error}. Finished shards are kept: mend the cause (often too little memory for a "
-                            "worker) and call again"
-                        ) from error
+                        text = (
+                            f"tried {count} times: {error}. Finished shards are kept: mend the cause (often too little "
+                            "memory for a worker) and call again"
+                        )
+                        raise ShardError(placed(task, text)) from error
                     again.append(task)
+                except ShardError as error:
+                    raise ShardError(placed(task, str(error))) from error
                 else:
                     done(summary)
             if not found:

@@ -18,7 +18,7 @@ from .plan import Plan
 SUMMARY = "_run/summary.json"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """A run, or the share of one that a call has made."""
 
@@ -46,6 +46,18 @@ class Result:
     #: The largest memory of a worker, in bytes.
     worker_memory: int
     storage_options: dict[str, Any] | None = None
+
+    def __repr__(self) -> str:
+        """A few lines, without what may be secret."""
+        state = "complete" if self.complete else "not complete yet"
+        drifts = ", ".join(f"{name.replace('_', ' ')} {value:.1e}" for name, value in sorted(self.drift.items()))
+        lines = [
+            f"{self.out}: {state}",
+            f"  {self.rows:,} rows, {self.bad:,} bad; {self.made:,} shards made, {self.kept:,} kept",
+            f"  largest relative drift: {drifts}",
+            f"  {self.seconds:.1f} s, {self.rows_per_second:,.0f} rows/s",
+        ]
+        return "\n".join(lines + [f"  warning: {text}" for text in self.warnings])
 
     def bad_rows(self) -> Iterator[dict[str, Any]]:
         """The rows without an end state: row (counted from 0), step, reason."""

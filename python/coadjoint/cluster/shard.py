@@ -105,14 +105,14 @@ def run(task: Task) -> Summary:
         notes: list[str] = []
         entry = known if known is not None else _make(task, folder, notes)
     except (ClusterError, InputError) as error:
-        raise type(error)(_place(task, str(error))) from None
+        raise type(error)(placed(task, str(error))) from None
     except OSError as error:
         if error.errno in LASTING:
-            raise ShardError(_place(task, f"cannot write or read: {error}")) from None
+            raise ShardError(placed(task, f"cannot write or read: {error}")) from None
         raise
     except Exception as error:
         # Errors of other packages need not survive the way back.
-        raise ShardError(_place(task, f"{type(error).__name__}: {error}")) from error
+        raise ShardError(placed(task, f"{type(error).__name__}: {error}")) from error
     return Summary(
         shard=task.shard,
         rows=entry["rows"],
@@ -233,7 +233,8 @@ def writer(file: Any, schema: pa.Schema) -> pq.ParquetWriter:
     )
 
 
-def _place(task: Task, text: str) -> str:
+def placed(task: Task, text: str) -> str:
+    """A message that names the shard."""
     here = f"shard {task.shard} (rows {task.start} to {task.stop - 1})"
     return text if text.startswith("shard ") else f"{here}: {text}"
 

@@ -128,6 +128,6 @@ def test_a_shard_that_kills_every_worker_is_named(serial, tmp_path):
                 child.kill()
 
     states, _, _ = serial
-    with pytest.raises(cluster.ShardError, match=r"shard \d+ \(rows \d+ to \d+\) was tried 2 times: .* signal 9"):
+    with pytest.raises(cluster.ShardError, match=r"shard \d+ \(rows \d+ to \d+\): tried 2 times: .* signal 9"):
         run(states, tmp_path / "out", workers=2, attempts=2, rows_per_shard=3000, time=1e5, progress=kill)
     assert os.listdir(tmp_path / "out") == ["_run"]
