@@ -26,7 +26,7 @@ _PIECE = 1 << 20
 def absolute(name: str | os.PathLike[str]) -> str:
     """Makes a local path absolute, as workers may stand in another folder; leaves fsspec names alone."""
     name = os.fspath(name)
-    return name if "://" in name or "::" in name else os.path.abspath(name)
+    return name if "://" in name or "::" in name else os.path.abspath(name).replace(os.sep, "/")
 
 
 def locate(name: str, options: dict[str, Any] | None = None) -> tuple[Any, str]:
@@ -108,13 +108,14 @@ class Folder:
         """
         if self.local:
             return self._rename(name, fill, passing_in)
-        with tempfile.NamedTemporaryFile(prefix="coadjoint-") as file:
-            fill(file)
-            file.flush()
-            with open(file.name, "rb") as again:
-                found = os.path.getsize(file.name), digest(again)
+        with tempfile.TemporaryDirectory(prefix="coadjoint-") as here:
+            passing = os.path.join(here, "whole")
+            with open(passing, "wb") as file:
+                fill(file)
+            with open(passing, "rb") as again:
+                found = os.path.getsize(passing), digest(again)
             self.fs.makedirs(os.path.dirname(self.at(name)), exist_ok=True)
-            self.fs.put_file(file.name, self.at(name))
+            self.fs.put_file(passing, self.at(name))
         return found
 
     def put(self, name: str, content: bytes) -> tuple[int, str]:

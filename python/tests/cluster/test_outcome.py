@@ -80,6 +80,32 @@ def test_shards_of_any_size_give_the_same_rows(serial, tmp_path):
     assert np.array_equal(support.end_states(out), support.end_states(tmp_path / "large"), equal_nan=True)
 
 
+@pytest.mark.parametrize("backend", ["interpreter", "jit"])
+def test_backends_leave_the_same_bytes_but_for_the_name_in_the_manifest(backend, serial, tmp_path):
+    states, out, _ = serial
+    run(states, tmp_path / backend, backend=backend, share=(4, 8))
+    found, expected = support.tree(tmp_path / backend), support.tree(out)
+    del found["_run/manifest.json"]
+    assert sorted(found) == ["_run/bad-00003.jsonl", "_run/shard-00003.json", "part-00003.parquet"]
+    assert all(expected[name] == content for name, content in found.items())
+
+
+def test_attitudes_go_with_their_momenta(tmp_path):
+    """As quaternions and as matrices, in columns of any order."""
+    names = ["q_w", "mu_3", "q_x", "mu_1", "q_y", "mu_2", "q_z"]
+    numbers = np.tile([1.0, 1.0, 0.0, 2.0, 0.0, 0.5, 0.0], (300, 1))
+    states = support.write(tmp_path / "states.parquet", numbers, names, group=70)
+    run(states, tmp_path / "out")
+    table = pq.read_table(tmp_path / "out")
+    assert table.column_names == ["mu_1", "mu_2", "mu_3", "q_w", "q_x", "q_y", "q_z"]
+    single = support.body().simulate(momentum=[2, 0.5, 1], **support.SCHEDULE)
+    end = np.array([column[-1].as_py() for column in table.columns])
+    w, x, y, z = end[3:]
+    first_row = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)]
+    assert np.allclose(end[:3], single.momentum[-1], atol=1e-11)
+    assert np.allclose(first_row, single.group_element[-1][0], atol=1e-10)
+
+
 def test_an_object_store_gets_whole_objects(serial):
     import fsspec
 
