@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import queue
 import uuid
 from collections.abc import Iterable
 from typing import Any
@@ -26,6 +27,7 @@ class Dask:
         self._run = uuid.uuid4().hex[:8]
         self._count = 0
         self._futures: set[Any] = set()
+        self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
 
     def submit(self, task: Task) -> Any:
         """Hands the shard to the scheduler."""
@@ -33,16 +35,18 @@ class Dask:
         key = f"coadjoint-{self._run}-{task.shard}-{self._count}"
         future = self._client.submit(shard.run, task, key=key, pure=False)
         self._futures.add(future)
+        future.add_done_callback(self._done.put)
         return future
 
-    def wait(self, handles: Iterable[Any]) -> Any:
+    def wait(self, handles: Iterable[Any]) -> list[Any]:
         """Those that are done."""
-        from distributed import TimeoutError, wait
-
+        found = []
         try:
-            return wait(list(handles), timeout=0.5, return_when="FIRST_COMPLETED").done
-        except TimeoutError:
-            return []
+            found.append(self._done.get(timeout=0.5))
+            while True:
+                found.append(self._done.get_nowait())
+        except queue.Empty:
+            return found
 
     def result(self, handle: Any) -> Summary:
         """Its summary."""

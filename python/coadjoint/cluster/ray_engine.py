@@ -13,7 +13,7 @@ from .shard import Summary, Task
 class Ray:
     """Hands shards to Ray, which the caller has begun with ``ray.init``. Each takes ``threads`` processors."""
 
-    capacity = 1_000
+    capacity = 4_000
 
     def __init__(self, ray: Any, threads: int) -> None:
         if not ray.is_initialized():
@@ -32,7 +32,9 @@ class Ray:
     def wait(self, handles: Iterable[Any]) -> Any:
         """Those that are done."""
         handles = list(handles)
-        return self._ray.wait(handles, num_returns=1, timeout=0.5)[0]
+        if not self._ray.wait(handles, num_returns=1, timeout=0.5)[0]:
+            return []
+        return self._ray.wait(handles, num_returns=len(handles), timeout=0)[0]
 
     def result(self, handle: Any) -> Summary:
         """Its summary."""

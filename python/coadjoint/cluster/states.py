@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -41,19 +44,24 @@ class States:
     #: The types of those that hold no numbers.
     others: dict[str, str]
 
+    @cached_property
+    def _ends(self) -> list[int]:
+        return list(accumulate(file.rows for file in self.files))
+
     @property
     def rows(self) -> int:
         """The rows of all files together."""
-        return sum(file.rows for file in self.files)
+        return self._ends[-1]
 
     def pieces(self, start: int, stop: int) -> list[tuple[str, int, int, int]]:
         """The rows ``start`` to ``stop`` as (file, bytes of the file, first row in it, row behind the last)."""
-        found, before = [], 0
-        for file in self.files:
-            first, last = max(start - before, 0), min(stop - before, file.rows)
-            if first < last:
-                found.append((file.name, file.size, first, last))
-            before += file.rows
+        found = []
+        for number in range(bisect_right(self._ends, start), len(self.files)):
+            file, before = self.files[number], self._ends[number] - self.files[number].rows
+            if before >= stop:
+                break
+            if file.rows:
+                found.append((file.name, file.size, max(start - before, 0), min(stop - before, file.rows)))
         return found
 
 

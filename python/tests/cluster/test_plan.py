@@ -3,6 +3,7 @@
 import pytest
 from coadjoint import InputError
 from coadjoint.cluster.plan import plan
+from coadjoint.cluster.states import File, States
 
 
 def test_shards_are_consecutive_and_together_everything():
@@ -23,3 +24,14 @@ def test_shards_are_of_seconds_and_not_too_many():
     assert plan(10**10, 10**9).shards <= 100_000
     with pytest.raises(InputError, match="more than 100000 shards; give 100 at least"):
         plan(10**7, 1, 99)
+
+
+def test_rows_are_found_in_the_files_that_hold_them():
+    lengths = [3, 0, 1, 5, 0]
+    files = tuple(File(f"file {i}", 10 * i, length, "") for i, length in enumerate(lengths))
+    states = States(files, 3, {})
+    rows = [(file.name, row) for file in files for row in range(file.rows)]
+    for start in range(10):
+        for stop in range(start, 10):
+            found = states.pieces(start, stop)
+            assert [(name, row) for name, _, a, b in found for row in range(a, b)] == rows[start:stop]
