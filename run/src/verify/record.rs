@@ -10,6 +10,7 @@ use crate::error::RunError;
 /// The places of the time, the momentum and the group element in a row.
 #[derive(Clone, Debug)]
 pub struct Columns {
+    /// The place of the time, where the file has it.
     pub time: Option<usize>,
     /// The place of the energy, where the file has it.
     pub energy: Option<usize>,
