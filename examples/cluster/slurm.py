@@ -13,6 +13,8 @@ from coadjoint import cluster
 
 # As many as --array has; not what is in this submission, which may be a few that failed.
 SHARES = int(os.environ.get("SHARES", "8"))
+# The same in all jobs.
+ROWS_PER_SHARD = int(os.environ.get("ROWS_PER_SHARD", "100000"))
 
 body = ca.System(
     "SO3",
@@ -28,6 +30,7 @@ result = cluster.run(
     out=out,
     time=100,
     step=0.1,
+    rows_per_shard=ROWS_PER_SHARD,
     share=(int(os.environ["SLURM_ARRAY_TASK_ID"]), SHARES),
     workers=int(os.environ.get("SLURM_CPUS_PER_TASK", "1")),
 )

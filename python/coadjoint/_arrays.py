@@ -31,7 +31,7 @@ def floats(value: Any, what: str, *, finite: bool = True) -> Floats:
     if array.dtype.kind not in "fiu":
         raise InputError(f"{what}: numbers of type {array.dtype}; real numbers are needed")
     with np.errstate(over="ignore"):
-        array = np.ascontiguousarray(array, dtype=np.float64)
+        array = np.asarray(array, dtype=np.float64, order="C")
     if finite and not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         where = f"[{', '.join(map(str, place))}]" if place else ""

@@ -68,7 +68,7 @@ def test_jobs_in_python_fill_one_folder(tmp_path):
     states = support.write(tmp_path / "states.parquet", numbers)
     script = [sys.executable, EXAMPLES / "slurm.py", states, tmp_path / "final"]
     for index, said in [(2, "not complete yet"), (1, "complete")]:
-        done = job(script, index, SHARES="2")
+        done = job(script, index, SHARES="2", ROWS_PER_SHARD="1000")
         assert done.returncode == 0, done.stderr
         assert said in done.stdout
     table = pq.read_table(tmp_path / "final")
