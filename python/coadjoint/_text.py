@@ -63,7 +63,7 @@ def numbers(value: Any, what: str) -> str:
 
 
 def _is_sympy(value: Any) -> bool:
-    return type(value).__module__.split(".")[0] == "sympy" or hasattr(value, "free_symbols")
+    return hasattr(value, "free_symbols")
 
 
 def expression(value: Any, what: str) -> str:

@@ -48,10 +48,13 @@ def test_rows_that_fail_are_nan_and_told(body: ca.System) -> None:
     start = states(20)
     start[4] = np.nan
     start[11] *= 1000
-    with pytest.warns(ca.CoadjointWarning, match="2 of 20 rows .* the first is row 4, mu_1 is NaN"):
+    with (
+        pytest.warns(ca.CoadjointWarning, match="2 of 20 rows .* the first is row 4, mu_1 is NaN"),
+        pytest.warns(ca.CoadjointWarning, match="hardly converges"),
+    ):
         final = body.ensemble(start, time=5, step=0.1)
     assert [(f.row, f.step) for f in final.failed] == [(4, 0), (11, 1)]
-    assert "smaller" in final.failed[1].reason
+    assert "works here" in final.failed[1].reason
     assert np.isnan(final[[4, 11]]).all() and list(np.flatnonzero(~final.ok)) == [4, 11]
     whole = np.delete(start, [4, 11], axis=0)
     np.testing.assert_array_equal(body.ensemble(whole, time=5, step=0.1), final[final.ok])
@@ -85,7 +88,7 @@ def test_shapes_that_make_no_sense_are_refused(body: ca.System) -> None:
         (np.ones((2, 3)) * 1j, "complex"),
         (np.array([["a", "b", "c"]]), "type"),
         ([[1, 2, 3], [1, 2]], "lengths"),
-        (np.array([[None, 1, 2]]), "numbers|NaN"),
+        (np.array([[{}, 1, 2]]), "numbers"),
         (np.array(["2020"], dtype="M8[Y]"), "type"),
         (np.array([[True, False, True]]), "type bool"),
     ]:
