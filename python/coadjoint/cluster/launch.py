@@ -106,6 +106,11 @@ def run(
         raise InputError(f"attempts = {attempts!r}: a whole number, at least 1, is needed")
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise InputError(f"threads = {threads!r}: a whole number, at least 1, is needed")
+    if restart and share is not None:
+        raise InputError(
+            "restart with share: every job would remove what the others have made; remove the folder once, or begin "
+            "anew by a call without share"
+        )
     engine = engine_of(client, workers, threads)
     job.settle(restart)
     return job.run(engine, attempts, threads, verify, progress)
@@ -238,6 +243,7 @@ class Job:
         try:
             again = drive(engine, self.tasks(threads, verify), attempts, done)
         finally:
+            counter.close()
             # What workers have left that were killed, here or elsewhere.
             self.folder.sweep(lambda name: shard.number(name) in self.shards)
         complete = result.summarize(self.folder, self.plan)

@@ -27,6 +27,7 @@ def test_options_that_make_no_sense(serial, tmp_path):
         ({"threads": 1.5}, "threads = 1.5"),
         ({"share": (0, 3)}, "no share 0 of 3"),
         ({"share": (4, 3)}, "no share 4 of 3"),
+        ({"share": (1, 3), "restart": True}, "every job would remove what the others have made"),
         ({"keep": ["id"]}, "there is no column id; there are mu_1, mu_2, mu_3"),
         ({"keep": ["mu_1"]}, "column mu_1 is part of the state"),
         ({"client": "dask", "workers": None}, "a dask.distributed.Client, the module ray"),
