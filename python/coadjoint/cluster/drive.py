@@ -33,8 +33,8 @@ class Engine(Protocol):
 
 
 def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[Summary | None], None]) -> int:
-    """Runs all tasks, and returns how often one was handed over again. ``done`` hears of every shard that is finished, and
-    twice a second of nothing.
+    """Runs all tasks, and returns how often one was handed over again. ``done`` hears of every shard that is
+    finished, and twice a second of nothing.
 
     A shard whose worker died, or whose file system failed in passing, is tried ``attempts`` times. The first
     shard that cannot be made ends the run; shards that are finished stay.

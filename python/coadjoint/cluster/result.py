@@ -10,7 +10,7 @@ from typing import Any
 
 import pyarrow.parquet as pq
 
-from . import manifest, shard
+from . import manifest, parquet, shard
 from .errors import ClusterError, ManifestError
 from .files import Folder, absolute
 from .plan import Plan
@@ -133,10 +133,10 @@ def join(
         nonlocal rows
         sink = None
         for part in parts:
-            with folder.fs.open(folder.at(part), "rb") as source, pq.ParquetFile(source) as parquet:
-                sink = sink or shard.writer(file, parquet.schema_arrow)
-                for group in range(parquet.num_row_groups):
-                    table = parquet.read_row_group(group, use_threads=False)
+            with folder.fs.open(folder.at(part), "rb") as source, pq.ParquetFile(source) as opened:
+                sink = sink or parquet.writer(file, opened.schema_arrow)
+                for group in range(opened.num_row_groups):
+                    table = opened.read_row_group(group, use_threads=False)
                     sink.write_table(table, row_group_size=max(table.num_rows, 1))
                     rows += table.num_rows
         if sink is not None:

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from .._arrays import Floats
-from . import core, states
+from . import core, parquet, states
 from .errors import ClusterError, InputError, ShardError
 from .files import LASTING, Folder
 from .manifest import encode
@@ -98,7 +97,8 @@ def run(task: Task) -> Summary:
     try:
         found = core.versions()
         if found != task.versions:
-            differing = ", ".join(f"{k} {found.get(k)} instead of {v}" for k, v in task.versions.items() if found.get(k) != v)
+            others = [key for key, version in task.versions.items() if found.get(key) != version]
+            differing = ", ".join(f"{key} {found.get(key)} instead of {task.versions[key]}" for key in others)
             raise ShardError(f"the worker {_worker()} has {differing}: parts would not have the same bytes")
         folder = Folder(task.out, task.storage_options)
         known = finished(folder, task.shard, task.start, task.stop, task.verify)
@@ -148,7 +148,8 @@ def finished(folder: Folder, shard: int, start: int, stop: int, verify: bool) ->
 
 def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
     folder.remove(record(task.shard))
-    rejected: list[dict[str, Any]] = []
+    # As text: a shard may have a million of them.
+    rejected: list[bytes] = []
     drift: dict[str, float] = {}
     width = len(task.columns)
 
@@ -158,16 +159,17 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
         for numbers, kept in _groups(task, group_rows(width)):
             made = core.advance(task.job, numbers, task.threads)
             for index, step, reason in made.bad:
-                rejected.append({"row": row + index, "step": step, "reason": reason})
+                line = {"row": row + index, "step": step, "reason": reason}
+                rejected.append(json.dumps(line, ensure_ascii=False).encode() + b"\n")
             raise_to(drift, made.drift)
             notes.extend(text for text in made.notes if text not in notes)
-            table = _table(task.columns, made.states, kept)
-            sink = sink or writer(file, table.schema)
+            table = parquet.table(task.columns, made.states, kept)
+            sink = sink or parquet.writer(file, table.schema)
             sink.write_table(table, row_group_size=max(table.num_rows, 1))
             row += len(numbers)
         if sink is None:
-            table = _table(task.columns, np.empty((0, width)), _no_rows(task))
-            sink = writer(file, table.schema)
+            table = parquet.table(task.columns, np.empty((0, width)), parquet.no_rows(task.keep))
+            sink = parquet.writer(file, table.schema)
             sink.write_table(table)
         sink.close()
         if row != task.stop:
@@ -184,8 +186,7 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
         "drift": drift,
     }
     if rejected:
-        lines = b"".join(json.dumps(line, ensure_ascii=False).encode() + b"\n" for line in rejected)
-        entry["bad_bytes"], entry["bad_sha256"] = folder.put(bad_list(task.shard), lines)
+        entry["bad_bytes"], entry["bad_sha256"] = folder.put(bad_list(task.shard), b"".join(rejected))
     folder.put(record(task.shard), encode(entry))
     return entry
 
@@ -210,27 +211,6 @@ def _groups(task: Task, size: int) -> Iterator[tuple[Floats, pa.Table | None]]:
                     numbers, kept, missing = [], [], size
     if numbers:
         yield np.concatenate(numbers), pa.Table.from_batches(kept) if kept else None
-
-
-def _no_rows(task: Task) -> pa.Table | None:
-    return pa.table({name: pa.array([], pa.null()) for name in task.keep}) if task.keep else None
-
-
-def _table(columns: list[str], numbers: Floats, kept: pa.Table | None) -> pa.Table:
-    fields = [pa.field(name, pa.float64(), nullable=False) for name in columns]
-    arrays = [pa.array(np.ascontiguousarray(numbers[:, place])) for place in range(len(columns))]
-    if kept is not None:
-        fields += [field.remove_metadata() for field in kept.schema]
-        arrays += [column.combine_chunks() for column in kept.columns]
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
-
-
-def writer(file: Any, schema: pa.Schema) -> pq.ParquetWriter:
-    """Writes Parquet in the one way whose bytes depend on the table and on pyarrow's version alone."""
-    # Plain numbers: nothing that depends on what was written before, and end states hardly compress.
-    return pq.ParquetWriter(
-        file, schema, version="2.6", compression="none", use_dictionary=False, store_schema=False
-    )
 
 
 def placed(task: Task, text: str) -> str:

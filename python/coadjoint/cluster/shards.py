@@ -13,7 +13,7 @@ from typing import IO, Any
 import numpy as np
 import pyarrow.parquet as pq
 
-from . import shard
+from . import parquet
 from .errors import ClusterError, InputError, ManifestError
 from .files import Folder, absolute, digest
 
@@ -89,7 +89,8 @@ def _same_run(found: list[_Shard]) -> None:
         for key in sorted(ours.keys() | others.keys()):
             if key != "shard" and ours.get(key) != others.get(key):
                 raise ManifestError(
-                    f"{first.path} and {each.path} are of different runs: {key} is {ours.get(key)} and {others.get(key)}"
+                    f"{first.path} and {each.path} are of different runs: "
+                    f"{key} is {ours.get(key)} and {others.get(key)}"
                 )
         if each.count != first.count:
             raise ManifestError(f"{first.path} is one of {first.count} shards, {each.path} one of {each.count}")
@@ -130,7 +131,7 @@ def _parquet(file: IO[bytes], paths: list[str]) -> None:
     sink = None
     for path in paths:
         with pq.ParquetFile(path) as source:
-            sink = sink or shard.writer(file, source.schema_arrow)
+            sink = sink or parquet.writer(file, source.schema_arrow)
             for group in range(source.num_row_groups):
                 table = source.read_row_group(group)
                 sink.write_table(table, row_group_size=max(table.num_rows, 1))

@@ -16,7 +16,7 @@ else:
 
 @pytest.fixture(scope="session")
 def serial(tmp_path_factory):
-    """The input and the folder of the run that all others are compared with: one process, undisturbed, with bad rows."""
+    """The input and the folder of the run that others are compared with: one process, undisturbed, with bad rows."""
     folder = tmp_path_factory.mktemp("serial")
     numbers = support.momenta(support.ROWS)
     numbers[1234, 1] = float("nan")

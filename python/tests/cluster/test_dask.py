@@ -37,4 +37,5 @@ def test_a_killed_worker_changes_nothing(serial, tmp_path):
 
 def run(client, states, out, **options):
     options = {"progress": False} | options | support.SCHEDULE
-    return cluster.run(support.body(), states=states, out=out, client=client, rows_per_shard=support.PER_SHARD, **options)
+    options["rows_per_shard"] = support.PER_SHARD
+    return cluster.run(support.body(), states=states, out=out, client=client, **options)

@@ -45,7 +45,7 @@ def test_files_that_hold_no_states(tmp_path):
     names = ["mu_1", "mu_2", "mu_3"]
     three, four = np.ones((2, 3)), np.ones((2, 4))
     for name, content, expected in [
-        ("missing", pa.table({"mu_1": [1.0], "mu_2": [1.0]}), "column mu_3 is missing: this system needs mu_1, mu_2, mu_3"),
+        ("missing", pa.table({"mu_1": [1.0], "mu_2": [1.0]}), "column mu_3 is missing: this system needs mu_1, mu_2"),
         ("fourth", pa.table({f"mu_{i}": [1.0] for i in range(1, 5)}), "column mu_4: the momentum of this system"),
         ("twice", pa.table([pa.array([1.0])] * 4, [*names, "mu_1"]), "column mu_1 is there twice"),
         ("part", pa.table({name: [1.0] for name in [*names, "q_w"]}), "column q_x is missing"),

@@ -141,7 +141,8 @@ def test_all_rows_bad_is_an_error_that_says_why(tmp_path):
 
 def test_other_columns_go_through_where_they_are_asked_for(tmp_path):
     names = pa.array([None if i == 3 else f"body {i}" for i in range(1000)])
-    states = support.write(tmp_path / "states.parquet", support.momenta(1000), group=300, id=np.arange(1000), name=names)
+    others = {"id": np.arange(1000), "name": names}
+    states = support.write(tmp_path / "states.parquet", support.momenta(1000), group=300, **others)
     run(states, tmp_path / "out", keep=["name", "id"])
     table = pq.read_table(tmp_path / "out")
     assert table.column_names == ["mu_1", "mu_2", "mu_3", "name", "id"]
