@@ -16,12 +16,12 @@ def floats(value: Any, what: str, *, finite: bool = True) -> Floats:
     """The numbers as one block of 64-bit floats; complex numbers, text and objects are refused."""
     if hasattr(value, "to_numpy") and not isinstance(value, np.ndarray):
         value = value.to_numpy()
+    if np.ma.isMaskedArray(value) and np.ma.is_masked(value):
+        raise InputError(f"{what}: some numbers are masked; fill or leave them out")
     try:
         array = np.asarray(value)
     except ValueError as error:
         raise InputError(f"{what}: rows of different lengths ({error})") from None
-    if np.ma.isMaskedArray(array) and np.ma.is_masked(array):
-        raise InputError(f"{what}: some numbers are masked; fill or leave them out")
     if array.dtype == object:
         # Fractions and SymPy numbers become floats; anything else does not.
         try:

@@ -4,6 +4,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = ["Core", "ModelCore", "Stepper", "__version__", "learn"]
+
 __version__: str
 
 _Asked = dict[str, Any]

@@ -31,7 +31,10 @@ def _rows(rows: list[tuple[str, str]]) -> str:
 
 def system(system: System) -> str:
     """A table of what the system is."""
-    code = lambda text: f"<code>{escape(str(text))}</code>"  # noqa: E731
+
+    def code(text: str) -> str:
+        return f"<code>{escape(text)}</code>"
+
     facts = system._facts
     rows = [
         ("group", code(system.group)),
@@ -90,10 +93,19 @@ def _panel(
         low, high = low - 1, high + 1
     first, last = float(times[0]), float(times[-1])
     wide, tall = _WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
-    x = lambda t: _LEFT + wide * (t - first) / ((last - first) or 1)  # noqa: E731
-    y = lambda v: _TOP + tall * (high - v) / (high - low)  # noqa: E731
-    said = (lambda v: f"1e{v:.0f}") if logarithmic else (lambda v: f"{v:.3g}")
-    text = lambda at, up, what, more: f'<text x="{at:.1f}" y="{up:.1f}" {more}>{escape(what)}</text>'  # noqa: E731
+
+    def x(t: float) -> float:
+        return _LEFT + wide * (t - first) / ((last - first) or 1)
+
+    def y(v: float) -> float:
+        return _TOP + tall * (high - v) / (high - low)
+
+    def said(v: float) -> str:
+        return f"1e{v:.0f}" if logarithmic else f"{v:.3g}"
+
+    def text(at: float, up: float, what: str, more: str) -> str:
+        return f'<text x="{at:.1f}" y="{up:.1f}" {more}>{escape(what)}</text>'
+
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" height="{_HEIGHT}" '
         f'viewBox="0 0 {_WIDTH} {_HEIGHT}" font-family="sans-serif" font-size="10" role="img" '

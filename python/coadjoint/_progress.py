@@ -40,7 +40,8 @@ class _Bar:
     """tqdm's bar: in a notebook a widget."""
 
     def __init__(self, what: str, tqdm: Any) -> None:
-        self._what, self._tqdm, self._bar = what, tqdm, None
+        self._what, self._tqdm = what, tqdm
+        self._bar: Any = None
         self._begun = time.monotonic()
 
     def __call__(self, done: int, total: int) -> None:
@@ -81,8 +82,11 @@ def listener(progress: bool | Progress | None, what: str) -> _Line | _Bar | _Giv
     notebook = _in_notebook()
     if not (progress or notebook or sys.stderr.isatty()):
         return None
+    if not notebook:
+        return _Line(what)
     try:
-        from tqdm.auto import tqdm
+        import ipywidgets  # noqa: F401
+        from tqdm.notebook import tqdm
     except ImportError:
         return _Line(what)
-    return _Bar(what, tqdm) if notebook else _Line(what)
+    return _Bar(what, tqdm)

@@ -123,13 +123,13 @@ def _sympy(value: Any, what: str) -> str:
         if isinstance(part, sympy.exp):
             return f"exp({walk(part.args[0])})"
         if part.is_Function:
-            name = _FUNCTIONS.get(type(part).__name__)
-            if name is None:
+            function = _FUNCTIONS.get(type(part).__name__)
+            if function is None:
                 known = ", ".join(["sqrt", *_FUNCTIONS])
                 raise refuse(
                     part, f"has a function that is not known here; there are {known}, of parameters and numbers"
                 )
-            return f"{name}({', '.join(walk(argument) for argument in part.args)})"
+            return f"{function}({', '.join(walk(argument) for argument in part.args)})"
         raise refuse(part, f"is a {type(part).__name__}, which is not known here; expand it first")
 
     return walk(sympy.sympify(value))

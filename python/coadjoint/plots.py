@@ -56,7 +56,7 @@ def run(run: Run, what: str = "all", figure: Figure | None = None) -> Figure:
         return drift(run, figure=figure)
     if what != "all":
         raise InputError(f'what="{what}": there are "all", "momentum", "drift" and "orbit"')
-    figure = _figure(figure, (7, 5.5))
+    figure = _figure(figure, (8, 5.5))
     above, below = figure.subplots(2, 1, sharex=True)
     _momentum(above, run)
     _drift(below, {"": run})
@@ -67,7 +67,7 @@ def run(run: Run, what: str = "all", figure: Figure | None = None) -> Figure:
 
 def momentum(run: Run, *, figure: Figure | None = None) -> Figure:
     """The coordinates of the momentum over time."""
-    figure = _figure(figure, (7, 3.2))
+    figure = _figure(figure, (8, 3.2))
     axes = figure.subplots()
     _momentum(axes, run)
     axes.set_xlabel(_time(run))
@@ -83,7 +83,7 @@ def _momentum(axes: Axes, run: Run) -> None:
     unit = f" in {units.pop()}" if len(units) == 1 else ""
     more = f", {len(shown)} of {len(run.coordinates)}" if len(run.coordinates) > len(shown) else ""
     axes.set_ylabel(f"momentum{unit}{more}")
-    axes.legend(loc="upper right", fontsize=9, ncols=2 if len(shown) > 3 else 1)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, fontsize=9)
     axes.margins(x=0)
 
 
@@ -94,7 +94,7 @@ def drift(runs: Run | Mapping[str, Run], *, figure: Figure | None = None) -> Fig
     named = {"": runs} if isinstance(runs, Run) else dict(runs)
     if not named:
         raise InputError("no run is given")
-    figure = _figure(figure, (7, 3.2))
+    figure = _figure(figure, (8, 3.2))
     axes = figure.subplots()
     _drift(axes, named)
     axes.set_xlabel(_time(next(iter(named.values()))))
@@ -121,7 +121,7 @@ def _drift(axes: Axes, runs: Mapping[str, Run]) -> None:
         colour += 1 if name else 0
     axes.axhline(_EPSILON, color="0.7", linewidth=0.8, zorder=0)
     axes.set_ylabel("relative drift")
-    axes.legend(loc="best", fontsize=9)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, fontsize=9)
     axes.margins(x=0)
 
 
@@ -182,7 +182,9 @@ def _projection(view: tuple[float, float]) -> Any:
 def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
     """A curve on the sphere: solid in front, dashed behind."""
     front = points[:, 2] >= 0
-    for visible, more in [(True, {}), (False, {"linestyle": (0, (2, 3)), "alpha": 0.55})]:
+    behind: dict[str, Any] = {"linestyle": (0, (2, 3)), "alpha": 0.55}
+    sides: list[tuple[bool, dict[str, Any]]] = [(True, {}), (False, behind)]
+    for visible, more in sides:
         shown = np.where((front == visible)[:, None], points, np.nan)
         axes.plot(shown[:, 0], shown[:, 1], **style, **more)
 

@@ -82,8 +82,7 @@ class Run:
     @cached_property
     def group_element(self) -> Floats:
         """The matrices of the group element g, (N, d, d). For products, block by block."""
-        found = _dense(self._array("entries"), self._found["blocks"])
-        return found
+        return _dense(self._array("entries"), self._found["blocks"])
 
     @property
     def spatial_momentum(self) -> Floats:
@@ -116,7 +115,8 @@ class Run:
     def final_group_element(self) -> Floats:
         """The group element at the end, (d, d)."""
         end = self._found["end"]
-        return _dense(end["entries"][np.newaxis], end["blocks"])[0]
+        found: Floats = _dense(end["entries"][np.newaxis], end["blocks"])[0]
+        return found
 
     @property
     def step(self) -> float:
@@ -265,7 +265,8 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
         return array[()] if return_scalar else np.asarray(array)
 
     def __reduce__(self) -> Any:
-        make, arguments, state = super().__reduce__()  # type: ignore[misc]
+        whole: Any = super().__reduce__()
+        make, arguments, state = whole
         own = {name: getattr(self, name) for name in self._FACTS if hasattr(self, name)}
         return make, arguments, (state, own)
 
@@ -277,4 +278,5 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
     @property
     def ok(self) -> NDArray[np.bool_]:
         """Which rows have an end state, (N,)."""
-        return ~np.isnan(np.asarray(self)).any(axis=1)
+        found: NDArray[np.bool_] = np.logical_not(np.isnan(np.asarray(self)).any(axis=1))
+        return found

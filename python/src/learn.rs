@@ -8,7 +8,7 @@ use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
 use coadjoint_learn::{Kind, ModelFile, NetworkSettings, Request, learn_columns};
 use coadjoint_run::simulate::{Setup, algebra_of, run_model, schedule_of};
 use coadjoint_run::{RunError, emit};
-use numpy::{PyArrayMethods, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -23,7 +23,7 @@ type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
 /// What to learn, and how.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Settings {
+pub struct Settings {
     group: String,
     chart: String,
     step: f64,

@@ -282,7 +282,8 @@ impl Core {
             let derived = derive(&cache, &here.name, system, true)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
-            let engine = ensemble::engine(path, &derived.integrator, schedule.step, how)?;
+            let engine =
+                ensemble::engine(path, &derived.integrator, schedule.step, how, &derived.kept)?;
             let layout = Layout::of_width(engine.shape(), width)?;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.

@@ -156,5 +156,7 @@ def test_runs_that_stop_say_where(body: ca.System) -> None:
     assert caught.value.step == 1
     with pytest.raises(RunError):
         body.step([200, 50, 100], step=0.1)
+    steep = ca.System("SO3", "x^4/4 + y^4/3 + z^2/2 + x*y", coordinates="x y z")
     with pytest.warns(ca.CoadjointWarning, match="hardly converges"):
-        body.simulate([4, 1, 2], time=2, step=0.6)
+        run = steep.simulate([1.2, 0.8, 0.5], time=0.25, step=0.25)
+    assert len(run.warnings) == 1

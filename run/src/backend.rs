@@ -147,6 +147,11 @@ impl Code {
         Self { notes, ..Self::interpreter() }
     }
 
+    /// Whether a processor runs it as it is.
+    pub fn is_machine_code(&self) -> bool {
+        self.entry.is_some()
+    }
+
     /// What makes the steps, for reports.
     pub fn used(&self) -> Used {
         Used { name: self.name.clone(), ready: self.entry.as_ref().map(|_| self.ready) }

@@ -8,7 +8,7 @@ use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::system::{self, Options, Run, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
-use crate::engine::{Energy, Forces};
+use crate::engine::{Energy, Forces, Kept};
 use crate::error::RunError;
 
 /// Reads the text of a system file as it stands; `name` is what mistakes call it.
@@ -47,6 +47,8 @@ pub struct Derived {
     pub energy: Energy,
     /// The kicks of a potential.
     pub forces: Option<Forces>,
+    /// What has been compiled so far.
+    pub kept: Kept,
 }
 
 impl Derived {
@@ -68,7 +70,7 @@ impl Derived {
         let energy = Energy::new(&problem, potential.as_ref().map(|(potential, _)| potential));
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
         let integrator = integrator(file, problem)?;
-        Ok(Self { file: file.to_owned(), integrator, energy, forces })
+        Ok(Self { file: file.to_owned(), integrator, energy, forces, kept: Kept::default() })
     }
 }
 

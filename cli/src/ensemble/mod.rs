@@ -21,6 +21,7 @@ use std::path::Path;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
+use coadjoint_run::engine::Kept;
 use coadjoint_run::ensemble::{How, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
@@ -49,7 +50,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     // What a device refuses is little.
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
     let how = How { backend: options.backend.into(), work, device: asked };
-    let engine = engine(path, &integrator, step, how)?;
+    let engine = engine(path, &integrator, step, how, &Kept::default())?;
     engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let input = input::open(&options.initial, engine.shape())?;
     let range = options.shard.rows(input.total());

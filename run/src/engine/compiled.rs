@@ -1,5 +1,7 @@
 //! The steps of an interpreter as straight-line programs: evaluated, or as machine code.
 
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
@@ -22,11 +24,44 @@ pub struct Numbers {
     pub mu: Vec<f64>,
 }
 
+/// What has been compiled of one integrator, for whoever comes next: programs do not depend on the size of a step.
+#[derive(Default)]
+pub struct Kept {
+    step: OnceLock<Arc<Step>>,
+    codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
+}
+
+impl std::fmt::Debug for Kept {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Kept").finish_non_exhaustive()
+    }
+}
+
+impl Kept {
+    /// What serves: made by this backend, or, for [`Backend::Auto`], any machine code.
+    fn find(&self, backend: Backend, trajectories: Trajectories) -> Option<Arc<Code>> {
+        // A thread that panicked has added whole codes, if any.
+        let codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
+        let serves = |(by, of, code): &&(Backend, Trajectories, Arc<Code>)| {
+            *of == trajectories
+                && (*by == backend || backend == Backend::Auto)
+                && (backend != Backend::Auto || code.is_machine_code())
+        };
+        codes.iter().find(serves).map(|(_, _, code)| code.clone())
+    }
+
+    /// Keeps a code.
+    fn keep(&self, backend: Backend, trajectories: Trajectories, code: &Arc<Code>) {
+        let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
+        codes.push((backend, trajectories, code.clone()));
+    }
+}
+
 /// The steps of an interpreter as straight-line programs.
 pub struct Compiled {
-    step: Step,
+    step: Arc<Step>,
     slots: Vec<f64>,
-    code: Code,
+    code: Arc<Code>,
     /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
@@ -39,7 +74,8 @@ impl std::fmt::Debug for Compiled {
 }
 
 impl Compiled {
-    /// The steps of `interpreter`, `steps` of which are going to be made, of these trajectories; `None` where they are not made of programs.
+    /// The steps of `interpreter`, `steps` of which are going to be made, of these trajectories; `None` where they are not
+    /// made of programs. What is kept of the same integrator is used again.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
@@ -48,14 +84,18 @@ impl Compiled {
         backend: Backend,
         steps: f64,
         trajectories: Trajectories,
+        kept: &Kept,
     ) -> Result<Option<Self>, RunError> {
         let unfit = |why: &dyn std::fmt::Display| match backend {
             Backend::Auto | Backend::Interpreter => Ok(None),
             _ => Err(RunError::Option(format!("--backend: {why}"))),
         };
-        let step = match Step::build(interpreter.integrator, REACH) {
-            Ok(step) => step,
-            Err(error) => return unfit(&error),
+        let step = match kept.step.get() {
+            Some(step) => step.clone(),
+            None => match Step::build(interpreter.integrator, REACH) {
+                Ok(step) => kept.step.get_or_init(|| Arc::new(step)).clone(),
+                Err(error) => return unfit(&error),
+            },
         };
         let programs = step.kernel().programs();
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
@@ -67,7 +107,14 @@ impl Compiled {
         }
         let slots = step.slots(&interpreter.slots, interpreter.radius);
         let framed = programs.frame.is_some();
-        let code = Code::new(step.kernel(), backend, steps, trajectories)?;
+        let code = match kept.find(backend, trajectories) {
+            Some(code) => code,
+            None => {
+                let code = Arc::new(Code::new(step.kernel(), backend, steps, trajectories)?);
+                kept.keep(backend, trajectories, &code);
+                code
+            }
+        };
         Ok(Some(Self { step, slots, code, framed }))
     }
 

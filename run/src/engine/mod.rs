@@ -12,7 +12,7 @@ mod steep;
 
 pub use advise::advise;
 pub use card::{card, device_text};
-pub use compiled::{Compiled, Numbers};
+pub use compiled::{Compiled, Kept, Numbers};
 pub use group::{cayley_group, product_group, whole_group};
 pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};

@@ -13,7 +13,7 @@ use super::layout::{Layout, Shape};
 use super::rows::Rows;
 use super::steps::Steps;
 use crate::backend::Backend;
-use crate::engine::{Restore, cayley_group, product_group};
+use crate::engine::{Kept, Restore, cayley_group, product_group};
 use crate::error::RunError;
 
 /// The largest drifts over an ensemble, each row's relative to its own size.
@@ -96,21 +96,25 @@ pub struct How {
     pub device: Option<Asked>,
 }
 
-/// The engine of a system.
+/// The engine of a system, which is called by its path in messages; what is kept of the same integrator is used again.
+///
+/// # Errors
+/// Where the step makes no sense, or the backend or device that the user named cannot be had.
 pub fn engine<'a>(
     path: &Path,
     integrator: &'a Integrator,
     step: f64,
     how: How,
+    kept: &Kept,
 ) -> Result<Box<dyn Engine + 'a>, RunError> {
     let group = product_group(path, &integrator.problem.algebra)?;
     match integrator.problem.chart {
         lie::Chart::Exponential => {
-            on::<DirectProduct<MatrixGroup>, Exponential>(integrator, group, step, how)
+            on::<DirectProduct<MatrixGroup>, Exponential>(integrator, group, step, how, kept)
         }
         lie::Chart::Cayley => {
             let group = cayley_group(path, &group)?;
-            on::<DirectProduct<CayleyMatrixGroup>, Cayley>(integrator, group, step, how)
+            on::<DirectProduct<CayleyMatrixGroup>, Cayley>(integrator, group, step, how, kept)
         }
     }
 }
@@ -120,12 +124,13 @@ fn on<'a, G, C>(
     group: G,
     step: f64,
     how: How,
+    kept: &Kept,
 ) -> Result<Box<dyn Engine + 'a>, RunError>
 where
     G: Restore<Element: Send + Sync> + Send + Sync + 'a,
     C: Chart<G> + Send + Sync + 'a,
 {
-    Ok(Box::new(Steps::<G, C>::new(integrator, group, step, how)?))
+    Ok(Box::new(Steps::<G, C>::new(integrator, group, step, how, kept)?))
 }
 
 /// The larger of two numbers; what is no number is larger than any.

@@ -19,7 +19,7 @@ use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows};
 use crate::engine::{
-    Compiled, Interpreter, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
+    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
 use crate::error::RunError;
 
@@ -65,10 +65,11 @@ where
         group: G,
         step: f64,
         how: How,
+        kept: &Kept,
     ) -> Result<Self, RunError> {
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
             .map_err(|source| RunError::Step { time: 0.0, source })?;
-        let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes)?;
+        let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes, kept)?;
         let card = how.device.map(|asked| device::open(&stepper, asked)).transpose()?;
         let attitudes = Attitudes::of(&integrator.problem.algebra);
         Ok(Self {

@@ -151,5 +151,5 @@ fn compile<G: Restore, C: Chart<G>>(
 ) -> Result<Option<Compiled>, RunError> {
     let interpreter = Interpreter::<G, C>::new(&derived.integrator, group.clone(), step)
         .map_err(|source| RunError::Step { time: 0.0, source })?;
-    Compiled::new(&interpreter, backend, steps, Trajectories::One)
+    Compiled::new(&interpreter, backend, steps, Trajectories::One, &derived.kept)
 }

@@ -208,7 +208,9 @@ impl<'a> Task<'a> {
             advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
         };
         let (backend, steps) = (self.setup.backend, schedule.steps as f64);
-        let Some(compiled) = Compiled::new(&step, backend, steps, Trajectories::One)? else {
+        let Some(compiled) =
+            Compiled::new(&step, backend, steps, Trajectories::One, &self.system.kept)?
+        else {
             let stepper = Stepper {
                 steps: &each(schedule, |_, phase| {
                     let (solution, residual) =
