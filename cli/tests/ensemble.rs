@@ -261,6 +261,46 @@ fn a_changed_run_is_refused_until_told_to_begin_anew() {
     assert_eq!(String::from_utf8(bytes(&out)).unwrap().lines().count(), 101);
 }
 
+/// Jobs of an array that are started again: what is finished stays, what is damaged is made again, and another command
+/// is refused.
+#[test]
+fn a_finished_shard_is_kept() {
+    let directory = TempDir::new().unwrap();
+    let initial = written(&directory, "in.csv", &(momenta(60) + "bad,1,2\n"));
+    let out = at(&directory, "out-3.csv");
+    let options = ["--shard", "3/3", "--time", "1", "--keep"];
+    assert_eq!(ensemble(&initial, &out, &options)["kept"], false);
+    let files = [out.clone(), format!("{out}.rejected.csv"), format!("{out}.done")];
+    let before = files.each_ref().map(|file| bytes(file));
+    let note: Value = serde_json::from_slice(&before[2]).unwrap();
+    assert_eq!(note["first_row"], 41);
+    assert_eq!(note["journal"]["rows"], 21);
+    let again = ensemble(&initial, &out, &options);
+    assert_eq!((&again["kept"], &again["failed"]), (&true.into(), &1.into()));
+    assert_eq!(again["trajectories"], 21);
+    let mut arguments = vec!["ensemble", BODY, "--initial", &initial, "--out", &out];
+    arguments.extend(options);
+    let (code, report, _) = run(&arguments);
+    assert_eq!(code, 0);
+    assert!(report.contains("finished by an earlier run, and kept"), "{report}");
+    arguments.extend(["--step", "0.2"]);
+    let (code, _, error) = run(&arguments);
+    assert_eq!(code, 2);
+    assert!(error.contains("out-3.csv.done is of a run with another number of steps"), "{error}");
+    // Damaged or lost, it is made again.
+    for file in &files[..2] {
+        std::fs::write(file, "1,2").unwrap();
+        assert_eq!(ensemble(&initial, &out, &options)["kept"], false);
+    }
+    std::fs::remove_file(&out).unwrap();
+    assert_eq!(ensemble(&initial, &out, &options)["kept"], false);
+    assert!(files.each_ref().map(|file| bytes(file)) == before);
+    // Made by another command without the option, the file has no note.
+    ensemble(&initial, &out, &["--time", "2"]);
+    assert!(!Path::new(&files[2]).exists());
+    assert_eq!(left_over(&directory), Vec::<PathBuf>::new());
+}
+
 #[test]
 fn bad_rows_are_told_and_do_not_stop_the_rest() {
     let directory = TempDir::new().unwrap();

@@ -32,3 +32,12 @@ __all__ = [
     "geometrize",
     "learn",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Needs more packages than the rest, and time to import.
+    if name == "cluster":
+        import importlib
+
+        return importlib.import_module(".cluster", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

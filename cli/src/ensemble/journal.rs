@@ -63,15 +63,8 @@ impl Journal {
 
     /// Writes it: the old journal or the new one, never a piece.
     pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        let next = beside(path, ".next");
         let text = serde_json::to_string(self).map_err(|error| unwritten(path, &error))?;
-        let write = || -> std::io::Result<()> {
-            let mut file = File::create(&next)?;
-            file.write_all(text.as_bytes())?;
-            file.sync_data()
-        };
-        write().map_err(|error| unwritten(&next, &error))?;
-        rename(&next, path)
+        write_whole(path, &text)
     }
 
     /// Refuses to go on with a run that is another.
@@ -109,6 +102,18 @@ impl Journal {
         self.casimirs = drift.casimirs.to_bits();
         self.ratio = drift.ratio.to_bits();
     }
+}
+
+/// Writes a small file: what was there before or the new text, never a piece.
+pub fn write_whole(path: &Path, text: &str) -> Result<(), CliError> {
+    let next = beside(path, ".next");
+    let write = || -> std::io::Result<()> {
+        let mut file = File::create(&next)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_data()
+    };
+    write().map_err(|error| unwritten(&next, &error))?;
+    rename(&next, path)
 }
 
 /// Bytes read in one piece to recognise a file.

@@ -2,6 +2,7 @@
 //! states.
 
 mod device;
+mod finished;
 mod input;
 mod journal;
 mod output;
@@ -78,6 +79,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         steps,
         identity,
         restart: options.restart,
+        keep: options.keep,
     };
     if let Some(table) = job.input.table().filter(|_| form != output::Form::Csv) {
         let others: Vec<&str> = table.others().collect();

@@ -40,6 +40,7 @@ pub fn report(
         let value = json!({
             "trajectories": outcome.trajectories,
             "resumed_at": outcome.resumed,
+            "kept": outcome.kept,
             "failed": outcome.failed,
             "first_failed": first,
             "rejected": outcome.list,
@@ -74,7 +75,9 @@ pub fn report(
         "K = {truncation}, {chart}: {} trajectories of {steps} steps of {step}",
         outcome.trajectories
     );
-    if outcome.resumed > 0 {
+    if outcome.kept {
+        let _ = writeln!(out, "  finished by an earlier run, and kept");
+    } else if outcome.resumed > 0 {
         let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
     }
     let _ = writeln!(out, "  steps by {}", outcome.made_by.join(", then by "));

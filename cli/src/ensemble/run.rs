@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use coadjoint_run::ensemble::{Drift, Engine, Layout, Rejected, Watch, piece as length};
 
+use super::finished::Finished;
 use super::input::Input;
 use super::journal::{Identity, Journal};
 use super::output::{Appended, Form, beside, rename, unwritten};
@@ -37,6 +38,8 @@ pub struct Job<'a> {
     pub identity: Identity,
     /// Forget what an earlier run has done.
     pub restart: bool,
+    /// Keep what an earlier run has finished.
+    pub keep: bool,
 }
 
 /// What a run did.
@@ -46,6 +49,8 @@ pub struct Outcome {
     pub trajectories: u64,
     /// Rows already written by an earlier run that was stopped.
     pub resumed: u64,
+    /// Whether an earlier run had finished, and its files are kept.
+    pub kept: bool,
     /// Rows without an end state.
     pub failed: u64,
     /// The first of them, as far as this run met them.
@@ -69,6 +74,7 @@ struct Files {
     list: PathBuf,
     list_partial: PathBuf,
     journal: PathBuf,
+    done: PathBuf,
 }
 
 impl Files {
@@ -79,6 +85,7 @@ impl Files {
             list: beside(out, ".rejected.csv"),
             list_partial: beside(out, ".rejected.csv.partial"),
             journal: beside(out, ".journal"),
+            done: beside(out, ".done"),
         }
     }
 }
@@ -91,13 +98,16 @@ fn remove(path: &Path) -> Result<(), CliError> {
     }
 }
 
-/// Runs from the beginning, or from where an earlier run was stopped.
+/// Runs from the beginning, or from where an earlier run was stopped; or keeps what one has finished.
 pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
     let start = Instant::now();
     let form = Form::of(&job.out)?;
     let layout = job.input.layout();
     let files = Files::of(&job.out);
     let count = job.range.end - job.range.start;
+    if let Some(journal) = finished(&job, &files)? {
+        return Ok(outcome(count, (count, true), journal, files, Vec::new(), start));
+    }
     let fresh = Journal { identity: job.identity.clone(), ..Journal::default() };
     let known = if job.restart { None } else { Journal::read(&files.journal)? };
     if let Some(known) = &known {
@@ -113,10 +123,46 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
         first = advance(&mut job, form, &layout, &files, &mut journal, output, list)?;
         seal(form, &layout, &files, count, &mut journal)?;
     }
+    remove(&files.done)?;
     publish(form, &layout, &files, &journal)?;
-    Ok(Outcome {
-        trajectories: count,
+    if job.keep {
+        let first_row = job.range.start + 1;
+        Finished::of(&files.out, &files.list, first_row, journal.clone())?.write(&files.done)?;
+    }
+    remove(&files.journal)?;
+    Ok(outcome(count, (resumed, false), journal, files, first, start))
+}
+
+/// What a finished run has noted that is to be kept; `None` where the run is to be made.
+fn finished(job: &Job<'_>, files: &Files) -> Result<Option<Journal>, CliError> {
+    if !job.keep || job.restart {
+        return Ok(None);
+    }
+    let Some(done) = Finished::read(&files.done)? else { return Ok(None) };
+    done.journal.check(&files.done, &job.identity)?;
+    if done.is_whole(&files.out, &files.list)? {
+        return Ok(Some(done.journal));
+    }
+    eprintln!(
+        "{} is not what {} says: it is made again",
+        files.out.display(),
+        files.done.display()
+    );
+    Ok(None)
+}
+
+fn outcome(
+    trajectories: u64,
+    (resumed, kept): (u64, bool),
+    journal: Journal,
+    files: Files,
+    first: Vec<Rejected>,
+    start: Instant,
+) -> Outcome {
+    Outcome {
+        trajectories,
         resumed,
+        kept,
         failed: journal.rejected,
         first,
         list: (journal.rejected > 0).then_some(files.list),
@@ -124,7 +170,7 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
         made_by: journal.made_by,
         redone: journal.redone,
         seconds: start.elapsed().as_secs_f64(),
-    })
+    }
 }
 
 /// Advances the rows that are left. What is done is the same whatever the size of the pieces.
@@ -219,7 +265,7 @@ fn seal(
     journal.write(&files.journal)
 }
 
-/// Gives the files their names, and forgets the journal last of all.
+/// Gives the files their names.
 fn publish(form: Form, _layout: &Layout, files: &Files, journal: &Journal) -> Result<(), CliError> {
     if journal.rejected == 0 {
         remove(&files.list_partial)?;
@@ -241,6 +287,5 @@ fn publish(form: Form, _layout: &Layout, files: &Files, journal: &Journal) -> Re
             files.out.display()
         )));
     }
-    remove(&files.partial)?;
-    remove(&files.journal)
+    remove(&files.partial)
 }

@@ -1,0 +1,78 @@
+//! What stays of a finished run with `--keep`: a note beside its file that says what the file is.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::journal::{Journal, write_whole};
+use super::output::unwritten;
+use crate::error::CliError;
+
+/// A finished run, for the same command started again and for whatever joins shards.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Finished {
+    /// The first row of the input that it has, from 1.
+    pub first_row: u64,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// SHA-256 of the list of rejected rows, where there is one.
+    pub rejected_sha256: Option<String>,
+    /// What the run was, and what it found.
+    pub journal: Journal,
+}
+
+impl Finished {
+    /// Describes files that have their names already.
+    pub fn of(out: &Path, list: &Path, first_row: u64, journal: Journal) -> Result<Self, CliError> {
+        let rejected_sha256 = if journal.rejected > 0 { Some(sha256(list)?) } else { None };
+        Ok(Self { first_row, sha256: sha256(out)?, rejected_sha256, journal })
+    }
+
+    /// The note at `path`; `None` where there is none.
+    pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
+        match fs::read_to_string(path) {
+            Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| {
+                CliError::Option(format!(
+                    "{} is no note of this version ({error}); begin anew with --restart",
+                    path.display()
+                ))
+            }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(source) => Err(CliError::Read { path: path.into(), source }),
+        }
+    }
+
+    /// Writes the note: all of it or nothing.
+    pub fn write(&self, path: &Path) -> Result<(), CliError> {
+        let text = serde_json::to_string(self).map_err(|error| unwritten(path, &error))?;
+        write_whole(path, &text)
+    }
+
+    /// Whether the files are those that it describes.
+    pub fn is_whole(&self, out: &Path, list: &Path) -> Result<bool, CliError> {
+        let same = |path: &Path, known: &str| -> Result<bool, CliError> {
+            Ok(path.exists() && sha256(path)? == known)
+        };
+        let list_is = self.rejected_sha256.as_ref().map_or(Ok(true), |known| same(list, known))?;
+        Ok(list_is && same(out, &self.sha256)?)
+    }
+}
+
+/// SHA-256 of a file, in hexadecimal digits.
+fn sha256(path: &Path) -> Result<String, CliError> {
+    let hash = || -> std::io::Result<String> {
+        let mut file = File::open(path)?;
+        let mut hash = Sha256::new();
+        let mut piece = vec![0; 1 << 20];
+        loop {
+            match file.read(&mut piece)? {
+                0 => return Ok(format!("{:x}", hash.finalize())),
+                read => hash.update(&piece[..read]),
+            }
+        }
+    };
+    hash().map_err(|source| CliError::Read { path: path.into(), source })
+}

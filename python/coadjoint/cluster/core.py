@@ -1,0 +1,89 @@
+"""What runs on clusters need of the package: a system as text, its schedule, and rows advanced."""
+
+from __future__ import annotations
+
+import platform
+import threading
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pyarrow
+
+from .._arrays import Floats
+from .._core import Core, __version__
+from ..system import System
+from .errors import InputError, ShardError
+
+#: What a run does, whatever its rows are.
+_SCHEDULE = ("time", "step", "steps", "truncation")
+
+
+@dataclass(frozen=True)
+class Made:
+    """Rows at the end: NaN where there is no end state, and (index, step, reason) for each of these."""
+
+    states: Floats
+    bad: list[tuple[int, int, str]]
+    drift: dict[str, float]
+    notes: list[str]
+
+
+def versions() -> dict[str, str]:
+    """What the bytes of a run depend on besides its manifest.
+
+    Parquet files name the program that wrote them, and its version chooses encodings and statistics: pyarrow is among
+    them. Other kinds of processors may have other last bits.
+    """
+    return {"coadjoint": __version__, "pyarrow": pyarrow.__version__, "processor": platform.machine()}
+
+
+def pin(system: Any, asked: dict[str, Any], backend: str) -> dict[str, Any]:
+    """The run in text and numbers: what a tolerance picks is picked here, once."""
+    if not isinstance(system, System):
+        raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
+    core = _core(system.text)
+    none = np.empty((0, system.dimension))
+    _, _, facts = core.ensemble(none, system._asked(**asked), backend=backend, threads=1, progress=None)
+    return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
+
+
+def layouts(job: dict[str, Any]) -> list[list[str]]:
+    """The columns that rows may have."""
+    return _core(job["text"]).layouts()
+
+
+def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
+    """Advances rows."""
+    asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation")}
+    states, failed, facts = _core(job["text"]).ensemble(
+        numbers, asked, backend=job["backend"], threads=threads, progress=None
+    )
+    for key in _SCHEDULE:
+        if facts[key] != job[key]:
+            raise ShardError(f"{key} is {facts[key]} here and {job[key]} in the manifest")
+    drift = {key: facts[key] for key in ("spatial_momentum", "casimirs", "ratio")}
+    return Made(states, failed, drift, facts["notes"])
+
+
+def warnings(ratio: float, notes: list[str]) -> list[str]:
+    """What should be known of a run."""
+    found = list(dict.fromkeys(notes))
+    if ratio != 0.0:
+        found.append(
+            f"the series hardly converges for some rows: its last two terms have the ratio {ratio:.3f}, above 0.25; "
+            "the motion may be inaccurate: take a smaller step"
+        )
+    return found
+
+
+_known: dict[str, Core] = {}
+_lock = threading.Lock()
+
+
+def _core(text: str) -> Core:
+    """The system of a text, which keeps what has been derived: once in a process."""
+    with _lock:
+        if text not in _known:
+            _known[text] = Core(text, "system")
+        return _known[text]

@@ -1,0 +1,79 @@
+"""Shards as tasks of a Dask cluster."""
+
+from __future__ import annotations
+
+import queue
+import uuid
+from collections.abc import Iterable
+from typing import Any
+
+from . import shard
+from .errors import InputError, ShardError, WorkerDied
+from .shard import Summary, Task
+
+
+class Dask:
+    """Hands shards to a ``distributed.Client``. Shards of workers that die go to others by Dask's own rules."""
+
+    #: Enough for adaptive clusters to see what there is to do, little enough for the scheduler.
+    capacity = 10_000
+
+    def __init__(self, client: Any) -> None:
+        if client.asynchronous:
+            raise InputError("client is asynchronous: make it by Client(...), without asynchronous=True")
+        if client.status != "running":
+            raise InputError(f"client is {client.status}: it has no scheduler to hand shards to")
+        self._client = client
+        self._run = uuid.uuid4().hex[:8]
+        self._count = 0
+        self._futures: set[Any] = set()
+        self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
+
+    def submit(self, task: Task) -> Any:
+        """Hands the shard to the scheduler."""
+        self._count += 1
+        key = f"coadjoint-{self._run}-{task.shard}-{self._count}"
+        future = self._client.submit(shard.run, task, key=key, pure=False)
+        self._futures.add(future)
+        future.add_done_callback(self._done.put)
+        return future
+
+    def wait(self, handles: Iterable[Any]) -> list[Any]:
+        """Those that are done."""
+        found = []
+        try:
+            found.append(self._done.get(timeout=0.5))
+            while True:
+                found.append(self._done.get_nowait())
+        except queue.Empty:
+            return found
+
+    def result(self, handle: Any) -> Summary:
+        """Its summary."""
+        from distributed.client import FutureCancelledError
+        from distributed.scheduler import KilledWorker
+
+        self._futures.discard(handle)
+        try:
+            summary: Summary = handle.result()
+            return summary
+        except KilledWorker as error:
+            raise ShardError(
+                f"it has ended every worker that tried it, the last one {error.last_worker.address}; often there is "
+                "too little memory for a worker (Dask's setting distributed.scheduler.allowed-failures "
+                "says how often a shard is tried). Finished shards are kept: mend the cause and call again"
+            ) from None
+        except FutureCancelledError as error:
+            raise WorkerDied(f"Dask has lost the shard: {error}") from None
+        except (ImportError, AttributeError) as error:
+            raise ShardError(f"a Dask worker cannot load coadjoint: {error}; install it there too") from error
+
+    def workers(self) -> int:
+        """Workers that the scheduler has now."""
+        return len(self._client.scheduler_info(n_workers=-1)["workers"])
+
+    def close(self) -> None:
+        """Takes back what has not run; the cluster is the caller's."""
+        if self._futures and self._client.status == "running":
+            self._client.cancel(list(self._futures), force=True)
+        self._futures.clear()

@@ -1,0 +1,132 @@
+"""One call from a file of states to a folder of end states, by whatever there is to run it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from . import local
+from .drive import Engine
+from .errors import InputError
+from .job import Job
+from .progress import Progress
+from .result import Result
+
+
+def run(
+    system: Any,
+    *,
+    states: str | os.PathLike[str] | Sequence[str],
+    out: str | os.PathLike[str],
+    time: float | None = None,
+    step: float | None = None,
+    tolerance: float | None = None,
+    region: float | None = None,
+    truncation: int | None = None,
+    backend: str = "auto",
+    client: Any = None,
+    workers: int | None = None,
+    threads: int = 1,
+    rows_per_shard: int | None = None,
+    share: tuple[int, int] | None = None,
+    keep: Sequence[str] = (),
+    attempts: int = 3,
+    restart: bool = False,
+    verify: bool = True,
+    progress: bool | Callable[[Progress], None] = True,
+    storage_options: dict[str, Any] | None = None,
+) -> Result:
+    """Advances every row of files of states, on many processes or machines, into a folder of Parquet files.
+
+    The files in ``out`` have the same bytes whatever runs the shards, however many workers there are, and whatever
+    was killed on the way. Called again, it keeps the shards that are finished and makes the others.
+
+    Parameters
+    ----------
+    system : coadjoint.System
+        The system.
+    states : path, fsspec name, pattern, folder, or list
+        ``.parquet`` with columns ``mu_1`` … ``mu_n`` and if you like the attitude (``g_11`` … ``g_dd``, or ``q_w``,
+        ``q_x``, ``q_y``, ``q_z`` on SO(3)), or ``.npy`` of that many columns. Rows of several files are counted
+        through, in the order of the list or of their names.
+    out : path or fsspec name
+        The folder: ``part-00000.parquet`` … with a row for every row of ``states``, and ``_run`` with the manifest,
+        records of shards, and lists of bad rows.
+    time, step, tolerance : float, optional
+        The duration, and the step or the tolerance; the system's own if not given.
+    region : float, optional
+        The norm of momenta up to which the tolerance is to hold; along the system's own run if not given.
+    truncation : int, optional
+        S₁ … S_K are kept, K odd; the system's own if not given.
+    backend : str
+        What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
+    client : optional
+        A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, processes of this machine.
+    workers : int, optional
+        How many processes, without a client; one for each processor if not given. With 1 this process does it.
+    threads : int
+        Threads of each worker; with Ray, the processors that it reserves.
+    rows_per_shard : int, optional
+        How many rows make a shard; chosen by the number of steps if not given.
+    share : (i, n), optional
+        Only the share i of n of the shards, i from 1: for job arrays.
+    keep : list of str
+        Other columns of ``.parquet`` files that go through unchanged.
+    attempts : int
+        How often a shard is tried whose worker dies.
+    restart : bool
+        Forgets what an earlier run has left in ``out``.
+    verify : bool
+        Whether finished shards are read again and compared with their SHA-256 before they are kept; else their sizes
+        are compared.
+    progress : bool or function
+        A line on the error stream, nothing, or a function of a ``Progress``.
+    storage_options : dict, optional
+        For fsspec: of ``states`` and ``out``. They are never written down.
+
+    Raises
+    ------
+    InputError
+        Where the states or an option cannot be used.
+    ManifestError
+        Where ``out`` holds another run; it says in what the two differ.
+    ShardError
+        Where a shard cannot be made. What is finished stays.
+    ClusterError
+        Where not a single row reaches the end.
+    """
+    asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
+    job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options)
+    if isinstance(attempts, bool) or not isinstance(attempts, int) or attempts < 1:
+        raise InputError(f"attempts = {attempts!r}: a whole number, at least 1, is needed")
+    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
+        raise InputError(f"threads = {threads!r}: a whole number, at least 1, is needed")
+    if restart and share is not None:
+        raise InputError(
+            "restart with share: every job would remove what the others have made; remove the folder once, or begin "
+            "anew by a call without share"
+        )
+    engine = engine_of(client, workers, threads)
+    job.settle(restart)
+    return job.run(engine, attempts, threads, verify, progress)
+
+
+def engine_of(client: Any, workers: int | None, threads: int) -> Engine:
+    """What runs the shards."""
+    if client is None:
+        return local.engine(workers)
+    home = client.__name__ if hasattr(client, "__path__") else type(client).__module__
+    if home != "ray" and home.split(".")[0] != "distributed":
+        raise InputError(
+            f"client is {client!r}: a dask.distributed.Client, the module ray after ray.init(), or nothing is needed"
+        )
+    if workers is not None:
+        raise InputError("workers is for processes of this machine: the client has its own number")
+    if home == "ray":
+        from .ray_engine import Ray
+
+        return Ray(client, threads)
+    from .dask_engine import Dask
+
+    return Dask(client)
