@@ -1,0 +1,84 @@
+//! Polynomials as MathML.
+
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::problem::Problem;
+use num_traits::{One, Signed};
+
+/// Longer polynomials are cut.
+const MOST_TERMS: usize = 160;
+
+/// A polynomial in the momentum, `name = …`, as one formula.
+#[must_use]
+pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> String {
+    let (dim, mut body) = (problem.algebra.dim(), String::new());
+    let terms: Vec<(Vec<u32>, Rational)> = polynomial.terms().collect();
+    for (number, (exponents, value)) in terms.iter().take(MOST_TERMS).enumerate() {
+        match (number, value.is_negative()) {
+            (0, false) => {}
+            (0, true) => body.push_str("<mo>−</mo>"),
+            (_, true) => body.push_str("<mo>−</mo>"),
+            (_, false) => body.push_str("<mo>+</mo>"),
+        }
+        let (momenta, symbols) = exponents.split_at(dim.min(exponents.len()));
+        let size = value.abs();
+        if !size.is_one() || exponents.iter().all(|&power| power == 0) {
+            body.push_str(&rational(&size));
+        }
+        for (symbol, &power) in problem.symbols.iter().zip(symbols) {
+            push_power(&mut body, &format!("<mrow><mo>(</mo><mtext>{}</mtext><mo>)</mo></mrow>", escape(&symbol.text)), power);
+        }
+        for (coordinate, &power) in problem.coordinates.iter().zip(momenta) {
+            push_power(&mut body, &name_of(coordinate), power);
+        }
+    }
+    if terms.is_empty() {
+        body.push_str("<mn>0</mn>");
+    }
+    if terms.len() > MOST_TERMS {
+        body.push_str(&format!("<mo>+</mo><mtext> … {} more terms</mtext>", terms.len() - MOST_TERMS));
+    }
+    format!("<math display=\"block\"><mrow>{name}<mo>=</mo>{body}</mrow></math>")
+}
+
+/// S_k with its order.
+#[must_use]
+pub fn order(k: usize) -> String {
+    format!("<msub><mi>S</mi><mn>{k}</mn></msub>")
+}
+
+fn push_power(body: &mut String, base: &str, power: u32) {
+    match power {
+        0 => {}
+        1 => body.push_str(base),
+        _ => body.push_str(&format!("<msup>{base}<mn>{power}</mn></msup>")),
+    }
+}
+
+fn rational(value: &Rational) -> String {
+    if value.is_integer() {
+        return format!("<mn>{}</mn>", value.numer());
+    }
+    format!("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", value.numer(), value.denom())
+}
+
+/// `x1` as x₁, `Pi_x` as Π with index x, `mu[0]` as μ with index 0.
+#[must_use]
+pub fn name_of(name: &str) -> String {
+    let end = name.find(|c: char| !c.is_alphabetic()).unwrap_or(name.len());
+    let (head, tail) = name.split_at(end);
+    let greek = [
+        ("Pi", "Π"), ("Gamma", "Γ"), ("Omega", "Ω"), ("mu", "μ"), ("pi", "π"), ("gamma", "γ"), ("omega", "ω"),
+        ("alpha", "α"), ("beta", "β"), ("xi", "ξ"), ("nu", "ν"),
+    ];
+    let head = greek.iter().find(|(word, _)| *word == head).map_or(head, |(_, letter)| letter);
+    let index: String = tail.chars().filter(|c| c.is_alphanumeric()).collect();
+    let head = format!("<mi>{}</mi>", escape(head));
+    if index.is_empty() { head } else { format!("<msub>{head}<mtext>{}</mtext></msub>", escape(&index)) }
+}
+
+/// For HTML.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
