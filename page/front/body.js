@@ -28,11 +28,11 @@ function sceneOf(about) {
 function captionOf(scene, about) {
   const motion = about.factors[0].kind === "motion";
   return {
-    body: motion ? "seen from space; its impulse points up and stays" : "seen from space; its angular momentum points up and stays",
-    top: "seen from space; the vertical points up and stays",
-    spins: "each arrow is a spin",
-    plane: "seen from above, with the way it went",
-    matrix: "the group element’s matrix: colour is the sign, depth the size",
+    body: motion ? "the arrow: its impulse, which stays" : "the arrow: its momentum, which stays",
+    top: "the arrow: the vertical",
+    spins: "an arrow each",
+    plane: "from above, with its way",
+    matrix: "its matrix: colour for signs",
   }[scene.kind];
 }
 
@@ -49,7 +49,7 @@ function onScreen(width, height, scale) {
   return (p) => {
     const [x, y, z] = times(rows, p);
     const near = 1 / (1 - 0.12 * z);
-    return [width / 2 + x * near * scale, height / 2 - y * near * scale, z];
+    return [width / 2 + x * near * scale, height * 0.54 - y * near * scale, z];
   };
 }
 
@@ -58,7 +58,7 @@ function drawSolid(context, width, height, scene, about, now, start) {
   const rotation = rotationOf(...now.subarray(n, n + 4));
   const vertical = about.factors[0].kind === "motion" && size(start.slice(3, 6)) > 0 ? start.slice(3, 6) : start.slice(0, 3);
   const up = upright(vertical);
-  const place = onScreen(width, height, Math.min(width, height) * 0.36);
+  const place = onScreen(width, height, Math.min(width, height) * 0.385);
   const toWorld = (p) => times(up, times(rotation, p));
   const tip = toWorld(scene.tip);
   leaveTip(scene, tip);
@@ -111,8 +111,8 @@ function boxFaces({ axes, edges }) {
       faces.push({ points: ring.map((at) => corner(...at)), normal: scaled(axes[axis], sign), colour: colours[`face-${axis + 1}`] });
       if (sign === 1) {
         // A mark, so that one side is told from the other.
-        const mark = ring.map((at) => corner(...at.map((x, i) => (i === axis ? x * 1.001 : x * 0.45))));
-        faces.push({ points: mark, normal: scaled(axes[axis], sign), colour: colours.sheet, fine: true });
+        const mark = ring.map((at) => corner(...at.map((x, i) => (i === axis ? x * 1.001 : x * 0.16))));
+        faces.push({ points: mark, normal: scaled(axes[axis], sign), colour: colours.mark, fine: true });
       }
     }
   }
@@ -162,7 +162,7 @@ function drawFloor(context, place) {
 }
 
 function drawUp(context, place) {
-  const [a, b] = [place([0, 0, 0]), place([0, 0, 1.22])];
+  const [a, b] = [place([0, 0, 0]), place([0, 0, 1.2])];
   arrow(context, a, b, colours.ours, 3);
 }
 
@@ -180,7 +180,7 @@ function drawTips(context, place, scene, eye, inFront) {
   const { tips } = scene;
   for (let i = 1; i < tips.length; i++) {
     if (dot(tips[i], eye) > 0 !== inFront) continue;
-    if (size(plus(tips[i], scaled(tips[i - 1], -1))) > 0.7) continue;
+    if (size(plus(tips[i], scaled(tips[i - 1], -1))) > 0.3) continue;
     const [a, b] = [place(tips[i - 1]), place(tips[i])];
     context.strokeStyle = faint(colours.ours, ((inFront ? 0.75 : 0.3) * i) / tips.length);
     context.beginPath();
@@ -192,7 +192,7 @@ function drawTips(context, place, scene, eye, inFront) {
 
 function drawSpins(context, width, height, scene, about, now) {
   const count = about.factors.length;
-  const place = onScreen(width, height, Math.min(width, height) * 0.34);
+  const place = onScreen(width, height, Math.min(width, height) * 0.38);
   const eye = camera(state.bodyView)[2];
   const spins = about.factors.map((factor, i) => {
     const angle = (i / count) * 2 * Math.PI;
@@ -201,7 +201,7 @@ function drawSpins(context, width, height, scene, about, now) {
     return { foot, mu, depth: dot(foot, eye) };
   });
   const largest = Math.max(...spins.map((spin) => size(spin.mu)), 1e-300);
-  const length = Math.min(0.5, 2.2 / count + 0.15);
+  const length = Math.min(0.7, 2.4 / count + 0.2);
   drawFloor(context, place);
   for (const { foot, mu } of spins.sort((a, b) => a.depth - b.depth)) {
     const end = plus(foot, scaled(mu, length / largest));

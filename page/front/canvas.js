@@ -2,7 +2,7 @@
 let colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["paper", "sheet", "ink", "soft", "line", "ours", "rival", "sphere-light", "sphere-dark", "level", "face-1", "face-2", "face-3", "edge"];
+  const names = ["paper", "sheet", "ink", "soft", "line", "ours", "rival", "sphere-light", "sphere-dark", "level", "face-1", "face-2", "face-3", "edge", "mark"];
   colours = Object.fromEntries(names.map((name) => [name, style.getPropertyValue("--" + name).trim()]));
 }
 

@@ -3,9 +3,17 @@ const TRUNCATIONS = [1, 3, 5, 7, 9, 11, 13];
 // The step that the slider's middle stands for.
 let middleStep = 0.1;
 
-function makeForm(gallery, groups, changed) {
+function makeForm(groups, changed) {
   const choice = byId("gallery");
-  for (const { id, title } of gallery) choice.add(new Option(title, id));
+  for (const { id, title, family } of gallery) {
+    let group = [...choice.children].find((group) => group.label === family);
+    if (!group) {
+      group = document.createElement("optgroup");
+      group.label = family;
+      choice.append(group);
+    }
+    group.append(new Option(title, id));
+  }
   for (const [name, summary] of groups) {
     const option = new Option(summary, name);
     byId("groups").append(option);
@@ -36,7 +44,7 @@ function makeForm(gallery, groups, changed) {
 }
 
 // The state into the fields.
-function fillForm(gallery) {
+function fillForm() {
   const entry = gallery.find((entry) => entry.id === state.system);
   byId("gallery").value = state.system;
   const same = entry && ["group", "algebra", "hamiltonian"].every((key) => entry.fields[key] === state.fields[key]);
@@ -111,7 +119,9 @@ function element(tag, className, text) {
 // A mistake: the line with its place, what is wrong, what to write instead.
 function shown(mistake, value, [start, end]) {
   const box = element("div", "mistake");
-  if (value && mistake.end > mistake.start && !(start === 0 && end >= value.length)) {
+  // In a short text the mark in the field itself is enough.
+  const long = value.length > 30 || value.includes("\n") || byId(mistake.field)?.tagName !== "TEXTAREA";
+  if (value && long && mistake.end > mistake.start && !(start === 0 && end >= value.length)) {
     const [from, to] = [value.lastIndexOf("\n", start - 1) + 1, value.indexOf("\n", start)];
     const line = to < 0 ? value.length : to;
     const [near, far] = [Math.max(from, start - 24), Math.min(line, Math.max(end, start + 1) + 24)];

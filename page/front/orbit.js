@@ -64,7 +64,7 @@ function drawOrbit(canvas, about, start, trails) {
   const [rival, ours] = trails;
   drawTrail(context, frame, rival, colours.rival, [5, 4]);
   drawTrail(context, frame, ours, colours.ours, []);
-  const first = state.axes.map((i) => start[i]);
+  const first = state.axes.map((i) => start[i] ?? 0);
   ring(context, frame, first);
   const at = [...ours.slice(-3)];
   if (at.length === 3 && at.every(Number.isFinite)) spot(context, frame, at);
@@ -119,6 +119,8 @@ function drawAxes(context, about, { radius, place, rows, width, height }) {
   context.textAlign = "center";
   context.textBaseline = "middle";
   state.axes.forEach((coordinate, axis) => {
+    // Groups of one or two dimensions have no more axes.
+    if (coordinate >= about.dim) return;
     const end = [0, 0, 0];
     end[axis] = length;
     const away = rows[2][axis] < 0;

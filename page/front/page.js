@@ -8,7 +8,6 @@ let lastFrame = 0;
 // Milliseconds that steps may take in a frame.
 const BUDGET = 7;
 const frameTimes = [];
-let gallery = [];
 const [bodyCanvas, orbitCanvas] = [byId("body"), byId("orbit")];
 let dirty = true;
 
@@ -43,7 +42,9 @@ function build() {
   about = JSON.parse(session.about());
   start = about.momentum;
   scene = sceneOf(about);
-  if (state.axes.length !== 3 || state.axes.some((i) => i >= about.dim) || about.dim <= 3) state.axes = firstAxes(about);
+  if (state.axes.length !== 3 || about.dim <= 3 || state.axes.some((i) => i >= about.dim)) {
+    state.axes = (about.dim > 3 && about.spheres[0]) || [0, 1, 2];
+  }
   fillAxes();
   readCurves(session, start);
   captions();
@@ -51,11 +52,6 @@ function build() {
   showText();
   writeLink();
   return true;
-}
-
-function firstAxes(about) {
-  if (about.spheres.length && about.dim > 3) return about.spheres[0];
-  return [0, 1, 2].map((i) => Math.min(i, about.dim - 1));
 }
 
 function begin() {
@@ -70,10 +66,10 @@ function begin() {
 function captions() {
   byId("body-title").textContent = { body: "The body", top: "The top", spins: "The spins", plane: "The body", matrix: "The group element" }[scene.kind];
   byId("body-caption").textContent = captionOf(scene, about);
-  const surface = orbitScene.curves ? (orbitScene.radius ? "on its sphere" : "on its orbit") : sphereRadius(about, start) ? "on a sphere" : "three of its coordinates";
-  const more = orbitScene.curves ? ", among the level curves of the energy" : "";
-  byId("orbit-title").textContent = "Its momentum";
-  byId("orbit-caption").textContent = surface + more + (sphereRadius(about, start) ? "; drag the ring" : "");
+  const sphere = sphereRadius(about, start) > 0;
+  byId("orbit-caption").textContent = sphere
+    ? `${orbitScene.curves ? "" : state.axes.map((i) => nicely(about.coordinates[i])).join(", ") + " "}on ${orbitScene.curves ? "its" : "a"} sphere: drag the ring`
+    : orbitScene.curves ? "on its orbit, with energy levels" : "three of its coordinates";
   const m = about.substeps;
   const unitOfTime = about.time_unit ? ` ${about.time_unit}` : "";
   byId("ours-name").textContent = `this method, order ${about.order}, h = ${shortly(about.step)}${unitOfTime}`;
@@ -81,7 +77,7 @@ function captions() {
   const terms = about.terms.map(([, count]) => count).join(" + ");
   byId("cost").textContent =
     `At the same cost: ${m === 1 ? "one step of Runge–Kutta" : `${m} steps of Runge–Kutta`} for each of ours, counted in operations. ` +
-    `S has ${terms} terms. Drifts are relative; rounding is at 10⁻¹⁶.`;
+    `S has ${terms} terms. Drifts are relative, the numbers the largest so far; rounding is at 10⁻¹⁶.`;
 }
 
 function fillAxes() {
@@ -272,7 +268,7 @@ function choose(id) {
   state.fields = { ...entry.fields };
   state.axes = [];
   orbitScene.extent = 0;
-  fillForm(gallery);
+  fillForm();
   build();
   setPlaying(!calm.matches);
 }
@@ -364,8 +360,8 @@ function wire() {
     flash(byId("link"), "Copied");
   });
   addEventListener("hashchange", () => {
-    if (location.hash === written || !readLink(gallery)) return;
-    fillForm(gallery);
+    if (location.hash === written || !readLink()) return;
+    fillForm();
     build();
     setPlaying(state.playing && !calm.matches);
     showSpeed();
@@ -389,16 +385,16 @@ async function main() {
   readColours();
   await openLibrary();
   gallery = JSON.parse(wasm_bindgen.gallery());
-  if (!readLink(gallery)) {
+  if (!readLink()) {
     state.system = gallery[0].id;
     state.fields = { ...gallery[0].fields };
   }
-  makeForm(gallery, JSON.parse(wasm_bindgen.groups()), (wait) => {
+  makeForm(JSON.parse(wasm_bindgen.groups()), (wait) => {
     byId("about").textContent = "A system of your own.";
     if (wait) rebuildLater();
     else build();
   });
-  fillForm(gallery);
+  fillForm();
   showSpeed();
   wire();
   if (build()) page.firstPicture = performance.now();

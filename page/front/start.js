@@ -43,6 +43,6 @@ function shortly(x, digits = 3) {
   if (!Number.isFinite(x)) return "not finite";
   if (x === 0) return "0";
   const size = Math.abs(x);
-  const text = size >= 1e-3 && size < 1e5 ? String(+x.toPrecision(digits)) : x.toExponential(Math.max(0, digits - 2));
+  const text = size >= 1e-3 && size < 1e5 ? String(+x.toPrecision(digits)) : x.toExponential(digits - 1);
   return text.replace("-", "−").replace("e+", "e");
 }

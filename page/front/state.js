@@ -2,6 +2,9 @@
 const FIELDS = ["name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "truncation", "chart", "frame", "step", "momentum", "time"];
 const TABS = ["formulas", "rust", "file", "python", "c"];
 
+// The systems to choose from.
+let gallery = [];
+
 const state = {
   // The system of the gallery that the fields began with.
   system: "",
@@ -19,7 +22,8 @@ const state = {
 function linkOf() {
   const entries = new URLSearchParams();
   if (state.system) entries.set("system", state.system);
-  for (const key of FIELDS) if (state.fields[key]) entries.set(key, state.fields[key]);
+  const given = gallery.find((entry) => entry.id === state.system)?.fields ?? {};
+  for (const key of FIELDS) if (state.fields[key] || given[key]) entries.set(key, state.fields[key] ?? "");
   entries.set("speed", String(+state.speed.toPrecision(3)));
   if (state.axes.join() !== "0,1,2") entries.set("axes", state.axes.join(" "));
   if (state.tab !== "formulas") entries.set("tab", state.tab);
@@ -30,14 +34,13 @@ function linkOf() {
 }
 
 // Takes what the link says into the state; whether it says anything.
-function readLink(gallery) {
+function readLink() {
   const entries = new URLSearchParams(location.hash.slice(1));
   const entry = gallery.find((entry) => entry.id === entries.get("system"));
   if (!entry && !entries.has("hamiltonian")) return false;
   state.system = entry ? entry.id : "";
-  const typed = FIELDS.some((key) => entries.has(key));
-  state.fields = typed || !entry ? {} : { ...entry.fields };
-  for (const key of FIELDS) if (typed || !entry) state.fields[key] = entries.get(key) ?? "";
+  state.fields = {};
+  for (const key of FIELDS) state.fields[key] = entries.get(key) ?? entry?.fields[key] ?? "";
   if (!state.fields.chart) state.fields.chart = "exp";
   if (!state.fields.frame) state.fields.frame = "fixed";
   const number = (text) => (text !== null && Number.isFinite(+text) ? +text : null);

@@ -6,13 +6,12 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::fields::Fields;
 use crate::formula;
 use crate::mistakes::Mistake;
-use crate::orbit::{Curve, Surface};
-use crate::polynomial::Numeric;
+use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
 use crate::system::{Factor, System};
 use crate::texts::{Language, text};
 
-/// The systems to choose from, as JSON: `[{id, title, about, fields}]`.
+/// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
 #[must_use]
 pub fn gallery() -> String {
@@ -40,6 +39,7 @@ fn json(value: &impl Serialize) -> String {
 pub struct Session {
     system: System,
     run: Run,
+    orbit: Option<Orbit>,
 }
 
 /// What a page shows of a system.
@@ -83,7 +83,7 @@ impl Session {
         })?;
         let system = System::new(&fields).map_err(|mistakes| json(&mistakes))?;
         let run = Run::new(&system, &system.momentum);
-        Ok(Self { system, run })
+        Ok(Self { system, run, orbit: None })
     }
 
     /// What a page shows of the system, as JSON.
@@ -112,13 +112,25 @@ impl Session {
             energy: energy.value(momentum),
             terms: orders.map(|k| (k, integrator.series.order(k).len())).collect(),
             comoving: problem.comoving.is_some(),
-            casimirs: self.system.casimirs.iter().enumerate().map(|(i, (exact, _))| {
-                formula::equation(&format!("<msub><mi>C</mi><mn>{}</mn></msub>", i + 1), exact, problem)
-            }).collect(),
+            casimirs: self
+                .system
+                .casimirs
+                .iter()
+                .enumerate()
+                .map(|(i, (exact, _))| {
+                    formula::equation(
+                        &format!("<msub><mi>C</mi><mn>{}</mn></msub>", i + 1),
+                        exact,
+                        problem,
+                    )
+                })
+                .collect(),
             factors,
             element: step.element_about(),
             spheres: spheres(factors),
-            inverse_inertia: (0..leading * leading).map(|at| curvature(at / leading, at % leading)).collect(),
+            inverse_inertia: (0..leading * leading)
+                .map(|at| curvature(at / leading, at % leading))
+                .collect(),
             slope: (0..n).map(|i| slopes[i].value(&vec![0.0; n])).collect(),
             time_unit: units.time.as_deref(),
             substeps: self.run.substeps(),
@@ -183,18 +195,19 @@ impl Session {
         self.run.between(part)
     }
 
-    /// Where three coordinates of μ have been, of late: points (x, y, z).
+    /// Where three coordinates of μ have been, of late: points (x, y, z); 0 for those that there are none of.
     #[must_use]
     pub fn trail(&self, of_rival: bool, a: usize, b: usize, c: usize, part: f64) -> Vec<f32> {
-        let n = self.system.dim();
-        if a.max(b).max(c) >= n { Vec::new() } else { self.run.trail(of_rival, [a, b, c], part) }
+        self.run.trail(of_rival, [a, b, c], part)
     }
 
     /// The drifts so far, seven numbers a moment: t, then energy, momentum, Casimirs, ours and the rival's.
     #[must_use]
     pub fn history(&self) -> Vec<f64> {
         let samples = self.run.history().samples().iter();
-        samples.flat_map(|sample| [sample.time].into_iter().chain(sample.drifts.into_iter().flatten())).collect()
+        samples
+            .flat_map(|sample| [sample.time].into_iter().chain(sample.drifts.into_iter().flatten()))
+            .collect()
     }
 
     /// The largest drifts so far: energy, momentum, Casimirs, ours and the rival's.
@@ -206,21 +219,24 @@ impl Session {
     /// The level curves of the energy on the orbit of this momentum, where the algebra has three dimensions and a
     /// Casimir: the radius of a sphere or 0, the extent, how many curves are of spread levels; then for each curve how
     /// many points it has, and those with the surface's normals, six numbers each.
-    #[must_use]
-    pub fn curves(&self, momentum: &[f64]) -> Vec<f32> {
-        let found = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
-            ([(_, casimir)], 3, 3) => Surface::new(casimir, momentum).map(|surface| (surface, casimir)),
-            _ => None,
-        };
-        let Some((surface, casimir)) = found else { return Vec::new() };
-        let energy: &Numeric = &self.system.energy;
-        let (spread, own) = surface.curves(energy, casimir, energy.value(momentum));
-        let mut out = vec![surface.radius.unwrap_or(0.0) as f32, surface.extent as f32, spread.len() as f32];
+    pub fn curves(&mut self, momentum: &[f64]) -> Vec<f32> {
+        let energy = &self.system.energy;
+        // Where the momentum is dragged over its sphere only its own curve is another.
+        if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
+            self.orbit = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
+                ([(_, casimir)], 3, 3) => Orbit::new(energy, casimir, momentum),
+                _ => None,
+            };
+        }
+        let Some(Orbit { surface, spread, .. }) = &self.orbit else { return Vec::new() };
+        let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(momentum)));
+        let mut out =
+            vec![surface.radius.unwrap_or(0.0) as f32, surface.extent as f32, spread.len() as f32];
         let mut push = |curve: &Curve| {
             out.push(curve.len() as f32);
             out.extend(curve.iter().flatten().map(|&x| x as f32));
         };
-        spread.iter().chain(&own).for_each(&mut push);
+        spread.iter().chain(own.iter().flatten()).for_each(&mut push);
         out
     }
 
@@ -234,7 +250,11 @@ impl Session {
             list.push(formula::equation("<mi>f</mi>", &frame.energy(), problem));
         }
         let orders = (1..=problem.truncation).step_by(2);
-        list.extend(orders.map(|k| formula::equation(&formula::order(k), integrator.series.order(k), problem)));
+        list.extend(
+            orders.map(|k| {
+                formula::equation(&formula::order(k), integrator.series.order(k), problem)
+            }),
+        );
         json(&list)
     }
 
@@ -252,9 +272,12 @@ impl Session {
 fn spheres(factors: &[Factor]) -> Vec<[usize; 3]> {
     use crate::system::Kind;
     let triple = |start: usize| [start, start + 1, start + 2];
-    factors.iter().filter_map(|factor| match factor.kind {
-        Kind::Rotation => Some(triple(factor.coordinate)),
-        Kind::Motion => Some(triple(factor.coordinate + 3)),
-        _ => None,
-    }).collect()
+    factors
+        .iter()
+        .filter_map(|factor| match factor.kind {
+            Kind::Rotation => Some(triple(factor.coordinate)),
+            Kind::Motion => Some(triple(factor.coordinate + 3)),
+            _ => None,
+        })
+        .collect()
 }

@@ -42,8 +42,16 @@ impl Fields {
         let document = DeTable::parse(text).ok()?;
         let root = document.get_ref();
         let known = [
-            "name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "units",
-            "integrator", "initial", "run",
+            "name",
+            "group",
+            "algebra",
+            "coordinates",
+            "hamiltonian",
+            "parameters",
+            "units",
+            "integrator",
+            "initial",
+            "run",
         ];
         if root.keys().any(|key| !known.contains(&key.get_ref().as_ref())) {
             return None;

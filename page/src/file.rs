@@ -73,9 +73,14 @@ impl File {
     /// The field that these bytes of the text are from, and which of its bytes they are.
     #[must_use]
     pub fn place(&self, start: usize, end: usize) -> Option<(&'static str, Range<usize>)> {
-        let piece = self.pieces.iter().find(|piece| piece.text.start <= start && start <= piece.text.end)
+        let piece = self
+            .pieces
+            .iter()
+            .find(|piece| piece.text.start <= start && start <= piece.text.end)
             // A whole list, quotes and brackets included.
-            .or_else(|| self.pieces.iter().find(|piece| start <= piece.text.start && piece.text.start < end))?;
+            .or_else(|| {
+                self.pieces.iter().find(|piece| start <= piece.text.start && piece.text.start < end)
+            })?;
         let field = piece.field;
         let within = self.pieces.iter().filter(|other| other.field == field);
         let last = within.filter(|other| other.text.start <= end).last().unwrap_or(piece);
@@ -94,9 +99,14 @@ impl File {
 
     /// A text in quotes that leave it as it is.
     fn string(&mut self, field: &'static str, offset: usize, content: &str) {
-        let clean: String = content.chars().map(|c| if c == '\n' || !c.is_control() { c } else { ' ' }).collect();
+        let clean: String =
+            content.chars().map(|c| if c == '\n' || !c.is_control() { c } else { ' ' }).collect();
         let (open, close) = if clean.contains('\n') {
-            if clean.contains("\"\"\"") || clean.contains('\\') { ("'''\n", "'''") } else { ("\"\"\"\n", "\"\"\"") }
+            if clean.contains("\"\"\"") || clean.contains('\\') {
+                ("'''\n", "'''")
+            } else {
+                ("\"\"\"\n", "\"\"\"")
+            }
         } else if !clean.contains(['"', '\\']) {
             ("\"", "\"")
         } else if !clean.contains('\'') {
@@ -201,9 +211,9 @@ pub fn words(content: &str) -> Vec<(usize, &str)> {
 /// Entries of a list by lines, commas or semicolons.
 fn split(content: &str) -> Vec<(usize, &str)> {
     let parts = parts(content, |c| matches!(c, '\n' | ',' | ';'));
-    let trimmed = parts.into_iter().map(|(offset, part)| {
-        (offset + part.len() - part.trim_start().len(), part.trim())
-    });
+    let trimmed = parts
+        .into_iter()
+        .map(|(offset, part)| (offset + part.len() - part.trim_start().len(), part.trim()));
     trimmed.filter(|(_, part)| !part.is_empty()).collect()
 }
 
@@ -230,10 +240,15 @@ fn parts(content: &str, separates: impl Fn(char) -> bool) -> Vec<(usize, &str)> 
 fn is_number(text: &str) -> bool {
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, exponent.strip_prefix(['-', '+']).unwrap_or(exponent)),
+        Some((mantissa, exponent)) => {
+            (mantissa, exponent.strip_prefix(['-', '+']).unwrap_or(exponent))
+        }
         None => (unsigned, "0"),
     };
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, "0"));
     let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
-    digits(whole) && digits(decimals) && digits(exponent) && (whole == "0" || !whole.starts_with('0'))
+    digits(whole)
+        && digits(decimals)
+        && digits(exponent)
+        && (whole == "0" || !whole.starts_with('0'))
 }

@@ -1,4 +1,6 @@
 //! Polynomials as MathML.
+//!
+//! Browsers do not break lines within a formula.
 
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
@@ -8,37 +10,50 @@ use num_traits::{One, Signed};
 /// Longer polynomials are cut.
 const MOST_TERMS: usize = 160;
 
-/// A polynomial in the momentum, `name = …`, as one formula.
+/// A polynomial in the momentum, `name = …`: a formula for each term, so that lines break between them.
 #[must_use]
 pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> String {
-    let (dim, mut body) = (problem.algebra.dim(), String::new());
+    let dim = problem.algebra.dim();
+    let mut out = math(&format!("{name}<mo>=</mo>"));
     let terms: Vec<(Vec<u32>, Rational)> = polynomial.terms().collect();
     for (number, (exponents, value)) in terms.iter().take(MOST_TERMS).enumerate() {
+        let mut term = String::new();
         match (number, value.is_negative()) {
             (0, false) => {}
-            (0, true) => body.push_str("<mo>−</mo>"),
-            (_, true) => body.push_str("<mo>−</mo>"),
-            (_, false) => body.push_str("<mo>+</mo>"),
+            // A sign, and not a difference.
+            (0, true) => term.push_str("<mo form=\"prefix\">−</mo>"),
+            (_, true) => term.push_str("<mo form=\"infix\">−</mo>"),
+            (_, false) => term.push_str("<mo form=\"infix\">+</mo>"),
         }
         let (momenta, symbols) = exponents.split_at(dim.min(exponents.len()));
         let size = value.abs();
         if !size.is_one() || exponents.iter().all(|&power| power == 0) {
-            body.push_str(&rational(&size));
+            term.push_str(&rational(&size));
         }
         for (symbol, &power) in problem.symbols.iter().zip(symbols) {
-            push_power(&mut body, &format!("<mrow><mo>(</mo><mtext>{}</mtext><mo>)</mo></mrow>", escape(&symbol.text)), power);
+            let text = escape(&symbol.text);
+            push_power(
+                &mut term,
+                &format!("<mrow><mo>(</mo><mtext>{text}</mtext><mo>)</mo></mrow>"),
+                power,
+            );
         }
         for (coordinate, &power) in problem.coordinates.iter().zip(momenta) {
-            push_power(&mut body, &name_of(coordinate), power);
+            push_power(&mut term, &name_of(coordinate), power);
         }
+        out.push_str(&math(&term));
     }
     if terms.is_empty() {
-        body.push_str("<mn>0</mn>");
+        out.push_str(&math("<mn>0</mn>"));
     }
     if terms.len() > MOST_TERMS {
-        body.push_str(&format!("<mo>+</mo><mtext> … {} more terms</mtext>", terms.len() - MOST_TERMS));
+        out.push_str(&format!("+ … {} more terms", terms.len() - MOST_TERMS));
     }
-    format!("<math display=\"block\"><mrow>{name}<mo>=</mo>{body}</mrow></math>")
+    format!("<p class=\"equation\">{out}</p>")
+}
+
+fn math(row: &str) -> String {
+    format!("<math><mrow>{row}</mrow></math> ")
 }
 
 /// S_k with its order.
@@ -68,13 +83,26 @@ pub fn name_of(name: &str) -> String {
     let end = name.find(|c: char| !c.is_alphabetic()).unwrap_or(name.len());
     let (head, tail) = name.split_at(end);
     let greek = [
-        ("Pi", "Π"), ("Gamma", "Γ"), ("Omega", "Ω"), ("mu", "μ"), ("pi", "π"), ("gamma", "γ"), ("omega", "ω"),
-        ("alpha", "α"), ("beta", "β"), ("xi", "ξ"), ("nu", "ν"),
+        ("Pi", "Π"),
+        ("Gamma", "Γ"),
+        ("Omega", "Ω"),
+        ("mu", "μ"),
+        ("pi", "π"),
+        ("gamma", "γ"),
+        ("omega", "ω"),
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("xi", "ξ"),
+        ("nu", "ν"),
     ];
     let head = greek.iter().find(|(word, _)| *word == head).map_or(head, |(_, letter)| letter);
     let index: String = tail.chars().filter(|c| c.is_alphanumeric()).collect();
     let head = format!("<mi>{}</mi>", escape(head));
-    if index.is_empty() { head } else { format!("<msub>{head}<mtext>{}</mtext></msub>", escape(&index)) }
+    if index.is_empty() {
+        head
+    } else {
+        format!("<msub>{head}<mtext>{}</mtext></msub>", escape(&index))
+    }
 }
 
 /// For HTML.

@@ -64,7 +64,8 @@ impl History {
                 }
                 both
             };
-            self.filled = if self.samples.len().is_multiple_of(2) { 2 * self.width } else { self.filled };
+            self.filled =
+                if self.samples.len().is_multiple_of(2) { 2 * self.width } else { self.filled };
             self.samples = self.samples.chunks(2).map(pair).collect();
             self.width *= 2;
         }

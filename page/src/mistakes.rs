@@ -36,13 +36,17 @@ impl Mistake {
 /// The mistakes of a file in the order of the fields, then of their places.
 #[must_use]
 pub fn of_file(file: &File, diagnostics: &Diagnostics) -> Vec<Mistake> {
-    let mut list: Vec<Mistake> = file.unwritten.iter().map(|mistake| Mistake {
-        field: Some(mistake.field),
-        start: mistake.range.start,
-        end: mistake.range.end,
-        message: mistake.message.clone(),
-        help: Some(mistake.help.clone()),
-    }).collect();
+    let mut list: Vec<Mistake> = file
+        .unwritten
+        .iter()
+        .map(|mistake| Mistake {
+            field: Some(mistake.field),
+            start: mistake.range.start,
+            end: mistake.range.end,
+            message: mistake.message.clone(),
+            help: Some(mistake.help.clone()),
+        })
+        .collect();
     for diagnostic in diagnostics.iter() {
         let (message, help) = (diagnostic.mistake.to_string(), diagnostic.mistake.help());
         let place = match diagnostic.span {

@@ -27,6 +27,46 @@ pub struct Surface {
 /// A curve: points, and the normals of the surface there.
 pub type Curve = Vec<[f64; 6]>;
 
+/// An orbit with the energy on it.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    /// The surface.
+    pub surface: Surface,
+    /// The curves of evenly spread values of the energy.
+    pub spread: Vec<Curve>,
+    values: Vec<f64>,
+    slopes: Vec<Numeric>,
+}
+
+impl Orbit {
+    /// The orbit through μ; none where it is no surface.
+    #[must_use]
+    pub fn new(energy: &Numeric, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
+        let surface = Surface::new(casimir, mu)?;
+        let values: Vec<f64> = surface.points.iter().map(|p| energy.value(p)).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let slopes = casimir.gradient(3);
+        let level = |i: usize| least + (most - least) * (i as f64 + 0.5) / LEVELS as f64;
+        let spread =
+            (0..LEVELS).flat_map(|i| surface.level_curves(&values, level(i), &slopes)).collect();
+        Some(Self { surface, spread, values, slopes })
+    }
+
+    /// The curves of this energy.
+    #[must_use]
+    pub fn level(&self, energy: f64) -> Vec<Curve> {
+        self.surface.level_curves(&self.values, energy, &self.slopes)
+    }
+
+    /// Whether this is a sphere, and μ on it to a hundred-thousandth.
+    #[must_use]
+    pub fn holds(&self, mu: &[f64]) -> bool {
+        let size = mu.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        self.surface.radius.is_some_and(|radius| (size - radius).abs() < 1e-5 * radius)
+    }
+}
+
 impl Surface {
     /// The orbit through μ, given the Casimir; none where μ or the Casimir is nothing.
     #[must_use]
@@ -38,14 +78,29 @@ impl Surface {
         if is_sphere(casimir) {
             return Some(Self::sphere(size));
         }
-        Some(Self::level(casimir, casimir.value(mu), EXTENT * size)).filter(|surface| !surface.triangles.is_empty())
+        Some(Self::level(casimir, casimir.value(mu), EXTENT * size))
+            .filter(|surface| !surface.triangles.is_empty())
     }
 
     fn sphere(radius: f64) -> Self {
         // An octahedron, parted.
-        let mut points = vec![[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        let mut points = vec![
+            [1.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, -1.0],
+        ];
         let mut triangles: Vec<[u32; 3]> = vec![
-            [0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5],
+            [0, 2, 4],
+            [2, 1, 4],
+            [1, 3, 4],
+            [3, 0, 4],
+            [2, 0, 5],
+            [1, 2, 5],
+            [3, 1, 5],
+            [0, 3, 5],
         ];
         for _ in 0..FINENESS {
             let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
@@ -56,10 +111,13 @@ impl Surface {
                     points.len() as u32 - 1
                 })
             };
-            triangles = triangles.iter().flat_map(|&[a, b, c]| {
-                let (d, e, f) = (middle(a, b), middle(b, c), middle(c, a));
-                [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
-            }).collect();
+            triangles = triangles
+                .iter()
+                .flat_map(|&[a, b, c]| {
+                    let (d, e, f) = (middle(a, b), middle(b, c), middle(c, a));
+                    [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+                })
+                .collect();
         }
         let points = points.iter().map(|p| p.map(|x| x * radius)).collect();
         Self { points, triangles, radius: Some(radius), extent: radius }
@@ -71,7 +129,8 @@ impl Surface {
         // Off the symmetric places, where values are exactly the level's.
         let at = |i: usize| extent * ((2.0 * i as f64 + 0.0137) / CELLS as f64 - 1.0);
         let corner = |n: usize| [at(n % side), at(n / side % side), at(n / side / side)];
-        let values: Vec<f64> = (0..side * side * side).map(|n| casimir.value(&corner(n)) - level).collect();
+        let values: Vec<f64> =
+            (0..side * side * side).map(|n| casimir.value(&corner(n)) - level).collect();
         let mut surface = Self { extent, ..Self::default() };
         let mut known: HashMap<(usize, usize), u32> = HashMap::new();
         const STEPS: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]];
@@ -83,7 +142,8 @@ impl Surface {
                 let one = base + strides[first];
                 let two = one + strides[second];
                 let tetrahedron = [base, one, two, base + 1 + side + side * side];
-                let (inside, outside): (Vec<usize>, Vec<usize>) = tetrahedron.into_iter().partition(|&n| values[n] < 0.0);
+                let (inside, outside): (Vec<usize>, Vec<usize>) =
+                    tetrahedron.into_iter().partition(|&n| values[n] < 0.0);
                 let mut cut = |a: usize, b: usize| {
                     *known.entry((a.min(b), a.max(b))).or_insert_with(|| {
                         let (a, b) = (a.min(b), a.max(b));
@@ -109,18 +169,6 @@ impl Surface {
         surface
     }
 
-    /// The curves of evenly spread values of the energy, and after them those of `own`.
-    #[must_use]
-    pub fn curves(&self, energy: &Numeric, casimir: &Numeric, own: f64) -> (Vec<Curve>, Vec<Curve>) {
-        let values: Vec<f64> = self.points.iter().map(|p| energy.value(p)).collect();
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let slopes = casimir.gradient(3);
-        let level = |level: f64| self.level_curves(&values, level, &slopes);
-        let spread = |i: usize| least + (most - least) * (i as f64 + 0.5) / LEVELS as f64;
-        ((0..LEVELS).flat_map(|i| level(spread(i))).collect(), level(own))
-    }
-
     fn level_curves(&self, values: &[f64], level: f64, slopes: &[Numeric]) -> Vec<Curve> {
         type Edge = (u32, u32);
         let mut neighbours: HashMap<Edge, Vec<Edge>> = HashMap::new();
@@ -134,7 +182,13 @@ impl Surface {
                 .collect();
             if let &[one, two] = &cut[..] {
                 for (from, to) in [(one, two), (two, one)] {
-                    neighbours.entry(from).or_insert_with(|| { order.push(from); Vec::new() }).push(to);
+                    neighbours
+                        .entry(from)
+                        .or_insert_with(|| {
+                            order.push(from);
+                            Vec::new()
+                        })
+                        .push(to);
                 }
             }
         }
@@ -163,10 +217,17 @@ impl Surface {
     }
 
     /// The point on an edge, and the normal there.
-    fn point(&self, values: &[f64], level: f64, (a, b): (u32, u32), slopes: &[Numeric]) -> [f64; 6] {
+    fn point(
+        &self,
+        values: &[f64],
+        level: f64,
+        (a, b): (u32, u32),
+        slopes: &[Numeric],
+    ) -> [f64; 6] {
         let (a, b) = (a as usize, b as usize);
         let part = (level - values[a]) / (values[b] - values[a]);
-        let mut p = [0, 1, 2].map(|x| self.points[a][x] + part * (self.points[b][x] - self.points[a][x]));
+        let mut p =
+            [0, 1, 2].map(|x| self.points[a][x] + part * (self.points[b][x] - self.points[a][x]));
         if let Some(radius) = self.radius {
             p = unit(p).map(|x| x * radius);
         }
@@ -184,7 +245,5 @@ fn unit(p: [f64; 3]) -> [f64; 3] {
 fn is_sphere(casimir: &Numeric) -> bool {
     let terms: Vec<_> = casimir.terms().collect();
     terms.len() == 3
-        && terms.iter().all(|(value, factors)| {
-            *value == terms[0].0 && matches!(factors, [(_, 2)])
-        })
+        && terms.iter().all(|(value, factors)| *value == terms[0].0 && matches!(factors, [(_, 2)]))
 }

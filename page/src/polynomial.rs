@@ -20,7 +20,9 @@ impl Numeric {
             for (i, power) in factors {
                 let (i, power) = (i as usize, power as i32);
                 match i.checked_sub(dim) {
-                    Some(symbol) => coefficient *= values.get(symbol).map_or(f64::NAN, |x| x.powi(power)),
+                    Some(symbol) => {
+                        coefficient *= values.get(symbol).map_or(f64::NAN, |x| x.powi(power))
+                    }
                     None => own.push((i, power)),
                 }
             }

@@ -51,8 +51,12 @@ impl Reason {
             Self::BeyondSeries => {
                 "beyond the series: the momentum is so large for this step size that the last terms of S no longer shrink"
             }
-            Self::NotSolved => "not solved: the equation of the step has no solution to rounding near the first guess",
-            Self::BeyondChart => "beyond the chart: the body would turn farther in one step than the programs accept",
+            Self::NotSolved => {
+                "not solved: the equation of the step has no solution to rounding near the first guess"
+            }
+            Self::BeyondChart => {
+                "beyond the chart: the body would turn farther in one step than the programs accept"
+            }
             Self::OffGroup => "off the group: rounding has carried the group element away",
         }
     }

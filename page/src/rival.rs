@@ -33,7 +33,13 @@ impl Rival {
         let matrices = matrices(algebra);
         let size = matrices.first().map_or(0, DMatrix::nrows);
         let entries = reached(&matrices, size);
-        let field = Field { algebra, slopes: energy.gradient(dim), matrices: &matrices, size, entries: &entries };
+        let field = Field {
+            algebra,
+            slopes: energy.gradient(dim),
+            matrices: &matrices,
+            size,
+            entries: &entries,
+        };
         let basis = algebra.basis().and_then(|_| {
             let gram = DMatrix::from_fn(dim, dim, |i, j| matrices[i].dot(&matrices[j]));
             gram.try_inverse().map(|inverse| (matrices.clone(), inverse))
@@ -81,10 +87,13 @@ impl Rival {
         };
         let Some(back) = g.clone().try_inverse() else { return nothing() };
         let dual = inverse * mu;
-        basis.iter().map(|e| {
-            let moved = &back * e * &g;
-            basis.iter().zip(dual.iter()).map(|(e, dual)| e.dot(&moved) * dual).sum()
-        }).collect()
+        basis
+            .iter()
+            .map(|e| {
+                let moved = &back * e * &g;
+                basis.iter().zip(dual.iter()).map(|(e, dual)| e.dot(&moved) * dual).sum()
+            })
+            .collect()
     }
 }
 
@@ -92,13 +101,16 @@ impl Rival {
 fn matrices(algebra: &LieAlgebra) -> Vec<DMatrix<f64>> {
     let dim = algebra.dim();
     match algebra.basis() {
-        Some(basis) => basis.iter().map(|exact| {
-            let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
-            for (i, j, value) in exact.entries() {
-                matrix[(i, j)] = value.to_f64().unwrap_or(f64::NAN);
-            }
-            matrix
-        }).collect(),
+        Some(basis) => basis
+            .iter()
+            .map(|exact| {
+                let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
+                for (i, j, value) in exact.entries() {
+                    matrix[(i, j)] = value.to_f64().unwrap_or(f64::NAN);
+                }
+                matrix
+            })
+            .collect(),
         None => {
             let mut list = vec![DMatrix::zeros(dim, dim); dim];
             for c in algebra.structure() {

@@ -68,9 +68,10 @@ impl Run {
         let mut rate = vec![0.0; n];
         system.rival.rate(momentum, &mut Vec::new(), &mut rate);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
-        let casimirs = system.casimirs.iter().map(|(_, casimir)| {
-            (casimir.value(momentum), casimir_scale(casimir, momentum))
-        });
+        let casimirs = system
+            .casimirs
+            .iter()
+            .map(|(_, casimir)| (casimir.value(momentum), casimir_scale(casimir, momentum)));
         let start = Start {
             energy: (system.energy.value(momentum), system.energy.magnitude(momentum)),
             momentum: (momentum.to_vec(), largest(momentum.iter().copied())),
@@ -160,9 +161,8 @@ impl Run {
     #[must_use]
     pub fn between(&self, part: f64) -> Vec<f64> {
         let (a, b) = (&self.before, &self.now);
-        let mu = (0..a.mu.len()).map(|i| {
-            hermite((a.mu[i], a.rate[i] * self.h), (b.mu[i], b.rate[i] * self.h), part)
-        });
+        let mu = (0..a.mu.len())
+            .map(|i| hermite((a.mu[i], a.rate[i] * self.h), (b.mu[i], b.rate[i] * self.h), part));
         // Quaternions q and −q are the same rotation: the nearer one is gone to.
         let g = a.g.iter().zip(&b.g).map(|(a, b)| a + part * (b - a));
         mu.chain(g).collect()
@@ -174,21 +174,23 @@ impl Run {
         let n = self.now.mu.len();
         let trail = &self.trail[usize::from(of_rival)];
         let moments: Vec<&[f64]> = trail.chunks_exact(2 * n).collect();
+        let end = |of: &[f64], axis: usize| match axis < n {
+            true => (of[axis], of[n + axis] * self.h),
+            false => (0.0, 0.0),
+        };
         let mut points = Vec::with_capacity(3 * SMOOTH * moments.len());
         for (number, pair) in moments.windows(2).enumerate() {
             let until = if number + 2 == moments.len() { part } else { 1.0 };
             for s in 0..SMOOTH {
                 let s = s as f64 / SMOOTH as f64 * until;
                 for axis in axes {
-                    let end = |of: &[f64]| (of[axis], of[n + axis] * self.h);
-                    points.push(hermite(end(pair[0]), end(pair[1]), s) as f32);
+                    points.push(hermite(end(pair[0], axis), end(pair[1], axis), s) as f32);
                 }
             }
         }
         if let [.., a, b] = &moments[..] {
             for axis in axes {
-                let end = |of: &[f64]| (of[axis], of[n + axis] * self.h);
-                points.push(hermite(end(a), end(b), part) as f32);
+                points.push(hermite(end(a, axis), end(b, axis), part) as f32);
             }
         }
         points
@@ -224,9 +226,11 @@ impl Run {
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
         let Start { energy, momentum, casimirs } = &self.start;
         let moved = largest(spatial.iter().zip(&momentum.0).map(|(now, then)| now - then));
-        let casimirs = system.casimirs.iter().zip(casimirs).map(|((_, casimir), (then, scale))| {
-            relative(casimir.value(mu) - then, *scale)
-        });
+        let casimirs = system
+            .casimirs
+            .iter()
+            .zip(casimirs)
+            .map(|((_, casimir), (then, scale))| relative(casimir.value(mu) - then, *scale));
         [
             relative(system.energy.value(mu) - energy.0, energy.1),
             relative(moved, momentum.1),
@@ -238,8 +242,11 @@ impl Run {
         let State { g, mu, .. } = &self.now;
         let mut inverse = vec![0.0; g.len()];
         for (start, rows) in system.step.inverted() {
-            let block = nalgebra::DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
-            let found = block.try_inverse().unwrap_or_else(|| nalgebra::DMatrix::from_element(rows, rows, f64::NAN));
+            let block =
+                nalgebra::DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
+            let found = block
+                .try_inverse()
+                .unwrap_or_else(|| nalgebra::DMatrix::from_element(rows, rows, f64::NAN));
             inverse[start..start + rows * rows].copy_from_slice(found.transpose().as_slice());
         }
         let input: Vec<f64> = g.iter().chain(&inverse).chain(mu).copied().collect();
@@ -269,7 +276,8 @@ fn substeps(system: &System, start: &State) -> usize {
     }
     let corrections = if steps == 0 { 1.0 } else { corrections as f64 / steps as f64 };
     let cost = |program: &Program| program.cost().total() as f64;
-    let rest = [&programs.guess, &programs.accept, &programs.transport].map(cost).iter().sum::<f64>();
+    let rest =
+        [&programs.guess, &programs.accept, &programs.transport].map(cost).iter().sum::<f64>();
     let ours = rest + corrections * cost(&programs.correct);
     (ours / system.rival.cost().max(1) as f64).ceil().max(1.0) as usize
 }
@@ -277,12 +285,16 @@ fn substeps(system: &System, start: &State) -> usize {
 /// The cubic with these values and slopes at 0 and 1.
 fn hermite((a, slope_a): (f64, f64), (b, slope_b): (f64, f64), s: f64) -> f64 {
     let (t, u) = (1.0 - s, s);
-    a * t * t * (1.0 + 2.0 * u) + b * u * u * (1.0 + 2.0 * t) + slope_a * u * t * t - slope_b * u * u * t
+    a * t * t * (1.0 + 2.0 * u) + b * u * u * (1.0 + 2.0 * t) + slope_a * u * t * t
+        - slope_b * u * u * t
 }
 
 /// The largest absolute value; NaN where one is.
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().map(f64::abs).fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
+    values
+        .into_iter()
+        .map(f64::abs)
+        .fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
 fn relative(difference: f64, size: f64) -> f64 {

@@ -20,10 +20,11 @@ const MOST_OPERATIONS: usize = 4000;
 const AT_ROOT: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
 /// Words that name no argument.
 const TAKEN: [&str; 53] = [
-    "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for", "if", "impl", "in",
-    "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return", "self", "static", "struct", "super",
-    "trait", "true", "type", "unsafe", "use", "where", "while", "async", "await", "dyn", "abstract", "become", "box",
-    "do", "final", "macro", "override", "priv", "typeof", "unsized", "virtual", "yield", "try", "gen", "mu", "f64",
+    "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for",
+    "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return",
+    "self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use", "where",
+    "while", "async", "await", "dyn", "abstract", "become", "box", "do", "final", "macro",
+    "override", "priv", "typeof", "unsized", "virtual", "yield", "try", "gen", "mu", "f64",
 ];
 
 /// A program that makes steps of the system, `problem` being it with its parameters kept.
@@ -40,15 +41,23 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
         true => coordinates.clone(),
         false => (0..coordinates.len()).map(|i| format!("mu[{i}]")).collect(),
     };
-    let scalars: Vec<String> = problem.parameters.iter().zip(&arguments).flat_map(|(parameter, argument)| {
-        let written = parameter.scalar_names();
-        written.into_iter().map(|name| format!("{argument}{}", &name[parameter.name.len()..])).collect::<Vec<_>>()
-    }).collect();
+    let scalars: Vec<String> = problem
+        .parameters
+        .iter()
+        .zip(&arguments)
+        .flat_map(|(parameter, argument)| {
+            let written = parameter.scalar_names();
+            written
+                .into_iter()
+                .map(|name| format!("{argument}{}", &name[parameter.name.len()..]))
+                .collect::<Vec<_>>()
+        })
+        .collect();
     let body = expression(problem, &momenta, &scalars)?;
 
     let Fields { algebra, group, .. } = &system.fields;
-    let title = camel_case(&problem.name);
     let function = snake(&problem.name);
+    let title = camel_case(&function);
     let own = !algebra.trim().is_empty();
     let group_argument = if own { inline(algebra)? } else { group.trim().to_owned() };
     let known = !own && catalogue::lookup(group).is_ok();
@@ -60,7 +69,8 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
     } else {
         ("use coadjoint::{lie_poisson, Phase};".to_owned(), format!("{title}Group"))
     };
-    let mut list = vec![format!("group = {group_argument}"), format!("truncation = {}", problem.truncation)];
+    let mut list =
+        vec![format!("group = {group_argument}"), format!("truncation = {}", problem.truncation)];
     if system.fields.chart != "exp" {
         list.push(format!("chart = {}", problem.chart.name()));
     }
@@ -81,13 +91,20 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
         signature.join(", "),
     );
     if plain {
-        let used = |name: &String| if uses(&body, name) { name.clone() } else { format!("_{name}") };
-        let _ = writeln!(out, "    let [{}] = mu;", momenta.iter().map(used).collect::<Vec<_>>().join(", "));
+        let used =
+            |name: &String| if uses(&body, name) { name.clone() } else { format!("_{name}") };
+        let _ = writeln!(
+            out,
+            "    let [{}] = mu;",
+            momenta.iter().map(used).collect::<Vec<_>>().join(", ")
+        );
     }
     let mut given = vec![float(system.h)];
     given.extend(problem.parameters.iter().map(value));
     let momentum = system.momentum.iter().map(|&x| float(x)).collect::<Vec<_>>().join(", ");
-    let steps = (system.fields.time.trim().parse::<f64>().unwrap_or(10.0) / system.h.abs()).round().clamp(1.0, 1e9);
+    let steps = (system.fields.time.trim().parse::<f64>().unwrap_or(10.0) / system.h.abs())
+        .round()
+        .clamp(1.0, 1e9);
     let _ = write!(
         out,
         "    {body}\n}}\n\nfn main() -> Result<(), coadjoint::StepError> {{\n    let step = {title}::new({})?;\n    let mut state = Phase::<{ty}>::at_identity([{momentum}]);\n    for _ in 0..{steps} {{\n        step.advance(&mut state)?;\n    }}\n    println!(\"{{:?}}\", state.momentum);\n    Ok(())\n}}\n",
@@ -98,7 +115,8 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
 
 /// The Hamiltonian with these names.
 fn expression(problem: &Problem, momenta: &[String], scalars: &[String]) -> Result<String, String> {
-    let (mut known, mut arena, mut diagnostics) = (Names::default(), Arena::new(), Diagnostics::new());
+    let (mut known, mut arena, mut diagnostics) =
+        (Names::default(), Arena::new(), Diagnostics::new());
     for (i, name) in problem.coordinates.iter().enumerate() {
         known.add(name, Name::Coordinate(i), Default::default(), &mut diagnostics);
     }
@@ -128,7 +146,13 @@ const SIGN: u8 = 3;
 const ATOM: u8 = 4;
 
 /// A node as text, and how strongly it binds. Operands are taken: each is used once.
-fn write(node: &Node, written: &mut [(String, u8)], arena: &Arena, momenta: &[String], scalars: &[String]) -> (String, u8) {
+fn write(
+    node: &Node,
+    written: &mut [(String, u8)],
+    arena: &Arena,
+    momenta: &[String],
+    scalars: &[String],
+) -> (String, u8) {
     let take = |id: ExprId, least: u8| {
         let (text, strength) = written[id.index()].clone();
         if strength < least { format!("({text})") } else { text }
@@ -145,7 +169,9 @@ fn write(node: &Node, written: &mut [(String, u8)], arena: &Arena, momenta: &[St
         Node::Pow(a, b) => {
             let base = receiver(take(*a, ATOM));
             match arena.node(*b) {
-                Node::Number(power) if power.is_integer() => (format!("{base}.powi({power})"), ATOM),
+                Node::Number(power) if power.is_integer() => {
+                    (format!("{base}.powi({power})"), ATOM)
+                }
                 _ => (format!("{base}.powf({})", take(*b, SUM)), ATOM),
             }
         }
@@ -163,7 +189,8 @@ fn receiver(text: String) -> String {
         return text;
     }
     let Some(start) = text.find(digit) else { return text };
-    let end = text[start..].find(|c: char| !digit(c) && c != '.').map_or(text.len(), |end| start + end);
+    let end =
+        text[start..].find(|c: char| !digit(c) && c != '.').map_or(text.len(), |end| start + end);
     format!("{}_f64{}", &text[..end], &text[end..])
 }
 
@@ -190,10 +217,19 @@ fn float(value: f64) -> String {
 
 /// A parameter's value as an argument.
 fn value(parameter: &Parameter) -> String {
-    let values: Vec<String> = parameter.default.iter().flatten().map(|x| {
-        let (text, strength) = literal(x);
-        if strength < ATOM && x.is_negative() && text.contains('/') { format!("({text})") } else { text }
-    }).collect();
+    let values: Vec<String> = parameter
+        .default
+        .iter()
+        .flatten()
+        .map(|x| {
+            let (text, strength) = literal(x);
+            if strength < ATOM && x.is_negative() && text.contains('/') {
+                format!("({text})")
+            } else {
+                text
+            }
+        })
+        .collect();
     match parameter.shape {
         Shape::Array(_) => format!("[{}]", values.join(", ")),
         Shape::Grid(_, columns) => {
@@ -207,14 +243,17 @@ fn value(parameter: &Parameter) -> String {
 /// Names of arguments that style and the language allow, each its own.
 fn names(parameters: &[Parameter], coordinates: &[String]) -> Vec<String> {
     let mut taken: Vec<String> = coordinates.iter().map(|name| lower(name)).collect();
-    parameters.iter().map(|parameter| {
-        let mut name = lower(&parameter.name);
-        while TAKEN.contains(&name.as_str()) || taken.contains(&name) {
-            name.push('_');
-        }
-        taken.push(name.clone());
-        name
-    }).collect()
+    parameters
+        .iter()
+        .map(|parameter| {
+            let mut name = lower(&parameter.name);
+            while TAKEN.contains(&name.as_str()) || taken.contains(&name) {
+                name.push('_');
+            }
+            taken.push(name.clone());
+            name
+        })
+        .collect()
 }
 
 fn lower(name: &str) -> String {
@@ -223,7 +262,9 @@ fn lower(name: &str) -> String {
 
 fn is_plain(name: &str) -> bool {
     let word = |c: char| c.is_alphanumeric() || c == '_';
-    name.chars().all(word) && !name.starts_with(|c: char| c.is_ascii_digit()) && !TAKEN.contains(&lower(name).as_str())
+    name.chars().all(word)
+        && !name.starts_with(|c: char| c.is_ascii_digit())
+        && !TAKEN.contains(&lower(name).as_str())
 }
 
 fn uses(body: &str, name: &str) -> bool {
@@ -236,7 +277,10 @@ fn uses(body: &str, name: &str) -> bool {
 
 /// The function's name.
 fn snake(name: &str) -> String {
-    let mut text: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
+    let mut text: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
+        .collect();
     while text.contains("__") {
         text = text.replace("__", "_");
     }

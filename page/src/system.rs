@@ -94,7 +94,11 @@ impl System {
         let dim = problem.algebra.dim();
         let h = read.run.step.unwrap_or(0.1);
         let Some(momentum) = read.run.momentum else {
-            return Err(vec![Mistake::of("momentum", "the momentum at the start is missing", "give a number for each coordinate")]);
+            return Err(vec![Mistake::of(
+                "momentum",
+                "the momentum at the start is missing",
+                "give a number for each coordinate",
+            )]);
         };
         if problem.solver() == Solver::FixedPoint {
             let most = Solver::NEWTON_DIMENSIONS;
@@ -106,26 +110,32 @@ impl System {
                 Some("copy the system file and run it with the command: coadjoint simulate FILE"),
             )]);
         }
-        let integrator = Integrator::build(problem, LIMIT).map_err(|error| {
-            vec![Mistake::of("truncation", error, "lower the truncation")]
-        })?;
+        let integrator = Integrator::build(problem, LIMIT)
+            .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
         let step = Step::build(&integrator, REACH).map_err(|error| refused(&error))?;
         let programs = step.kernel().programs();
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
         if operations > MOST_OPERATIONS {
-            let message = format!("a step has {operations} operations, more than the {MOST_OPERATIONS} that this page runs");
+            let message = format!(
+                "a step has {operations} operations, more than the {MOST_OPERATIONS} that this page runs"
+            );
             return Err(vec![Mistake::of("truncation", message, "lower the truncation")]);
         }
         let slots = fold(&integrator, &step, h);
         let algebra = &integrator.problem.algebra;
         let symbols = &integrator.problem.symbols;
         let energy = Numeric::new(&integrator.problem.hamiltonian, dim, symbols);
-        let casimirs = (1..=CASIMIR_DEGREE).rev().find_map(|degree| lie::casimirs(algebra, degree).ok());
-        let casimirs = casimirs.unwrap_or_default().into_iter().map(|exact| {
-            let numeric = Numeric::new(&exact, dim, &[]);
-            (exact, numeric)
-        }).collect();
+        let casimirs =
+            (1..=CASIMIR_DEGREE).rev().find_map(|degree| lie::casimirs(algebra, degree).ok());
+        let casimirs = casimirs
+            .unwrap_or_default()
+            .into_iter()
+            .map(|exact| {
+                let numeric = Numeric::new(&exact, dim, &[]);
+                (exact, numeric)
+            })
+            .collect();
         let factors = factors(algebra);
         let rival = Rival::new(algebra, &energy);
         Ok(Self {

@@ -43,7 +43,9 @@ impl Language {
 /// # Errors
 /// Why it cannot be written, in words.
 pub fn text(system: &System, language: Language) -> Result<String, String> {
-    let words = |mistakes: Vec<Mistake>| mistakes.first().map(|first| first.message.clone()).unwrap_or_default();
+    let words = |mistakes: Vec<Mistake>| {
+        mistakes.first().map(|first| first.message.clone()).unwrap_or_default()
+    };
     match language {
         Language::File => Ok(system.file.clone()),
         Language::Rust => rust::program(system, &system.with_names().map_err(words)?),
@@ -51,7 +53,8 @@ pub fn text(system: &System, language: Language) -> Result<String, String> {
         Language::C => {
             let problem = system.with_names().map_err(words)?;
             let units = &system.units;
-            let momentum = (0..system.dim()).map(|i| units.coordinate(i).map(str::to_owned)).collect();
+            let momentum =
+                (0..system.dim()).map(|i| units.coordinate(i).map(str::to_owned)).collect();
             let options = HeaderOptions {
                 prefix: problem.name.clone(),
                 time: units.time.clone(),
@@ -60,8 +63,13 @@ pub fn text(system: &System, language: Language) -> Result<String, String> {
             };
             let limit = TermLimit { terms: 20_000, products: 4_000_000 };
             // With many parameters kept as names the series may be too large: their values are then put in.
-            let named = Integrator::build(problem, limit).ok().and_then(|integrator| c::header(&integrator, &options).ok());
-            named.map_or_else(|| c::header(&system.integrator, &options).map_err(|error| error.to_string()), Ok)
+            let named = Integrator::build(problem, limit)
+                .ok()
+                .and_then(|integrator| c::header(&integrator, &options).ok());
+            named.map_or_else(
+                || c::header(&system.integrator, &options).map_err(|error| error.to_string()),
+                Ok,
+            )
         }
     }
 }
@@ -72,25 +80,40 @@ fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
     let number = |x: f64| format!("{x:?}");
     let momentum = system.momentum.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ");
     let time = system.fields.time.trim().parse::<f64>().unwrap_or(10.0);
-    let run = format!("run = body.simulate(momentum=[{momentum}], time={}, step={})\n", number(time), number(system.h));
+    let run = format!(
+        "run = body.simulate(momentum=[{momentum}], time={}, step={})\n",
+        number(time),
+        number(system.h)
+    );
     if !system.fields.algebra.trim().is_empty() || problem.comoving.is_some() {
         // What the constructor has no argument for, the system file says.
         let quotes = if system.file.contains("\"\"\"") { "'''" } else { "\"\"\"" };
         if system.file.contains(quotes) || system.file.contains('\\') {
-            return Err("this system's Hamiltonian has quotes in it: use the system file".to_owned());
+            return Err(
+                "this system's Hamiltonian has quotes in it: use the system file".to_owned()
+            );
         }
-        out.push_str(&format!("body = ca.System.from_toml({quotes}\n{}{quotes})\n{run}", system.file));
+        out.push_str(&format!(
+            "body = ca.System.from_toml({quotes}\n{}{quotes})\n{run}",
+            system.file
+        ));
         return Ok(out);
     }
     let hamiltonian = problem.source.split_whitespace().collect::<Vec<_>>().join(" ");
-    let coordinates = system.fields.coordinates.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
+    let coordinates = system
+        .fields
+        .coordinates
+        .split(|c: char| c.is_whitespace() || c == ',')
+        .filter(|word| !word.is_empty());
     let coordinates = coordinates.collect::<Vec<_>>().join(" ");
-    let mut arguments = vec![format!("    {:?},", system.fields.group.trim()), format!("    {hamiltonian:?},")];
+    let mut arguments =
+        vec![format!("    {:?},", system.fields.group.trim()), format!("    {hamiltonian:?},")];
     if !coordinates.is_empty() {
         arguments.push(format!("    coordinates={coordinates:?},"));
     }
     if !parameters.is_empty() {
-        let list = parameters.iter().map(|parameter| format!("{}={}", parameter.name, value(parameter)));
+        let list =
+            parameters.iter().map(|parameter| format!("{}={}", parameter.name, value(parameter)));
         arguments.push(format!("    parameters=dict({}),", list.collect::<Vec<_>>().join(", ")));
     }
     arguments.push(format!("    truncation={},", problem.truncation));
