@@ -120,6 +120,10 @@ test("every control does what it says", async () => {
   await tab.fill("#time", "12");
   await tab.fill("#parameters", "I1 = 1, I2 = 2, I3 = 3");
   await tab.waitForFunction(() => page.about().inverse_inertia[8] === 1 / 3);
+  await tab.click("#knobs summary");
+  await tab.locator("#knob-I2").fill("-50");
+  assert.equal(await tab.inputValue("#parameters"), "I1 = 1, I2 = 1, I3 = 3");
+  assert.equal((await about()).inverse_inertia[4], 1);
   for (const [name, sign] of [["rust", "#[lie_poisson(group = SO3, truncation = 3, chart = cayley, frame = comoving)]"], ["file", "name = \"my body\""], ["python", "import coadjoint as ca"], ["c", "my_body_step("]]) {
     await tab.click(`#tab-${name}`);
     assert.ok((await text(tab, "text")).includes(sign), name);

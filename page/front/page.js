@@ -40,6 +40,7 @@ function build() {
   session?.free();
   session = made;
   about = JSON.parse(session.about());
+  document.title = `${about.name} · coadjoint`;
   start = about.momentum;
   scene = sceneOf(about);
   if (state.axes.length !== 3 || about.dim <= 3 || state.axes.some((i) => i >= about.dim)) {
@@ -390,7 +391,7 @@ async function main() {
     state.fields = { ...gallery[0].fields };
   }
   makeForm(JSON.parse(wasm_bindgen.groups()), (wait) => {
-    byId("about").textContent = "A system of your own.";
+    showAbout();
     if (wait) rebuildLater();
     else build();
   });

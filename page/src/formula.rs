@@ -53,7 +53,7 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
 }
 
 fn math(row: &str) -> String {
-    format!("<math><mrow>{row}</mrow></math> ")
+    format!("<math displaystyle=\"true\"><mrow>{row}</mrow></math> ")
 }
 
 /// S_k with its order.
