@@ -36,6 +36,14 @@ function captionOf(scene, about) {
   }[scene.kind];
 }
 
+// The entries of a factor's block before and after the last step.
+function blocksOf(matrices, { row }) {
+  const rows = Math.sqrt(matrices.length / 2);
+  const block = (offset) => (i, j) => matrices[offset + (row + i) * rows + row + j];
+  return [block(0), block(rows * rows)];
+}
+
+// `now` is μ, and the matrices of g before and after the last step, of which `part` is shown.
 function drawBody(canvas, scene, about, now, start) {
   const [context, width, height] = clear(canvas);
   if (!width) return;
@@ -54,9 +62,10 @@ function onScreen(width, height, scale) {
 }
 
 function drawSolid(context, width, height, scene, about, now, start) {
-  const n = about.dim;
-  const rotation = rotationOf(...now.subarray(n, n + 4));
-  const vertical = about.factors[0].kind === "motion" && size(start.slice(3, 6)) > 0 ? start.slice(3, 6) : start.slice(0, 3);
+  const [first] = about.factors;
+  const [before, after] = blocksOf(now.matrices, first).map((at) => quaternionOf(at, first.kind === "motion" ? 3 : first.size));
+  const rotation = rotationOf(...quaternionBetween(before, after, now.part));
+  const vertical = first.kind === "motion" && size(start.slice(3, 6)) > 0 ? start.slice(3, 6) : start.slice(0, 3);
   const up = upright(vertical);
   const place = onScreen(width, height, Math.min(width, height) * 0.385);
   const toWorld = (p) => times(up, times(rotation, p));
@@ -197,7 +206,7 @@ function drawSpins(context, width, height, scene, about, now) {
   const spins = about.factors.map((factor, i) => {
     const angle = (i / count) * 2 * Math.PI;
     const foot = count === 2 ? [0, i ? 0.55 : -0.55, 0] : [0.72 * Math.cos(angle), 0.72 * Math.sin(angle), 0];
-    const mu = [...now.subarray(factor.coordinate, factor.coordinate + 3)];
+    const mu = [...now.momentum.subarray(factor.coordinate, factor.coordinate + 3)];
     return { foot, mu, depth: dot(foot, eye) };
   });
   const largest = Math.max(...spins.map((spin) => size(spin.mu)), 1e-300);
@@ -217,9 +226,10 @@ function drawSpins(context, width, height, scene, about, now) {
 }
 
 function drawPlane(context, width, height, scene, about, now) {
-  const n = about.dim;
-  const [c, s, x, y] = now.subarray(n, n + 4);
-  const angle = 2 * Math.atan2(s, c);
+  const [before, after] = blocksOf(now.matrices, about.factors[0]);
+  const between = (i, j) => before(i, j) * (1 - now.part) + after(i, j) * now.part;
+  const [x, y] = [between(0, 2), between(1, 2)];
+  const angle = Math.atan2(between(1, 0), between(0, 0));
   const last = scene.tips[scene.tips.length - 1];
   if (!last || Math.hypot(x - last[0], y - last[1]) > 0.02) scene.tips.push([x, y]);
   if (scene.tips.length > 3000) scene.tips.shift();
@@ -261,8 +271,10 @@ function drawPlane(context, width, height, scene, about, now) {
 }
 
 function drawMatrix(context, width, height, scene, about, now) {
-  const { element, size: rows } = about.factors[0];
-  const g = now.subarray(about.dim + element, about.dim + element + rows * rows);
+  const [before, after] = blocksOf(now.matrices, about.factors[0]);
+  const rows = about.factors[0].size;
+  const entry = (at) => [Math.floor(at / rows), at % rows];
+  const g = [...Array(rows * rows).keys()].map((at) => before(...entry(at)) * (1 - now.part) + after(...entry(at)) * now.part);
   const largest = g.reduce((most, x) => Math.max(most, Math.abs(x)), 1e-300);
   const side = (Math.min(width, height) * 0.78) / rows;
   const [left, top] = [(width - side * rows) / 2, (height - side * rows) / 2];

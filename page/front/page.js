@@ -181,7 +181,7 @@ function frame(now) {
 let drawn = 0;
 function drawAll() {
   const began = performance.now();
-  const now = session.between(part);
+  const now = { momentum: session.between(part), matrices: session.matrices(), part };
   drawBody(bodyCanvas, scene, about, now, start);
   const [a, b, c] = state.axes;
   drawOrbit(orbitCanvas, about, start, [session.trail(true, a, b, c, part), session.trail(false, a, b, c, part)]);

@@ -50,3 +50,26 @@ function principal(matrix) {
   }
   return { values: [a[0][0], a[1][1], a[2][2]], axes: v };
 }
+
+// The quaternion of a rotation's matrix, or of the real 4 × 4 matrix that stands for one; `at(i, j)` are the entries.
+function quaternionOf(at, rows) {
+  if (rows === 4) return [at(0, 0), -at(2, 1), at(1, 0), -at(2, 0)];
+  const t = [
+    1 + at(0, 0) + at(1, 1) + at(2, 2),
+    1 + at(0, 0) - at(1, 1) - at(2, 2),
+    1 - at(0, 0) + at(1, 1) - at(2, 2),
+    1 - at(0, 0) - at(1, 1) + at(2, 2),
+  ];
+  const [a, b, c] = [at(2, 1) - at(1, 2), at(0, 2) - at(2, 0), at(1, 0) - at(0, 1)];
+  const [d, e, f] = [at(1, 0) + at(0, 1), at(0, 2) + at(2, 0), at(2, 1) + at(1, 2)];
+  const best = t.indexOf(Math.max(...t));
+  const q = [[t[0], a, b, c], [a, t[1], d, e], [b, d, t[2], f], [c, e, f, t[3]]][best];
+  const s = Math.hypot(...q);
+  return q.map((x) => x / s);
+}
+
+// A part of the way from one quaternion to another, by the shorter way; not of length 1.
+function quaternionBetween(a, b, part) {
+  const way = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1;
+  return a.map((x, i) => x * (1 - part) + way * b[i] * part);
+}

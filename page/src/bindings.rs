@@ -59,7 +59,6 @@ struct About<'a> {
     comoving: bool,
     casimirs: Vec<String>,
     factors: &'a [Factor],
-    element: String,
     /// Triples of coordinates that stay on a sphere.
     spheres: Vec<[usize; 3]>,
     /// ½ ξᵀAξ and b·ξ: the quadratic part of H in the first three coordinates, and its slope in the next three.
@@ -126,7 +125,6 @@ impl Session {
                 })
                 .collect(),
             factors,
-            element: step.element_about(),
             spheres: spheres(factors),
             inverse_inertia: (0..leading * leading)
                 .map(|at| curvature(at / leading, at % leading))
@@ -189,7 +187,13 @@ impl Session {
         self.run.momentum().to_vec()
     }
 
-    /// A part of the way from the last state but one to the last, for pictures: μ, then the numbers of g.
+    /// The matrices of the group element, before and after the last step, row by row.
+    #[must_use]
+    pub fn matrices(&self) -> Vec<f64> {
+        self.run.matrices(&self.system)
+    }
+
+    /// μ a part of the way from the last state but one to the last, for pictures.
     #[must_use]
     pub fn between(&self, part: f64) -> Vec<f64> {
         self.run.between(part)

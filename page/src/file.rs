@@ -83,7 +83,7 @@ impl File {
             })?;
         let field = piece.field;
         let within = self.pieces.iter().filter(|other| other.field == field);
-        let last = within.filter(|other| other.text.start <= end).last().unwrap_or(piece);
+        let last = within.filter(|other| other.text.start <= end).next_back().unwrap_or(piece);
         let inside = |piece: &Piece, at: usize| {
             at.clamp(piece.text.start, piece.text.end) - piece.text.start + piece.offset
         };

@@ -59,8 +59,6 @@ entries! {
             "A body in a plane fluid on SE(2): it flutters and turns its broad side to the flow.";
         "zeitlin-3", "Vorticity on a torus", "../../examples/zeitlin_3.toml",
             "Ideal flow on a torus, truncated by the sine bracket at N = 3.";
-        "zeitlin-5", "Vorticity on a torus, finer", "../../examples/zeitlin_5.toml",
-            "The same at N = 5, on su(5)*: 24 dimensions.";
     }
     "Spins and waves" {
         "spin-in-crystal", "Spin in a crystal", "../systems/spin_in_crystal.toml",

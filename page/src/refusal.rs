@@ -76,7 +76,8 @@ fn solve(kernel: &Kernel, slots: &[f64], mu: &[f64]) -> (Vec<f64>, f64, f64) {
         input[..n].copy_from_slice(&found[..n]);
         left = found[2 * n];
         way += found[2 * n + 1];
-        if left <= kernel.tolerance() || !(way <= kernel.near()) {
+        let (solved, near) = (left <= kernel.tolerance(), way <= kernel.near());
+        if solved || !near {
             break;
         }
     }

@@ -157,15 +157,24 @@ impl Run {
         system.energy.value(&self.now.mu)
     }
 
-    /// A part of the way from the last state but one to the last: μ, then the numbers of g. Only for pictures.
+    /// μ a part of the way from the last state but one to the last. Only for pictures.
     #[must_use]
     pub fn between(&self, part: f64) -> Vec<f64> {
         let (a, b) = (&self.before, &self.now);
-        let mu = (0..a.mu.len())
-            .map(|i| hermite((a.mu[i], a.rate[i] * self.h), (b.mu[i], b.rate[i] * self.h), part));
-        // Quaternions q and −q are the same rotation: the nearer one is gone to.
-        let g = a.g.iter().zip(&b.g).map(|(a, b)| a + part * (b - a));
-        mu.chain(g).collect()
+        let end = |of: &State, i: usize| (of.mu[i], of.rate[i] * self.h);
+        (0..a.mu.len()).map(|i| hermite(end(a, i), end(b, i), part)).collect()
+    }
+
+    /// The matrices of the last state but one and of the last, row by row, one after the other.
+    #[must_use]
+    pub fn matrices(&self, system: &System) -> Vec<f64> {
+        let program = &system.step.kernel().programs().matrix;
+        let entries = program.outputs().len();
+        let mut both = vec![0.0; 2 * entries];
+        for (state, matrix) in [&self.before, &self.now].into_iter().zip(both.chunks_mut(entries)) {
+            program.run(&state.g, &[], &mut Vec::new(), matrix);
+        }
+        both
     }
 
     /// Where three coordinates of μ have been, of late: points (x, y, z), smoothed between steps.

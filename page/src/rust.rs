@@ -27,11 +27,15 @@ const TAKEN: [&str; 53] = [
     "override", "priv", "typeof", "unsized", "virtual", "yield", "try", "gen", "mu", "f64",
 ];
 
-/// A program that makes steps of the system, `problem` being it with its parameters kept.
+/// A program that makes steps of the system.
 ///
 /// # Errors
 /// Why there is none, in words.
-pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
+pub fn program(system: &System) -> Result<String, String> {
+    // A comoving frame may be one for the values of the parameters alone: they are then written as numbers.
+    let named = system.with_names();
+    let numbers = if named.is_some() { Vec::new() } else { system.parameters() };
+    let problem = named.as_ref().unwrap_or(&system.integrator.problem);
     let arguments: Vec<String> = names(&problem.parameters, &problem.coordinates);
     let coordinates: Vec<String> = problem.coordinates.iter().map(|name| lower(name)).collect();
     // A name of its own for each, or by their numbers.
@@ -53,7 +57,7 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
                 .collect::<Vec<_>>()
         })
         .collect();
-    let body = expression(problem, &momenta, &scalars)?;
+    let body = expression(problem, &numbers, &momenta, &scalars)?;
 
     let Fields { algebra, group, .. } = &system.fields;
     let function = snake(&problem.name);
@@ -102,9 +106,7 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
     let mut given = vec![float(system.h)];
     given.extend(problem.parameters.iter().map(value));
     let momentum = system.momentum.iter().map(|&x| float(x)).collect::<Vec<_>>().join(", ");
-    let steps = (system.fields.time.trim().parse::<f64>().unwrap_or(10.0) / system.h.abs())
-        .round()
-        .clamp(1.0, 1e9);
+    let steps = (system.time / system.h.abs()).round().clamp(1.0, 1e9);
     let _ = write!(
         out,
         "    {body}\n}}\n\nfn main() -> Result<(), coadjoint::StepError> {{\n    let step = {title}::new({})?;\n    let mut state = Phase::<{ty}>::at_identity([{momentum}]);\n    for _ in 0..{steps} {{\n        step.advance(&mut state)?;\n    }}\n    println!(\"{{:?}}\", state.momentum);\n    Ok(())\n}}\n",
@@ -113,8 +115,13 @@ pub fn program(system: &System, problem: &Problem) -> Result<String, String> {
     Ok(out)
 }
 
-/// The Hamiltonian with these names.
-fn expression(problem: &Problem, momenta: &[String], scalars: &[String]) -> Result<String, String> {
+/// The Hamiltonian with these names, and with values for some parameters.
+fn expression(
+    problem: &Problem,
+    numbers: &[Parameter],
+    momenta: &[String],
+    scalars: &[String],
+) -> Result<String, String> {
     let (mut known, mut arena, mut diagnostics) =
         (Names::default(), Arena::new(), Diagnostics::new());
     for (i, name) in problem.coordinates.iter().enumerate() {
@@ -125,6 +132,12 @@ fn expression(problem: &Problem, momenta: &[String], scalars: &[String]) -> Resu
         for name in parameter.scalar_names() {
             known.add(&name, Name::Parameter(place), Default::default(), &mut diagnostics);
             place += 1;
+        }
+    }
+    for parameter in numbers {
+        let values = parameter.default.iter().flatten().cloned();
+        for (name, value) in parameter.scalar_names().iter().zip(values) {
+            known.add(name, Name::Number(value), Default::default(), &mut diagnostics);
         }
     }
     let root = text::parse(&problem.source, 0, &known, &mut arena, &mut diagnostics);
@@ -153,8 +166,8 @@ fn write(
     momenta: &[String],
     scalars: &[String],
 ) -> (String, u8) {
-    let take = |id: ExprId, least: u8| {
-        let (text, strength) = written[id.index()].clone();
+    let mut take = |id: ExprId, least: u8| {
+        let (text, strength) = std::mem::take(&mut written[id.index()]);
         if strength < least { format!("({text})") } else { text }
     };
     match node {

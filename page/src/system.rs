@@ -3,7 +3,7 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem::{Parameter, Problem, Solver};
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
@@ -16,7 +16,7 @@ use crate::rival::Rival;
 /// Steps of more operations than this are too slow for a page.
 const MOST_OPERATIONS: usize = 60_000;
 /// Series may become this large: beyond, a page would stand still.
-const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
+pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
 /// Casimirs are looked for up to this degree.
 const CASIMIR_DEGREE: u32 = 3;
 
@@ -24,13 +24,13 @@ const CASIMIR_DEGREE: u32 = 3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// SO(3) or SU(2): a unit quaternion.
+    /// SO(3), or SU(2) as the real matrices of quaternions.
     Rotation,
-    /// SE(3): a unit quaternion, then a translation.
+    /// SE(3).
     Motion,
-    /// SE(2): cosine and sine of half the angle, then a translation.
+    /// SE(2).
     Plane,
-    /// Any other: its matrix, row by row.
+    /// Any other.
     Matrix,
 }
 
@@ -43,9 +43,9 @@ pub struct Factor {
     pub coordinate: usize,
     /// Their number.
     pub dim: usize,
-    /// Where the numbers of its element begin.
-    pub element: usize,
-    /// Rows of its matrix.
+    /// The first row of its block in the matrix of the group.
+    pub row: usize,
+    /// Rows of the block.
     pub size: usize,
 }
 
@@ -64,6 +64,8 @@ pub struct System {
     pub slots: Vec<f64>,
     /// h.
     pub h: f64,
+    /// The duration of a run, for the texts to copy.
+    pub time: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
     /// H.
@@ -145,6 +147,7 @@ impl System {
             step,
             slots,
             h,
+            time: read.run.time.unwrap_or(10.0),
             momentum,
             energy,
             casimirs,
@@ -160,16 +163,23 @@ impl System {
         self.integrator.problem.algebra.dim()
     }
 
-    /// The same system with its parameters kept as names.
-    ///
-    /// # Errors
-    /// As [`System::new`].
-    pub fn with_names(&self) -> Result<coadjoint_codegen::problem::Problem, Vec<Mistake>> {
-        let options = Options { parameters: Parameters::Kept, ..Options::default() };
-        let file = File::of(&self.fields);
-        let read = system::read(&file.text, options);
-        read.map(|read| read.problem).map_err(|diagnostics| of_file(&file, &diagnostics))
+    /// The same system with its parameters kept as names; none where the comoving frame is one for their values alone.
+    #[must_use]
+    pub fn with_names(&self) -> Option<Problem> {
+        kept(&self.fields)
     }
+
+    /// The parameters with their values.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let fixed = Fields { frame: "fixed".into(), ..self.fields.clone() };
+        kept(&fixed).map(|problem| problem.parameters).unwrap_or_default()
+    }
+}
+
+fn kept(fields: &Fields) -> Option<Problem> {
+    let options = Options { parameters: Parameters::Kept, ..Options::default() };
+    system::read(&File::of(fields).text, options).ok().map(|read| read.problem)
 }
 
 /// The coefficients for a step size, and with them the radius of the series.
@@ -189,21 +199,21 @@ pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
 
 /// The factors of a group as the programs of its steps have them.
 fn factors(algebra: &LieAlgebra) -> Vec<Factor> {
-    let (mut coordinate, mut element) = (0, 0);
+    let (mut coordinate, mut row) = (0, 0);
     let factor = |factor: LieAlgebra| {
         let is = |name: &str| {
             catalogue::lookup(name).is_ok_and(|known| known.renamed(factor.name()) == factor)
         };
         let dim = factor.dim();
         let size = factor.basis().and_then(|basis| basis.first()).map_or(dim, |first| first.rows());
-        let (kind, numbers) = match () {
-            () if is("SO3") || is("SU2") => (Kind::Rotation, 4),
-            () if is("SE3") => (Kind::Motion, 7),
-            () if is("SE2") => (Kind::Plane, 4),
-            () => (Kind::Matrix, size * size),
+        let kind = match () {
+            () if is("SO3") || is("SU2") => Kind::Rotation,
+            () if is("SE3") => Kind::Motion,
+            () if is("SE2") => Kind::Plane,
+            () => Kind::Matrix,
         };
-        let found = Factor { kind, coordinate, dim, element, size };
-        (coordinate, element) = (coordinate + dim, element + numbers);
+        let found = Factor { kind, coordinate, dim, row, size };
+        (coordinate, row) = (coordinate + dim, row + size);
         found
     };
     algebra.factors().into_iter().map(factor).collect()

@@ -1,15 +1,13 @@
 //! Texts to copy: the system in each of its languages.
 
 use coadjoint_codegen::emit::c::{self, HeaderOptions};
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse;
 use coadjoint_codegen::problem::{Parameter, Shape};
 use num_traits::ToPrimitive;
 
-use crate::mistakes::Mistake;
 use crate::rust;
-use crate::system::System;
+use crate::system::{LIMIT, System};
 
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,15 +41,12 @@ impl Language {
 /// # Errors
 /// Why it cannot be written, in words.
 pub fn text(system: &System, language: Language) -> Result<String, String> {
-    let words = |mistakes: Vec<Mistake>| {
-        mistakes.first().map(|first| first.message.clone()).unwrap_or_default()
-    };
     match language {
         Language::File => Ok(system.file.clone()),
-        Language::Rust => rust::program(system, &system.with_names().map_err(words)?),
-        Language::Python => python(system, &system.with_names().map_err(words)?.parameters),
+        Language::Rust => rust::program(system),
+        Language::Python => python(system, &system.parameters()),
         Language::C => {
-            let problem = system.with_names().map_err(words)?;
+            let problem = &system.integrator.problem;
             let units = &system.units;
             let momentum =
                 (0..system.dim()).map(|i| units.coordinate(i).map(str::to_owned)).collect();
@@ -61,64 +56,68 @@ pub fn text(system: &System, language: Language) -> Result<String, String> {
                 momentum,
                 ..HeaderOptions::default()
             };
-            let limit = TermLimit { terms: 20_000, products: 4_000_000 };
             // With many parameters kept as names the series may be too large: their values are then put in.
-            let named = Integrator::build(problem, limit)
-                .ok()
-                .and_then(|integrator| c::header(&integrator, &options).ok());
-            named.map_or_else(
-                || c::header(&system.integrator, &options).map_err(|error| error.to_string()),
-                Ok,
-            )
+            let named =
+                system.with_names().and_then(|problem| Integrator::build(problem, LIMIT).ok());
+            let named = named.and_then(|integrator| c::header(&integrator, &options).ok());
+            let valued =
+                || c::header(&system.integrator, &options).map_err(|error| error.to_string());
+            named.map_or_else(valued, Ok)
         }
     }
 }
 
+/// Names that no keyword argument may have.
+const KEYWORDS: &str = " False None True and as assert async await break class continue def del elif else except finally \
+     for from global if import in is lambda nonlocal not or pass raise return try while with yield ";
+
 fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
     let problem = &system.integrator.problem;
     let mut out = String::from("import coadjoint as ca\n\n");
+    // Strings of JSON are strings of Python.
+    let quoted = |text: &str| serde_json::Value::from(text).to_string();
     let number = |x: f64| format!("{x:?}");
     let momentum = system.momentum.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ");
-    let time = system.fields.time.trim().parse::<f64>().unwrap_or(10.0);
     let run = format!(
         "run = body.simulate(momentum=[{momentum}], time={}, step={})\n",
-        number(time),
+        number(system.time),
         number(system.h)
     );
-    if !system.fields.algebra.trim().is_empty() || problem.comoving.is_some() {
-        // What the constructor has no argument for, the system file says.
+    if !system.fields.algebra.trim().is_empty() {
         let quotes = if system.file.contains("\"\"\"") { "'''" } else { "\"\"\"" };
         if system.file.contains(quotes) || system.file.contains('\\') {
-            return Err(
-                "this system's Hamiltonian has quotes in it: use the system file".to_owned()
-            );
+            return Err("there are quotes or backslashes in it; use the system file".to_owned());
         }
         out.push_str(&format!(
-            "body = ca.System.from_toml({quotes}\n{}{quotes})\n{run}",
+            "body = ca.System.from_text({quotes}\n{}{quotes})\n{run}",
             system.file
         ));
         return Ok(out);
     }
     let hamiltonian = problem.source.split_whitespace().collect::<Vec<_>>().join(" ");
-    let coordinates = system
-        .fields
-        .coordinates
-        .split(|c: char| c.is_whitespace() || c == ',')
-        .filter(|word| !word.is_empty());
-    let coordinates = coordinates.collect::<Vec<_>>().join(" ");
-    let mut arguments =
-        vec![format!("    {:?},", system.fields.group.trim()), format!("    {hamiltonian:?},")];
+    let coordinates: Vec<&str> =
+        crate::file::words(&system.fields.coordinates).into_iter().map(|(_, word)| word).collect();
+    let mut arguments = vec![
+        format!("    {},", quoted(system.fields.group.trim())),
+        format!("    {},", quoted(&hamiltonian)),
+    ];
     if !coordinates.is_empty() {
-        arguments.push(format!("    coordinates={coordinates:?},"));
+        arguments.push(format!("    coordinates={},", quoted(&coordinates.join(" "))));
     }
-    if !parameters.is_empty() {
-        let list =
-            parameters.iter().map(|parameter| format!("{}={}", parameter.name, value(parameter)));
+    let usual = |parameter: &Parameter| !KEYWORDS.contains(&format!(" {} ", parameter.name));
+    if parameters.iter().all(usual) && !parameters.is_empty() {
+        let list = parameters.iter().map(|one| format!("{}={}", one.name, value(one)));
         arguments.push(format!("    parameters=dict({}),", list.collect::<Vec<_>>().join(", ")));
+    } else if !parameters.is_empty() {
+        let list = parameters.iter().map(|one| format!("{}: {}", quoted(&one.name), value(one)));
+        arguments.push(format!("    parameters={{{}}},", list.collect::<Vec<_>>().join(", ")));
     }
     arguments.push(format!("    truncation={},", problem.truncation));
     if system.fields.chart != "exp" {
-        arguments.push(format!("    chart={:?},", problem.chart.name()));
+        arguments.push(format!("    chart={},", quoted(problem.chart.name())));
+    }
+    if problem.comoving.is_some() {
+        arguments.push("    frame=\"comoving\",".to_owned());
     }
     out.push_str(&format!("body = ca.System(\n{}\n)\n{run}", arguments.join("\n")));
     Ok(out)

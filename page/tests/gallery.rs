@@ -10,8 +10,8 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// Files that say what the page has no field or no programs for.
-const LEFT_OUT: [&str; 2] = ["satellite", "spin_chain_64"];
+/// A potential, 192 dimensions, and steps of 61 000 operations: nothing for a page.
+const LEFT_OUT: [&str; 3] = ["satellite", "spin_chain_64", "zeitlin_5"];
 
 #[test]
 fn every_example_is_there_and_says_the_same_through_its_fields() {
