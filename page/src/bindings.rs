@@ -1,0 +1,287 @@
+//! What the page's script calls.
+
+use serde::Serialize;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::fields::Fields;
+use crate::formula;
+use crate::mistakes::Mistake;
+use crate::orbit::{Curve, Orbit};
+use crate::run::Run;
+use crate::system::{Factor, System};
+use crate::texts::{Language, text};
+
+/// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
+#[wasm_bindgen]
+#[must_use]
+pub fn gallery() -> String {
+    json(&crate::gallery::gallery())
+}
+
+/// The groups of the catalogue with a name, as JSON: `[[name, summary]]`.
+#[wasm_bindgen]
+#[must_use]
+pub fn groups() -> String {
+    use coadjoint_codegen::lie::catalogue::{names, summary};
+    let list: Vec<(&str, String)> =
+        names().iter().map(|name| (*name, summary(name).unwrap_or_default())).collect();
+    json(&list)
+}
+
+fn json(value: &impl Serialize) -> String {
+    // Of texts, numbers and lists alone.
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+/// A system and its run.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Session {
+    system: System,
+    run: Run,
+    orbit: Option<Orbit>,
+}
+
+/// What a page shows of a system.
+#[derive(Serialize)]
+struct About<'a> {
+    name: &'a str,
+    group: &'a str,
+    dim: usize,
+    coordinates: &'a [String],
+    truncation: usize,
+    order: usize,
+    chart: &'a str,
+    step: f64,
+    momentum: &'a [f64],
+    energy: f64,
+    terms: Vec<(usize, usize)>,
+    comoving: bool,
+    casimirs: Vec<String>,
+    factors: &'a [Factor],
+    /// Triples of coordinates that stay on a sphere.
+    spheres: Vec<[usize; 3]>,
+    /// ½ ξᵀAξ and b·ξ: the quadratic part of H in the first three coordinates, and its slope in the next three.
+    inverse_inertia: Vec<f64>,
+    slope: Vec<f64>,
+    time_unit: Option<&'a str>,
+    substeps: usize,
+    cost: [usize; 2],
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// A session of these fields, given as JSON; or, as an error, the mistakes as JSON.
+    ///
+    /// # Errors
+    /// `[{field, start, end, message, help}]`, bytes in UTF-8.
+    #[wasm_bindgen(constructor)]
+    pub fn new(fields: &str) -> Result<Session, String> {
+        let fields: Fields = serde_json::from_str(fields).map_err(|error| {
+            json(&[Mistake::of_all(format!("the state is not readable: {error}"), None)])
+        })?;
+        let system = System::new(&fields).map_err(|mistakes| json(&mistakes))?;
+        let run = Run::new(&system, &system.momentum);
+        Ok(Self { system, run, orbit: None })
+    }
+
+    /// What a page shows of the system, as JSON.
+    #[must_use]
+    pub fn about(&self) -> String {
+        let System { integrator, step, energy, factors, momentum, units, .. } = &self.system;
+        let problem = &integrator.problem;
+        let n = problem.algebra.dim();
+        let programs = step.kernel().programs();
+        let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
+        let ours = list.iter().map(|program| program.cost().total()).sum();
+        let orders = (1..=problem.truncation).step_by(2);
+        let slopes = energy.gradient(n);
+        let curvature = |i: usize, j: usize| slopes[i].gradient(n)[j].value(&vec![0.0; n]);
+        let leading = n.min(3);
+        json(&About {
+            name: &problem.name,
+            group: problem.algebra.name(),
+            dim: n,
+            coordinates: &problem.coordinates,
+            truncation: problem.truncation,
+            order: integrator.order(),
+            chart: problem.chart.name(),
+            step: self.system.h,
+            momentum,
+            energy: energy.value(momentum),
+            terms: orders.map(|k| (k, integrator.series.order(k).len())).collect(),
+            comoving: problem.comoving.is_some(),
+            casimirs: self
+                .system
+                .casimirs
+                .iter()
+                .enumerate()
+                .map(|(i, (exact, _))| {
+                    formula::equation(
+                        &format!("<msub><mi>C</mi><mn>{}</mn></msub>", i + 1),
+                        exact,
+                        problem,
+                    )
+                })
+                .collect(),
+            factors,
+            spheres: spheres(factors),
+            inverse_inertia: (0..leading * leading)
+                .map(|at| curvature(at / leading, at % leading))
+                .collect(),
+            slope: (0..n).map(|i| slopes[i].value(&vec![0.0; n])).collect(),
+            time_unit: units.time.as_deref(),
+            substeps: self.run.substeps(),
+            cost: [ours, self.system.rival.cost()],
+        })
+    }
+
+    /// The run anew, from this momentum.
+    pub fn restart(&mut self, momentum: &[f64]) {
+        if momentum.len() == self.system.dim() {
+            self.run = Run::new(&self.system, momentum);
+        }
+    }
+
+    /// Up to so many steps; how many were made.
+    pub fn advance(&mut self, steps: u32) -> u32 {
+        self.run.advance(&self.system, steps)
+    }
+
+    /// Why there is no next step, as JSON `{reason, text, usable}`; nothing where there may be one.
+    #[must_use]
+    pub fn refusal(&self) -> Option<String> {
+        #[derive(Serialize)]
+        struct Shown {
+            reason: String,
+            text: &'static str,
+            usable: Option<f64>,
+        }
+        self.run.refusal.as_ref().map(|refusal| {
+            let reason = format!("{:?}", refusal.reason);
+            json(&Shown { reason, text: refusal.reason.text(), usable: refusal.usable })
+        })
+    }
+
+    /// t.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.run.time()
+    }
+
+    /// Steps made.
+    #[must_use]
+    pub fn steps(&self) -> f64 {
+        self.run.steps() as f64
+    }
+
+    /// H now.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.run.energy(&self.system)
+    }
+
+    /// μ now.
+    #[must_use]
+    pub fn momentum(&self) -> Vec<f64> {
+        self.run.momentum().to_vec()
+    }
+
+    /// The matrices of the group element, before and after the last step, row by row.
+    #[must_use]
+    pub fn matrices(&self) -> Vec<f64> {
+        self.run.matrices(&self.system)
+    }
+
+    /// μ a part of the way from the last state but one to the last, for pictures.
+    #[must_use]
+    pub fn between(&self, part: f64) -> Vec<f64> {
+        self.run.between(part)
+    }
+
+    /// Where three coordinates of μ have been, of late: points (x, y, z); 0 for those that there are none of.
+    #[must_use]
+    pub fn trail(&self, of_rival: bool, a: usize, b: usize, c: usize, part: f64) -> Vec<f32> {
+        self.run.trail(of_rival, [a, b, c], part)
+    }
+
+    /// The drifts so far, seven numbers a moment: t, then energy, momentum, Casimirs, ours and the rival's.
+    #[must_use]
+    pub fn history(&self) -> Vec<f64> {
+        let samples = self.run.history().samples().iter();
+        samples
+            .flat_map(|sample| [sample.time].into_iter().chain(sample.drifts.into_iter().flatten()))
+            .collect()
+    }
+
+    /// The largest drifts so far: energy, momentum, Casimirs, ours and the rival's.
+    #[must_use]
+    pub fn most(&self) -> Vec<f64> {
+        self.run.history().most().into_iter().flatten().collect()
+    }
+
+    /// The level curves of the energy on the orbit of this momentum, where the algebra has three dimensions and a
+    /// Casimir: the radius of a sphere or 0, the extent, how many curves are of spread levels; then for each curve how
+    /// many points it has, and those with the surface's normals, six numbers each.
+    pub fn curves(&mut self, momentum: &[f64]) -> Vec<f32> {
+        let energy = &self.system.energy;
+        // Where the momentum is dragged over its sphere only its own curve is another.
+        if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
+            self.orbit = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
+                ([(_, casimir)], 3, 3) => Orbit::new(energy, casimir, momentum),
+                _ => None,
+            };
+        }
+        let Some(Orbit { surface, spread, .. }) = &self.orbit else { return Vec::new() };
+        let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(momentum)));
+        let mut out =
+            vec![surface.radius.unwrap_or(0.0) as f32, surface.extent as f32, spread.len() as f32];
+        let mut push = |curve: &Curve| {
+            out.push(curve.len() as f32);
+            out.extend(curve.iter().flatten().map(|&x| x as f32));
+        };
+        spread.iter().chain(own.iter().flatten()).for_each(&mut push);
+        out
+    }
+
+    /// H and S₁, S₃, … as MathML, a JSON list.
+    #[must_use]
+    pub fn formulas(&self) -> String {
+        let integrator = &self.system.integrator;
+        let problem = &integrator.problem;
+        let mut list = vec![formula::equation("<mi>H</mi>", &problem.hamiltonian, problem)];
+        if let Some(frame) = &problem.comoving {
+            list.push(formula::equation("<mi>f</mi>", &frame.energy(), problem));
+        }
+        let orders = (1..=problem.truncation).step_by(2);
+        list.extend(
+            orders.map(|k| {
+                formula::equation(&formula::order(k), integrator.series.order(k), problem)
+            }),
+        );
+        json(&list)
+    }
+
+    /// The system as `file`, `rust`, `python` or `c`.
+    ///
+    /// # Errors
+    /// Why it cannot be written.
+    pub fn text(&self, language: &str) -> Result<String, String> {
+        let language = Language::named(language).ok_or("no such language")?;
+        text(&self.system, language)
+    }
+}
+
+/// Triples of coordinates that stay on a sphere: of rotations, and the translations' of motions.
+fn spheres(factors: &[Factor]) -> Vec<[usize; 3]> {
+    use crate::system::Kind;
+    let triple = |start: usize| [start, start + 1, start + 2];
+    factors
+        .iter()
+        .filter_map(|factor| match factor.kind {
+            Kind::Rotation => Some(triple(factor.coordinate)),
+            Kind::Motion => Some(triple(factor.coordinate + 3)),
+            _ => None,
+        })
+        .collect()
+}

@@ -1,0 +1,254 @@
+//! From fields to the text of a system file, which the library reads, and back from its places to theirs.
+
+use std::ops::Range;
+
+use crate::fields::Fields;
+
+/// The text of a system file, and which of its bytes are from which field.
+#[derive(Clone, Debug, Default)]
+pub struct File {
+    /// The text.
+    pub text: String,
+    pieces: Vec<Piece>,
+    /// What could not even be written as a file.
+    pub unwritten: Vec<Unwritten>,
+}
+
+/// Bytes of a field that stand in the text as they are.
+#[derive(Clone, Debug)]
+struct Piece {
+    text: Range<usize>,
+    field: &'static str,
+    offset: usize,
+}
+
+/// A mistake found while writing the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unwritten {
+    /// The field.
+    pub field: &'static str,
+    /// The bytes of the field.
+    pub range: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+}
+
+impl File {
+    /// The system file of these fields.
+    #[must_use]
+    pub fn of(fields: &Fields) -> Self {
+        let mut file = Self::default();
+        file.entry("name", "name", &fields.name);
+        if fields.algebra.trim().is_empty() {
+            file.entry("group", "group", &fields.group);
+        }
+        file.list("coordinates", "coordinates", &fields.coordinates, quoted);
+        file.entry("hamiltonian", "hamiltonian", &fields.hamiltonian);
+        if !fields.algebra.trim().is_empty() {
+            file.text.push_str("\n[algebra]\n");
+            file.verbatim("algebra", 0, fields.algebra.trim_end());
+            file.text.push('\n');
+        }
+        file.parameters(&fields.parameters);
+        file.text.push_str("\n[integrator]\n");
+        file.value("truncation", "truncation", &fields.truncation);
+        if fields.chart != "exp" {
+            file.entry("chart", "chart", &fields.chart);
+        }
+        if fields.frame != "fixed" {
+            file.entry("frame", "frame", &fields.frame);
+        }
+        file.value("step", "step", &fields.step);
+        file.text.push_str("\n[initial]\n");
+        file.list("momentum", "momentum", &fields.momentum, number);
+        if !fields.time.trim().is_empty() {
+            file.text.push_str("\n[run]\n");
+            file.value("time", "time", &fields.time);
+        }
+        file
+    }
+
+    /// The field that these bytes of the text are from, and which of its bytes they are.
+    #[must_use]
+    pub fn place(&self, start: usize, end: usize) -> Option<(&'static str, Range<usize>)> {
+        let piece = self
+            .pieces
+            .iter()
+            .find(|piece| piece.text.start <= start && start <= piece.text.end)
+            // A whole list, quotes and brackets included.
+            .or_else(|| {
+                self.pieces.iter().find(|piece| start <= piece.text.start && piece.text.start < end)
+            })?;
+        let field = piece.field;
+        let within = self.pieces.iter().filter(|other| other.field == field);
+        let last = within.filter(|other| other.text.start <= end).next_back().unwrap_or(piece);
+        let inside = |piece: &Piece, at: usize| {
+            at.clamp(piece.text.start, piece.text.end) - piece.text.start + piece.offset
+        };
+        let from = inside(piece, start);
+        Some((field, from..inside(last, end).max(from)))
+    }
+
+    fn verbatim(&mut self, field: &'static str, offset: usize, content: &str) {
+        let start = self.text.len();
+        self.text.push_str(content);
+        self.pieces.push(Piece { text: start..self.text.len(), field, offset });
+    }
+
+    /// A text in quotes that leave it as it is.
+    fn string(&mut self, field: &'static str, offset: usize, content: &str) {
+        let clean: String =
+            content.chars().map(|c| if c == '\n' || !c.is_control() { c } else { ' ' }).collect();
+        let (open, close) = if clean.contains('\n') {
+            if clean.contains("\"\"\"") || clean.contains('\\') {
+                ("'''\n", "'''")
+            } else {
+                ("\"\"\"\n", "\"\"\"")
+            }
+        } else if !clean.contains(['"', '\\']) {
+            ("\"", "\"")
+        } else if !clean.contains('\'') {
+            ("'", "'")
+        } else {
+            ("'''\n", "'''")
+        };
+        self.text.push_str(open);
+        self.verbatim(field, offset, &clean.replace("'''", "' '"));
+        self.text.push_str(close);
+    }
+
+    fn entry(&mut self, key: &str, field: &'static str, content: &str) {
+        self.text.push_str(&format!("{key} = "));
+        let lead = content.len() - content.trim_start().len();
+        self.string(field, lead, content.trim());
+        self.text.push('\n');
+    }
+
+    fn value(&mut self, key: &str, field: &'static str, content: &str) {
+        self.text.push_str(&format!("{key} = "));
+        let lead = content.len() - content.trim_start().len();
+        self.number(field, lead, content.trim());
+        self.text.push('\n');
+    }
+
+    /// A number as TOML has it, or a text: `1/3`.
+    fn number(&mut self, field: &'static str, offset: usize, content: &str) {
+        if is_number(content) {
+            self.verbatim(field, offset, content);
+        } else {
+            self.string(field, offset, content);
+        }
+    }
+
+    fn list(&mut self, key: &str, field: &'static str, content: &str, write: Write) {
+        let words = words(content);
+        // Without names the group's own are taken.
+        if words.is_empty() && field == "coordinates" {
+            return;
+        }
+        self.text.push_str(&format!("{key} = ["));
+        for (number, (offset, word)) in words.into_iter().enumerate() {
+            if number > 0 {
+                self.text.push_str(", ");
+            }
+            write(self, field, offset, word);
+        }
+        self.text.push_str("]\n");
+    }
+
+    fn parameters(&mut self, content: &str) {
+        let entries = split(content);
+        if entries.is_empty() {
+            return;
+        }
+        self.text.push_str("\n[parameters]\n");
+        for (offset, entry) in entries {
+            let Some((name, value)) = entry.split_once('=') else {
+                self.unwritten.push(Unwritten {
+                    field: "parameters",
+                    range: offset..offset + entry.len(),
+                    message: format!("`{entry}` is no parameter of the form name = value"),
+                    help: "write for example I1 = 1.5".to_owned(),
+                });
+                continue;
+            };
+            let at = |part: &str| offset + (part.as_ptr() as usize - entry.as_ptr() as usize);
+            let (name, value) = (name.trim(), value.trim());
+            if !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+                self.verbatim("parameters", at(name), name);
+            } else {
+                self.string("parameters", at(name), name);
+            }
+            self.text.push_str(" = ");
+            if value.starts_with('[') {
+                self.verbatim("parameters", at(value), value);
+            } else {
+                self.number("parameters", at(value), value);
+            }
+            self.text.push('\n');
+        }
+    }
+}
+
+type Write = fn(&mut File, &'static str, usize, &str);
+
+fn quoted(file: &mut File, field: &'static str, offset: usize, word: &str) {
+    file.string(field, offset, word);
+}
+
+fn number(file: &mut File, field: &'static str, offset: usize, word: &str) {
+    file.number(field, offset, word);
+}
+
+/// Words, with where they begin. Blanks inside parentheses and brackets part nothing, commas outside do.
+#[must_use]
+pub fn words(content: &str) -> Vec<(usize, &str)> {
+    parts(content, |c| c.is_whitespace() || c == ',' || c == ';')
+}
+
+/// Entries of a list by lines, commas or semicolons.
+fn split(content: &str) -> Vec<(usize, &str)> {
+    let parts = parts(content, |c| matches!(c, '\n' | ',' | ';'));
+    let trimmed = parts
+        .into_iter()
+        .map(|(offset, part)| (offset + part.len() - part.trim_start().len(), part.trim()));
+    trimmed.filter(|(_, part)| !part.is_empty()).collect()
+}
+
+fn parts(content: &str, separates: impl Fn(char) -> bool) -> Vec<(usize, &str)> {
+    let (mut depth, mut start) = (0_usize, 0);
+    let mut result = Vec::new();
+    for (at, c) in content.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            c if depth == 0 && separates(c) => {
+                result.push((start, &content[start..at]));
+                start = at + c.len_utf8();
+            }
+            _ => {}
+        }
+    }
+    result.push((start, &content[start..]));
+    result.retain(|(_, part)| !part.is_empty());
+    result
+}
+
+/// Whether TOML reads it as a number.
+fn is_number(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => {
+            (mantissa, exponent.strip_prefix(['-', '+']).unwrap_or(exponent))
+        }
+        None => (unsigned, "0"),
+    };
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, "0"));
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    digits(whole)
+        && digits(decimals)
+        && digits(exponent)
+        && (whole == "0" || !whole.starts_with('0'))
+}

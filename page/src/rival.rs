@@ -1,0 +1,255 @@
+//! The classical method of Runge and Kutta for the same equations, to run beside.
+//!
+//! μ̇ = ad\*_ξ μ and ġ = g·ξ with ξ = ∂H/∂μ, g as a matrix, by the same interpreter; so that what a step costs is
+//! counted in the same operations.
+
+use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_program::{Graph, Id, Program};
+use nalgebra::{DMatrix, DVector};
+use num_traits::ToPrimitive;
+
+use crate::polynomial::Numeric;
+
+/// A step of the method, and how its states are read.
+#[derive(Debug)]
+pub struct Rival {
+    dim: usize,
+    size: usize,
+    /// Places of the entries of g that can differ from those of the identity, row by row.
+    entries: Vec<usize>,
+    /// μ, entries, h ↦ μ, entries.
+    step: Program,
+    /// μ ↦ μ̇.
+    rate: Program,
+    /// The matrices e_i, and the inverse of their Gram matrix; none where g is an adjoint matrix.
+    basis: Option<(Vec<DMatrix<f64>>, DMatrix<f64>)>,
+}
+
+impl Rival {
+    /// The method for a Hamiltonian on a group.
+    #[must_use]
+    pub fn new(algebra: &LieAlgebra, energy: &Numeric) -> Self {
+        let dim = algebra.dim();
+        let matrices = matrices(algebra);
+        let size = matrices.first().map_or(0, DMatrix::nrows);
+        let entries = reached(&matrices, size);
+        let field = Field {
+            algebra,
+            slopes: energy.gradient(dim),
+            matrices: &matrices,
+            size,
+            entries: &entries,
+        };
+        let basis = algebra.basis().and_then(|_| {
+            let gram = DMatrix::from_fn(dim, dim, |i, j| matrices[i].dot(&matrices[j]));
+            gram.try_inverse().map(|inverse| (matrices.clone(), inverse))
+        });
+        let (step, rate) = (field.step(), field.rate());
+        Self { dim, size, step, rate, basis, entries }
+    }
+
+    /// The operations of a step.
+    #[must_use]
+    pub fn cost(&self) -> usize {
+        self.step.cost().total()
+    }
+
+    /// The state at the identity.
+    #[must_use]
+    pub fn start(&self, momentum: &[f64]) -> Vec<f64> {
+        let identity = |&at: &usize| f64::from(u8::from(at / self.size == at % self.size));
+        momentum.iter().copied().chain(self.entries.iter().map(identity)).collect()
+    }
+
+    /// One step.
+    pub fn advance(&self, state: &mut [f64], h: f64, scratch: &mut Vec<f64>) {
+        let input: Vec<f64> = state.iter().copied().chain([h]).collect();
+        self.step.run(&input, &[], scratch, state);
+    }
+
+    /// μ̇ at μ.
+    pub fn rate(&self, momentum: &[f64], scratch: &mut Vec<f64>, out: &mut [f64]) {
+        self.rate.run(momentum, &[], scratch, out);
+    }
+
+    /// The spatial momentum Ad\*_g μ of a state as it is, wherever it has left the group; NaN where g has no inverse.
+    #[must_use]
+    pub fn spatial(&self, state: &[f64]) -> Vec<f64> {
+        let mut g = DMatrix::<f64>::identity(self.size, self.size);
+        for (&at, &value) in self.entries.iter().zip(&state[self.dim..]) {
+            g[(at / self.size, at % self.size)] = value;
+        }
+        let mu = DVector::from_column_slice(&state[..self.dim]);
+        let nothing = || vec![f64::NAN; self.dim];
+        let Some((basis, inverse)) = &self.basis else {
+            let solved = g.transpose().lu().solve(&mu);
+            return solved.map_or_else(nothing, |found| found.as_slice().to_vec());
+        };
+        let Some(back) = g.clone().try_inverse() else { return nothing() };
+        let dual = inverse * mu;
+        basis
+            .iter()
+            .map(|e| {
+                let moved = &back * e * &g;
+                basis.iter().zip(dual.iter()).map(|(e, dual)| e.dot(&moved) * dual).sum()
+            })
+            .collect()
+    }
+}
+
+/// The basis, or the adjoint matrices.
+fn matrices(algebra: &LieAlgebra) -> Vec<DMatrix<f64>> {
+    let dim = algebra.dim();
+    match algebra.basis() {
+        Some(basis) => basis
+            .iter()
+            .map(|exact| {
+                let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
+                for (i, j, value) in exact.entries() {
+                    matrix[(i, j)] = value.to_f64().unwrap_or(f64::NAN);
+                }
+                matrix
+            })
+            .collect(),
+        None => {
+            let mut list = vec![DMatrix::zeros(dim, dim); dim];
+            for c in algebra.structure() {
+                list[c.i][(c.k, c.j)] = c.value.to_f64().unwrap_or(f64::NAN);
+            }
+            list
+        }
+    }
+}
+
+/// The entries that products of exponentials can change.
+fn reached(matrices: &[DMatrix<f64>], size: usize) -> Vec<usize> {
+    let moves = DMatrix::from_fn(size, size, |i, j| matrices.iter().any(|e| e[(i, j)] != 0.0));
+    let mut nonzero = DMatrix::from_fn(size, size, |i, j| i == j);
+    let mut changed = DMatrix::from_element(size, size, false);
+    loop {
+        let mut grown = false;
+        for i in 0..size {
+            for j in 0..size {
+                if !changed[(i, j)] && (0..size).any(|k| nonzero[(i, k)] && moves[(k, j)]) {
+                    (changed[(i, j)], nonzero[(i, j)], grown) = (true, true, true);
+                }
+            }
+        }
+        if !grown {
+            break;
+        }
+    }
+    (0..size * size).filter(|&at| changed[(at / size, at % size)]).collect()
+}
+
+/// The equations of motion as nodes.
+struct Field<'a> {
+    algebra: &'a LieAlgebra,
+    slopes: Vec<Numeric>,
+    matrices: &'a [DMatrix<f64>],
+    size: usize,
+    entries: &'a [usize],
+}
+
+impl Field<'_> {
+    fn dim(&self) -> usize {
+        self.algebra.dim()
+    }
+
+    /// ξ = ∂H/∂μ.
+    fn velocity(&self, graph: &mut Graph, mu: &[Id]) -> Vec<Id> {
+        let slope = |slope: &Numeric| {
+            let mut sum = graph.zero();
+            for (value, factors) in slope.terms() {
+                let mut product = None;
+                for &(i, power) in factors {
+                    let power = graph.power(mu[i], power.unsigned_abs());
+                    product = Some(product.map_or(power, |product| graph.mul(product, power)));
+                }
+                let value = graph.constant(value);
+                sum = match product {
+                    Some(product) => graph.times_plus(product, value, sum),
+                    None => graph.add(value, sum),
+                };
+            }
+            sum
+        };
+        self.slopes.iter().map(slope).collect()
+    }
+
+    /// ad\*_ξ μ.
+    fn force(&self, graph: &mut Graph, xi: &[Id], mu: &[Id]) -> Vec<Id> {
+        let mut force = vec![graph.zero(); self.dim()];
+        for c in self.algebra.structure() {
+            let product = graph.mul(xi[c.i], mu[c.k]);
+            let value = graph.constant(c.value.to_f64().unwrap_or(f64::NAN));
+            force[c.j] = graph.times_plus(product, value, force[c.j]);
+        }
+        force
+    }
+
+    fn all(&self, graph: &mut Graph, state: &[Id]) -> Vec<Id> {
+        let (mu, entries) = state.split_at(self.dim());
+        let xi = self.velocity(graph, mu);
+        let mut rates = self.force(graph, &xi, mu);
+        // The entries of ξ as a matrix.
+        let size = self.size;
+        let zero = graph.zero();
+        let mut moved = vec![zero; size * size];
+        for (matrix, &xi) in self.matrices.iter().zip(&xi) {
+            for at in 0..size * size {
+                let value = matrix[(at / size, at % size)];
+                if value != 0.0 {
+                    let value = graph.constant(value);
+                    moved[at] = graph.times_plus(value, xi, moved[at]);
+                }
+            }
+        }
+        for &at in self.entries {
+            let (i, j) = (at / size, at % size);
+            let mut sum = zero;
+            for k in 0..size {
+                let place = self.entries.binary_search(&(i * size + k));
+                sum = match place {
+                    Ok(place) => graph.times_plus(entries[place], moved[k * size + j], sum),
+                    Err(_) if i == k => graph.add(moved[k * size + j], sum),
+                    Err(_) => sum,
+                };
+            }
+            rates.push(sum);
+        }
+        rates
+    }
+
+    fn step(&self) -> Program {
+        let mut graph = Graph::new();
+        let count = self.dim() + self.entries.len();
+        let start: Vec<Id> = (0..count).map(|i| graph.input(i)).collect();
+        let h = graph.input(count);
+        let share = |graph: &mut Graph, part: f64| {
+            let part = graph.constant(part);
+            graph.mul(h, part)
+        };
+        let (half, sixth, third) =
+            (share(&mut graph, 0.5), share(&mut graph, 1.0 / 6.0), share(&mut graph, 1.0 / 3.0));
+        let along = |graph: &mut Graph, from: &[Id], by: Id, rates: &[Id]| -> Vec<Id> {
+            from.iter().zip(rates).map(|(&a, &rate)| graph.times_plus(rate, by, a)).collect()
+        };
+        let mut end = start.clone();
+        let mut at = start.clone();
+        for (weight, next) in [(sixth, half), (third, half), (third, h), (sixth, h)] {
+            let rates = self.all(&mut graph, &at);
+            end = along(&mut graph, &end, weight, &rates);
+            at = along(&mut graph, &start, next, &rates);
+        }
+        graph.finish(count + 1, &end)
+    }
+
+    fn rate(&self) -> Program {
+        let mut graph = Graph::new();
+        let mu: Vec<Id> = (0..self.dim()).map(|i| graph.input(i)).collect();
+        let xi = self.velocity(&mut graph, &mu);
+        let force = self.force(&mut graph, &xi, &mu);
+        graph.finish(self.dim(), &force)
+    }
+}

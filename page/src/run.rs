@@ -1,0 +1,323 @@
+//! A run: our steps and the rival's side by side, and how far each has drifted.
+
+use coadjoint_program::{Program, Stepper};
+
+use crate::history::{History, Sample};
+use crate::refusal::{Reason, usable};
+use crate::system::System;
+
+/// Moments of the trail behind a momentum.
+const TRAIL: usize = 1200;
+/// Points between two steps, so that trails and pictures are smooth.
+const SMOOTH: usize = 4;
+
+/// (g, μ) and μ̇.
+#[derive(Clone, Debug, Default)]
+struct State {
+    g: Vec<f64>,
+    mu: Vec<f64>,
+    rate: Vec<f64>,
+}
+
+/// A run from the identity.
+#[derive(Debug)]
+pub struct Run {
+    h: f64,
+    /// The rival's steps within one of ours.
+    substeps: usize,
+    steps: u64,
+    before: State,
+    now: State,
+    rival: Vec<f64>,
+    rival_rate: Vec<f64>,
+    /// μ and μ̇ after each step, ours and the rival's.
+    trail: [Vec<f64>; 2],
+    start: Start,
+    spatial: Program,
+    history: History,
+    /// Why there is no next step.
+    pub refusal: Option<Refusal>,
+}
+
+/// A refused step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// Why.
+    pub reason: Reason,
+    /// A shorter step that can be made.
+    pub usable: Option<f64>,
+}
+
+/// What is conserved, at the start, and the sizes that drifts are relative to.
+#[derive(Debug)]
+struct Start {
+    energy: (f64, f64),
+    momentum: (Vec<f64>, f64),
+    casimirs: Vec<(f64, f64)>,
+}
+
+impl Run {
+    /// A run from the identity with this momentum.
+    #[must_use]
+    pub fn new(system: &System, momentum: &[f64]) -> Self {
+        let n = system.dim();
+        let size: usize = system.factors.iter().map(|factor| factor.size).sum();
+        let identity: Vec<f64> =
+            (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
+        let g = identity_of(system, &identity);
+        let mut rate = vec![0.0; n];
+        system.rival.rate(momentum, &mut Vec::new(), &mut rate);
+        let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
+        let casimirs = system
+            .casimirs
+            .iter()
+            .map(|(_, casimir)| (casimir.value(momentum), casimir_scale(casimir, momentum)));
+        let start = Start {
+            energy: (system.energy.value(momentum), system.energy.magnitude(momentum)),
+            momentum: (momentum.to_vec(), largest(momentum.iter().copied())),
+            casimirs: casimirs.collect(),
+        };
+        let mut run = Self {
+            h: system.h,
+            substeps: 1,
+            steps: 0,
+            before: now.clone(),
+            now,
+            rival: system.rival.start(momentum),
+            rival_rate: rate,
+            trail: [Vec::new(), Vec::new()],
+            start,
+            spatial: system.step.spatial(),
+            history: History::default(),
+            refusal: None,
+        };
+        run.substeps = substeps(system, &run.now);
+        run.leave_trail();
+        run.record(system);
+        run
+    }
+
+    /// Up to so many steps; how many were made.
+    pub fn advance(&mut self, system: &System, count: u32) -> u32 {
+        let kernel = system.step.kernel();
+        let mut scratch = Vec::new();
+        for made in 0..count {
+            if self.refusal.is_some() {
+                return made;
+            }
+            let mut next = self.now.clone();
+            let outcome = kernel.advance(&system.slots, &mut next.g, &mut next.mu, 1);
+            if outcome.steps == 0 {
+                let reason = Reason::of(kernel, &system.slots, &self.now.mu);
+                let usable = usable(system, &self.now.g, &self.now.mu);
+                self.refusal = Some(Refusal { reason, usable });
+                return made;
+            }
+            system.rival.rate(&next.mu, &mut scratch, &mut next.rate);
+            self.before = std::mem::replace(&mut self.now, next);
+            self.steps += 1;
+            let h = self.h / self.substeps as f64;
+            for _ in 0..self.substeps {
+                system.rival.advance(&mut self.rival, h, &mut scratch);
+            }
+            system.rival.rate(&self.rival[..system.dim()], &mut scratch, &mut self.rival_rate);
+            self.leave_trail();
+            self.record(system);
+        }
+        count
+    }
+
+    /// t after the last step.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.h
+    }
+
+    /// Steps made.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The rival's steps within one of ours.
+    #[must_use]
+    pub fn substeps(&self) -> usize {
+        self.substeps
+    }
+
+    /// μ now.
+    #[must_use]
+    pub fn momentum(&self) -> &[f64] {
+        &self.now.mu
+    }
+
+    /// The energy now.
+    #[must_use]
+    pub fn energy(&self, system: &System) -> f64 {
+        system.energy.value(&self.now.mu)
+    }
+
+    /// μ a part of the way from the last state but one to the last. Only for pictures.
+    #[must_use]
+    pub fn between(&self, part: f64) -> Vec<f64> {
+        let (a, b) = (&self.before, &self.now);
+        let end = |of: &State, i: usize| (of.mu[i], of.rate[i] * self.h);
+        (0..a.mu.len()).map(|i| hermite(end(a, i), end(b, i), part)).collect()
+    }
+
+    /// The matrices of the last state but one and of the last, row by row, one after the other.
+    #[must_use]
+    pub fn matrices(&self, system: &System) -> Vec<f64> {
+        let program = &system.step.kernel().programs().matrix;
+        let entries = program.outputs().len();
+        let mut both = vec![0.0; 2 * entries];
+        for (state, matrix) in [&self.before, &self.now].into_iter().zip(both.chunks_mut(entries)) {
+            program.run(&state.g, &[], &mut Vec::new(), matrix);
+        }
+        both
+    }
+
+    /// Where three coordinates of μ have been, of late: points (x, y, z), smoothed between steps.
+    #[must_use]
+    pub fn trail(&self, of_rival: bool, axes: [usize; 3], part: f64) -> Vec<f32> {
+        let n = self.now.mu.len();
+        let trail = &self.trail[usize::from(of_rival)];
+        let moments: Vec<&[f64]> = trail.chunks_exact(2 * n).collect();
+        let end = |of: &[f64], axis: usize| match axis < n {
+            true => (of[axis], of[n + axis] * self.h),
+            false => (0.0, 0.0),
+        };
+        let mut points = Vec::with_capacity(3 * SMOOTH * moments.len());
+        for (number, pair) in moments.windows(2).enumerate() {
+            let until = if number + 2 == moments.len() { part } else { 1.0 };
+            for s in 0..SMOOTH {
+                let s = s as f64 / SMOOTH as f64 * until;
+                for axis in axes {
+                    points.push(hermite(end(pair[0], axis), end(pair[1], axis), s) as f32);
+                }
+            }
+        }
+        if let [.., a, b] = &moments[..] {
+            for axis in axes {
+                points.push(hermite(end(a, axis), end(b, axis), part) as f32);
+            }
+        }
+        points
+    }
+
+    /// The drifts so far.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    fn leave_trail(&mut self) {
+        let n = self.now.mu.len();
+        let ours = self.now.mu.iter().chain(&self.now.rate);
+        self.trail[0].extend(ours);
+        self.trail[1].extend(self.rival[..n].iter().chain(&self.rival_rate));
+        for trail in &mut self.trail {
+            // Cut now and then, half of it.
+            if trail.len() > 4 * n * TRAIL {
+                trail.drain(..2 * n * TRAIL);
+            }
+        }
+    }
+
+    fn record(&mut self, system: &System) {
+        let n = self.now.mu.len();
+        let ours = self.drift(system, &self.now.mu, &self.our_spatial(system));
+        let rival = self.drift(system, &self.rival[..n], &system.rival.spatial(&self.rival));
+        self.history.push(Sample { time: self.time(), drifts: [ours, rival] });
+    }
+
+    /// Of energy, spatial momentum and Casimirs, as the command defines them.
+    fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
+        let Start { energy, momentum, casimirs } = &self.start;
+        let moved = largest(spatial.iter().zip(&momentum.0).map(|(now, then)| now - then));
+        let casimirs = system
+            .casimirs
+            .iter()
+            .zip(casimirs)
+            .map(|((_, casimir), (then, scale))| relative(casimir.value(mu) - then, *scale));
+        [
+            relative(system.energy.value(mu) - energy.0, energy.1),
+            relative(moved, momentum.1),
+            largest(casimirs),
+        ]
+    }
+
+    fn our_spatial(&self, system: &System) -> Vec<f64> {
+        let State { g, mu, .. } = &self.now;
+        let mut inverse = vec![0.0; g.len()];
+        for (start, rows) in system.step.inverted() {
+            let block =
+                nalgebra::DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
+            let found = block
+                .try_inverse()
+                .unwrap_or_else(|| nalgebra::DMatrix::from_element(rows, rows, f64::NAN));
+            inverse[start..start + rows * rows].copy_from_slice(found.transpose().as_slice());
+        }
+        let input: Vec<f64> = g.iter().chain(&inverse).chain(mu).copied().collect();
+        let mut out = vec![0.0; mu.len()];
+        self.spatial.run(&input, &system.slots, &mut Vec::new(), &mut out);
+        out
+    }
+}
+
+/// The numbers of the identity.
+fn identity_of(system: &System, identity: &[f64]) -> Vec<f64> {
+    system.step.element_of(identity)
+}
+
+/// How many of the rival's steps cost as much as one of ours, or a little more.
+fn substeps(system: &System, start: &State) -> usize {
+    let kernel = system.step.kernel();
+    let programs = kernel.programs();
+    let State { mut g, mut mu, .. } = start.clone();
+    let (mut steps, mut corrections) = (0_u64, 0_u64);
+    while steps < 16 {
+        let outcome = kernel.advance(&system.slots, &mut g, &mut mu, 1);
+        if outcome.steps == 0 {
+            break;
+        }
+        (steps, corrections) = (steps + 1, corrections + u64::from(outcome.corrections));
+    }
+    let corrections = if steps == 0 { 1.0 } else { corrections as f64 / steps as f64 };
+    let cost = |program: &Program| program.cost().total() as f64;
+    let rest =
+        [&programs.guess, &programs.accept, &programs.transport].map(cost).iter().sum::<f64>();
+    let ours = rest + corrections * cost(&programs.correct);
+    (ours / system.rival.cost().max(1) as f64).ceil().max(1.0) as usize
+}
+
+/// The cubic with these values and slopes at 0 and 1.
+fn hermite((a, slope_a): (f64, f64), (b, slope_b): (f64, f64), s: f64) -> f64 {
+    let (t, u) = (1.0 - s, s);
+    a * t * t * (1.0 + 2.0 * u) + b * u * u * (1.0 + 2.0 * t) + slope_a * u * t * t
+        - slope_b * u * u * t
+}
+
+/// The largest absolute value; NaN where one is.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values
+        .into_iter()
+        .map(f64::abs)
+        .fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
+}
+
+fn relative(difference: f64, size: f64) -> f64 {
+    if size == 0.0 { difference.abs() } else { (difference / size).abs() }
+}
+
+/// The largest value a Casimir takes at ±|μ₁|, … with at most one sign changed.
+fn casimir_scale(casimir: &crate::polynomial::Numeric, momentum: &[f64]) -> f64 {
+    let mut point: Vec<f64> = momentum.iter().map(|entry| entry.abs()).collect();
+    let mut scale = largest([casimir.value(momentum), casimir.value(&point)]);
+    for i in 0..point.len() {
+        point[i] = -point[i];
+        scale = largest([scale, casimir.value(&point)]);
+        point[i] = -point[i];
+    }
+    scale
+}

@@ -1,0 +1,220 @@
+//! A system ready to run: derived, lowered, folded for its step size.
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
+use coadjoint_codegen::problem::{Parameter, Problem, Solver};
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::system::{self, Options, Parameters, Units};
+
+use crate::fields::Fields;
+use crate::file::File;
+use crate::mistakes::{Mistake, of_file};
+use crate::polynomial::Numeric;
+use crate::rival::Rival;
+
+/// Steps of more operations than this are too slow for a page.
+const MOST_OPERATIONS: usize = 60_000;
+/// Series may become this large: beyond, a page would stand still.
+pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
+/// Casimirs are looked for up to this degree.
+const CASIMIR_DEGREE: u32 = 3;
+
+/// What a factor of the group is, for pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// SO(3), or SU(2) as the real matrices of quaternions.
+    Rotation,
+    /// SE(3).
+    Motion,
+    /// SE(2).
+    Plane,
+    /// Any other.
+    Matrix,
+}
+
+/// A factor of the group.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Factor {
+    /// What it is.
+    pub kind: Kind,
+    /// Where its coordinates begin, and how many there are.
+    pub coordinate: usize,
+    /// Their number.
+    pub dim: usize,
+    /// The first row of its block in the matrix of the group.
+    pub row: usize,
+    /// Rows of the block.
+    pub size: usize,
+}
+
+/// A system ready to run.
+#[derive(Debug)]
+pub struct System {
+    /// The text of its system file.
+    pub file: String,
+    /// What the user filled in.
+    pub fields: Fields,
+    /// The integrator, with numbers for the parameters.
+    pub integrator: Integrator,
+    /// A step as programs.
+    pub step: Step,
+    /// Their folded coefficients.
+    pub slots: Vec<f64>,
+    /// h.
+    pub h: f64,
+    /// The duration of a run, for the texts to copy.
+    pub time: f64,
+    /// μ at the start.
+    pub momentum: Vec<f64>,
+    /// H.
+    pub energy: Numeric,
+    /// Casimirs of low degree, exact and as numbers.
+    pub casimirs: Vec<(coadjoint_codegen::poly::Polynomial, Numeric)>,
+    /// The factors of the group.
+    pub factors: Vec<Factor>,
+    /// Runge and Kutta's method of order four for the same equations.
+    pub rival: Rival,
+    /// Units, for labels.
+    pub units: Units,
+}
+
+impl System {
+    /// The system of these fields.
+    ///
+    /// # Errors
+    /// All mistakes, each at its place; or why the system is nothing for a page.
+    pub fn new(fields: &Fields) -> Result<Self, Vec<Mistake>> {
+        let file = File::of(fields);
+        let read = match system::read(&file.text, Options::default()) {
+            Ok(read) if file.unwritten.is_empty() => read,
+            Ok(_) => return Err(of_file(&file, &Default::default())),
+            Err(diagnostics) => return Err(of_file(&file, &diagnostics)),
+        };
+        let problem = read.problem;
+        let dim = problem.algebra.dim();
+        let h = read.run.step.unwrap_or(0.1);
+        let Some(momentum) = read.run.momentum else {
+            return Err(vec![Mistake::of(
+                "momentum",
+                "the momentum at the start is missing",
+                "give a number for each coordinate",
+            )]);
+        };
+        if problem.solver() == Solver::FixedPoint {
+            let most = Solver::NEWTON_DIMENSIONS;
+            return Err(vec![Mistake::of_all(
+                format!(
+                    "{} has {dim} dimensions. Beyond {most} the equation of a step is solved by the fixed point, which this page has no programs for.",
+                    problem.algebra.name()
+                ),
+                Some("copy the system file and run it with the command: coadjoint simulate FILE"),
+            )]);
+        }
+        let integrator = Integrator::build(problem, LIMIT)
+            .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
+        let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
+        let step = Step::build(&integrator, REACH).map_err(|error| refused(&error))?;
+        let programs = step.kernel().programs();
+        let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
+        if operations > MOST_OPERATIONS {
+            let message = format!(
+                "a step has {operations} operations, more than the {MOST_OPERATIONS} that this page runs"
+            );
+            return Err(vec![Mistake::of("truncation", message, "lower the truncation")]);
+        }
+        let slots = fold(&integrator, &step, h);
+        let algebra = &integrator.problem.algebra;
+        let symbols = &integrator.problem.symbols;
+        let energy = Numeric::new(&integrator.problem.hamiltonian, dim, symbols);
+        let casimirs =
+            (1..=CASIMIR_DEGREE).rev().find_map(|degree| lie::casimirs(algebra, degree).ok());
+        let casimirs = casimirs
+            .unwrap_or_default()
+            .into_iter()
+            .map(|exact| {
+                let numeric = Numeric::new(&exact, dim, &[]);
+                (exact, numeric)
+            })
+            .collect();
+        let factors = factors(algebra);
+        let rival = Rival::new(algebra, &energy);
+        Ok(Self {
+            file: file.text,
+            fields: fields.clone(),
+            integrator,
+            step,
+            slots,
+            h,
+            time: read.run.time.unwrap_or(10.0),
+            momentum,
+            energy,
+            casimirs,
+            factors,
+            rival,
+            units: read.units,
+        })
+    }
+
+    /// The dimension of the group.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.integrator.problem.algebra.dim()
+    }
+
+    /// The same system with its parameters kept as names; none where the comoving frame is one for their values alone.
+    #[must_use]
+    pub fn with_names(&self) -> Option<Problem> {
+        kept(&self.fields)
+    }
+
+    /// The parameters with their values.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let fixed = Fields { frame: "fixed".into(), ..self.fields.clone() };
+        kept(&fixed).map(|problem| problem.parameters).unwrap_or_default()
+    }
+}
+
+fn kept(fields: &Fields) -> Option<Problem> {
+    let options = Options { parameters: Parameters::Kept, ..Options::default() };
+    system::read(&File::of(fields).text, options).ok().map(|read| read.problem)
+}
+
+/// The coefficients for a step size, and with them the radius of the series.
+#[must_use]
+pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
+    let symbols: Vec<f64> =
+        integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+    let coefficients = &integrator.coefficients;
+    let truncation = integrator.problem.truncation;
+    let parts = coefficients.fold_parts(h, &symbols);
+    let last = coefficients.last_orders(truncation).map(|(number, order, base)| {
+        (parts[number], order, coefficients.monomials()[base].as_slice())
+    });
+    let radius = coadjoint::plumbing::radius_of(truncation, last);
+    step.slots(&coefficients.slots_of_parts(&parts, &|_| 1.0), radius)
+}
+
+/// The factors of a group as the programs of its steps have them.
+fn factors(algebra: &LieAlgebra) -> Vec<Factor> {
+    let (mut coordinate, mut row) = (0, 0);
+    let factor = |factor: LieAlgebra| {
+        let is = |name: &str| {
+            catalogue::lookup(name).is_ok_and(|known| known.renamed(factor.name()) == factor)
+        };
+        let dim = factor.dim();
+        let size = factor.basis().and_then(|basis| basis.first()).map_or(dim, |first| first.rows());
+        let kind = match () {
+            () if is("SO3") || is("SU2") => Kind::Rotation,
+            () if is("SE3") => Kind::Motion,
+            () if is("SE2") => Kind::Plane,
+            () => Kind::Matrix,
+        };
+        let found = Factor { kind, coordinate, dim, row, size };
+        (coordinate, row) = (coordinate + dim, row + size);
+        found
+    };
+    algebra.factors().into_iter().map(factor).collect()
+}

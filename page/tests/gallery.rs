@@ -1,0 +1,78 @@
+//! The gallery's systems, through their fields and back.
+
+use std::fs;
+use std::path::Path;
+
+use coadjoint_codegen::system::{Options, read};
+use coadjoint_page::fields::Fields;
+use coadjoint_page::file::File;
+use coadjoint_page::gallery::gallery;
+use coadjoint_page::run::Run;
+use coadjoint_page::system::System;
+
+/// A potential, 192 dimensions, and steps of 61 000 operations: nothing for a page.
+const LEFT_OUT: [&str; 3] = ["satellite", "spin_chain_64", "zeitlin_5"];
+
+#[test]
+fn every_example_is_there_and_says_the_same_through_its_fields() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        if path.extension().is_none_or(|extension| extension != "toml")
+            || LEFT_OUT.contains(&stem.as_str())
+        {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let fields = Fields::of_file(&text).unwrap();
+        assert!(
+            gallery().iter().any(|entry| entry.fields == fields),
+            "{stem} is not in the gallery"
+        );
+        let file = File::of(&fields);
+        assert!(file.unwritten.is_empty(), "{stem}");
+        let (before, after) = (
+            read(&text, Options::default()).unwrap(),
+            read(&file.text, Options::default()).unwrap(),
+        );
+        assert_eq!(before.problem.hamiltonian, after.problem.hamiltonian, "{stem}");
+        assert_eq!(before.problem.algebra, after.problem.algebra, "{stem}");
+        assert_eq!(before.problem.coordinates, after.problem.coordinates, "{stem}");
+        assert_eq!(before.problem.comoving, after.problem.comoving, "{stem}");
+        assert_eq!(
+            (
+                before.problem.truncation,
+                before.problem.chart,
+                before.run.step,
+                before.run.time,
+                before.run.momentum
+            ),
+            (
+                after.problem.truncation,
+                after.problem.chart,
+                after.run.step,
+                after.run.time,
+                after.run.momentum
+            ),
+            "{stem}"
+        );
+        seen += 1;
+    }
+    assert!(seen >= 18, "{seen}");
+}
+
+#[test]
+fn every_system_of_the_gallery_runs_and_keeps_momentum_and_casimirs() {
+    assert!(gallery().len() >= 22);
+    for entry in gallery() {
+        let system = System::new(&entry.fields)
+            .unwrap_or_else(|mistakes| panic!("{}: {mistakes:?}", entry.id));
+        let mut run = Run::new(&system, &system.momentum);
+        assert_eq!(run.advance(&system, 50), 50, "{}", entry.id);
+        let [[energy, momentum, casimirs], _] = run.history().most();
+        assert!(momentum < 1e-13 && casimirs < 1e-13, "{}: {momentum:e} {casimirs:e}", entry.id);
+        assert!(energy < 1e-5, "{}: {energy:e}", entry.id);
+    }
+}
