@@ -2,7 +2,7 @@
 
 use coadjoint::{Exponential, SO3};
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Cell, Curve, Report, Table};
 use super::run::RunOptions;
 use super::task::{COLUMNS, row};
 use crate::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
@@ -66,6 +66,23 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         enter("Gaussian process", &process);
         report.tables.push(table);
     }
+    let error = |table: usize, row: usize| match report.tables[table].rows[row][2] {
+        Cell::Number(value) => value,
+        Cell::Text(_) => f64::NAN,
+    };
+    let (still, noisy, selected) = (error(1, 0), error(1, 2), error(1, 3));
+    report.judge(
+        "noise",
+        "noisy data: test error of the momentum by the network over that of the best polynomial",
+        noisy / selected,
+        Bound::AtMost(20.0),
+    );
+    report.judge(
+        "noise",
+        "noisy data: test error of the momentum without a model over that of the network",
+        still / noisy,
+        Bound::AtLeast(2.0),
+    );
     report.notes.push(format!(
         "noise of variance 0.05 (deviation {deviation:.3}) on every coordinate of the momenta and, \
          as g exp(eta), of the attitudes; the paper shows that the noisy model still predicts, \

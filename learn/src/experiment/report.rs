@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::LearnError;
 
@@ -77,6 +77,62 @@ pub struct Curve {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// What a number must be.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Bound {
+    /// Not above it.
+    AtMost(f64),
+    /// Not below it.
+    AtLeast(f64),
+}
+
+/// A number that a figure or a table is judged by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// The figure or table.
+    pub figure: String,
+    /// What the number is.
+    pub what: String,
+    /// The number.
+    pub value: Cell,
+    /// What it must be.
+    pub bound: Bound,
+}
+
+impl Judgement {
+    /// Whether the number is what it must be; text, in place of a number, is not.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        match (&self.value, self.bound) {
+            (Cell::Number(value), Bound::AtMost(most)) => *value <= most,
+            (Cell::Number(value), Bound::AtLeast(least)) => *value >= least,
+            (Cell::Text(_), _) => false,
+        }
+    }
+
+    /// The bound in words.
+    #[must_use]
+    pub fn asked(&self) -> String {
+        match self.bound {
+            Bound::AtMost(most) => format!("at most {}", brief(most)),
+            Bound::AtLeast(least) => format!("at least {}", brief(least)),
+        }
+    }
+}
+
+/// A figure in few digits.
+fn brief(value: f64) -> String {
+    match value {
+        0.0 => "0".into(),
+        value if (0.01..1e5).contains(&value.abs()) => {
+            let text = format!("{value:.4}");
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        }
+        value => format!("{value:.2e}"),
+    }
+}
+
 /// The outcome of an experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -90,12 +146,60 @@ pub struct Report {
     pub tables: Vec<Table>,
     /// What the figures mean and do not mean.
     pub notes: Vec<String>,
-    /// Curves; written as CSV, not part of the JSON.
-    #[serde(skip)]
+    /// The numbers by which the figures are judged.
+    pub judgements: Vec<Judgement>,
+    /// Curves; written as CSV, of which the JSON has the names.
+    #[serde(serialize_with = "names", deserialize_with = "of_names")]
     pub curves: Vec<Curve>,
 }
 
+fn names<S: Serializer>(curves: &[Curve], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(curves.iter().map(|curve| &curve.name))
+}
+
+/// Curves without their numbers, which are in files of their own.
+fn of_names<'a, D: Deserializer<'a>>(deserializer: D) -> Result<Vec<Curve>, D::Error> {
+    let names = Vec::<String>::deserialize(deserializer)?;
+    let empty = |name| Curve { name, columns: Vec::new(), rows: Vec::new() };
+    Ok(names.into_iter().map(empty).collect())
+}
+
+impl Curve {
+    /// Reads the numbers of `NAME.csv` in the folder; `None` if there is no such file, or another.
+    fn load(&mut self, folder: &Path) -> Option<()> {
+        let text = std::fs::read_to_string(folder.join(format!("{}.csv", self.name))).ok()?;
+        let mut lines = text.lines();
+        self.columns = lines.next()?.split(',').map(str::to_owned).collect();
+        let width = self.columns.len();
+        let row = |line: &str| -> Option<Vec<f64>> {
+            let row: Vec<f64> = line.split(',').map(|v| v.parse().ok()).collect::<Option<_>>()?;
+            (row.len() == width).then_some(row)
+        };
+        self.rows = lines.map(row).collect::<Option<_>>()?;
+        Some(())
+    }
+
+    /// The numbers of a column; empty if there is none of this name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.columns.iter().position(|column| column == name);
+        at.map(|at| self.rows.iter().map(|row| row[at]).collect()).unwrap_or_default()
+    }
+}
+
 impl Report {
+    /// Enters a number by which a figure is judged.
+    pub(super) fn judge(
+        &mut self,
+        figure: &str,
+        what: impl Into<String>,
+        value: impl Into<Cell>,
+        bound: Bound,
+    ) {
+        let (figure, what, value) = (figure.into(), what.into(), value.into());
+        self.judgements.push(Judgement { figure, what, value, bound });
+    }
+
     /// The tables as text.
     #[must_use]
     pub fn text(&self) -> String {
@@ -126,6 +230,15 @@ impl Report {
         for note in &self.notes {
             let _ = writeln!(text, "\nnote: {note}");
         }
+        for judgement in &self.judgements {
+            let value = match &judgement.value {
+                Cell::Number(value) => brief(*value),
+                Cell::Text(why) => why.clone(),
+            };
+            let verdict = if judgement.holds() { "holds" } else { "FAILS" };
+            let (what, asked) = (&judgement.what, judgement.asked());
+            let _ = writeln!(text, "\n{verdict}: {what}: {value}, {asked}");
+        }
         text
     }
 
@@ -136,6 +249,13 @@ impl Report {
     pub fn write(&self, folder: &Path) -> Result<(), LearnError> {
         let fail = |path: &Path, source| LearnError::File { path: path.into(), source };
         std::fs::create_dir_all(folder).map_err(|e| fail(folder, e))?;
+        self.write_curves(folder)?;
+        self.save(&folder.join(format!("{}.json", self.name)))
+    }
+
+    /// Writes a CSV file per curve.
+    pub(super) fn write_curves(&self, folder: &Path) -> Result<(), LearnError> {
+        let fail = |path: &Path, source| LearnError::File { path: path.into(), source };
         for curve in &self.curves {
             let path = folder.join(format!("{}.csv", curve.name));
             let mut text = curve.columns.join(",") + "\n";
@@ -145,7 +265,7 @@ impl Report {
             }
             std::fs::write(&path, text).map_err(|e| fail(&path, e))?;
         }
-        self.save(&folder.join(format!("{}.json", self.name)))
+        Ok(())
     }
 
     /// Writes the tables and notes as JSON.
@@ -166,7 +286,9 @@ impl Report {
     /// Reads a report back; `None` if there is none that fits.
     pub(super) fn read(path: &Path, name: &str, options: &super::RunOptions) -> Option<Self> {
         let text = std::fs::read_to_string(path).ok()?;
-        let report: Self = serde_json::from_str(&text).ok()?;
+        let mut report: Self = serde_json::from_str(&text).ok()?;
+        let folder = path.parent()?;
+        report.curves.iter_mut().try_for_each(|curve| curve.load(folder))?;
         let same = report.name == name && report.quick == options.quick;
         (same && report.seed == options.seed).then_some(report)
     }

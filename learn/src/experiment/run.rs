@@ -4,19 +4,22 @@ use std::path::{Path, PathBuf};
 
 use super::report::Report;
 use super::{
-    geometrize, hamilton_jacobi, hamiltonian, harder, noise, reduction_error, simulation,
-    table_one, table_two,
+    geometrize, hamilton_jacobi, hamiltonian, harder, learned, noise, orders, reduction_error,
+    simulation, table_one, table_two, work,
 };
 use crate::error::LearnError;
 
 /// The experiments, in the order `all` runs them.
-pub const NAMES: [&str; 9] = [
+pub const NAMES: [&str; 12] = [
     "simulation",
+    "orders",
+    "work",
     "table-2",
     "hamiltonian",
     "geometrize",
     "hamilton-jacobi",
     "reduction-error",
+    "learned",
     "noise",
     "table-1",
     "harder-truths",
@@ -72,6 +75,9 @@ pub fn run(
         say(&format!("{name} …"));
         let report = match name {
             "simulation" => simulation::run(options)?,
+            "orders" => orders::run(options)?,
+            "work" => work::run(options)?,
+            "learned" => learned::run(options, say)?,
             "table-1" => table_one::run(options, say)?,
             "harder-truths" => harder::run(options, say)?,
             "noise" => noise::run(options, say)?,
@@ -122,6 +128,7 @@ impl RunOptions {
             seed: self.seed,
             tables: Vec::new(),
             notes: Vec::new(),
+            judgements: Vec::new(),
             curves: Vec::new(),
         })
     }
@@ -129,7 +136,10 @@ impl RunOptions {
     /// Keeps the tables so far, in case the run is interrupted.
     pub(super) fn keep(&self, report: &Report) -> Result<(), LearnError> {
         match &self.out {
-            Some(folder) => report.save(&folder.join(format!("{}{PART}", report.name))),
+            Some(folder) => {
+                report.save(&folder.join(format!("{}{PART}", report.name)))?;
+                report.write_curves(folder)
+            }
             None => Ok(()),
         }
     }

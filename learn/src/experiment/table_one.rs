@@ -4,7 +4,7 @@ use coadjoint::{Cayley, Exponential, SO3};
 
 use super::baseline;
 use super::networks::Training;
-use super::report::{Report, Table};
+use super::report::{Bound, Cell, Report, Table};
 use super::run::RunOptions;
 use super::task::{COLUMNS, Task};
 use crate::data::PairRows;
@@ -50,6 +50,27 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         exponential.polynomials::<Exponential>(&[4, 6, 8], ", exp chart", say, &mut table);
         say("  Gaussian process");
         cayley.gaussian_process::<Cayley>(options.pick(400, 150), &mut table)?;
+        let error = |name: &str, column: usize| {
+            let row = table.rows.iter().find(|row| row[0] == Cell::from(name));
+            match row.map(|row| &row[column]) {
+                Some(Cell::Number(value)) => *value,
+                _ => f64::NAN,
+            }
+        };
+        let (ours, theirs) =
+            (error("network, symmetric", 2), error("type II, not symmetric: network", 2));
+        report.judge(
+            "table-1",
+            format!("dt = {step}, {count} samples: error of the symmetric network over the paper's"),
+            ours / paper,
+            Bound::AtMost(1.0),
+        );
+        report.judge(
+            "table-1",
+            format!("dt = {step}, {count} samples: error without symmetry over that with it"),
+            theirs / ours,
+            Bound::AtLeast(5.0),
+        );
         report.tables.push(table);
         options.keep(&report)?;
     }
