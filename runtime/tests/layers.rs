@@ -27,8 +27,9 @@ const LAYERS: [&str; 17] = [
 ];
 
 /// The crates, the lowest first.
-const CRATES: [&str; 8] =
-    ["program", "native", "device", "codegen", "macros", "runtime", "learn", "cli"];
+const CRATES: [&str; 10] = [
+    "draw", "program", "native", "device", "codegen", "macros", "runtime", "learn", "report", "cli",
+];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {

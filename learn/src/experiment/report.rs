@@ -17,6 +17,17 @@ pub enum Cell {
     Text(String),
 }
 
+impl Cell {
+    /// The figure in few digits, or the text.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        match self {
+            Self::Number(value) => brief(*value),
+            Self::Text(text) => text.clone(),
+        }
+    }
+}
+
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
         if value.is_finite() { Self::Number(value) } else { Self::Text(value.to_string()) }
@@ -206,14 +217,8 @@ impl Report {
         let version = if self.quick { ", quick" } else { "" };
         let mut text = format!("{} (seed {}{version})\n", self.name, self.seed);
         for table in &self.tables {
-            let shown = |cell: &Cell| match cell {
-                Cell::Number(v) if *v == 0.0 => "0".into(),
-                Cell::Number(v) if (0.01..1e5).contains(&v.abs()) => format!("{v:.4}"),
-                Cell::Number(v) => format!("{v:.2e}"),
-                Cell::Text(t) => t.clone(),
-            };
             let rows: Vec<Vec<String>> = std::iter::once(table.columns.clone())
-                .chain(table.rows.iter().map(|row| row.iter().map(shown).collect()))
+                .chain(table.rows.iter().map(|row| row.iter().map(Cell::shown).collect()))
                 .collect();
             let width = |c: usize| {
                 rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
@@ -231,10 +236,7 @@ impl Report {
             let _ = writeln!(text, "\nnote: {note}");
         }
         for judgement in &self.judgements {
-            let value = match &judgement.value {
-                Cell::Number(value) => brief(*value),
-                Cell::Text(why) => why.clone(),
-            };
+            let value = judgement.value.shown();
             let verdict = if judgement.holds() { "holds" } else { "FAILS" };
             let (what, asked) = (&judgement.what, judgement.asked());
             let _ = writeln!(text, "\n{verdict}: {what}: {value}, {asked}");

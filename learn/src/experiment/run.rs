@@ -62,17 +62,19 @@ pub fn run(
     };
     let resume = name == "all";
     let mut reports = Vec::new();
-    for name in names {
+    let count = names.len();
+    for (number, name) in names.into_iter().enumerate() {
+        let turn = if resume { format!("{} of {count}: ", number + 1) } else { String::new() };
         let done =
             options.out.as_ref().filter(|_| resume).and_then(|folder| {
                 Report::read(&folder.join(format!("{name}.json")), name, options)
             });
         if let Some(report) = done {
-            say(&format!("{name}: done already"));
+            say(&format!("{turn}{name}: done already"));
             reports.push(report);
             continue;
         }
-        say(&format!("{name} …"));
+        say(&format!("{turn}{name} …"));
         let report = match name {
             "simulation" => simulation::run(options)?,
             "orders" => orders::run(options)?,

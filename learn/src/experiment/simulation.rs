@@ -119,7 +119,9 @@ impl Runs {
         let cells = figures.map(Into::into);
         self.table.push(std::iter::once(name.into()).chain(cells).collect());
         let key = name.to_lowercase().replace(' ', "_").replace('=', "");
-        self.errors.columns.extend(["energy", "momentum", "distance"].map(|q| format!("{key}_{q}")));
+        self.errors
+            .columns
+            .extend(["energy", "momentum", "distance"].map(|q| format!("{key}_{q}")));
         self.momentum.columns.extend(["x", "y", "z"].map(|q| format!("{key}_{q}")));
         let rows = self.errors.rows.iter_mut().zip(&mut self.momentum.rows);
         for ((errors, momentum), moment) in rows.zip(moments) {
@@ -162,7 +164,8 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
             ours = ours.max(momentum);
             best = best.min(end);
             if name == "Cayley K=7" {
-                let half = |part: &[Moment]| part.iter().map(|m| m.energy.abs()).fold(0.0, f64::max);
+                let half =
+                    |part: &[Moment]| part.iter().map(|m| m.energy.abs()).fold(0.0, f64::max);
                 let (first, second) = moments.split_at(moments.len() / 2);
                 report.judge(
                     "energy-7",

@@ -61,7 +61,9 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
             (error("network, symmetric", 2), error("type II, not symmetric: network", 2));
         report.judge(
             "table-1",
-            format!("dt = {step}, {count} samples: error of the symmetric network over the paper's"),
+            format!(
+                "dt = {step}, {count} samples: error of the symmetric network over the paper's"
+            ),
             ours / paper,
             Bound::AtMost(1.0),
         );

@@ -64,9 +64,9 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         }
         let latent = networks(options, &train, &test, seed(3), say, &mut table)?;
         let best = |table: &Table| {
-            let rows = table.rows.iter().filter(|row| {
-                matches!(&row[0], Cell::Text(name) if name.starts_with("p eliminated"))
-            });
+            let rows = table.rows.iter().filter(
+                |row| matches!(&row[0], Cell::Text(name) if name.starts_with("p eliminated")),
+            );
             let errors = rows.filter_map(|row| match row[1] {
                 Cell::Number(value) => Some(value),
                 Cell::Text(_) => None,
@@ -123,11 +123,8 @@ fn trajectories(
         exact.push(exact_momentum_flow(group, &body, &exact[i], step));
     }
     let mut columns = vec!["t".to_owned(), "exact_x".into(), "exact_y".into(), "exact_z".into()];
-    let mut rows: Vec<Vec<f64>> = exact
-        .iter()
-        .enumerate()
-        .map(|(i, mu)| vec![i as f64 * step, mu.x, mu.y, mu.z])
-        .collect();
+    let mut rows: Vec<Vec<f64>> =
+        exact.iter().enumerate().map(|(i, mu)| vec![i as f64 * step, mu.x, mu.y, mu.z]).collect();
     let mut casimir: f64 = 0.0;
     for (name, model) in models {
         let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(*group, &**model);
