@@ -27,10 +27,12 @@ mod axis;
 pub mod curves;
 mod panel;
 pub mod run;
+mod sheet;
 mod style;
 mod svg;
 
 pub use axis::{Axis, Tick};
 pub use panel::{Curve, FONT, LINE, Mark, Panel, Place, RIGHT, Sample, WIDTH, legend, paragraph};
+pub use sheet::sheet;
 pub use style::{BAND, STYLE_SHEET, Style};
 pub use svg::{Anchor, Svg, cut, escaped, width, wrapped};

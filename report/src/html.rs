@@ -24,7 +24,8 @@ p,dl,ul{max-width:78ch}
 a{color:var(--s0)}
 .settings{color:var(--faint);font-size:.9rem;margin:.1em 0 .6em}
 .settings span{white-space:nowrap}
-dl{display:grid;grid-template-columns:8.5em 1fr;gap:.25em 1em;margin:.6em 0}
+sup,sub{line-height:0;font-size:.75em}
+dl{display:grid;grid-template-columns:9em 1fr;gap:.25em 1em;margin:.6em 0}
 dt{font-weight:600;color:var(--faint)}
 dd{margin:0}
 .panels{display:grid;grid-template-columns:repeat(2,minmax(0,500px));gap:18px 24px;margin:1em 0}
@@ -178,7 +179,8 @@ fn section(text: &mut String, section: &Section) {
         text.push_str("</ul>\n");
     }
     if !section.panels.is_empty() {
-        text.push_str("<div class=\"panels\">\n");
+        let class = if section.panels.len() == 3 { "panels three" } else { "panels" };
+        let _ = writeln!(text, "<div class=\"{class}\">");
         section.panels.iter().for_each(|panel| text.push_str(&panel.alone(SIZE.0, SIZE.1)));
         text.push_str("</div>\n");
     }
@@ -237,9 +239,24 @@ fn cell(value: &Cell) -> String {
     }
 }
 
+/// What is written in ASCII in tables and files, and how it is set on the page.
+const SET: [(&str, &str); 8] = [
+    ("J_L", "J<sub>L</sub>"),
+    ("mu''", "μ″"),
+    ("mu'", "μ′"),
+    ("g'^-1", "g′⁻¹"),
+    ("alpha''", "α″"),
+    ("g''", "g″"),
+    ("^3", "³"),
+    ("dt ", "Δt "),
+];
+
 /// Text of a page in which numbers such as 1e-8 are written out.
 fn prose(text: &str) -> String {
-    let text = escaped(text);
+    let mut text = escaped(text);
+    for (plain, set) in SET {
+        text = text.replace(plain, set);
+    }
     let mut out = String::with_capacity(text.len());
     for (i, word) in text.split(' ').enumerate() {
         if i > 0 {

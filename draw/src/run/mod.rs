@@ -5,9 +5,10 @@ pub mod motion;
 pub mod orbit;
 
 use crate::curves;
-use crate::panel::{FONT, LINE, Place, RIGHT, Sample, WIDTH, legend, paragraph};
+use crate::panel::{Place, RIGHT, Sample, WIDTH, legend, paragraph};
+use crate::sheet::heading;
 use crate::style::Style;
-use crate::svg::{Anchor, Svg, cut, width};
+use crate::svg::Svg;
 
 /// Differences below this, and zero, which has no logarithm, are drawn here.
 pub const FLOOR: i32 = -17;
@@ -65,9 +66,7 @@ pub fn render(picture: &Picture) -> String {
     let left = motion.iter().chain(&drifts).map(|panel| panel.left()).fold(60.0, f64::max);
 
     let mut svg = Svg::default();
-    let title = cut(&picture.name, 21.0, WIDTH - left - 20.0);
-    svg.text((left, 32.0), Anchor::Start, r#"font-size="20" font-weight="bold""#, &title);
-    let mut y = settings(&mut svg, &picture.settings, left, 36.0) + 14.0;
+    let mut y = heading(&mut svg, &picture.name, &picture.settings, left) + 14.0;
     for panel in &motion {
         y = panel.draw(&mut svg, Place::below(y, left));
     }
@@ -85,21 +84,6 @@ pub fn render(picture: &Picture) -> String {
     }
     let name = format!("{}: momentum and drift of what is conserved", picture.name);
     svg.finish((WIDTH, y + 8.0), &name, &description(picture))
-}
-
-/// Writes the settings in one line, or more where they need it; returns the last baseline.
-fn settings(svg: &mut Svg, settings: &[String], left: f64, above: f64) -> f64 {
-    let (mut x, mut y) = (left, above + LINE);
-    for text in settings {
-        let text = cut(text, FONT, WIDTH - left - 30.0);
-        let wide = width(&text, FONT);
-        if x > left && x + wide > WIDTH - 20.0 {
-            (x, y) = (left, y + LINE);
-        }
-        svg.text((x, y), Anchor::Start, "", &text);
-        x += wide + 18.0;
-    }
-    y
 }
 
 /// The label of an axis of time.

@@ -137,10 +137,18 @@ fn brief(value: f64) -> String {
     match value {
         0.0 => "0".into(),
         value if (0.01..1e5).contains(&value.abs()) => {
-            let text = format!("{value:.4}");
+            let places = (3 - value.abs().log10().floor() as i32).clamp(0, 4) as usize;
+            let text = format!("{value:.places$}");
+            if places == 0 {
+                return text;
+            }
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         }
-        value => format!("{value:.2e}"),
+        value => {
+            let text = format!("{value:.2e}");
+            let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+            format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+        }
     }
 }
 

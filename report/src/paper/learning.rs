@@ -16,9 +16,9 @@ fn training(report: &Report) -> Section {
     let table = report.tables.first();
     let mut section = Section::of(report, "training", "Training with and without symmetry");
     section.settings = vec![BODY.to_owned(), "Cayley’s chart".to_owned(), "Δt = 0.1 s".to_owned()];
-    if let Some(table) = table {
-        section.settings.push(table.title.clone());
-    }
+    let samples =
+        table.and_then(|table| table.title.split(", ").find(|part| part.contains("samples")));
+    section.settings.extend(samples.map(str::to_owned));
     section.shows = "Mean squared errors while two networks train, one with symmetry and one without: the one with \
         symmetry starts closer and falls faster, and predicts new data better."
         .to_owned();
@@ -100,7 +100,7 @@ fn trajectory(report: &Report) -> Section {
     };
     section.panels = vec![
         panel("relative error of the energy", "energy", (-10, -2)),
-        panel("largest error of a component of J_L (kg m²/s)", "momentum", (-17, -2)),
+        panel("largest error of a component of J (kg m²/s)", "momentum", (-17, -2)),
         panel("distance of (R, Π) from the exact flow", "distance", (-6, 1)),
     ];
     section.tables = report.tables.iter().skip(1).cloned().collect();
@@ -149,7 +149,7 @@ pub fn noise(report: &Report) -> Section {
         symplectic, equivariant map fits noise."
         .to_owned();
     section.silent = "How noise is added to attitudes is not said; here as R·exp(η), so that they stay rotations. \
-        Losses are in units of the variance of the data."
+        The mean squared error is that of the increment x, coordinates weighted by the width of their data."
         .to_owned();
     let noisy = report.tables.get(1);
     section.out = format!(
@@ -168,8 +168,8 @@ pub fn noise(report: &Report) -> Section {
         curves.iter().zip(names).enumerate().map(line).collect()
     };
     let sides = [
-        ("loss on unseen, noise-free data", side("test_loss")),
-        ("loss on the data", side("train_loss")),
+        ("on unseen, noise-free data", side("test_mse")),
+        ("on the training data", side("train_mse")),
     ];
     let all: Vec<f64> = sides.iter().flat_map(|(_, lines)| values(lines)).collect();
     let end = curves[0].column("step").last().copied().unwrap_or(1.0);
@@ -178,7 +178,7 @@ pub fn noise(report: &Report) -> Section {
         .into_iter()
         .map(|(heading, curves)| {
             let panel = Panel {
-                heading: format!("{heading} (share of its variance)"),
+                heading: format!("mse of x (rad²) {heading}"),
                 across: "steps of Adam".to_owned(),
                 x: Axis::linear(0.0, end, 6),
                 y: y.clone(),

@@ -87,7 +87,7 @@ fn trajectories(report: &Report) -> Section {
         curves.push(Line::points(format!("Π {component}, learned"), Style::new(i), of("degree_4")));
     }
     let beginning = Panel {
-        heading: "momentum (kg m²/s), exact and learned (degree 4)".to_owned(),
+        heading: "momentum (kg m²/s), learned: degree 4".to_owned(),
         across: "time (s), the beginning".to_owned(),
         x: Axis::linear(0.0, times.get(some.saturating_sub(1)).copied().unwrap_or(1.0), 6),
         y: Axis::around(&values(&curves), true, 5),
@@ -245,7 +245,7 @@ pub fn hamilton_jacobi(report: &Report) -> Section {
     let errors = Panel {
         heading: "rms error of the map at t = 0.5 (kg m²/s)".to_owned(),
         across: "degree of S in p".to_owned(),
-        x: Axis::around(&places(&lines), false, 5),
+        x: Axis::around(&places(&lines), false, 3),
         y: Axis::logarithmic_around(&values(&lines), 1e-300, 6),
         curves: lines,
         ..Panel::default()

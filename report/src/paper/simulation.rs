@@ -92,8 +92,11 @@ pub fn sections(report: &Report) -> Vec<Section> {
     let mut sections = vec![energy, seven, spatial, difference];
     for section in &mut sections {
         section.settings.clone_from(&settings);
-        section.silent.clone_from(&silent);
     }
+    for section in &mut sections[1..] {
+        section.silent = "As in the first figure.".to_owned();
+    }
+    sections[0].silent = silent;
     sections
 }
 
@@ -147,7 +150,7 @@ fn energies(runs: &Curve) -> Vec<Panel> {
 
 fn signed(runs: &Curve, column: &str, heading: &str) -> Panel {
     let points = thinned(&runs.column("t"), &runs.column(column), 220);
-    let curves = vec![Line::line("K = 7", Style::new(2), points)];
+    let curves = vec![Line::line("K = 7", Style::new(0), points)];
     Panel {
         heading: heading.to_owned(),
         across: "time (s)".to_owned(),
@@ -164,15 +167,17 @@ fn momenta(runs: &Curve, momentum: &Curve) -> Vec<Panel> {
             .into_iter()
             .enumerate()
             .map(|(i, component)| {
-                let column = momentum.column(&format!("{key}_{component}"));
+                let mut column = momentum.column(&format!("{key}_{component}"));
+                let first = column.first().copied().unwrap_or(0.0);
+                column.iter_mut().for_each(|value| *value -= first);
                 let points = thinned(&momentum.column("t"), &column, 220);
                 Line::line(format!("J {component}"), Style::new(i), points)
             })
             .collect()
     };
     let sides = [
-        ("J_L (kg m²/s), K = 7, exponential", components("exp_k7")),
-        ("J_L (kg m²/s), RK45, default tolerances", components("rk45_default")),
+        ("J − J(0) (kg m²/s), K = 7, exponential", components("exp_k7")),
+        ("J − J(0) (kg m²/s), RK45, default tolerances", components("rk45_default")),
     ];
     let all: Vec<f64> = sides.iter().flat_map(|(_, lines)| values(lines)).collect();
     let y = Axis::around(&all, true, 6);
@@ -189,7 +194,7 @@ fn momenta(runs: &Curve, momentum: &Curve) -> Vec<Panel> {
         .collect();
     let sides = [
         (
-            "largest error of a component of J_L, ours",
+            "largest error of a component of J (kg m²/s), ours",
             vec![
                 ("cayley_k3_momentum", "K = 3, Cayley"),
                 ("cayley_k7_momentum", "K = 7, Cayley"),
@@ -197,7 +202,7 @@ fn momenta(runs: &Curve, momentum: &Curve) -> Vec<Panel> {
             ],
         ),
         (
-            "largest error of a component of J_L, RK45",
+            "largest error of a component of J (kg m²/s), RK45",
             vec![
                 ("rk45_default_momentum", "default tolerances"),
                 ("rk45_fine_momentum", "1e-6 and 1e-9"),
