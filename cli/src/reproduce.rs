@@ -52,7 +52,8 @@ pub fn run(options: &ReproduceOptions) -> Result<(), CliError> {
         Some(folder) => read_benchmarks(folder).map_err(|e| CliError::Option(e.to_string()))?,
         None => Vec::new(),
     };
-    let systems = gallery(options)?;
+    // Seconds, and mistakes in system files are seen before minutes have passed.
+    let gallery = pictures(&systems(options)?)?;
     let settings =
         RunOptions { quick: options.quick, seed: options.seed, out: options.out.clone() };
     let reports = experiment::run(&options.name, &settings, &mut |line| eprintln!("{line}"))?;
@@ -69,14 +70,13 @@ pub fn run(options: &ReproduceOptions) -> Result<(), CliError> {
         }
     }
     let Some(html) = &options.html else { return Ok(()) };
-    let gallery = pictures(&systems)?;
     write(html, &page(&Page { reports, gallery, benchmarks }))?;
     eprintln!("{}", html.display());
     Ok(())
 }
 
 /// The system files of the gallery, by their names.
-fn gallery(options: &ReproduceOptions) -> Result<Vec<PathBuf>, CliError> {
+fn systems(options: &ReproduceOptions) -> Result<Vec<PathBuf>, CliError> {
     let folder = match &options.gallery {
         Some(folder) => folder.clone(),
         None if options.html.is_none() || options.name != "all" => return Ok(Vec::new()),
