@@ -1,4 +1,4 @@
-//! The page: sections, tables, verdicts, and the rules that lay them out.
+//! The page: sections, tables, verdicts.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -7,57 +7,14 @@ use coadjoint_draw::{STYLE_SHEET, escaped, run::Picture};
 use coadjoint_learn::experiment::{Cell, Judgement, Table};
 
 use crate::gallery;
+use crate::prose::{number, prose};
+use crate::rules::RULES;
 use crate::section::Section;
 
 /// The size of a panel.
 const SIZE: (f64, f64) = (440.0, 230.0);
-
-/// The rules of the page, besides those of its pictures.
-const RULES: &str = "\
-*{box-sizing:border-box}
-body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,-apple-system,\"Segoe UI\",sans-serif}
-main,header{max-width:1180px;margin:0 auto;padding:0 20px}
-h1{font-size:1.9rem;line-height:1.2;margin:1.2em 0 .3em}
-h2{font-size:1.5rem;margin:2.2em 0 .2em;padding-top:.5em;border-top:2px solid var(--grid)}
-h3{font-size:1.2rem;margin:1.8em 0 .3em}
-p,dl,ul{max-width:78ch}
-a{color:var(--s0)}
-.settings{color:var(--faint);font-size:.9rem;margin:.1em 0 .6em}
-.settings span{white-space:nowrap}
-sup,sub{line-height:0;font-size:.75em}
-dl{display:grid;grid-template-columns:9em 1fr;gap:.25em 1em;margin:.6em 0}
-dt{font-weight:600;color:var(--faint)}
-dd{margin:0}
-.panels{display:grid;grid-template-columns:repeat(2,minmax(0,500px));gap:18px 24px;margin:1em 0}
-.panels.three{grid-template-columns:repeat(3,minmax(0,1fr))}
-.panels svg{width:100%;height:auto}
-.verdicts{list-style:none;padding:0;margin:.6em 0}
-.verdicts li{padding:.35em .7em;margin:.3em 0;border-left:5px solid var(--pass);background:var(--soft)}
-.verdicts li.fails{border-left-color:var(--fail)}
-.mark{font-size:.8rem;font-weight:700;letter-spacing:.03em;padding:.1em .5em;border:1.5px solid currentColor;\
-border-radius:3px;color:var(--pass);white-space:nowrap}
-.mark.fails{color:var(--fail)}
-.number{font-weight:700}
-.scroll{overflow-x:auto;margin:.8em 0}
-table{border-collapse:collapse;font-size:.86rem}
-caption{text-align:left;font-weight:600;padding:.3em 0;max-width:78ch}
-th,td{padding:.22em .8em .22em 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
-td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-details{margin:.6em 0}
-summary{cursor:pointer;color:var(--faint)}
-nav ol{columns:2;column-gap:3em;max-width:1000px;padding-left:1.4em}
-nav li{break-inside:avoid;margin:.15em 0}
-footer{color:var(--faint);margin:3em 0 2em;font-size:.9rem}
-:root{--pass:#1a6e34;--fail:#b3261e;--soft:#f4f6f8}
-@media screen and (prefers-color-scheme:dark){:root{--pass:#5fd07f;--fail:#ff8a80;--soft:#181e25}}
-@media (max-width:1000px){.panels.three{grid-template-columns:repeat(2,minmax(0,1fr))}}
-@media (max-width:720px){main,header{padding:0 14px}.panels,.panels.three{grid-template-columns:minmax(0,1fr)}\
-dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:.5em}nav ol{columns:1}h1{font-size:1.5rem}}
-@media print{body{font-size:10.5pt}main,header{max-width:none;padding:0}nav{display:none}\
-.panels,.panels.three{grid-template-columns:repeat(2,minmax(0,1fr))}\
-svg,.verdicts li,tr,.exhibit h3{break-inside:avoid}h2,h3{break-after:avoid}.scroll{overflow:visible}\
-table{font-size:8pt}a{color:inherit;text-decoration:none}}
-";
+/// The width of a panel where three are side by side.
+const NARROW: f64 = 400.0;
 
 /// The page.
 pub fn page(
@@ -181,7 +138,8 @@ fn section(text: &mut String, section: &Section) {
     if !section.panels.is_empty() {
         let class = if section.panels.len() == 3 { "panels three" } else { "panels" };
         let _ = writeln!(text, "<div class=\"{class}\">");
-        section.panels.iter().for_each(|panel| text.push_str(&panel.alone(SIZE.0, SIZE.1)));
+        let width = if section.panels.len() == 3 { NARROW } else { SIZE.0 };
+        section.panels.iter().for_each(|panel| text.push_str(&panel.alone(width, SIZE.1)));
         text.push_str("</div>\n");
     }
     // Tables are what some sections are about; beside pictures they are details.
@@ -236,80 +194,5 @@ fn cell(value: &Cell) -> String {
             "NaN" | "inf" | "-inf" => "no figure".to_owned(),
             text => prose(text),
         },
-    }
-}
-
-/// What is written in ASCII in tables and files, and how it is set on the page.
-const SET: [(&str, &str); 8] = [
-    ("J_L", "J<sub>L</sub>"),
-    ("mu''", "μ″"),
-    ("mu'", "μ′"),
-    ("g'^-1", "g′⁻¹"),
-    ("alpha''", "α″"),
-    ("g''", "g″"),
-    ("^3", "³"),
-    ("dt ", "Δt "),
-];
-
-/// Text of a page in which numbers such as 1e-8 are written out.
-fn prose(text: &str) -> String {
-    let mut text = escaped(text);
-    for (plain, set) in SET {
-        text = text.replace(plain, set);
-    }
-    let mut out = String::with_capacity(text.len());
-    for (i, word) in text.split(' ').enumerate() {
-        if i > 0 {
-            out.push(' ');
-        }
-        let start = word.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
-        let end = word.rfind(|c: char| c.is_ascii_digit()).map_or(0, |at| at + 1);
-        if start < end {
-            out.push_str(&word[..start]);
-            out.push_str(&number(&word[start..end]));
-            out.push_str(&word[end..]);
-        } else {
-            out.push_str(word);
-        }
-    }
-    out
-}
-
-/// A number such as 1.2e-8 with its power of ten written out; anything else as it is.
-fn number(text: &str) -> String {
-    let Some((digits, exponent)) = text.split_once('e') else { return minus(text) };
-    let plain = |part: &str| {
-        let part = part.strip_prefix('-').unwrap_or(part);
-        !part.is_empty() && part.chars().all(|c| c.is_ascii_digit() || c == '.')
-    };
-    if !plain(digits) || !plain(exponent) {
-        return text.to_owned();
-    }
-    let exponent = minus(exponent);
-    match digits {
-        "1" => format!("10<sup>{exponent}</sup>"),
-        digits => format!("{}·10<sup>{exponent}</sup>", minus(digits)),
-    }
-}
-
-fn minus(text: &str) -> String {
-    match text.strip_prefix('-') {
-        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("−{rest}"),
-        _ => text.to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{number, prose};
-
-    #[test]
-    fn powers_of_ten_are_written_out() {
-        assert_eq!(number("1.20e-8"), "1.20·10<sup>−8</sup>");
-        assert_eq!(number("1e-12"), "10<sup>−12</sup>");
-        assert_eq!(number("-0.5"), "−0.5");
-        assert_eq!(prose("at most 1e-12, so"), "at most 10<sup>−12</sup>, so");
-        assert_eq!(prose("type II < x"), "type II &lt; x");
-        assert_eq!(prose("degree_2e"), "degree_2e");
     }
 }

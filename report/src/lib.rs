@@ -14,6 +14,8 @@ mod gallery;
 mod html;
 mod ours;
 mod paper;
+mod prose;
+mod rules;
 mod section;
 
 use std::collections::BTreeSet;

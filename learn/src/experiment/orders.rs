@@ -84,7 +84,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
             ("exp", Chart::Exponential, false),
             ("top", Chart::Exponential, true),
         ] {
-            if top && truncation > 5 {
+            if top && truncation > 7 {
                 cells.push("-".into());
                 continue;
             }
