@@ -44,5 +44,5 @@ dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:.5em}nav ol{columns:1}h1{fon
 @media print{body{font-size:10.5pt}main,header{max-width:none;padding:0}nav{display:none}\
 .panels,.panels.three{grid-template-columns:repeat(2,minmax(0,1fr))}\
 svg,.verdicts li,tr,.exhibit h3{break-inside:avoid}h2,h3{break-after:avoid}.scroll{overflow:visible}\
-table{font-size:8pt}a{color:inherit;text-decoration:none}}
+details::details-content{content-visibility:visible;display:block}table{font-size:8pt}a{color:inherit;text-decoration:none}}
 ";
