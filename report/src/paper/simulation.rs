@@ -1,12 +1,15 @@
 //! The figure of the simulation: energy, momentum, difference.
 
-use coadjoint_draw::{Axis, Curve as Line, Panel, Style, curves::range, curves::thinned};
+use coadjoint_draw::curves::{peaks as peaks_of, range, thinned};
+use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
 use coadjoint_learn::experiment::{Curve, Report};
 
 use crate::section::{BODY, Section, curve, figure, peaks, values};
 
 /// The lowest decade of errors, and the lowest top of an axis.
 const FLOOR: (i32, i32) = (-17, -14);
+/// Stretches of time of a whole run, longer than an oscillation.
+const STRETCHES: usize = 60;
 /// Records of the panels that show oscillations.
 const BEGINNING: usize = 251;
 
@@ -56,10 +59,7 @@ pub fn sections(report: &Report) -> Vec<Section> {
         of("exp K=7", 1),
         times.len().saturating_sub(1)
     );
-    seven.panels = vec![
-        signed(&runs, "cayley_k7_energy", "H − H₀ (J), K = 7, Cayley"),
-        signed(&runs, "exp_k7_energy", "H − H₀ (J), K = 7, exponential"),
-    ];
+    seven.panels = sevens(&runs);
 
     let mut spatial = Section::of(report, "momentum", "Spatial momentum in three components");
     spatial.shows =
@@ -148,17 +148,38 @@ fn energies(runs: &Curve) -> Vec<Panel> {
     panels.into_iter().map(Panel::with_legend).collect()
 }
 
-fn signed(runs: &Curve, column: &str, heading: &str) -> Panel {
-    let points = thinned(&runs.column("t"), &runs.column(column), 220);
-    let curves = vec![Line::line("K = 7", Style::new(0), points)];
-    Panel {
-        heading: heading.to_owned(),
-        across: "time (s)".to_owned(),
-        x: time(runs),
-        y: Axis::around(&values(&curves), true, 5),
-        curves,
-        ..Panel::default()
+/// The beginning, and the least and the greatest value in each stretch of the whole run.
+fn sevens(runs: &Curve) -> Vec<Panel> {
+    let times = runs.column("t");
+    let (mut first, mut whole) = (Vec::new(), Vec::new());
+    for (column, name) in [("cayley_k7_energy", "Cayley"), ("exp_k7_energy", "exponential")] {
+        let values = runs.column(column);
+        let y = Axis::around(&values, true, 5);
+        let some = BEGINNING.min(times.len());
+        let points = times.iter().copied().zip(values.iter().copied()).take(some).collect();
+        first.push(Panel {
+            heading: format!("H − H₀ (J), K = 7, {name}"),
+            across: "time (s), the beginning".to_owned(),
+            x: Axis::linear(0.0, times.get(some.saturating_sub(1)).copied().unwrap_or(1.0), 6),
+            y: y.clone(),
+            curves: vec![Line::line("K = 7", Style::new(0), points)],
+            ..Panel::default()
+        });
+        let low: Vec<f64> = values.iter().map(|value| -value).collect();
+        let least = peaks_of(&times, &low, STRETCHES).into_iter().map(|(t, v)| (t, -v));
+        whole.push(Panel {
+            heading: format!("the same, greatest and least, {name}"),
+            across: "time (s)".to_owned(),
+            x: time(runs),
+            y,
+            curves: vec![
+                Line::line("greatest", Style::new(0), peaks_of(&times, &values, STRETCHES)),
+                Line::line("least", Style::new(1), least.collect()),
+            ],
+            ..Panel::default()
+        });
     }
+    first.into_iter().chain(whole.into_iter().map(Panel::with_legend)).collect()
 }
 
 fn momenta(runs: &Curve, momentum: &Curve) -> Vec<Panel> {
