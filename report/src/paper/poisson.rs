@@ -1,9 +1,12 @@
 //! Poisson maps from momenta: table 2, trajectories, geometrizing, Hamilton–Jacobi by least squares.
 
-use coadjoint_draw::{Axis, Curve as Line, Panel, Style, curves::thinned};
+use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
 use coadjoint_learn::experiment::{Cell, Report};
 
 use crate::section::{BODY, Section, curve, figure, peaks, places, values};
+
+/// Records of a short time.
+const LONGER: usize = 101;
 
 /// Table 2 and its trajectories.
 pub fn sections(report: &Report) -> Vec<Section> {
@@ -95,15 +98,16 @@ fn trajectories(report: &Report) -> Section {
         ..Panel::default()
     };
     let energy = {
-        let columns = run.column("degree_2_energy");
-        let points = thinned(&times, &columns, 220);
-        let mut curves = vec![Line::line("learned, degree 2", Style::new(0), points)];
-        let points = thinned(&times, &run.column("degree_4_energy"), 220);
-        curves.push(Line::line("learned, degree 4", Style::new(1), points));
+        let line = |(i, (key, name)): (usize, &(&str, &str))| {
+            let column = run.column(&format!("{key}_energy"));
+            let points = times.iter().copied().zip(column).take(LONGER).collect();
+            Line::line(*name, Style::new(i), points)
+        };
+        let curves: Vec<Line> = models.iter().enumerate().map(line).collect();
         Panel {
-            heading: "relative error of the energy, the whole run".to_owned(),
-            across: "time (s)".to_owned(),
-            x: Axis::linear(0.0, end, 6),
+            heading: "relative error of the energy, a short time".to_owned(),
+            across: "time (s), the beginning".to_owned(),
+            x: Axis::around(&places(&curves), true, 6),
             y: Axis::around(&values(&curves), true, 5),
             curves,
             ..Panel::default()
@@ -126,6 +130,7 @@ fn trajectories(report: &Report) -> Section {
     section.panels = [
         beginning,
         energy,
+        panel("relative error of the energy, a long time", "energy", (-10, -4)),
         panel("distance of the momenta (kg m²/s)", "distance", (-10, -1)),
         panel("relative drift of the Casimir |Π|²", "casimir", (-17, -13)),
     ]
