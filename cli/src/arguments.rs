@@ -1,6 +1,7 @@
 //! The command line itself.
 
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::emit::c::Language;
@@ -12,6 +13,7 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::backend::BackendName;
 use crate::ensemble::{PrecisionName, Shard};
+use crate::error::CliError;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
@@ -325,6 +327,24 @@ pub struct SimulateOptions {
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+}
+
+impl SimulateOptions {
+    /// Those of a run as the file says, of which a picture is made.
+    ///
+    /// # Errors
+    /// Where the name of the file cannot be an argument.
+    pub fn drawn(file: &Path) -> Result<Self, CliError> {
+        #[derive(Parser)]
+        struct Whole {
+            #[command(flatten)]
+            options: SimulateOptions,
+        }
+        let words = ["simulate", "--plot", "picture.svg", "--"].map(OsString::from);
+        let words = words.into_iter().chain([file.as_os_str().to_owned()]);
+        let whole = Whole::try_parse_from(words);
+        whole.map(|whole| whole.options).map_err(|error| CliError::Option(error.to_string()))
+    }
 }
 
 /// Options of `ensemble`.

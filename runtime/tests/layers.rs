@@ -27,8 +27,10 @@ const LAYERS: [&str; 17] = [
 ];
 
 /// The crates, the lowest first.
-const CRATES: [&str; 9] =
-    ["program", "native", "device", "codegen", "macros", "runtime", "learn", "run", "cli"];
+const CRATES: [&str; 11] = [
+    "draw", "program", "native", "device", "codegen", "macros", "runtime", "learn", "report",
+    "run", "cli",
+];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of crates that are published.
-const PUBLISHED: [&str; 6] = ["codegen", "macros", "runtime", "learn", "run", "cli"];
+const PUBLISHED: [&str; 8] =
+    ["draw", "codegen", "macros", "runtime", "learn", "report", "run", "cli"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use plotters::prelude::*;
+use coadjoint_draw::{Axis, Curve, Panel, Style, sheet};
 
 use super::Report;
 
@@ -14,69 +14,33 @@ pub struct DiagramError {
     reason: String,
 }
 
-/// Colours that differ in lightness as well as in hue (Okabe and Ito, 2008, and darker turns of them).
-const COLOURS: [RGBColor; 12] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-    RGBColor(128, 64, 0),
-    RGBColor(120, 120, 120),
-    RGBColor(90, 60, 150),
-    RGBColor(180, 180, 40),
-    RGBColor(0, 80, 60),
-];
-
 /// Draws the cheapest points of each family; whatever is dearer at the same error is left out.
 ///
 /// # Errors
 /// When there is nothing to draw or the file cannot be written.
 pub fn diagram(report: &Report, path: &Path) -> Result<(), DiagramError> {
     let fail = |reason: String| DiagramError { path: path.to_owned(), reason };
-    let curves = curves(report);
-    let points = || curves.iter().flat_map(|(_, points)| points.iter());
-    if points().count() == 0 {
+    let families = curves(report);
+    let errors: Vec<f64> = families.iter().flat_map(|(_, p)| p.iter().map(|p| p.0)).collect();
+    let costs: Vec<f64> = families.iter().flat_map(|(_, p)| p.iter().map(|p| p.1)).collect();
+    if errors.is_empty() {
         return Err(fail("no measurements".to_owned()));
     }
-    let low = points().map(|p| p.1).fold(f64::INFINITY, f64::min) / 1.3;
-    let high = points().map(|p| p.1).fold(0.0, f64::max) * 1.3;
-    let draw = || -> Result<(), Box<dyn std::error::Error>> {
-        let root = SVGBackend::new(path, (960, 640)).into_drawing_area();
-        root.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&root)
-            .caption(format!("{}, T = {}", report.title, report.end), ("sans-serif", 20))
-            .margin(12)
-            .margin_right(230)
-            .x_label_area_size(48)
-            .y_label_area_size(72)
-            // Error falls to the right: further right is better, lower is cheaper.
-            .build_cartesian_2d(2.8f64..13.2, (low..high).log_scale())?;
-        chart
-            .configure_mesh()
-            .x_desc("error of (Π, R) at T")
-            .y_desc("ns of one core per unit of time")
-            .x_label_formatter(&|digits| format!("1e-{digits:.0}"))
-            .y_label_formatter(&|cost| {
-                if *cost < 10.0 { format!("{cost:.1}") } else { format!("{cost:.0}") }
-            })
-            .light_line_style(RGBColor(240, 240, 240))
-            .draw()?;
-        for (index, (family, points)) in curves.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
-            let line = points.iter().map(|p| (-p.0.log10(), p.1));
-            chart.draw_series(LineSeries::new(line.clone(), colour.stroke_width(2)))?;
-            chart.draw_series(line.map(|p| Circle::new(p, 3, colour.filled())))?;
-            let (x, y) = (742, 52 + 22 * index as i32);
-            root.draw(&PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)))?;
-            root.draw(&Text::new(family.clone(), (x + 28, y - 7), ("sans-serif", 14)))?;
-        }
-        root.present()?;
-        Ok(())
+    let lines = families.into_iter().enumerate();
+    let panel = Panel {
+        heading: "ns of one core per unit of time".to_owned(),
+        across: "error of (Π, R) at T".to_owned(),
+        x: Axis::logarithmic_around(&errors, f64::MIN_POSITIVE, 10),
+        y: Axis::logarithmic_around(&costs, f64::MIN_POSITIVE, 8),
+        curves: lines.map(|(i, (name, p))| Curve::marked(name, Style::new(i), p)).collect(),
+        ..Panel::default()
     };
-    draw().map_err(|error| fail(error.to_string()))
+    let title = format!("{}, T = {}", report.title, report.end);
+    let description =
+        "Time against error, both on logarithmic axes, a curve for each family of methods.";
+    let machine = [report.machine.to_string()];
+    let text = sheet(&title, &machine, &[panel.with_legend()], 430.0, description);
+    std::fs::write(path, text).map_err(|error| fail(error.to_string()))
 }
 
 /// For each family its points (error, cost) that no other of its points beats in both, by falling error.

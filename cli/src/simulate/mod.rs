@@ -18,6 +18,7 @@ mod trajectory;
 use std::path::Path;
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
+use coadjoint_draw::run::Picture;
 use coadjoint_run::simulate::{Outlet, Schedule};
 use coadjoint_run::{Derived, text_hash};
 
@@ -36,6 +37,30 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         return learned::run(path, options);
     }
     let out = setup::check_names(options)?;
+    let Runs { runs, heading, units } = runs(options, out.as_ref())?;
+    if let Some(path) = &options.plot {
+        plot::draw(path, &plot::picture(&heading, &runs))?;
+    }
+    print(&runs, &units, options, out.as_ref());
+    Ok(())
+}
+
+/// What is drawn of a system that is run as its file says.
+pub fn pictured(file: &Path) -> Result<Picture, CliError> {
+    let options = SimulateOptions::drawn(file)?;
+    let Runs { runs, heading, .. } = runs(&options, None)?;
+    Ok(plot::picture(&heading, &runs))
+}
+
+/// The runs asked for.
+struct Runs {
+    runs: Vec<Trajectory>,
+    heading: plot::Heading,
+    units: Units,
+}
+
+/// Runs every truncation asked for, and the rival.
+fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliError> {
     let source = options.input.source();
     let path = &source.file;
     // Read once: all runs are of this text, and its hash is that of what was run.
@@ -50,10 +75,10 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     } else {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
     };
-    let outs = outs(out.as_ref(), &systems)?;
+    let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
-    let mut heading = systems.first().map(plot::Heading::new);
-    let units = systems.first().map(|system| system.units.clone()).unwrap_or_default();
+    let mut heading = plot::Heading::new(&systems[0]);
+    let units = systems[0].units.clone();
     for (mut system, out) in systems.into_iter().zip(outs) {
         let truncation = system.problem.truncation;
         let phase = progress::phase("choosing the step");
@@ -63,7 +88,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         let dim = system.problem.algebra.dim();
         let settings = Settings::new(options, &hash, out, &system.run, dim)?;
         let setup = &settings.setup;
-        heading.iter_mut().for_each(|heading| heading.step(setup.schedule.step));
+        heading.step(setup.schedule.step);
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
@@ -90,11 +115,7 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     if options.compare.is_some() {
         runs.rotate_left(1);
     }
-    if let (Some(path), Some(heading)) = (&options.plot, &heading) {
-        plot::draw(path, &plot::picture(heading, &runs))?;
-    }
-    print(&runs, &units, options, out.as_ref());
-    Ok(())
+    Ok(Runs { runs, heading, units })
 }
 
 /// Prints the report.

@@ -35,7 +35,7 @@ pub(super) fn rows(
     let options = training.options("baseline");
     let (network, _) = fit_network_to_gradients(&points, &gradients, None, &options, &mut |_| {})?;
     enter("network", &network, Some(paper));
-    let options = training.options("baseline-hybrid");
+    let options = training.small("baseline-hybrid");
     let (hybrid, _) = fit_hybrid_to_gradients(&points, &gradients, 2, &options, &mut |_| {})?;
     enter("hybrid", &hybrid, None);
     for degree in [2, 4, 6] {

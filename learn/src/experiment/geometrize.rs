@@ -3,7 +3,7 @@
 use coadjoint::{Exponential, LieGroup, SO3, poisson_map};
 use nalgebra::Vector3;
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Cell, Curve, Report, Table};
 use super::run::RunOptions;
 use crate::error::LearnError;
 use crate::function::{Generating, MomentumFunction};
@@ -75,6 +75,26 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         columns.extend(["casimir", "energy", "distance"].map(|q| format!("{name}_{q}")));
         rows.iter_mut().zip(&errors).for_each(|(row, e)| row.extend(e));
     }
+    let last = |k: usize| match table.rows.last().map(|row| &row[k]) {
+        Some(Cell::Number(value)) => *value,
+        _ => f64::NAN,
+    };
+    let euler = |k: usize| match &table.rows[0][k] {
+        Cell::Number(value) => *value,
+        Cell::Text(_) => f64::NAN,
+    };
+    report.judge(
+        "geometrize",
+        "largest relative drift of the Casimir, geometrized (highest degree)",
+        last(2),
+        Bound::AtMost(1e-12),
+    );
+    report.judge(
+        "geometrize",
+        "largest relative drift of the energy: forward Euler over geometrized",
+        euler(3) / last(3),
+        Bound::AtLeast(100.0),
+    );
     report.tables.push(table);
     report.curves.push(Curve { name: "geometrize".into(), columns, rows });
     report.notes.push(

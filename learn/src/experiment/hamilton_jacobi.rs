@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Curve, Report, Table};
 use super::run::RunOptions;
 use super::simulation::paper_series;
 use crate::error::LearnError;
@@ -36,6 +36,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
     );
     let reference = paper_series(AlgebraChart::Exponential, 11, time)?;
     let mut rows = Vec::new();
+    let mut worst: f64 = 0.0;
     for (degree, powers) in options.pick(vec![(2, 1), (4, 2), (6, 3), (8, 4)], vec![(2, 1), (4, 2)])
     {
         let collocation = CollocationOptions {
@@ -65,6 +66,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
             plain += (poisson_map(&truncated, mu).map_err(failed)? - exact).norm_squared();
         }
         let rms = |sum: f64| (sum / (3 * tests.len()) as f64).sqrt();
+        worst = worst.max((map / plain).sqrt());
         let residual = solution.history.last().copied();
         table.push(vec![
             (degree as f64).into(),
@@ -79,6 +81,12 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         }
     }
     report.tables.push(table);
+    report.judge(
+        "hamilton-jacobi",
+        "largest ratio of the error of the map by least squares to that of the series of the same powers of t",
+        worst,
+        Bound::AtMost(2.0),
+    );
     let columns = ["degree", "iteration", "residual_mse"].map(Into::into).to_vec();
     report.curves.push(Curve { name: "hamilton-jacobi".into(), columns, rows });
     report.notes.push(

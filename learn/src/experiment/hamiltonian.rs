@@ -3,7 +3,7 @@
 use coadjoint::{Exponential, Phase, SO3};
 use nalgebra::Vector3;
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Curve, Report, Table};
 use super::run::RunOptions;
 use crate::data::{RowPolicy, Tolerances, reduce};
 use crate::error::LearnError;
@@ -23,6 +23,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         &["dt", "degree", "rms of dH - dH_true", "slope", "energy drift of the map, 1000 steps"],
     );
     let mut rows = Vec::new();
+    let mut furthest: f64 = 0.0;
     for degree in [2, 4] {
         let mut previous: Option<f64> = None;
         for step in [0.4, 0.2, 0.1, 0.05, 0.025] {
@@ -44,6 +45,7 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
             }
             let rms = (squares / data.p.len() as f64).sqrt();
             let slope = previous.map(|p| (p / rms).log2());
+            furthest = furthest.max(slope.map_or(0.0, |slope| (slope - 2.0).abs()));
             previous = Some(rms);
             let scaled = Scaled { factor: step, function: &learned };
             let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(group, &scaled);
@@ -60,6 +62,12 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         }
     }
     report.tables.push(table);
+    report.judge(
+        "hamiltonian",
+        "largest difference of a slope from 2, the order of the integrator",
+        furthest,
+        Bound::AtMost(0.2),
+    );
     let columns = ["degree", "dt", "rms"].map(Into::into).to_vec();
     report.curves.push(Curve { name: "hamiltonian".into(), columns, rows });
     report.notes.push(

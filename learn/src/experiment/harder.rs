@@ -72,7 +72,7 @@ where
     let mut table = Table::new(title, &COLUMNS);
     task.trivial::<Exponential>(truth, step, &mut table);
     let label = format!("harder-truths.{first_seed}");
-    let training = Training { options, seed: seed(3), label };
+    let training = Training { options, seed: seed(3), label, wide: false };
     training.symmetric::<G, Exponential>(&task, None, say, &mut table)?;
     task.polynomials::<Exponential>(&[2, 4, 6, 8], "", say, &mut table);
     let selection = SelectionOptions { seed: seed(4), ..Default::default() };

@@ -2,7 +2,7 @@
 
 use coadjoint::{Exponential, SO3};
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Cell, Curve, Report, Table};
 use super::run::RunOptions;
 use super::task::{COLUMNS, row};
 use crate::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
@@ -11,7 +11,7 @@ use crate::evaluate::evaluate;
 use crate::function::{Generating, MomentumFunction, Scaled, Zero};
 use crate::gaussian_process::{GaussianProcessOptions, fit_gaussian_process};
 use crate::model::Model;
-use crate::polynomial::{SelectionOptions, select_polynomial};
+use crate::polynomial::{Scaling, SelectionOptions, select_polynomial};
 use crate::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
 
 pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Report, LearnError> {
@@ -66,6 +66,23 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
         enter("Gaussian process", &process);
         report.tables.push(table);
     }
+    let error = |table: usize, row: usize| match report.tables[table].rows[row][2] {
+        Cell::Number(value) => value,
+        Cell::Text(_) => f64::NAN,
+    };
+    let (still, noisy, selected) = (error(1, 0), error(1, 2), error(1, 3));
+    report.judge(
+        "noise",
+        "noisy data: test error of the momentum by the network over that of the best polynomial",
+        noisy / selected,
+        Bound::AtMost(20.0),
+    );
+    report.judge(
+        "noise",
+        "noisy data: test error of the momentum without a model over that of the network",
+        still / noisy,
+        Bound::AtLeast(2.0),
+    );
     report.notes.push(format!(
         "noise of variance 0.05 (deviation {deviation:.3}) on every coordinate of the momenta and, \
          as g exp(eta), of the attitudes; the paper shows that the noisy model still predicts, \
@@ -89,6 +106,14 @@ fn networks(
         seed: options.seed(4),
         ..Default::default()
     };
+    // Losses come in units of the variance of the targets, each weighted by the width of its coordinate.
+    let scaling = Scaling::of(&data.p);
+    let (mut squares, mut widths) = (0.0, 0.0);
+    for (row, width) in data.x.row_iter().zip(&scaling.half_width) {
+        squares += width * width * row.variance();
+        widths += width * width;
+    }
+    let unit = squares / widths;
     let mut rows = Vec::new();
     let (network, _) = fit_network_to_gradients(
         &data.p,
@@ -97,12 +122,12 @@ fn networks(
         &training,
         &mut |p| {
             if let Some(validation) = p.validation {
-                rows.push(vec![p.step as f64, p.loss, validation]);
+                rows.push(vec![p.step as f64, unit * p.loss, unit * validation]);
             }
         },
     )?;
     let name = format!("noise_{}", label.replace(' ', "_"));
-    let columns = ["step", "train_loss", "test_loss"].map(Into::into).to_vec();
+    let columns = ["step", "train_mse", "test_mse"].map(Into::into).to_vec();
     let label = format!("network, {} steps of Adam", training.adam_steps);
     Ok(vec![(label, Model::Network(network), Curve { name, columns, rows })])
 }

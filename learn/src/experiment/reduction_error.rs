@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::report::{Curve, Report, Table};
+use super::report::{Bound, Curve, Report, Table};
 use super::run::RunOptions;
 use crate::error::LearnError;
 
@@ -60,12 +60,18 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         ],
     );
     let mut rows = Vec::new();
+    let (mut furthest, mut largest): (f64, f64) = (0.0, 0.0);
     for (k, (size, sum)) in sizes.iter().zip(&sums).enumerate() {
         let mean = |quantity: usize| sum[quantity] / f64::from(pairs);
         let slope = |quantity: usize| {
             let before = sums.get(k.wrapping_sub(1))?[quantity] / f64::from(pairs);
             Some((before / mean(quantity)).log10())
         };
+        if k > 1 {
+            let off = |quantity| slope(quantity).map_or(0.0, |slope: f64| (slope - 1.0).abs());
+            furthest = furthest.max(off(0)).max(off(1));
+        }
+        largest = largest.max(sum[2]).max(sum[3]);
         table.push(vec![
             format!("{size:.0e}").into(),
             mean(0).into(),
@@ -78,6 +84,18 @@ pub(super) fn run(options: &RunOptions) -> Result<Report, LearnError> {
         rows.push(vec![*size, mean(0), mean(1)]);
     }
     report.tables.push(table);
+    report.judge(
+        "reduction-error",
+        "largest difference of a slope from 1, perturbations of 1e-3 and smaller",
+        furthest,
+        Bound::AtMost(0.01),
+    );
+    report.judge(
+        "reduction-error",
+        "largest ratio of an error to its bound",
+        largest,
+        Bound::AtMost(1.0 + 1e-6),
+    );
     let columns = ["size", "group_error", "covector_error"].map(Into::into).to_vec();
     report.curves.push(Curve { name: "reduction-error".into(), columns, rows });
     report.notes.push(

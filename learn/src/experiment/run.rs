@@ -4,19 +4,22 @@ use std::path::{Path, PathBuf};
 
 use super::report::Report;
 use super::{
-    geometrize, hamilton_jacobi, hamiltonian, harder, noise, reduction_error, simulation,
-    table_one, table_two,
+    geometrize, hamilton_jacobi, hamiltonian, harder, learned, noise, orders, reduction_error,
+    simulation, table_one, table_two, work,
 };
 use crate::error::LearnError;
 
 /// The experiments, in the order `all` runs them.
-pub const NAMES: [&str; 9] = [
+pub const NAMES: [&str; 12] = [
     "simulation",
+    "orders",
+    "work",
     "table-2",
     "hamiltonian",
     "geometrize",
     "hamilton-jacobi",
     "reduction-error",
+    "learned",
     "noise",
     "table-1",
     "harder-truths",
@@ -59,19 +62,24 @@ pub fn run(
     };
     let resume = name == "all";
     let mut reports = Vec::new();
-    for name in names {
+    let count = names.len();
+    for (number, name) in names.into_iter().enumerate() {
+        let turn = if resume { format!("{} of {count}: ", number + 1) } else { String::new() };
         let done =
             options.out.as_ref().filter(|_| resume).and_then(|folder| {
                 Report::read(&folder.join(format!("{name}.json")), name, options)
             });
         if let Some(report) = done {
-            say(&format!("{name}: done already"));
+            say(&format!("{turn}{name}: done already"));
             reports.push(report);
             continue;
         }
-        say(&format!("{name} …"));
+        say(&format!("{turn}{name} …"));
         let report = match name {
             "simulation" => simulation::run(options)?,
+            "orders" => orders::run(options)?,
+            "work" => work::run(options)?,
+            "learned" => learned::run(options, say)?,
             "table-1" => table_one::run(options, say)?,
             "harder-truths" => harder::run(options, say)?,
             "noise" => noise::run(options, say)?,
@@ -122,6 +130,7 @@ impl RunOptions {
             seed: self.seed,
             tables: Vec::new(),
             notes: Vec::new(),
+            judgements: Vec::new(),
             curves: Vec::new(),
         })
     }
@@ -129,7 +138,10 @@ impl RunOptions {
     /// Keeps the tables so far, in case the run is interrupted.
     pub(super) fn keep(&self, report: &Report) -> Result<(), LearnError> {
         match &self.out {
-            Some(folder) => report.save(&folder.join(format!("{}{PART}", report.name))),
+            Some(folder) => {
+                report.save(&folder.join(format!("{}{PART}", report.name)))?;
+                report.write_curves(folder)
+            }
             None => Ok(()),
         }
     }

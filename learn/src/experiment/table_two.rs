@@ -1,8 +1,9 @@
 //! Table 2: Poisson maps from momenta alone.
 
-use coadjoint::{Exponential, SO3};
+use coadjoint::{Exponential, SO3, poisson_map};
+use nalgebra::Vector3;
 
-use super::report::{Cell, Report, Table};
+use super::report::{Bound, Cell, Curve, Report, Table};
 use super::run::RunOptions;
 use crate::data::MomentumPairs;
 use crate::error::LearnError;
@@ -61,7 +62,28 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
                 fit_poisson::<SO3, Exponential>(&group, &train, &PoissonOptions::degree(degree))?;
             table.push(row(format!("p eliminated, degree {degree}"), &fit.model, &test));
         }
-        networks(options, &train, &test, seed(3), say, &mut table)?;
+        let latent = networks(options, &train, &test, seed(3), say, &mut table)?;
+        let fourth = table.rows.iter().find(|row| row[0] == Cell::from("p eliminated, degree 4"));
+        let error = match fourth.map(|row| &row[1]) {
+            Some(Cell::Number(value)) => *value,
+            _ => f64::NAN,
+        };
+        report.judge(
+            "table-2",
+            format!("dt = {step}, {samples} samples: error of degree 4 over the paper's"),
+            error / paper,
+            Bound::AtMost(1.0),
+        );
+        if (step, samples) == (1.0, 200) {
+            let mut models: Vec<(&str, Box<dyn MomentumFunction>)> = Vec::new();
+            for (name, degree) in [("degree_2", 2), ("degree_4", 4)] {
+                let options = PoissonOptions::degree(degree);
+                let fit = fit_poisson::<SO3, Exponential>(&group, &train, &options)?;
+                models.push((name, Box::new(fit.model)));
+            }
+            models.extend(latent.map(|model| ("latent", model)));
+            trajectories(options, &group, step, &models, &mut report)?;
+        }
         report.tables.push(table);
         options.keep(&report)?;
     }
@@ -79,6 +101,61 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     Ok(report)
 }
 
+/// Long trajectories of learned Poisson maps: energy, Casimir, distance from the exact flow.
+fn trajectories(
+    options: &RunOptions,
+    group: &SO3,
+    step: f64,
+    models: &[(&str, Box<dyn MomentumFunction>)],
+    report: &mut Report,
+) -> Result<(), LearnError> {
+    let body = Quadratic::paper();
+    let steps = options.pick(5000, 1000);
+    let start = Vector3::new(0.7, 0.2, 0.5);
+    let energy = |mu: &Vector3<f64>| body.value(mu.as_slice());
+    let mut exact = vec![start];
+    for i in 0..steps {
+        exact.push(exact_momentum_flow(group, &body, &exact[i], step));
+    }
+    let mut columns = vec!["t".to_owned(), "exact_x".into(), "exact_y".into(), "exact_z".into()];
+    let mut rows: Vec<Vec<f64>> =
+        exact.iter().enumerate().map(|(i, mu)| vec![i as f64 * step, mu.x, mu.y, mu.z]).collect();
+    let mut casimir: f64 = 0.0;
+    for (name, model) in models {
+        let map = Generating::<SO3, Exponential, &dyn MomentumFunction>::new(*group, &**model);
+        let mut mu = start;
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i > 0 {
+                mu = poisson_map(&map, &mu)
+                    .map_err(|e| LearnError::NotConverged { reason: e.to_string() })?;
+            }
+            let norm = mu.norm_squared() / start.norm_squared() - 1.0;
+            casimir = casimir.max(norm.abs());
+            row.extend([mu.x, mu.y, mu.z, energy(&mu) / energy(&start) - 1.0]);
+            row.extend([norm.abs(), (mu - exact[i]).norm()]);
+        }
+        let quantities = ["x", "y", "z", "energy", "casimir", "distance"];
+        columns.extend(quantities.map(|q| format!("{name}_{q}")));
+    }
+    let curve = Curve { name: "poisson".into(), columns, rows };
+    let energies = curve.column("degree_4_energy").into_iter().map(f64::abs);
+    let largest = energies.fold(0.0, f64::max);
+    report.judge(
+        "poisson",
+        format!("largest relative drift of the Casimir over {steps} steps, every model"),
+        casimir,
+        Bound::AtMost(1e-12),
+    );
+    report.judge(
+        "poisson",
+        format!("largest relative error of the energy over {steps} steps, degree 4"),
+        largest,
+        Bound::AtMost(1e-3),
+    );
+    report.curves.push(curve);
+    Ok(())
+}
+
 #[cfg(not(feature = "neural"))]
 #[allow(clippy::unnecessary_wraps)]
 fn networks(
@@ -88,9 +165,9 @@ fn networks(
     _seed: u64,
     _say: &mut dyn FnMut(&str),
     table: &mut Table,
-) -> Result<(), LearnError> {
+) -> Result<Option<Box<dyn MomentumFunction>>, LearnError> {
     table.push(vec!["latent momenta: built without the feature neural".into()]);
-    Ok(())
+    Ok(None)
 }
 
 #[cfg(feature = "neural")]
@@ -101,8 +178,9 @@ fn networks(
     seed: u64,
     say: &mut dyn FnMut(&str),
     table: &mut Table,
-) -> Result<(), LearnError> {
+) -> Result<Option<Box<dyn MomentumFunction>>, LearnError> {
     use crate::network::{LatentOptions, MomentumModel, TrainingOptions, fit_latent};
+    let mut first: Option<Box<dyn MomentumFunction>> = None;
     for (name, momenta) in [
         ("latent p, 50-10", MomentumModel::Latent),
         ("p network 50-10, S network 50-10", MomentumModel::Network(vec![50, 10])),
@@ -121,6 +199,7 @@ fn networks(
         };
         let fit = fit_latent(&SO3::<f64>::new(), train, &latent, &mut |_| {})?;
         table.push(row(name.into(), &fit.network, test));
+        first.get_or_insert_with(|| Box::new(fit.network));
     }
-    Ok(())
+    Ok(first)
 }

@@ -73,11 +73,19 @@ impl Svg {
         }
     }
 
+    /// Filled outlines.
+    pub fn path(&mut self, data: &str, style: &str) {
+        if !data.is_empty() {
+            let _ = writeln!(self.body, r#"<path d="{data}" {style}/>"#);
+        }
+    }
+
     /// The whole document, with a title and a description for those who cannot see it.
+    #[must_use]
     pub fn finish(&self, (width, height): (f64, f64), title: &str, description: &str) -> String {
         let (title, description, body) = (escaped(title), escaped(description), &self.body);
         format!(
-            r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" role="img" aria-labelledby="title description" font-family="DejaVu Sans, Verdana, sans-serif" font-size="13" fill="#222222">
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" role="img" aria-labelledby="title description" {FONTS} font-size="13" fill="#222222">
 <title id="title">{title}</title>
 <desc id="description">{description}</desc>
 <rect width="100%" height="100%" fill="#ffffff"/>
@@ -85,7 +93,20 @@ impl Svg {
 "##
         )
     }
+
+    /// The picture as an element of a page that holds [`STYLE_SHEET`](crate::STYLE_SHEET).
+    #[must_use]
+    pub fn element(&self, (width, height): (f64, f64), label: &str) -> String {
+        let (label, body) = (escaped(label), &self.body);
+        format!(
+            "<svg class=\"plot\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" \
+             role=\"img\" aria-label=\"{label}\" {FONTS} font-size=\"13\">\n{body}</svg>\n"
+        )
+    }
 }
+
+/// Fonts whose letters are no wider than [`width`] supposes.
+const FONTS: &str = r#"font-family="DejaVu Sans, Verdana, sans-serif""#;
 
 fn coordinates(points: &[(f64, f64)]) -> String {
     let mut text = String::new();
@@ -105,7 +126,8 @@ fn coordinates(points: &[(f64, f64)]) -> String {
 }
 
 /// The text with what has a meaning in XML written out; control characters become spaces.
-fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -121,6 +143,7 @@ fn escaped(text: &str) -> String {
 }
 
 /// About how wide a text is at this size of font, in pixels; rather too wide than too narrow.
+#[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
     // Ideographs and the like take twice the room.
     let units = text.chars().map(|c| if c >= '\u{2e80}' { 1.1 } else { 0.62 });
@@ -128,6 +151,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 }
 
 /// The text, cut with an ellipsis where it is wider than `room` pixels.
+#[must_use]
 pub fn cut(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();
@@ -142,4 +166,24 @@ pub fn cut(text: &str, size: f64, room: f64) -> String {
     short.pop();
     short.push('…');
     short
+}
+
+/// The text in lines no wider than `room` pixels; a word wider than that is cut.
+#[must_use]
+pub fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && width(&line, size) + width(word, size) + size > room {
+            lines.push(cut(&std::mem::take(&mut line), size, room));
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        lines.push(cut(&line, size, room));
+    }
+    lines
 }

@@ -1,6 +1,8 @@
 //! Which curves of a motion are shown, over which time, and with how many points.
+//!
+//! Curves of many records are thinned before they are drawn: [`thinned`] and [`peaks`] keep what is seen.
 
-use super::Series;
+use crate::run::Series;
 
 /// So many coordinates are drawn as lines with a name; the others as a band.
 pub const NAMED: usize = 8;
@@ -24,6 +26,7 @@ pub fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> Option<(f64, f64)
 }
 
 /// The coordinates that vary most, in the order of the file, and all the others.
+#[must_use]
 pub fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) {
     let variation =
         |series: &Series| range(&series.values).map_or(0.0, |(low, high)| high / 2.0 - low / 2.0);
@@ -47,6 +50,7 @@ pub struct Window {
 
 /// All records, or the first ones: where all together have too many turning points to be told apart, or
 /// where later records are too far apart to follow what the first ones show.
+#[must_use]
 pub fn window(series: &[&Series], times: &[f64]) -> Window {
     let all = series.iter().flat_map(|series| &series.values);
     let (low, high) = range(all).unwrap_or_default();
@@ -107,6 +111,7 @@ fn turning_points(values: &[f64], wiggle: f64) -> Vec<usize> {
 
 /// A curve with at most two points in each of `columns` stretches of time, the least and the
 /// greatest, so that no peak is lost.
+#[must_use]
 pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
     let points = points(times, values);
     let mut kept = Vec::new();
@@ -129,6 +134,7 @@ pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)>
 }
 
 /// The greatest value of each of at most `columns` stretches of time, at its time.
+#[must_use]
 pub fn peaks(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
     let points = points(times, values);
     let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
@@ -156,7 +162,8 @@ fn stretches(points: &[(f64, f64)], columns: usize) -> impl Iterator<Item = &[(f
 
 #[cfg(test)]
 mod tests {
-    use super::{Series, Window, largest, thinned, turning_points, window};
+    use super::{Window, largest, thinned, turning_points, window};
+    use crate::run::Series;
 
     fn wave(name: &str, rate: f64, records: usize) -> Series {
         let values = (0..records).map(|n| (rate * n as f64).sin()).collect();

@@ -1,27 +1,19 @@
-//! The picture of a run as SVG: the momentum, and the drift of energy, spatial momentum and Casimirs.
-//!
-//! What is drawn is given as plain numbers, so that this folder knows neither groups nor integrators;
-//! `picture` makes them from trajectories.
+//! The picture of a run: the momentum, its orbit, and the drift of energy, spatial momentum and Casimirs.
 
-mod axis;
-mod curves;
-mod drift;
-mod motion;
-mod panel;
-mod picture;
-mod svg;
+pub mod drift;
+pub mod motion;
+pub mod orbit;
 
-use std::path::Path;
-
-use panel::{FONT, LINE, Sample, WIDTH, legend, paragraph, style};
-use svg::{Anchor, Svg, cut, width};
-
-pub use picture::{Heading, picture};
-
-use crate::error::CliError;
+use crate::curves;
+use crate::panel::{Place, RIGHT, Sample, WIDTH, legend, paragraph};
+use crate::sheet::heading;
+use crate::style::Style;
+use crate::svg::Svg;
 
 /// Differences below this, and zero, which has no logarithm, are drawn here.
-const FLOOR: i32 = -17;
+pub const FLOOR: i32 = -17;
+/// Stretches of time with two points of a curve each.
+const COLUMNS: usize = 400;
 
 /// What is drawn: runs of one system.
 #[derive(Clone, Debug, Default)]
@@ -60,63 +52,43 @@ pub struct Series {
     pub values: Vec<f64>,
 }
 
-/// Writes the picture.
-pub fn draw(path: &Path, picture: &Picture) -> Result<(), CliError> {
-    std::fs::write(path, render(picture))
-        .map_err(|error| CliError::Write { path: path.to_owned(), message: error.to_string() })
-}
-
 /// The picture as the text of an SVG file.
-fn render(picture: &Picture) -> String {
+#[must_use]
+pub fn render(picture: &Picture) -> String {
     let time_unit = picture.time_unit.as_deref();
     let times = picture.runs.iter().flat_map(|run| &run.times);
     let across = curves::range(times).unwrap_or((0.0, 1.0));
     let several = picture.runs.len() > 1;
-    let motion = picture.runs.first().map(|run| motion::panels(run, several, across, time_unit));
+    let motion =
+        picture.runs.first().map(|run| motion::panels(run, several, across, time_unit, COLUMNS));
     let motion = motion.unwrap_or_default();
     let drifts = drift::panels(&picture.runs, across, time_unit);
     let left = motion.iter().chain(&drifts).map(|panel| panel.left()).fold(60.0, f64::max);
 
     let mut svg = Svg::default();
-    let title = cut(&picture.name, 21.0, WIDTH - left - 20.0);
-    svg.text((left, 32.0), Anchor::Start, r#"font-size="20" font-weight="bold""#, &title);
-    let mut y = settings(&mut svg, &picture.settings, left, 36.0) + 14.0;
+    let mut y = heading(&mut svg, &picture.name, &picture.settings, left) + 14.0;
     for panel in &motion {
-        y = panel.draw(&mut svg, y, left);
+        y = panel.draw(&mut svg, Place::below(y, left));
     }
     if several && !drifts.is_empty() {
         let names = picture.runs.iter().enumerate();
         let names: Vec<(Sample, String)> =
-            names.map(|(i, run)| (Sample::Stroke(style(i)), run.label.clone())).collect();
-        y = legend(&mut svg, &names, left, y) + 6.0;
+            names.map(|(i, run)| (Sample::Stroke(Style::new(i)), run.label.clone())).collect();
+        y = legend(&mut svg, &names, (left, WIDTH - RIGHT), y) + 6.0;
     }
     if !drifts.is_empty() {
-        y = paragraph(&mut svg, drift::NOTE, left, y) + 12.0;
+        y = paragraph(&mut svg, drift::NOTE, (left, WIDTH - RIGHT), y) + 12.0;
     }
     for panel in &drifts {
-        y = panel.draw(&mut svg, y, left);
+        y = panel.draw(&mut svg, Place::below(y, left));
     }
     let name = format!("{}: momentum and drift of what is conserved", picture.name);
     svg.finish((WIDTH, y + 8.0), &name, &description(picture))
 }
 
-/// Writes the settings in one line, or more where they need it; returns the last baseline.
-fn settings(svg: &mut Svg, settings: &[String], left: f64, above: f64) -> f64 {
-    let (mut x, mut y) = (left, above + LINE);
-    for text in settings {
-        let text = cut(text, FONT, WIDTH - left - 30.0);
-        let wide = width(&text, FONT);
-        if x > left && x + wide > WIDTH - 20.0 {
-            (x, y) = (left, y + LINE);
-        }
-        svg.text((x, y), Anchor::Start, "", &text);
-        x += wide + 18.0;
-    }
-    y
-}
-
 /// The label of an axis of time.
-fn time_label(unit: Option<&str>) -> String {
+#[must_use]
+pub fn time_label(unit: Option<&str>) -> String {
     unit.map_or("time".to_owned(), |unit| format!("time ({unit})"))
 }
 

@@ -14,12 +14,21 @@ pub struct Tick {
 pub struct Axis {
     low: f64,
     high: f64,
+    /// Whether places are those of logarithms.
+    logarithmic: bool,
     /// Ticks, ascending.
     pub ticks: Vec<Tick>,
 }
 
+impl Default for Axis {
+    fn default() -> Self {
+        Self::linear(0.0, 1.0, 5)
+    }
+}
+
 impl Axis {
     /// A linear axis with about `count` ticks. An empty range is widened.
+    #[must_use]
     pub fn linear(low: f64, high: f64, count: usize) -> Self {
         const LARGEST: f64 = 8e307;
         let (mut low, mut high) = (low.clamp(-LARGEST, LARGEST), high.clamp(-LARGEST, LARGEST));
@@ -28,29 +37,123 @@ impl Axis {
             let widening = if least > 0.0 { least } else { 1.0 };
             (low, high) = (low - widening, high + widening);
         }
-        Self { low, high, ticks: ticks(low, high, count) }
+        Self { low, high, logarithmic: false, ticks: ticks(low, high, count) }
     }
 
-    /// An axis of decades from 10^low to 10^high, on which values are their logarithms; the lowest
-    /// tick is labelled as the floor, where everything below is drawn.
+    /// A linear axis that holds all these values with a margin, and 0 if `zero`.
+    pub fn around<'a>(values: impl IntoIterator<Item = &'a f64>, zero: bool, count: usize) -> Self {
+        let (mut low, mut high) = crate::curves::range(values).unwrap_or((0.0, 0.0));
+        if zero {
+            (low, high) = (low.min(0.0), high.max(0.0));
+        }
+        let margin = 0.06 * (high / 2.0 - low / 2.0) * 2.0;
+        Self::linear(low - margin, high + margin, count)
+    }
+
+    /// A logarithmic axis with about `count` ticks; what is not positive is drawn at its low end. Ticks are powers of
+    /// ten, or 1, 2 and 5 times these where there would be few.
+    #[must_use]
+    pub fn logarithmic(low: f64, high: f64, count: usize) -> Self {
+        let low = low.max(f64::MIN_POSITIVE);
+        let high = high.min(1e307).max(low * 1.000_001);
+        let (first, last) = (low.log10(), high.log10());
+        let decades = (last.floor() - first.ceil()) as i32 + 1;
+        let inside = |value: f64| value >= low * 0.999_999 && value <= high * 1.000_001;
+        let mut ticks = Vec::new();
+        if decades >= 3 {
+            let step = (decades as usize).div_ceil(count.max(1)).max(1);
+            for decade in (first.ceil() as i32..=last.floor() as i32).step_by(step) {
+                ticks.push(Tick { at: 10f64.powi(decade), label: power(decade) });
+            }
+        } else {
+            let digits: &[i32] = if decades == 2 && count < 6 { &[1, 3] } else { &[1, 2, 5] };
+            for decade in first.floor() as i32..=last.ceil() as i32 {
+                for &digit in digits {
+                    let at = f64::from(digit) * 10f64.powi(decade);
+                    if inside(at) {
+                        ticks.push(Tick { at, label: small(digit, decade) });
+                    }
+                }
+            }
+        }
+        Self { low, high, logarithmic: true, ticks }
+    }
+
+    /// A logarithmic axis that holds all the positive ones of these values, from at least `floor` on.
+    pub fn logarithmic_around<'a>(
+        values: impl IntoIterator<Item = &'a f64>,
+        floor: f64,
+        count: usize,
+    ) -> Self {
+        let positive = values.into_iter().filter(|&&value| value >= floor);
+        let (low, high) = crate::curves::range(positive).unwrap_or((floor, 10.0 * floor));
+        Self::logarithmic(low / 1.5, high * 1.5, count)
+    }
+
+    /// A logarithmic axis from 10^low to 10^high; the lowest tick is labelled as the floor, where everything below is
+    /// drawn.
+    #[must_use]
     pub fn decades(low: i32, high: i32, count: usize) -> Self {
         let high = high.max(low + 1);
         let step = ((high - low) as usize).div_ceil(count.max(1)).max(1);
         let label = |decade: i32| match decade {
             decade if decade == low => format!("≤ 1e{decade}"),
-            0 => "1".to_owned(),
-            decade => format!("1e{decade}"),
+            decade => power(decade),
         };
-        let tick = |decade: i32| Tick { at: f64::from(decade), label: label(decade) };
+        let tick = |decade: i32| Tick { at: 10f64.powi(decade), label: label(decade) };
         let ticks = (low..=high).step_by(step).map(tick).collect();
-        Self { low: low.into(), high: high.into(), ticks }
+        Self { low: 10f64.powi(low), high: 10f64.powi(high), logarithmic: true, ticks }
+    }
+
+    /// The axis from which values below `floor` cannot be told, up to the largest of these.
+    pub fn floored<'a>(
+        values: impl IntoIterator<Item = &'a f64>,
+        (floor, least_top): (i32, i32),
+        count: usize,
+    ) -> Self {
+        let highest = crate::curves::range(values).map_or(0.0, |(_, high)| high);
+        let top = if highest > 0.0 { highest.log10().ceil() as i32 } else { least_top };
+        Self::decades(floor, top.max(least_top), count)
+    }
+
+    /// The ends.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        (self.low, self.high)
     }
 
     /// Where a value is between the ends, from 0 to 1.
+    #[must_use]
     pub fn share(&self, value: f64) -> f64 {
+        if self.logarithmic {
+            if value <= self.low {
+                return 0.0;
+            }
+            let (low, high) = (self.low.log10(), self.high.log10());
+            return ((value.log10() - low) / (high - low)).clamp(0.0, 1.0);
+        }
         // Halves, so that no difference overflows.
         let span = self.high / 2.0 - self.low / 2.0;
         ((value / 2.0 - self.low / 2.0) / span).clamp(0.0, 1.0)
+    }
+}
+
+/// A power of ten.
+fn power(decade: i32) -> String {
+    match decade {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        2 => "100".to_owned(),
+        decade => format!("1e{decade}"),
+    }
+}
+
+/// A digit times a power of ten.
+fn small(digit: i32, decade: i32) -> String {
+    match decade {
+        0..=4 => format!("{digit}{}", "0".repeat(decade as usize)),
+        -3..=-1 => format!("0.{}{digit}", "0".repeat(decade.unsigned_abs() as usize - 1)),
+        decade => format!("{digit}e{decade}"),
     }
 }
 
@@ -135,5 +238,19 @@ mod tests {
         }
         assert_eq!(Axis::decades(-17, -13, 6).ticks[0].label, "≤ 1e-17");
         assert_eq!(Axis::decades(-17, 300, 6).ticks.len(), 6);
+    }
+
+    #[test]
+    fn logarithms_have_powers_of_ten_or_simple_numbers() {
+        let labels = |low, high| -> Vec<String> {
+            Axis::logarithmic(low, high, 6).ticks.into_iter().map(|tick| tick.label).collect()
+        };
+        assert_eq!(labels(1e-13, 1e-3), ["1e-13", "1e-11", "1e-9", "1e-7", "1e-5", "1e-3"]);
+        assert_eq!(labels(0.025, 1.6), ["0.05", "0.1", "0.2", "0.5", "1"]);
+        assert_eq!(labels(90.0, 2500.0), ["100", "200", "500", "1000", "2000"]);
+        let axis = Axis::logarithmic(1e-3, 1e3, 6);
+        assert!((axis.share(1.0) - 0.5).abs() < 1e-12 && axis.share(-1.0) == 0.0);
+        assert_eq!(axis.share(0.0), 0.0);
+        assert!(Axis::logarithmic(0.0, 0.0, 5).share(1.0).is_finite());
     }
 }

@@ -1,9 +1,18 @@
 //! From trajectories to what is drawn.
 
-use coadjoint_codegen::system::{System, Units};
+use std::path::Path;
 
-use super::{Picture, Run, Series};
-use crate::simulate::trajectory::{Drift, Trajectory};
+use coadjoint_codegen::system::{System, Units};
+use coadjoint_draw::run::{Picture, Run, Series, render};
+
+use super::trajectory::{Drift, Trajectory};
+use crate::error::CliError;
+
+/// Writes the picture.
+pub fn draw(path: &Path, picture: &Picture) -> Result<(), CliError> {
+    std::fs::write(path, render(picture))
+        .map_err(|error| CliError::Write { path: path.to_owned(), message: error.to_string() })
+}
 
 /// What a picture says above its panels.
 #[derive(Clone, Debug)]

@@ -1,19 +1,24 @@
 //! The panels of the momentum.
 
-use super::axis::Axis;
-use super::curves::{Window, largest, range, thinned, window};
-use super::panel::{Curve, Panel, Sample, style};
 use super::{Run, Series, time_label};
-
-/// Stretches of time with two points of a curve each.
-const COLUMNS: usize = 400;
+use crate::axis::Axis;
+use crate::curves::{Window, largest, range, thinned, window};
+use crate::panel::{Curve, Panel, Sample};
+use crate::style::Style;
 
 /// With more units than this all coordinates share a panel, their units beside their names.
 const MOST_PANELS: usize = 3;
 
 /// The coordinates of the momentum over the time of `across`, a panel for each unit among them. Where
 /// they turn round too often to be told apart, only the beginning is shown, which a note then says.
-pub fn panels(run: &Run, named: bool, across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
+#[must_use]
+pub fn panels(
+    run: &Run,
+    named: bool,
+    across: (f64, f64),
+    time_unit: Option<&str>,
+    columns: usize,
+) -> Vec<Panel> {
     let mut units: Vec<Option<&str>> = Vec::new();
     for unit in run.momentum.iter().map(|series| series.unit.as_deref()) {
         if !units.contains(&unit) {
@@ -33,7 +38,8 @@ pub fn panels(run: &Run, named: bool, across: (f64, f64), time_unit: Option<&str
     let parts: Vec<Window> = parts.collect();
     let records = parts.iter().map(|part| part.records).min().unwrap_or(0);
     let resolved = parts.iter().all(|part| part.resolved);
-    let time = Time { across, unit: time_unit, part: Window { records, resolved } };
+    let part = Window { records, resolved };
+    let time = Time { across, unit: time_unit, part, columns };
     shown.into_iter().map(|(shown, rest)| panel(run, named, &time, &shown, &rest)).collect()
 }
 
@@ -43,12 +49,14 @@ struct Time<'a> {
     across: (f64, f64),
     unit: Option<&'a str>,
     part: Window,
+    /// Stretches of time with two points of a curve each.
+    columns: usize,
 }
 
 fn panel(
     run: &Run,
     named: bool,
-    &Time { across, unit: time_unit, part }: &Time<'_>,
+    &Time { across, unit: time_unit, part, columns }: &Time<'_>,
     shown: &[&Series],
     rest: &[&Series],
 ) -> Panel {
@@ -89,12 +97,12 @@ fn panel(
     let mut legend: Vec<(Sample, String)> = Vec::new();
     let mut curves = Vec::new();
     for (i, series) in shown.iter().enumerate() {
-        let (name, style) = (name(series), style(i));
-        legend.push((Sample::Stroke(style.clone()), name.clone()));
-        let points = thinned(times, &series.values, COLUMNS);
-        curves.push(Curve { name, style, points });
+        let (name, style) = (name(series), Style::new(i));
+        legend.push((Sample::Stroke(style), name.clone()));
+        let points = thinned(times, &series.values, columns);
+        curves.push(Curve::line(name, style, points));
     }
-    let band = band(times, rest);
+    let band = band(times, rest, columns);
     if !rest.is_empty() {
         let text = format!("{} more, from their least to their greatest", rest.len());
         legend.push((Sample::Band, text));
@@ -113,6 +121,7 @@ fn panel(
         y: Axis::linear(low - margin, high + margin, 5),
         band,
         curves,
+        ..Panel::default()
     }
 }
 
@@ -124,13 +133,13 @@ fn brief(low: f64, high: f64) -> String {
 
 /// The outline of everything between the least and the greatest of the curves: the upper edge
 /// forwards, the lower edge backwards.
-fn band(times: &[f64], series: &[&Series]) -> Vec<(f64, f64)> {
+fn band(times: &[f64], series: &[&Series], columns: usize) -> Vec<(f64, f64)> {
     if series.is_empty() {
         return Vec::new();
     }
     let (mut upper, mut lower) = (Vec::new(), Vec::new());
     let count = times.len();
-    let stretch = count.div_ceil(COLUMNS).max(1);
+    let stretch = count.div_ceil(columns).max(1);
     for first in (0..count).step_by(stretch) {
         let inside = first..(first + stretch).min(count);
         let values = series.iter().flat_map(|s| s.values.get(inside.clone()).unwrap_or_default());

@@ -1,9 +1,10 @@
 //! The panels of drifts, with logarithmic axes.
 
-use super::axis::Axis;
-use super::curves::{peaks, range};
-use super::panel::{Curve, Panel, style};
 use super::{FLOOR, Run, time_label};
+use crate::axis::Axis;
+use crate::curves::peaks;
+use crate::panel::{Curve, Panel};
+use crate::style::Style;
 
 /// Stretches of time with one point each: fewer than pixels, so that dashes show.
 const STRETCHES: usize = 260;
@@ -15,6 +16,7 @@ pub const NOTE: &str = "Below: largest differences from the start in successive 
      start, on logarithmic axes. Zero and everything below 1e-17 is drawn at 1e-17.";
 
 /// A panel for each quantity that one of the runs conserves, with a curve for each run that does.
+#[must_use]
 pub fn panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
     let mut names: Vec<&str> = Vec::new();
     for drift in runs.iter().flat_map(|run| &run.drifts) {
@@ -28,9 +30,7 @@ pub fn panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Vec<
 fn panel(name: &str, runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Panel {
     let of = |run: &'_ Run| run.drifts.iter().position(|drift| drift.name == name);
     let values = runs.iter().filter_map(|run| Some(&run.drifts[of(run)?].values)).flatten();
-    let highest = range(values).map_or(0.0, |(_, high)| high);
-    let top = if highest > 0.0 { highest.log10().ceil() as i32 } else { LOWEST_TOP };
-    let floor = f64::from(FLOOR);
+    let y = Axis::floored(values, (FLOOR, LOWEST_TOP), 7);
     let mut curves = Vec::new();
     for (i, run) in runs.iter().enumerate() {
         let Some(at) = of(run) else { continue };
@@ -38,18 +38,14 @@ fn panel(name: &str, runs: &[Run], across: (f64, f64), time_unit: Option<&str>) 
         let (times, values) = (&run.times, &run.drifts[at].values);
         let from = 1.min(times.len().min(values.len()));
         let points = peaks(&times[from..], &values[from..], STRETCHES);
-        let logarithm = |value: f64| if value > 0.0 { value.log10().max(floor) } else { floor };
-        let points = points.into_iter().map(|(time, value)| (time, logarithm(value))).collect();
-        curves.push(Curve { name: run.label.clone(), style: style(i), points });
+        curves.push(Curve::line(&run.label, Style::new(i), points));
     }
     Panel {
         heading: format!("relative drift of {name}"),
-        notes: Vec::new(),
-        legend: Vec::new(),
         across: time_label(time_unit),
         x: Axis::linear(across.0, across.1, 8),
-        y: Axis::decades(FLOOR, top.max(LOWEST_TOP), 7),
-        band: Vec::new(),
+        y,
         curves,
+        ..Panel::default()
     }
 }

@@ -1,0 +1,38 @@
+//! Plots as SVG: labelled axes with units, curves that are told apart in grey print, light and dark.
+//!
+//! What is drawn is given as plain numbers, so that this crate knows neither groups nor integrators. [`Panel`] is a
+//! pair of axes with what is between them, alone or in a picture of several; [`run`] draws what
+//! `coadjoint simulate --plot` draws.
+//!
+//! ```
+//! use coadjoint_draw::{Axis, Curve, Panel, Style};
+//!
+//! let points = vec![(0.1, 1e-3), (0.2, 8e-3), (0.4, 6.4e-2)];
+//! let panel = Panel {
+//!     heading: "error".to_owned(),
+//!     across: "step size (s)".to_owned(),
+//!     x: Axis::logarithmic(0.1, 0.4, 4),
+//!     y: Axis::logarithmic(1e-3, 0.1, 4),
+//!     curves: vec![Curve::marked("order 3", Style::new(0), points)],
+//!     ..Panel::default()
+//! };
+//! assert!(panel.with_legend().alone(440.0, 220.0).contains("order 3"));
+//! ```
+//!
+//! # Limits
+//!
+//! Widths of texts are estimated, rather too wide than too narrow; no font is read.
+
+mod axis;
+pub mod curves;
+mod panel;
+pub mod run;
+mod sheet;
+mod style;
+mod svg;
+
+pub use axis::{Axis, Tick};
+pub use panel::{Curve, FONT, LINE, Mark, Panel, Place, RIGHT, Sample, WIDTH, legend, paragraph};
+pub use sheet::sheet;
+pub use style::{BAND, STYLE_SHEET, Style};
+pub use svg::{Anchor, Svg, cut, escaped, width, wrapped};

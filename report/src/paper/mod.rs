@@ -1,0 +1,5 @@
+//! The figures and tables of the paper.
+
+pub mod learning;
+pub mod poisson;
+pub mod simulation;
