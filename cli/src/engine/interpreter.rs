@@ -279,7 +279,7 @@ pub enum Planned<S: LaggedModel> {
     /// Newton's method with matrices.
     Newton(Newton<S>),
     /// The quasi-Newton method with a lagged gradient.
-    Lagged(LaggedNewton<S>),
+    Lagged(LaggedNewton),
     /// The fixed point.
     FixedPoint,
 }
@@ -297,7 +297,7 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G,
         match (integrator.plan.solver, &integrator.parts) {
             (Solver::FixedPoint, _) => Self::FixedPoint,
             (Solver::Newton, None) => Self::Newton(Newton::begin(generating)),
-            (Solver::Newton, Some(_)) => Self::Lagged(LaggedNewton::begin(generating)),
+            (Solver::Newton, Some(_)) => Self::Lagged(LaggedNewton),
         }
     }
 
@@ -319,8 +319,8 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G,
     fn forget(&mut self) {
         match self {
             Self::Newton(method) => method.forget(),
-            Self::Lagged(method) => method.forget(),
-            Self::FixedPoint => {}
+            // Nothing is carried from step to step by these.
+            Self::Lagged(_) | Self::FixedPoint => {}
         }
     }
 

@@ -1,9 +1,10 @@
 //! A whole step as straight-line programs, ready for any target.
 //!
 //! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
-//! chart: closed forms for SO(3), SU(2), SE(2) and SE(3), series by tables for all others, products factor by factor. The
-//! test that accepts a step is the runtime's (`docs/guarantee.md`), with sufficient conditions in place of
-//! eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other means.
+//! chart: closed forms for SO(3), SU(2), SE(2), SE(3) and the Heisenberg group, series by tables for all others, products
+//! factor by factor. The test that accepts a step is the runtime's (`docs/guarantee.md`), with sufficient conditions in
+//! place of eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other
+//! means.
 
 mod entire;
 mod motion;
@@ -14,6 +15,7 @@ mod programs;
 mod rotation;
 mod solving;
 mod tables;
+mod unitriangular;
 mod vector;
 
 use coadjoint_program::{Kernel, Precision, ProgramError};
@@ -29,6 +31,7 @@ use product::Product;
 use rotation::Rotation;
 use solving::Scheme;
 use tables::Tables;
+use unitriangular::Unitriangular;
 
 /// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
 /// for: up to it steps are accepted at once.
@@ -198,6 +201,9 @@ fn part(
     }
     if is("SE2") {
         return Ok(Box::new(Plane { chart }));
+    }
+    if is("Heisenberg") {
+        return Ok(Box::new(Unitriangular));
     }
     match Tables::new(algebra, chart, reach, slope) {
         Some(tables) => Ok(Box::new(tables)),
