@@ -83,7 +83,14 @@ fn every_block_is_run() {
     // Printed by the command, and compared with it in `groups.rs`; quoted messages, compared in `file_format.rs`.
     let elsewhere = ["groups", "file-format"];
     // What has no output to compare: flags of a build, and programs that run for minutes.
-    let long = ["RUSTFLAGS=", "cargo run --release -p coadjoint-tests --bin stress\n"];
+    let long = [
+        "RUSTFLAGS=",
+        // For a machine with a card; `device.rs` runs it on OpenCL's processor.
+        "coadjoint ensemble examples/rigid_body.toml --initial states.npy --out final.npy --device cuda\n",
+        "cargo install --locked --path cli\n",
+        "cargo run --release -p coadjoint-tests --bin stress\n",
+        "pip install ./python\n",
+    ];
     for (name, page) in chapters() {
         let all = blocks(&page);
         for (at, block) in all.iter().enumerate() {
@@ -91,7 +98,7 @@ fn every_block_is_run() {
                 "sh" | "console" | "python" => true,
                 // `tests/src/lib.rs`.
                 "rust" => true,
-                "toml" | "c" | "csv" => file_name(block).is_some() || name == "file-format",
+                "toml" | "c" | "bash" => file_name(block).is_some() || name == "file-format",
                 "text" => {
                     let printed_by_python = at > 0 && all[at - 1].language == "python";
                     printed_by_python

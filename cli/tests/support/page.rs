@@ -3,7 +3,7 @@
 //! | block | |
 //! |---|---|
 //! | `console` | `$ command` and what it prints, both streams; `[..]` stands for any text in a line, a line `...` for any lines; a last line `? 1` is the exit code |
-//! | `sh` | commands that must succeed, a line each |
+//! | `sh` | a script of which every command must succeed |
 //! | any other | written to `NAME` where its first line is a comment that begins with `NAME.ext` |
 //!
 //! With `COADJOINT_BLESS=1` output that differs is written into the page.
@@ -67,13 +67,14 @@ pub fn run(path: &str, folder: &Path) -> usize {
     let mut blessed = page.clone();
     for block in blocks(&page) {
         match block.language {
-            "sh" => block.text.lines().for_each(|command| {
-                let (code, said) = execute(command, folder);
-                outcome.commands += 1;
+            "sh" => {
+                let (code, said) = execute(block.text, folder);
+                outcome.commands += block.text.matches("coadjoint ").count();
                 if code != 0 {
-                    let _ = writeln!(outcome.failures, "{path}: {command}: exit code {code}\n{said}");
+                    let script = block.text;
+                    let _ = writeln!(outcome.failures, "{path}: {script}exit code {code}\n{said}");
                 }
-            }),
+            }
             "console" => {
                 for (command, expected) in commands(block.text) {
                     let found = report(&command, folder);
@@ -139,7 +140,7 @@ fn execute(command: &str, folder: &Path) -> (i32, String) {
     let program = Path::new(env!("CARGO_BIN_EXE_coadjoint")).parent().unwrap();
     let path = std::env::var("PATH").unwrap_or_default();
     let output = Command::new("sh")
-        .args(["-c", &format!("exec 2>&1\n{command}")])
+        .args(["-ec", &format!("exec 2>&1\n{command}")])
         .current_dir(folder)
         .env("PATH", format!("{}:{path}", program.display()))
         .output()
