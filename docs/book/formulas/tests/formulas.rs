@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use coadjoint_book::with_formulas;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 #[test]
 fn code_and_prose_stay() {
@@ -27,8 +28,8 @@ fn a_formula_is_one_line_that_markdown_leaves_alone() {
 
 #[test]
 fn a_mistake_is_named_with_its_line() {
-    let said = with_formulas("one\n\n$$ \\frac{1}{ $$\n").unwrap_err().to_string();
-    assert!(said.starts_with("line 3: the formula ` \\frac{1}{ ` cannot be read"), "{said}");
+    let said = with_formulas("one\n\n$$ \\nothing $$\n").unwrap_err().to_string();
+    assert!(said.starts_with("line 3: the formula ` \\nothing ` cannot be read"), "{said}");
 }
 
 /// No formula of the manual is left in LaTeX.
@@ -40,7 +41,24 @@ fn every_formula_of_the_manual_is_read() {
         let path = entry.unwrap().path();
         let page = std::fs::read_to_string(&path).unwrap();
         let page = with_formulas(&page).map_err(|error| format!("{}: {error}", path.display()));
-        count += page.unwrap().matches("<math").count();
+        let page = page.unwrap();
+        count += page.matches("<math").count();
+        assert_eq!(dollars(&page), 0, "{}: dollar signs that enclose no formula", path.display());
     }
     assert!(count > 20, "{count}");
+}
+
+/// Dollar signs outside of code.
+fn dollars(page: &str) -> usize {
+    let mut code = false;
+    let mut count = 0;
+    for event in Parser::new_ext(page, Options::ENABLE_TABLES) {
+        match event {
+            Event::Start(Tag::CodeBlock(_)) => code = true,
+            Event::End(TagEnd::CodeBlock) => code = false,
+            Event::Text(text) if !code => count += text.matches('$').count(),
+            _ => {}
+        }
+    }
+    count
 }
