@@ -47,7 +47,7 @@ fn links(page: &str) -> Vec<(String, String)> {
     let targets = starts.chain(pictures).filter_map(|at| prose[at..].split([')', '"']).next());
     let targets = targets.filter(|target| !target.is_empty() && !target.contains(':'));
     let parts = targets.map(|target| target.split_once('#').unwrap_or((target, "")));
-    parts.map(|(file, heading)| (file.to_owned(), heading.replace("%CE%BC", "μ"))).collect()
+    parts.map(|(file, heading)| (file.to_owned(), heading.to_owned())).collect()
 }
 
 /// What links call the headings of a page.
