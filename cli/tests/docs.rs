@@ -90,6 +90,7 @@ fn every_block_is_run() {
         "cargo install --locked --path cli\n",
         "cargo run --release -p coadjoint-tests --bin stress\n",
         "pip install ./python\n",
+        "pip install './python[all]'\n",
     ];
     for (name, page) in chapters() {
         let all = blocks(&page);

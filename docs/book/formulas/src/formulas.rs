@@ -19,8 +19,8 @@ pub struct FormulaError {
 /// The page with each formula replaced by its MathML.
 ///
 /// ```
-/// let page = coadjoint_book::with_formulas("The order is $K + 1$, not `$K$`.")?;
-/// assert!(page.starts_with("The order is <math") && page.ends_with("not `$K$`."));
+/// let page = coadjoint_book::with_formulas("The order $K + 1$ is even, not `$K$`.")?;
+/// assert!(page.starts_with("The order <math") && page.ends_with("</math> is even, not `$K$`."));
 /// # Ok::<(), coadjoint_book::FormulaError>(())
 /// ```
 ///
@@ -42,8 +42,15 @@ pub fn with_formulas(page: &str) -> Result<String, FormulaError> {
             reason,
         })?;
         written.push_str(&page[done..place.start]);
-        written.push_str(&mathml);
         done = place.end;
+        // A comma after a formula stays on its line.
+        match page[done..].chars().next().filter(|next| ",.;:)".contains(*next)) {
+            Some(next) if display_mode == DisplayMode::Inline => {
+                written.push_str(&format!("<span class=\"formula\">{mathml}{next}</span>"));
+                done += next.len_utf8();
+            }
+            _ => written.push_str(&mathml),
+        }
     }
     written.push_str(&page[done..]);
     Ok(written)

@@ -27,6 +27,12 @@ fn a_formula_is_one_line_that_markdown_leaves_alone() {
 }
 
 #[test]
+fn punctuation_stays_with_its_formula() {
+    let page = with_formulas("With $a$, $b$ and $c$.").unwrap();
+    assert!(page.contains("</math>,</span> <math") && page.ends_with("</math>.</span>"), "{page}");
+}
+
+#[test]
 fn a_mistake_is_named_with_its_line() {
     let said = with_formulas("one\n\n$$ \\nothing $$\n").unwrap_err().to_string();
     assert!(said.starts_with("line 3: the formula ` \\nothing ` cannot be read"), "{said}");
