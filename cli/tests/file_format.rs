@@ -106,5 +106,8 @@ fn every_key_and_every_name_is_on_the_page() {
 fn the_help_leads_to_the_page() {
     let (code, out, _) = run(&["simulate", "--help"]);
     assert_eq!(code, 0);
-    assert!(out.contains("docs/book/src/file-format.md") && out.contains("coadjoint groups"), "{out}");
+    assert!(
+        out.contains("docs/book/src/file-format.md") && out.contains("coadjoint groups"),
+        "{out}"
+    );
 }

@@ -28,7 +28,9 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 /// Every page of the repository, by its path from the root.
 fn pages() -> Vec<String> {
     let mut pages = files(".", ".md");
-    for folder in ["docs", "docs/book/src", "docs/measurements", "examples", "bench"].iter().chain(&PUBLISHED) {
+    for folder in
+        ["docs", "docs/book/src", "docs/measurements", "examples", "bench"].iter().chain(&PUBLISHED)
+    {
         pages.extend(files(folder, ".md").iter().map(|name| format!("{folder}/{name}")));
     }
     pages

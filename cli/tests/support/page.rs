@@ -49,7 +49,8 @@ pub fn file_name<'a>(block: &Block<'a>) -> Option<&'a str> {
     let name = comment.trim_start().split([':', ' ']).next()?;
     let (stem, extension) = name.rsplit_once('.')?;
     let letters = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_-".contains(c));
-    (!stem.is_empty() && !extension.is_empty() && letters(stem) && letters(extension)).then_some(name)
+    (!stem.is_empty() && !extension.is_empty() && letters(stem) && letters(extension))
+        .then_some(name)
 }
 
 /// What a page's commands did.
@@ -113,7 +114,9 @@ fn with_wildcards(found: &str, earlier: &str) -> String {
         return found.to_owned();
     }
     let lines = found.lines().zip(earlier.lines());
-    lines.map(|(new, old)| format!("{}\n", if same(new, old).is_ok() { old } else { new })).collect()
+    lines
+        .map(|(new, old)| format!("{}\n", if same(new, old).is_ok() { old } else { new }))
+        .collect()
 }
 
 /// The commands of a `console` block, each with what it is to print.

@@ -19,7 +19,9 @@ fn links_within_stay() {
 #[test]
 fn links_outside_become_paths() {
     assert_eq!(
-        converted("see ([figures](../../measurements/peers.md#now)) and [`a.toml`](../../../examples/a.toml)"),
+        converted(
+            "see ([figures](../../measurements/peers.md#now)) and [`a.toml`](../../../examples/a.toml)"
+        ),
         "see (figures, `docs/measurements/peers.md`) and `examples/a.toml`"
     );
 }
