@@ -60,6 +60,20 @@ impl Stepper for Kernel {
 }
 
 impl Kernel {
+    /// The increment x of the step from μ, by the interpreter; `None` where the step is refused.
+    #[must_use]
+    pub fn increment(&self, slots: &[f64], mu: &[f64]) -> Option<Vec<f64>> {
+        let n = self.dim();
+        let mut memory = Memory::<f64>::new(self, slots, &[], mu);
+        let Memory { slots, state, solve, found, scratch, .. } = &mut memory;
+        let mu = &state[self.element()..];
+        solve_step(self, slots, mu, solve, found, [true], scratch, &mut Outcome::default());
+        let input = |i: usize| if i < n { mu[i] } else { found[i - n] };
+        let accepted = call(&self.programs().accept, input, slots, scratch)[0];
+        found.truncate(n);
+        (accepted == 1.0).then(|| core::mem::take(found))
+    }
+
     /// The numbers of `watch` at a state.
     pub fn watch(
         &self,

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
 
 use super::family::{Energy, Family, Recipe};
-use super::generated;
 use super::runtime::{
     Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Steps,
     Terms, polynomial,
 };
+use super::{generated, kernels};
 use crate::bridge::matrix_group;
 
 type Made = Box<dyn Steps>;
@@ -297,5 +297,6 @@ pub fn families(only: &str) -> Vec<Family> {
         }
     }
     families.extend(generated::families(only));
+    families.extend(kernels::families(only));
     families
 }

@@ -139,7 +139,7 @@ pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> (Polynomial, Opt
 }
 
 /// S_h as terms in doubles; `None` where a coefficient underflows or overflows.
-fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Terms> {
+pub fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Terms> {
     let (least, most) = if single { (1e-36, 1e36) } else { (1e-290, 1e290) };
     let mut terms = Terms::new();
     for (k, order) in orders {

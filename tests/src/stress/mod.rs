@@ -5,6 +5,7 @@ mod families;
 mod family;
 mod generated;
 mod instance;
+mod kernels;
 mod random;
 mod runtime;
 mod verdict;

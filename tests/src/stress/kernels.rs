@@ -1,0 +1,209 @@
+//! Families of steps made by the programs of a kernel: by the interpreter, by C, and with the feature `jit` by Cranelift.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::{Arc, OnceLock};
+
+use coadjoint::groups::MatrixGroup;
+use coadjoint::{Exponential, GeneratingFunction, LieGroup};
+use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::judge::{Judge, Limits};
+use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::system::{Options, read};
+use coadjoint_program::WIDTH;
+use nalgebra::DVector;
+
+use super::family::{Family, Made, Model, System, folded};
+use super::random::Random;
+use super::runtime::{Cayley, Outcome, State, Steps, Way, polynomial};
+use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
+use crate::bridge::matrix_group;
+
+/// Group, Hamiltonian on coordinates a, b, c, …, chart, frame, truncation.
+const SYSTEMS: [(&str, &str, &str, &str, usize); 15] = [
+    ("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", "fixed", 7),
+    ("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", "comoving", 9),
+    ("SO3", "a^2/3 + b^2/4 + c^2/5 + a*b/7", "cayley", "fixed", 5),
+    ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7", "exp", "fixed", 5),
+    ("SU2", "a^2/3 + b^2/4 + c^2/5", "cayley", "fixed", 5),
+    ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9", "exp", "fixed", 5),
+    ("SE2", "a^2/3 + b^2/4 + c^2/5", "cayley", "fixed", 3),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*f/8", "exp", "fixed", 3),
+    ("SE3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8", "cayley", "fixed", 3),
+    ("Heisenberg", "a^2/2 + b^2/3 + c^2/5 + a*c/4", "exp", "fixed", 5),
+    ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9", "exp", "fixed", 5),
+    ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9", "cayley", "fixed", 3),
+    ("Aff1", "a^2/5 + b^2/6", "exp", "fixed", 5),
+    ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8", "exp", "fixed", 3),
+    ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9", "exp", "fixed", 3),
+];
+
+/// A kernel, and what it takes to make its steps.
+struct Subject {
+    integrator: Integrator,
+    step: Step,
+    group: MatrixGroup,
+    backend: Backend,
+    /// Compiled where a system is first drawn.
+    stepper: OnceLock<Option<AnyStepper>>,
+}
+
+impl Subject {
+    fn stepper(&self) -> Option<AnyStepper> {
+        self.stepper.get_or_init(|| self.backend.stepper(self.step.kernel())).clone()
+    }
+}
+
+/// Steps of one size.
+struct Runner {
+    subject: Arc<Subject>,
+    stepper: AnyStepper,
+    slots: Vec<f64>,
+    radius: f64,
+}
+
+impl Runner {
+    /// The numbers of exp(at).
+    fn element(&self, at: &[f64]) -> Vec<f64> {
+        let group = &self.subject.group;
+        numbers_of(&self.subject.step, group, &group.exp(&DVector::from_column_slice(at)))
+    }
+
+    fn state(&self, g: &[f64], mu: &[f64]) -> State {
+        let bits: Vec<u64> = g.iter().chain(mu).map(|value| value.to_bits()).collect();
+        State {
+            element: matrix_of(self.subject.step.kernel(), g),
+            momentum: mu.to_vec(),
+            text: format!("{bits:x?}"),
+        }
+    }
+
+    fn outcome(&self, before: State, g: &[f64], mu: &[f64], refused: bool) -> Outcome {
+        let error = refused.then(|| "the kernel refuses the step".to_owned());
+        Outcome { before, after: self.state(g, mu), error }
+    }
+}
+
+impl Steps for Runner {
+    fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String> {
+        let found = self.subject.step.kernel().increment(&self.slots, mu);
+        found.ok_or_else(|| "the kernel refuses the step".to_owned())
+    }
+
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome> {
+        let steps = match way {
+            Way::One => 1,
+            Way::Many(steps) => steps,
+            Way::Compensated(_) => return None,
+        };
+        let (mut g, mut mu) = (self.element(at), mu.to_vec());
+        let before = self.state(&g, &mu);
+        let made = self.stepper.advance(&self.slots, &mut g, &mut mu, steps).steps;
+        Some(self.outcome(before, &g, &mu, made < steps))
+    }
+
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>> {
+        let (m, n) = (self.subject.step.kernel().element(), self.subject.step.kernel().dim());
+        let mut outcomes = Vec::new();
+        for starts in starts.chunks(WIDTH) {
+            let states: Vec<_> = starts.iter().map(|(at, mu)| (self.element(at), mu)).collect();
+            let (mut g, mut mu) = (vec![0.0; m * WIDTH], vec![0.0; n * WIDTH]);
+            for (lane, state) in states.iter().enumerate() {
+                (0..m).for_each(|i| g[i * WIDTH + lane] = state.0[i]);
+                (0..n).for_each(|i| mu[i * WIDTH + lane] = state.1[i]);
+            }
+            let live = std::array::from_fn(|lane| lane < starts.len());
+            let made = self.stepper.advance_lanes(&self.slots, &mut g, &mut mu, steps, live);
+            for (lane, state) in states.iter().enumerate() {
+                let of = |all: &[f64]| all.iter().skip(lane).step_by(WIDTH).copied().collect();
+                let (g, mu): (Vec<f64>, Vec<f64>) = (of(&g), of(&mu));
+                let before = self.state(&state.0, state.1);
+                outcomes.push(self.outcome(before, &g, &mu, made[lane] < steps));
+            }
+        }
+        Some(outcomes)
+    }
+
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    fn unit(&self) -> f64 {
+        0.5 * f64::EPSILON
+    }
+
+    fn rounded(&self, mu: &[f64]) -> Vec<f64> {
+        mu.to_vec()
+    }
+}
+
+fn problem(group: &str, hamiltonian: &str, chart: &str, frame: &str, truncation: usize) -> Problem {
+    let dim = super::family::algebra(group).dim();
+    let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
+    let text = format!(
+        "group = {group:?}\ncoordinates = [{}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\nframe = {frame:?}\n",
+        names.join(", ")
+    );
+    let options = Options { truncation: Some(truncation), ..Options::default() };
+    read(&text, options).expect("a system").problem
+}
+
+fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
+    let (group, hamiltonian, chart, frame, truncation) = system;
+    let problem = problem(group, hamiltonian, chart, frame, truncation);
+    let (algebra, chart) = (problem.algebra.clone(), problem.chart);
+    let (dim, limit) = (algebra.dim(), TermLimit::default());
+    let series = derive(&algebra, chart, problem.generated(), truncation, limit);
+    let series = series.expect("a series");
+    let orders: Vec<_> = (1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect();
+    // Elements of SU(2) tell a full turn from none.
+    let exponential = if group == "SU2" { TAU } else { PI };
+    let limits = Limits { exponential, ..Limits::default() };
+    let judge = Judge::of_problem(&problem, limit).expect("a judge").with_limits(limits);
+    let velocity = problem.hamiltonian.gradient(dim);
+    let integrator = Integrator::build(problem, limit).expect("an integrator");
+    let step = Step::build(&integrator, REACH).expect("a kernel");
+    let group = matrix_group(&algebra).expect("a group");
+    let stepper = OnceLock::new();
+    let subject = Arc::new(Subject { integrator, step, group, backend, stepper });
+    let text = format!("{system:?}");
+    let draw = move |_: &mut Random| {
+        let (subject, orders) = (Arc::clone(&subject), orders.clone());
+        let steps = move |h: f64, _: &mut Random| {
+            let terms = folded(&orders, h, false)?;
+            let group = subject.group.clone();
+            let radius = match chart {
+                Chart::Exponential => polynomial(group, Exponential, terms).radius(),
+                Chart::Cayley => polynomial(group.into_cayley().ok()?, Cayley, terms).radius(),
+            };
+            let slots = subject.step.slots(&subject.integrator.coefficients.fold(h, &[]), radius);
+            let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
+            Some(Made::series(Runner { subject, stepper, slots, radius }))
+        };
+        System {
+            text: text.clone(),
+            velocity: velocity.clone(),
+            homogeneous: true,
+            symbols: Vec::new(),
+            promised: None,
+            steps: Box::new(steps),
+        }
+    };
+    Model { judge, draw: Box::new(draw) }
+}
+
+/// All families whose names contain `only`.
+pub fn families(only: &str) -> Vec<Family> {
+    let named = Backend::ALL.iter().map(|&backend| (format!("kernel-{}", backend.name()), backend));
+    let chosen = named.filter(|(name, _)| name.contains(only));
+    let family = |(name, backend)| Family {
+        name,
+        models: SYSTEMS.iter().map(|&system| model(system, backend)).collect(),
+        decades: 30.0,
+        weight: 8,
+        promise: false,
+    };
+    chosen.map(family).collect()
+}
