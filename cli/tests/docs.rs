@@ -29,9 +29,22 @@ fn the_commands_own_readme() {
     }
 }
 
+/// README and the pages beside the manual: their scripts are commands of ours alone.
 #[test]
-fn readme() {
-    run("README.md", with_examples().path());
+fn readme_and_other_pages() {
+    let mut paths = vec!["README.md".to_owned()];
+    for entry in std::fs::read_dir(support::root().join("docs")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        paths.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
+    }
+    for path in paths {
+        let page = page(&path);
+        for block in blocks(&page).iter().filter(|block| block.language == "sh") {
+            let ours = block.text.lines().all(|line| line.starts_with("coadjoint "));
+            assert!(ours, "{path}: only commands of coadjoint can be run here:\n{}", block.text);
+        }
+        run(&path, with_examples().path());
+    }
 }
 
 /// A test for each chapter, with the least number of its commands.
