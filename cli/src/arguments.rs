@@ -39,7 +39,7 @@ pub enum Verb {
     Emit(EmitOptions),
     /// Run the system and report how well momentum, Casimirs and energy are kept
     #[command(
-        after_help = "The format of FILE is described in docs/file-format.md; `coadjoint groups` lists groups."
+        after_help = "The format of FILE is described in docs/book/src/file-format.md; `coadjoint groups` lists groups."
     )]
     Simulate(SimulateOptions),
     /// Advance many states at once, from a file to a file

@@ -1,24 +1,16 @@
-//! The commands on the pages run as they stand: every line of every `sh` block of README.md, the command's own
-//! README and `docs/`, each page in a folder of its own. Files that a page shows (`toml` blocks that begin with
-//! `# NAME.toml`) and the examples are there; what else a page supposes is made here.
-#![allow(clippy::unwrap_used)]
+//! The pages are run as they stand: README.md, the command's own README, and every chapter of the manual
+//! (`docs/book/src`), each in a folder of its own with the examples (`support/page.rs`).
+#![allow(clippy::unwrap_used, clippy::panic)]
 
-use std::path::Path;
-
-use coadjoint::SO3;
-use coadjoint_learn::data::write_pairs;
-use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
-use npyz::WriterBuilder;
+use support::page::{Block, blocks, file_name, run, with_examples};
 
 mod support;
-
-/// Pages with a test of their own, as they suppose files or must make some.
-const WITH_FILES: [&str; 2] = ["ensembles.md", "learning.md"];
 
 #[test]
 fn the_two_commands_of_the_readme_stand_there() {
     let page = page("README.md");
-    let commands = blocks(&page, "text").find(|block| block.contains("cargo")).unwrap();
+    let mut texts = blocks(&page).into_iter().filter(|block| block.language == "text");
+    let commands = texts.find(|block| block.text.contains("cargo")).unwrap().text;
     assert_eq!(
         commands,
         "cargo run --release -- simulate examples/rigid_body.toml\ncargo test --workspace\n"
@@ -30,88 +22,124 @@ fn the_two_commands_of_the_readme_stand_there() {
 
 #[test]
 fn the_commands_own_readme() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = with_examples();
     assert!(run("cli/README.md", folder.path()) >= 5);
     for made in ["run.csv", "run.svg", "body.rs"] {
         assert!(folder.path().join(made).exists(), "{made}");
     }
 }
 
+/// README and the pages beside the manual: their scripts are commands of ours alone.
 #[test]
-fn learning() {
-    let folder = tempfile::tempdir().unwrap();
-    let wide = MomentumBox { low: -2.5, high: 2.5 };
-    for (name, count, seed) in [("train.csv", 60, 1), ("test.csv", 20, 2)] {
-        let pairs = phase_pairs(&SO3::new(), &Quadratic::paper(), 0.1, wide, count, seed);
-        write_pairs(&folder.path().join(name), &SO3::new(), &pairs).unwrap();
-    }
-    let system = support::root().join("examples/rigid_body.toml");
-    std::fs::copy(system, folder.path().join("rigid_body.toml")).unwrap();
-    assert!(run("docs/learning.md", folder.path()) >= 5);
-    for made in ["model.json", "quartic.json", "run.csv", "quartic.rs"] {
-        assert!(folder.path().join(made).exists(), "{made}");
-    }
-}
-
-#[test]
-fn ensembles() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = std::fs::File::create(folder.path().join("states.npy")).unwrap();
-    let options = npyz::WriteOptions::new().default_dtype().shape(&[2, 3]);
-    let mut states = options.writer(file).begin_nd().unwrap();
-    states.extend([2.0, 0.5, 1.0, 1.0, -0.5, 2.0]).unwrap();
-    states.finish().unwrap();
-    assert!(run("docs/ensembles.md", folder.path()) >= 2);
-    assert!(folder.path().join("final.npy").exists());
-}
-
-#[test]
-fn every_other_page() {
-    let mut commands = run("README.md", tempfile::tempdir().unwrap().path());
+fn readme_and_other_pages() {
+    let mut paths = vec!["README.md".to_owned()];
     for entry in std::fs::read_dir(support::root().join("docs")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        if name.ends_with(".md") && !WITH_FILES.contains(&name.as_str()) {
-            commands += run(&format!("docs/{name}"), tempfile::tempdir().unwrap().path());
+        paths.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
+    }
+    for path in paths {
+        let page = page(&path);
+        for block in blocks(&page).iter().filter(|block| block.language == "sh") {
+            let ours = block.text.lines().all(|line| line.starts_with("coadjoint "));
+            assert!(ours, "{path}: only commands of coadjoint can be run here:\n{}", block.text);
+        }
+        run(&path, with_examples().path());
+    }
+}
+
+/// A test for each chapter, with the least number of its commands.
+macro_rules! chapters {
+    ($($name:ident: $least:literal;)*) => {
+        $(
+            #[test]
+            fn $name() {
+                let path = format!("docs/book/src/{}.md", stringify!($name).replace('_', "-"));
+                let count = run(&path, with_examples().path());
+                assert!(count >= $least, "{count}");
+            }
+        )*
+
+        /// Every chapter is run, and only chapters without commands are not listed above.
+        #[test]
+        fn no_command_is_forgotten() {
+            let run = [$(stringify!($name).replace('_', "-")),*];
+            for (name, page) in chapters() {
+                let commands = |block: &Block<'_>| ["sh", "console"].contains(&block.language);
+                let listed = run.iter().any(|listed| *listed == name);
+                assert_eq!(blocks(&page).iter().any(commands), listed, "{name}");
+            }
+        }
+    };
+}
+
+chapters! {
+    start: 3;
+    hamiltonian: 2;
+    group: 2;
+    chart_and_step: 2;
+    gyrostat: 6;
+    simulate: 2;
+    faster: 2;
+    forces: 1;
+    ensembles: 2;
+    cluster: 2;
+    learning: 5;
+    targets: 2;
+    guarantee: 3;
+    reproduce: 1;
+}
+
+/// Every block of the manual is run by something. What `text` blocks are is listed here: those that no test of this
+/// file runs, with the reason or the test that does.
+#[test]
+fn every_block_is_run() {
+    // Printed by the command, and compared with it in `groups.rs`; quoted messages, compared in `file_format.rs`.
+    let elsewhere = ["groups", "file-format"];
+    // What has no output to compare: flags of a build, and programs that run for minutes.
+    let long = [
+        "RUSTFLAGS=",
+        // For a machine with a card; `device.rs` runs it on OpenCL's processor.
+        "coadjoint ensemble examples/rigid_body.toml --initial states.npy --out final.npy --device cuda\n",
+        "cargo install --locked --path cli\n",
+        "cargo run --release -p coadjoint-tests --bin stress\n",
+        "pip install ./python\n",
+        "pip install './python[all]'\n",
+    ];
+    for (name, page) in chapters() {
+        let all = blocks(&page);
+        for (at, block) in all.iter().enumerate() {
+            let run = match block.language {
+                "sh" | "console" | "python" => true,
+                // `tests/src/lib.rs`.
+                language if language.starts_with("rust") => true,
+                "toml" | "c" | "bash" => file_name(block).is_some() || name == "file-format",
+                "text" => {
+                    let printed_by_python = at > 0 && all[at - 1].language == "python";
+                    printed_by_python
+                        || elsewhere.contains(&name.as_str())
+                        || long.iter().any(|start| block.text.starts_with(start))
+                }
+                _ => false,
+            };
+            assert!(run, "{name}: a block `{}` that nothing runs:\n{}", block.language, block.text);
         }
     }
-    assert!(commands >= 5, "{commands}");
+}
+
+/// The chapters by name, with their text.
+fn chapters() -> Vec<(String, String)> {
+    let mut chapters = Vec::new();
+    for entry in std::fs::read_dir(support::root().join("docs/book/src")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if let Some(stem) = name.strip_suffix(".md") {
+            chapters.push((stem.to_owned(), page(&format!("docs/book/src/{name}"))));
+        }
+    }
+    chapters.sort();
+    assert!(chapters.len() > 10);
+    chapters
 }
 
 fn page(path: &str) -> String {
     std::fs::read_to_string(support::root().join(path)).unwrap()
-}
-
-/// The fenced blocks of a language.
-fn blocks<'a>(page: &'a str, language: &str) -> impl Iterator<Item = &'a str> {
-    let fence = format!("```{language}\n");
-    let starts: Vec<usize> = page.match_indices(&fence).map(|(at, _)| at + fence.len()).collect();
-    starts.into_iter().map(|start| page[start..].split("```").next().unwrap())
-}
-
-/// Runs the commands of the page at `path` in `folder`, and counts them.
-fn run(path: &str, folder: &Path) -> usize {
-    let page = page(path);
-    std::fs::create_dir_all(folder.join("examples")).unwrap();
-    for entry in std::fs::read_dir(support::root().join("examples")).unwrap() {
-        let file = entry.unwrap().path();
-        if file.is_file() {
-            std::fs::copy(&file, folder.join("examples").join(file.file_name().unwrap())).unwrap();
-        }
-    }
-    for block in blocks(&page, "toml") {
-        let first = block.lines().next().unwrap_or_default();
-        let name = first.trim_start_matches('#').split([':', ' ']).find(|word| !word.is_empty());
-        if let Some(name) = name.filter(|name| first.starts_with('#') && name.ends_with(".toml")) {
-            std::fs::write(folder.join(name), block).unwrap();
-        }
-    }
-    let commands: Vec<&str> = blocks(&page, "sh").flat_map(str::lines).collect();
-    for command in &commands {
-        let words: Vec<&str> = command.split_whitespace().collect();
-        assert_eq!(words[0], "coadjoint", "{path}: {command}");
-        let output = support::coadjoint().current_dir(folder).args(&words[1..]).output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{path}: {command}: {said}");
-    }
-    commands.len()
 }

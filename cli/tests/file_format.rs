@@ -1,4 +1,4 @@
-//! docs/file-format.md: every example on the page is a file that works, and no key is forgotten.
+//! docs/book/src/file-format.md: every example on the page is a file that works, and no key is forgotten.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod support;
@@ -11,7 +11,7 @@ use coadjoint_codegen::system::{Options, Splitting, read};
 use support::{file, root, run};
 
 fn page() -> String {
-    std::fs::read_to_string(root().join("docs/file-format.md")).unwrap()
+    std::fs::read_to_string(root().join("docs/book/src/file-format.md")).unwrap()
 }
 
 /// The fenced blocks of a language.
@@ -106,5 +106,8 @@ fn every_key_and_every_name_is_on_the_page() {
 fn the_help_leads_to_the_page() {
     let (code, out, _) = run(&["simulate", "--help"]);
     assert_eq!(code, 0);
-    assert!(out.contains("docs/file-format.md") && out.contains("coadjoint groups"), "{out}");
+    assert!(
+        out.contains("docs/book/src/file-format.md") && out.contains("coadjoint groups"),
+        "{out}"
+    );
 }

@@ -1,4 +1,4 @@
-//! `groups`: what is printed is what the integrators use, and docs/groups.md is what is printed.
+//! `groups`: what is printed is what the integrators use, and docs/book/src/groups.md is what is printed.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod support;
@@ -143,7 +143,7 @@ fn products_and_mistakes() {
 /// The page is made of the command's own output; `COADJOINT_BLESS=1` writes it anew.
 #[test]
 fn the_page_is_what_the_command_prints() {
-    let path = root().join("docs/groups.md");
+    let path = root().join("docs/book/src/groups.md");
     let mut page = String::from(INTRODUCTION);
     let commands = std::iter::once(None).chain(catalogue::names().iter().copied().map(Some));
     for name in commands {
@@ -161,7 +161,7 @@ fn the_page_is_what_the_command_prints() {
     let written = std::fs::read_to_string(&path).unwrap_or_default();
     assert_eq!(
         written, page,
-        "docs/groups.md is not what `coadjoint groups` prints; run this test with COADJOINT_BLESS=1"
+        "docs/book/src/groups.md is not what `coadjoint groups` prints; run this test with COADJOINT_BLESS=1"
     );
 }
 
@@ -169,7 +169,8 @@ const INTRODUCTION: &str = "# Groups
 
 What `coadjoint groups` prints: the names first, then each group with its basis, its brackets, the sign of ad\\*, its
 Casimirs and its charts. `coadjoint groups NAME` prints the same for any other size and any product, such as
-`coadjoint groups \"SO3 |x R3^2\"`. How a group is chosen in a system file is in [file-format.md](file-format.md).
+`coadjoint groups \"SO3 |x R3^2\"`. How to choose a group is in
+[Your group](group.md).
 
 A step moves the group element by τ(x) for some x in the Lie algebra, and is possible while x lies inside the chart τ.
 There ad_x is the matrix of y ↦ [x, y], and λ stands for its eigenvalues: on SO3 they are 0 and ±i|x|.

@@ -169,7 +169,7 @@ fn compilers_have_nothing_to_say() {
     }
 }
 
-/// Rules of MISRA C:2012 that headers deviate from (docs/targets.md says why), and what is no rule: cppcheck supposes that
+/// Rules of MISRA C:2012 that headers deviate from (docs/book/src/targets.md says why), and what is no rule: cppcheck supposes that
 /// a matrix might have no rows.
 const DEVIATIONS: [&str; 2] = ["misra-c2012-2.5", "uninitvar"];
 

@@ -48,8 +48,13 @@ pages! {
     Macros: "../../macros/README.md";
     Runtime: "../../runtime/README.md";
     Learn: "../../learn/README.md";
-    Ensembles: "../../docs/ensembles.md";
-    Faster: "../../docs/faster.md";
-    Guarantee: "../../docs/guarantee.md";
-    Learning: "../../docs/learning.md";
+    Start: "../../docs/book/src/start.md";
+    Hamiltonian: "../../docs/book/src/hamiltonian.md";
+    ChartAndStep: "../../docs/book/src/chart-and-step.md";
+    Gyrostat: "../../docs/book/src/gyrostat.md";
+    Faster: "../../docs/book/src/faster.md";
+    Forces: "../../docs/book/src/forces.md";
+    Ensembles: "../../docs/book/src/ensembles.md";
+    Learning: "../../docs/book/src/learning.md";
+    Targets: "../../docs/book/src/targets.md";
 }

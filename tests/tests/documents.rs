@@ -29,7 +29,9 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 /// Every page of the repository, by its path from the root.
 fn pages() -> Vec<String> {
     let mut pages = files(".", ".md");
-    for folder in ["docs", "docs/measurements", "examples", "bench"].iter().chain(&PUBLISHED) {
+    for folder in
+        ["docs", "docs/book/src", "docs/measurements", "examples", "bench"].iter().chain(&PUBLISHED)
+    {
         pages.extend(files(folder, ".md").iter().map(|name| format!("{folder}/{name}")));
     }
     pages
@@ -40,31 +42,69 @@ fn prose(page: &str) -> String {
     page.split("\n```").step_by(2).collect()
 }
 
-/// The targets of links and pictures that are files of the repository.
-fn links(page: &str) -> Vec<String> {
+/// The targets of links and pictures within the repository: file and heading.
+fn links(page: &str) -> Vec<(String, String)> {
     let prose = prose(page);
     let starts = prose.match_indices("](").map(|(at, _)| at + 2);
     let pictures = prose.match_indices("src=\"").map(|(at, _)| at + 5);
-    let targets = starts.chain(pictures).map(|at| prose[at..].split([')', '#', '"']).next());
-    let targets = targets.flatten().filter(|target| !target.is_empty() && !target.contains(':'));
-    targets.map(str::to_owned).collect()
+    let targets = starts.chain(pictures).filter_map(|at| prose[at..].split([')', '"']).next());
+    let targets = targets.filter(|target| !target.is_empty() && !target.contains(':'));
+    let parts = targets.map(|target| target.split_once('#').unwrap_or((target, "")));
+    parts.map(|(file, heading)| (file.to_owned(), heading.to_owned())).collect()
+}
+
+/// What links call the headings of a page.
+fn headings(page: &str) -> Vec<String> {
+    let prose = prose(page);
+    let titles = prose.lines().filter(|line| line.starts_with('#'));
+    let name = |title: &str| {
+        let title = title.trim_start_matches('#').trim().to_lowercase();
+        let kept = |c: &char| c.is_alphanumeric() || "-_ ".contains(*c);
+        title.chars().filter(kept).collect::<String>().replace(' ', "-")
+    };
+    titles.map(name).collect()
 }
 
 #[test]
-fn links_lead_to_files() {
+fn links_lead_to_files_and_headings() {
     let mut count = 0;
     let mut missing = Vec::new();
     for page in pages() {
         let folder = root().join(&page).parent().unwrap().to_owned();
-        for link in links(&read(&page)) {
+        for (file, heading) in links(&read(&page)) {
             count += 1;
-            if !folder.join(&link).exists() {
-                missing.push(format!("{page} links to {link}"));
+            let target = if file.is_empty() { root().join(&page) } else { folder.join(&file) };
+            let there = target.exists()
+                && (heading.is_empty()
+                    || headings(&fs::read_to_string(&target).unwrap()).contains(&heading));
+            if !there {
+                missing.push(format!("{page} links to {file}#{heading}"));
             }
         }
     }
     assert!(missing.is_empty(), "{missing:#?}");
-    assert!(count > 50, "{count}");
+    assert!(count > 150, "{count}");
+}
+
+/// The manual's table of contents and its chapters are the same.
+#[test]
+fn every_chapter_is_in_the_contents() {
+    let mut listed: Vec<String> =
+        links(&read("docs/book/src/SUMMARY.md")).into_iter().map(|(file, _)| file).collect();
+    listed.push("SUMMARY.md".into());
+    listed.sort();
+    assert_eq!(listed, files("docs/book/src", ".md"));
+}
+
+/// Chapters with Rust are compiled and run: `src/lib.rs` lists them.
+#[test]
+fn every_chapter_with_rust_is_tested() {
+    let tested = read("tests/src/lib.rs");
+    for name in files("docs/book/src", ".md") {
+        let page = read(&format!("docs/book/src/{name}"));
+        let listed = tested.contains(&format!("docs/book/src/{name}\";"));
+        assert_eq!(page.contains("\n```rust"), listed, "{name}");
+    }
 }
 
 #[test]
@@ -106,11 +146,13 @@ fn crates_carry_the_licences_of_the_root() {
 }
 
 #[test]
-fn the_readme_names_the_version() {
+fn readme_and_manual_name_the_version() {
     let manifest = read("Cargo.toml");
     let version = manifest.split("\nversion = \"").nth(1).unwrap().split('"').next().unwrap();
     let (series, _) = version.rsplit_once('.').unwrap();
-    assert!(read("README.md").contains(&format!("\ncoadjoint = \"{series}\"")), "{series}");
+    for page in ["README.md", "docs/book/src/start.md"] {
+        assert!(read(page).contains(&format!("\ncoadjoint = \"{series}\"")), "{page}: {series}");
+    }
     assert!(read("CHANGELOG.md").contains(version), "{version}");
 }
 

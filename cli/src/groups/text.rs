@@ -27,7 +27,7 @@ Groups are put together in the key `group` of a system file:
   (SO3*R1)^2     powers bind tightest, then |x, then *; at most 8192 dimensions
 
 A group of your own is the table [algebra] in place of `group`: a `basis` of square rational matrices, or
-`generators` and `brackets` such as \"[a, b] = 2*c\". docs/file-format.md shows both.
+`generators` and `brackets` such as \"[a, b] = 2*c\". docs/book/src/file-format.md shows both.
 
 `coadjoint groups NAME` prints basis, brackets, the sign of ad*, Casimirs and charts of one group or product.
 ";

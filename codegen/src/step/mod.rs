@@ -2,7 +2,7 @@
 //!
 //! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
 //! chart: closed forms for SO(3), SU(2), SE(2), SE(3) and the Heisenberg group, series by tables for all others, products
-//! factor by factor. The test that accepts a step is the runtime's (`docs/guarantee.md`), with sufficient conditions in
+//! factor by factor. The test that accepts a step is the runtime's (`docs/book/src/guarantee.md`), with sufficient conditions in
 //! place of eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other
 //! means.
 

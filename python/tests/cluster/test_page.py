@@ -1,4 +1,4 @@
-"""The snippets of docs/cluster.md, one after the other."""
+"""The snippets of the manual's chapter, one after the other."""
 
 import importlib.util
 import re
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import support
 
-PAGE = Path(__file__).parents[3] / "docs" / "cluster.md"
+PAGE = Path(__file__).parents[3] / "docs" / "book" / "src" / "cluster-python.md"
 
 
 def test_the_page_runs(tmp_path, monkeypatch, capsys):
