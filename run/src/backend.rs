@@ -25,10 +25,28 @@ pub enum Backend {
     Jit,
 }
 
-/// Nanoseconds that the interpreter takes for an operation, and machine code; measured on a processor of 2022
-/// (`docs/measurements/backends.md`), and enough to tell seconds from minutes.
-const INTERPRETED: f64 = 2.0;
-const COMPILED: f64 = 0.2;
+/// Nanoseconds that an operation takes.
+struct Pace {
+    interpreted: f64,
+    by_c: f64,
+    #[cfg(feature = "jit")]
+    by_cranelift: f64,
+}
+
+/// Of one trajectory, and of [`WIDTH`](coadjoint_program::WIDTH) side by side; measured on a processor of 2022
+/// (`docs/measurements/backends.md`, `docs/measurements/python.md`), and enough to tell seconds from minutes.
+const ONE: Pace = Pace {
+    interpreted: 2.0,
+    by_c: 0.2,
+    #[cfg(feature = "jit")]
+    by_cranelift: 0.34,
+};
+const LANES: Pace = Pace {
+    interpreted: 7.5,
+    by_c: 0.6,
+    #[cfg(feature = "jit")]
+    by_cranelift: 1.6,
+};
 
 /// Seconds that a C compiler takes: to start, and for each operation.
 const COMPILER_STARTS: f64 = 0.25;
@@ -42,9 +60,6 @@ const MOST_FOR_COMPILER: f64 = 40_000.0;
 const JIT_STARTS: f64 = 4e-3;
 #[cfg(feature = "jit")]
 const JIT_OPERATION: f64 = 8e-6;
-/// How much longer its code takes than that of a C compiler.
-#[cfg(feature = "jit")]
-const JIT_SLOWER: f64 = 1.7;
 
 /// What made the steps of a run.
 #[derive(Clone, Debug)]
@@ -120,16 +135,17 @@ impl Code {
     /// What takes least time for so many steps; what cannot be had is told, and the next best is taken.
     fn cheapest(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Self {
         let operations = operations(kernel) as f64;
+        let pace = if trajectories == Trajectories::Lanes { LANES } else { ONE };
         let run = |each: f64| steps * operations * each * 1e-9;
-        let interpreted = run(INTERPRETED);
-        let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(COMPILED);
+        let interpreted = run(pace.interpreted);
+        let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(pace.by_c);
         let mut notes = Vec::new();
         let tell = |notes: &mut Vec<String>, error: &dyn fmt::Display, next: &str| {
             notes.push(format!("{error}; {next} makes the steps"));
         };
         #[cfg(feature = "jit")]
         {
-            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(JIT_SLOWER * COMPILED);
+            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(pace.by_cranelift);
             let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
             if by_cranelift < interpreted && !slower {
                 match Self::by_cranelift(kernel, trajectories) {
