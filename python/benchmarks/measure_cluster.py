@@ -118,7 +118,7 @@ def overhead() -> None:
 def speed() -> None:
     rows = 1 << (16 if QUICK else 18)
     print(f"\n{rows} rows of 1000 steps in 16 shards")
-    for _ in range(1 if QUICK else 2):
+    for _ in range(1 if QUICK else 3):
         for name, client, workers in engines():
             begun = processor()
             found = run(rows, rows // 16, client=client, workers=workers)

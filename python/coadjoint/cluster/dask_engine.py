@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import shard
-from .errors import InputError, ShardError, WorkerDied
+from .errors import ClusterError, InputError, ShardError, WorkerDied
 from .shard import Summary, Task
 
 
@@ -66,7 +66,13 @@ class Dask:
         except FutureCancelledError as error:
             raise WorkerDied(f"Dask has lost the shard: {error}") from None
         except (ImportError, AttributeError) as error:
-            raise ShardError(f"a Dask worker cannot load coadjoint: {error}; install it there too") from error
+            raise ShardError(f"a Dask worker cannot load what a shard needs: {error}; install it there too") from error
+        except ClusterError:
+            raise
+        except RuntimeError as error:
+            raise ShardError(
+                f"Dask: {error} (its scheduler and its workers need coadjoint, pyarrow and fsspec, as here)"
+            ) from error
 
     def workers(self) -> int:
         """Workers that the scheduler has now."""

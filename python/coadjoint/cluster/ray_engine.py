@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import shard
-from .errors import InputError, ShardError, WorkerDied
+from .errors import ClusterError, InputError, ShardError, WorkerDied
 from .shard import Summary, Task
 
 
@@ -45,9 +45,15 @@ class Ray:
             return summary
         except lost.RayTaskError as error:
             cause = error.cause
-            if isinstance(cause, (ImportError, AttributeError)):
-                raise ShardError(f"a Ray worker cannot load coadjoint: {cause}; install it there too") from None
-            raise cause from None
+            if isinstance(cause, (ClusterError, InputError, OSError)):
+                raise cause from None
+            text = str(cause)
+            if "No module named" in text:
+                reason = text[text.index("No module named") :].splitlines()[0]
+                raise ShardError(
+                    f"a Ray worker cannot load what a shard needs: {reason}; install it there too"
+                ) from None
+            raise ShardError(f"{type(cause).__name__}: {text}") from None
         except lost.RayError as error:
             raise WorkerDied(f"Ray has lost the worker: {str(error).splitlines()[0]}") from None
 
