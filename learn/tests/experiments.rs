@@ -17,7 +17,7 @@ fn number(report: &Report, table: usize, row: &str, column: usize) -> f64 {
     }
 }
 
-/// Every integrator conserves J_L to rounding (here over 250 steps), RK45 does not; K helps.
+/// Every integrator conserves J_L to rounding (here over 500 steps), RK45 does not; K helps.
 #[test]
 fn simulation() {
     let report = quick("simulation");
@@ -29,7 +29,7 @@ fn simulation() {
     }
     assert!(number(&report, 0, "RK45 default", 2) > 1e-3);
     assert!(number(&report, 0, "exp K=7", 3) < 1e-2 * number(&report, 0, "exp K=5", 3));
-    assert_eq!(report.curves[0].rows.len(), 251);
+    assert_eq!(report.curves[0].rows.len(), 501);
     assert_eq!(report.curves[0].columns.len(), report.curves[0].rows[0].len());
 }
 

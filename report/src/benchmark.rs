@@ -107,7 +107,7 @@ pub fn section(benchmarks: &[Benchmark]) -> Option<Section> {
         title: "Work against precision, timed".to_owned(),
         settings: vec![first.machine.processor.clone(), "one core".to_owned()],
         shows: "Nanoseconds of one core per unit of time for an error at the end, ours beside other methods, as \
-            `work-precision` measured it. Of each family only points that no other of its points beats are drawn; of \
+            the program work-precision measured it. Of each family only points that no other of its points beats are drawn; of \
             the families those eight that are cheapest."
             .to_owned(),
         out: "Lower and further left is better; the table has all families.".to_owned(),

@@ -28,7 +28,8 @@ border-radius:3px;color:var(--pass);white-space:nowrap}
 .number{font-weight:700}
 .scroll{overflow-x:auto;margin:.8em 0}
 table{border-collapse:collapse;font-size:.86rem}
-caption{text-align:left;font-weight:600;padding:.3em 0;max-width:78ch}
+caption{text-align:left;font-weight:600;padding:.3em 0;max-width:min(78ch,92vw)}
+tbody th{min-width:9em}
 th,td{padding:.22em .8em .22em 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 details{margin:.6em 0}

@@ -125,7 +125,7 @@ fn sphere(coordinates: [&Series; 3], aspect: f64) -> Panel {
     Panel {
         heading: format!("Orbit on the sphere |μ| = {}{unit}", short(radius)),
         notes: vec![format!("Seen from ({}, {}, {}); paler: behind.", EYE[0], EYE[1], EYE[2])],
-        across: format!("to the right{unit}; {} {} {} are the axes", x.name, y.name, z.name),
+        across: format!("across the line of sight{unit}"),
         legend: vec![
             (Sample::Stroke(Style::new(0)), "momentum".to_owned()),
             (Sample::Marker(Style::new(4)), "start".to_owned()),

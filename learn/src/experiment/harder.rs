@@ -3,7 +3,7 @@
 use coadjoint::{Exponential, SE3, SO3};
 
 use super::networks::Training;
-use super::report::{Report, Table};
+use super::report::{Bound, Cell, Report, Table};
 use super::run::RunOptions;
 use super::task::{COLUMNS, Task, row};
 use crate::data::PairRows;
@@ -30,6 +30,30 @@ pub(super) fn run(options: &RunOptions, say: &mut dyn FnMut(&str)) -> Result<Rep
     learn(options, &group, &bump, ("Gaussian bump H on so(3)*", 0.4, 80), say, &mut report)?;
     let top = Quadratic::heavy_top([1.0, 1.2, 0.8], [0.1, 0.0, 0.4]);
     learn(options, &SE3::new(), &top, ("heavy top on se(3)*", 0.1, 60), say, &mut report)?;
+    let error = |table: &Table, name: &str| {
+        let begins = |cell: &Cell| matches!(cell, Cell::Text(text) if text.starts_with(name));
+        match table.rows.iter().find(|row| begins(&row[0])).map(|row| &row[1]) {
+            Some(Cell::Number(value)) => *value,
+            _ => f64::NAN,
+        }
+    };
+    let gains = report.tables.iter().map(|t| error(t, "x = 0") / error(t, "Gaussian process"));
+    let least = gains.fold(f64::INFINITY, f64::min);
+    let long =
+        report.tables.iter().find(|table| table.title.contains("bump H on so(3)*, dt = 0.4"));
+    let linear = long.map(|t| error(t, "cross-validated") / error(t, "Gaussian process"));
+    report.judge(
+        "harder-truths",
+        "least ratio of the error of x without a model to that of the Gaussian process, all truths",
+        least,
+        Bound::AtLeast(1000.0),
+    );
+    report.judge(
+        "harder-truths",
+        "Gaussian bump, dt = 0.4: error of x of the best polynomial over that of the Gaussian process",
+        linear,
+        Bound::AtLeast(2.0),
+    );
     report.notes.push(
         "quartic: H = (1/2) sum w mu^2 + (1/4) sum v mu^4; square root: H = sqrt(1 + sum w mu^2) + \
          0.3 sin mu_1; bump: H = (1/2) sum w mu^2 + 1.5 exp(-(1/2) sum s (mu - c)^2); w = (1/1.5, \
