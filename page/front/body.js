@@ -1,5 +1,5 @@
 // The body, or what stands for it on groups that turn no body.
-const TIPS = 500;
+const TIPS = 240;
 
 // What is drawn for a system, and its shape.
 function sceneOf(about) {
@@ -185,7 +185,7 @@ function leaveTip(scene, tip) {
 // Where the tip of an axis has been, on the sphere of directions: what is behind, or what is in front.
 function drawTips(context, place, scene, eye, inFront) {
   context.lineWidth = 1.75;
-  context.lineCap = "round";
+  context.lineCap = "butt";
   const { tips } = scene;
   for (let i = 1; i < tips.length; i++) {
     if (dot(tips[i], eye) > 0 !== inFront) continue;

@@ -25,7 +25,7 @@ function linkOf() {
   const given = gallery.find((entry) => entry.id === state.system)?.fields ?? {};
   for (const key of FIELDS) if (state.fields[key] || given[key]) entries.set(key, state.fields[key] ?? "");
   entries.set("speed", String(+state.speed.toPrecision(3)));
-  if (state.axes.join() !== "0,1,2") entries.set("axes", state.axes.join(" "));
+  if (about?.dim > 3) entries.set("axes", state.axes.join(" "));
   if (state.tab !== "formulas") entries.set("tab", state.tab);
   if (!state.playing) entries.set("paused", "1");
   const angles = [...state.view, ...state.bodyView].map((angle) => +angle.toFixed(2));
@@ -46,8 +46,8 @@ function readLink() {
   const number = (text) => (text !== null && Number.isFinite(+text) ? +text : null);
   const speed = number(entries.get("speed"));
   if (speed !== null) state.speed = Math.min(Math.max(speed, 0.5), 5000);
-  const axes = (entries.get("axes") ?? "0 1 2").split(" ").map(Number);
-  state.axes = axes.length === 3 && axes.every((i) => Number.isInteger(i) && i >= 0) ? axes : [0, 1, 2];
+  const axes = (entries.get("axes") ?? "").split(" ").map(Number);
+  state.axes = axes.length === 3 && axes.every((i) => Number.isInteger(i) && i >= 0) ? axes : [];
   state.tab = TABS.includes(entries.get("tab")) ? entries.get("tab") : "formulas";
   state.playing = !entries.has("paused");
   const view = (entries.get("view") ?? "").split(" ").map(Number);

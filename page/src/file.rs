@@ -82,8 +82,8 @@ impl File {
                 self.pieces.iter().find(|piece| start <= piece.text.start && piece.text.start < end)
             })?;
         let field = piece.field;
-        let within = self.pieces.iter().filter(|other| other.field == field);
-        let last = within.filter(|other| other.text.start <= end).next_back().unwrap_or(piece);
+        let mut within = self.pieces.iter().filter(|other| other.field == field);
+        let last = within.rfind(|other| other.text.start <= end).unwrap_or(piece);
         let inside = |piece: &Piece, at: usize| {
             at.clamp(piece.text.start, piece.text.end) - piece.text.start + piece.offset
         };

@@ -39,7 +39,7 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
             );
         }
         for (coordinate, &power) in problem.coordinates.iter().zip(momenta) {
-            push_power(&mut term, &name_of(coordinate), power);
+            push_coordinate(&mut term, coordinate, power);
         }
         out.push_str(&math(&term));
     }
@@ -77,9 +77,18 @@ fn rational(value: &Rational) -> String {
     format!("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", value.numer(), value.denom())
 }
 
-/// `x1` as x₁, `Pi_x` as Π with index x, `mu[0]` as μ with index 0.
-#[must_use]
-pub fn name_of(name: &str) -> String {
+fn push_coordinate(body: &mut String, name: &str, power: u32) {
+    let (head, index) = name_of(name);
+    let (head, index) = (format!("<mi>{head}</mi>"), format!("<mtext>{index}</mtext>"));
+    match (power, index.len() > "<mtext></mtext>".len()) {
+        (1, true) => body.push_str(&format!("<msub>{head}{index}</msub>")),
+        (2.., true) => body.push_str(&format!("<msubsup>{head}{index}<mn>{power}</mn></msubsup>")),
+        _ => push_power(body, &head, power),
+    }
+}
+
+/// `x1` as x and 1, `Pi_x` as Π and x, `mu[0]` as μ and 0: a letter and its index.
+fn name_of(name: &str) -> (String, String) {
     let end = name.find(|c: char| !c.is_alphabetic()).unwrap_or(name.len());
     let (head, tail) = name.split_at(end);
     let greek = [
@@ -97,12 +106,7 @@ pub fn name_of(name: &str) -> String {
     ];
     let head = greek.iter().find(|(word, _)| *word == head).map_or(head, |(_, letter)| letter);
     let index: String = tail.chars().filter(|c| c.is_alphanumeric()).collect();
-    let head = format!("<mi>{}</mi>", escape(head));
-    if index.is_empty() {
-        head
-    } else {
-        format!("<msub>{head}<mtext>{}</mtext></msub>", escape(&index))
-    }
+    (escape(head), escape(&index))
 }
 
 /// For HTML.
