@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::nalgebra::Vector3;
-use coadjoint::{LieGroup, SU2};
 use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, casimirs, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
@@ -141,18 +139,9 @@ impl Facts {
         if self.nilpotent {
             return "all x: the algebra is nilpotent".to_owned();
         }
-        if self.algebra.name() == "SU2" {
-            let unit = SU2::<f64>::new().exp_extent(&Vector3::x());
-            let reach = unit.sqrt().recip();
-            return format!(
-                "|x| < {reach:.2} on its own elements (the type SU2): {:.1} of a full turn, {:.1} times as far as on \
-                 SO3; |x| < π by tables, as the command runs it",
-                reach / std::f64::consts::TAU,
-                reach / std::f64::consts::PI
-            );
-        }
         let known = [
             ("SO3", "that is |x| < π: a half turn"),
+            ("SU2", "that is |x| < π: a half turn of the body"),
             ("SE3", "that is |ω| < π for x = (ω, v)"),
             ("SE2", "that is |x1| < π"),
         ];

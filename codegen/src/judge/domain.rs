@@ -9,8 +9,7 @@ use crate::lie::Chart;
 /// The limits of the charts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x. π, a half turn, by default.
-    /// The runtime goes to 0.9 · 2π on SU(2) with its own elements, nine tenths of a full turn; and on groups that are
+    /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x. π, a half turn, by default. On groups that are
     /// not unimodular |tr ad_x| ≤ π is its limit besides. Nilpotent algebras have no limit.
     pub exponential: f64,
     /// Cayley chart: |λ| must not be more for every eigenvalue λ of the matrix x. 2 by default, which on

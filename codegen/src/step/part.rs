@@ -43,6 +43,12 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// finite. These formulas hold up to half a half turn.
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id;
 
+    /// Up to which share of a half turn the estimate of what Newton's method leaves is taken for a bound, as in the runtime
+    /// (`LieGroup::ESTIMATED`).
+    fn estimated(&self) -> f64 {
+        1.0 / 3.0
+    }
+
     /// How far g is from the group; not a number where g is not finite.
     fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id;
 

@@ -114,6 +114,10 @@ impl Part for Product {
         factors.flat_map(shifted).collect()
     }
 
+    fn estimated(&self) -> f64 {
+        self.0.iter().map(|part| part.estimated()).fold(1.0, f64::min)
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let extents: Vec<Id> = self
             .factors()

@@ -16,10 +16,8 @@ use crate::poly::Polynomial;
 /// A solution this near to its first guess, relative to μ, is the one continued from the identity.
 const NEAR: f64 = 0.05;
 
-/// Up to which share of a half turn, as the inverse of its square, steps are accepted at once: half of it, or a third
-/// where S is no series with a radius.
-const OF_SERIES: f64 = 4.0;
-const OF_OTHERS: f64 = 9.0;
+/// Up to which share of a half turn steps are accepted at once where S is no series with a radius; else it is the group's.
+const OF_OTHERS: f64 = 1.0 / 3.0;
 
 /// Corrections at most.
 const CORRECTIONS: u32 = 12;
@@ -72,7 +70,8 @@ fn accept(group: &Product, radius: usize, precision: Precision) -> Program {
     let one = graph.constant(1.0);
     let square = dot(&mut graph, &mu, &mu);
     let radius = graph.slot(radius);
-    let (series, others) = (graph.constant(OF_SERIES), graph.constant(OF_OTHERS));
+    let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
+    let (series, others) = (inverse_square(group.estimated()), inverse_square(OF_OTHERS));
     let finite = graph.constant(precision.largest());
     let share = graph.select(radius, finite, series, others);
     let extent = graph.mul(extent, share);

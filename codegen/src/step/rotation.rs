@@ -288,13 +288,16 @@ impl Part for Rotation {
         rotate_back(graph, g[0], &back, &three(mu, 0)).to_vec()
     }
 
+    fn estimated(&self) -> f64 {
+        if self.double_cover { 1.0 / 3.0 } else { 0.5 }
+    }
+
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let square = dot(graph, x, x);
         let limit = match (self.chart, self.double_cover) {
             (Chart::Exponential, _) => std::f64::consts::PI.powi(2),
             (Chart::Cayley, false) => 4.0,
-            // The chart reaches farther than it is used at once, as with the exponential.
-            (Chart::Cayley, true) => 16.0 / (1.8 * 1.8),
+            (Chart::Cayley, true) => 16.0,
         };
         let scale = graph.constant(1.0 / limit);
         graph.mul(square, scale)

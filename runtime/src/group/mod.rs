@@ -29,9 +29,9 @@ pub trait LieGroup: Clone + Debug {
     /// An element g of the group.
     type Element: Clone + Debug;
 
-    /// How many half turns the exponential chart reaches, where elements tell x from x + 2π. A solution beyond one need
-    /// not be that continued from the identity, however near it is to its first guess.
-    const HALF_TURNS: f64 = 1.0;
+    /// Up to which share of a half turn the estimate of what Newton's method leaves of a step is taken for a bound; found
+    /// by experiments (`docs/measurements/stress.md`).
+    const ESTIMATED: f64 = 1.0 / 3.0;
 
     /// n, the dimension of the group.
     fn dim(&self) -> usize;
@@ -87,8 +87,7 @@ pub trait LieGroup: Clone + Debug {
 
     /// How far x goes into the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
     /// it. The chart reaches to one. NaN where x is not finite. The elliptic part alone counts: nilpotent
-    /// directions have no limit; elements that tell x from x + 2π (SU(2)'s own) reach to nine tenths
-    /// of the full turn, where the equation of a step becomes singular.
+    /// directions have no limit.
     fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
     /// How far g is from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm

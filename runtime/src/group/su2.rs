@@ -45,9 +45,6 @@ impl<T: Scalar> LieGroup for SU2<T> {
     type Vector = V<T>;
     type Element = UnitQuaternion<T>;
 
-    // At the full turn itself the equation of a step is singular: nine tenths.
-    const HALF_TURNS: f64 = 1.8;
-
     #[inline(always)]
     fn dim(&self) -> usize {
         3
@@ -129,8 +126,7 @@ impl<T: Scalar> LieGroup for SU2<T> {
 
     #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        let reach = Self::HALF_TURNS * core::f64::consts::PI;
-        dot(x, x) * T::of(1.0 / (reach * reach))
+        SO3::new().exp_extent(x)
     }
 
     #[inline(always)]

@@ -17,10 +17,9 @@ use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
-/// Up to which share of a half turn, as the inverse of its square, steps are accepted at once: half of it, or a third
-/// where S is no series with a radius. Estimates of what is left were found ten times too small beyond.
-const OF_SERIES: f64 = 4.0;
-const OF_OTHERS: f64 = 9.0;
+/// Up to which share of a half turn steps are accepted at once where S is no series with a radius; else it is the group's
+/// [`LieGroup::ESTIMATED`]. Estimates of what is left were found ten times too small beyond.
+const OF_OTHERS: f64 = 1.0 / 3.0;
 
 /// A verdict on a step of `S`.
 type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;
@@ -35,13 +34,14 @@ fn accept<S: GeneratingFunction + ?Sized>(
     settings: Settings<ScalarOf<S>>,
 ) -> Verdict<S> {
     let one = ScalarOf::<S>::of(1.0);
-    let half_turns = ScalarOf::<S>::of(<S::Group as LieGroup>::HALF_TURNS);
     let extent = S::Chart::default().extent(generating.group(), &candidate.x);
     let radius = generating.radius();
     let within = mu.pairing(mu).simd_le(radius * radius);
     let of = |share| ScalarOf::<S>::of(share);
     let is_series = radius.simd_lt(of(f64::MAX));
-    let share = of(OF_SERIES).select(is_series, of(OF_OTHERS)) * (half_turns * half_turns);
+    let inverse = 1.0 / <S::Group as LieGroup>::ESTIMATED;
+    let other = 1.0 / OF_OTHERS;
+    let share = of(inverse * inverse).select(is_series, of(other * other));
     solved(candidate, settings) & (extent * share).simd_le(one) & within
 }
 
@@ -112,8 +112,7 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
         let outside = |at| StepError::OutsideChart { extent, at };
         return Err(refuse(generating, mu, &candidate, outside));
     }
-    let p = chart.pull_back(group, &candidate.x, mu);
-    let ratio = generating.series_ratio(&p);
+    let ratio = generating.series_ratio(&largest_p(generating, mu, &candidate.x));
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, &candidate, |at| StepError::SeriesDiverges { at }));
     }
@@ -122,6 +121,24 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
     }
     confirm(generating, mu, candidate.clone(), settings).map_err(|reached| {
         refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
+    })
+}
+
+/// |p| of an increment, coordinate by coordinate, and what rounding may have done to it: where the terms of p cancel, as
+/// for long translations, the terms of the series at p itself mean nothing.
+fn largest_p<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    x: &VectorOf<S>,
+) -> VectorOf<S> {
+    let dim = mu.dim();
+    let chart = S::Chart::default();
+    let (p, derivative) = chart.pull_back_with_derivative(generating.group(), x, mu);
+    let rounding = ScalarOf::<S>::of(dim as f64) * ScalarOf::<S>::epsilon();
+    VectorOf::<S>::from_entries(dim, |i| {
+        let terms =
+            (0..dim).fold(mu[i].simd_abs(), |sum, j| sum + (derivative[(i, j)] * x[j]).simd_abs());
+        p[i].simd_abs() + rounding * terms
     })
 }
 

@@ -1,7 +1,5 @@
 //! The families there are.
 
-use std::f64::consts::TAU;
-
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
 
 use super::family::{Energy, Family, Recipe};
@@ -126,7 +124,6 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 energy: body,
                 single: true,
                 decades: 1.0,
-                limit: TAU,
                 ..base()
             },
             known!(SU2::<f32>::new(), Exponential),
@@ -145,14 +142,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
             known!(SE3::<f32>::new(), Exponential),
         ),
         (
-            Recipe {
-                name: "su2-exp",
-                group: "SU2",
-                energy: body,
-                truncations: &[3, 7],
-                limit: TAU,
-                ..base()
-            },
+            Recipe { name: "su2-exp", group: "SU2", energy: body, truncations: &[3, 7], ..base() },
             known!(SU2::<f64>::new(), Exponential, compensated),
         ),
         (

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_codegen::judge::{Judge, Limits};
+use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
 use coadjoint_codegen::number::ratio;
 use coadjoint_codegen::poly::Polynomial;
@@ -185,8 +185,6 @@ pub struct Recipe<'a> {
     pub weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
-    /// The limit of the exponential chart.
-    pub limit: f64,
 }
 
 impl Default for Recipe<'_> {
@@ -204,7 +202,6 @@ impl Default for Recipe<'_> {
             tuned: false,
             weight: 8,
             decades: 30.0,
-            limit: std::f64::consts::PI,
         }
     }
 }
@@ -252,8 +249,7 @@ impl Recipe<'_> {
         let (h, least) = energy(self.energy, algebra.dim(), random);
         let series =
             derive(algebra, self.chart, &h, truncation, TermLimit::default()).expect("a series");
-        let limits = Limits { exponential: self.limit, ..Limits::default() };
-        let judge = Judge::new(algebra, &series).expect("a judge").with_limits(limits);
+        let judge = Judge::new(algebra, &series).expect("a judge");
         let orders: Arc<Vec<_>> =
             Arc::new((1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect());
         let (algebra, single, tuned, chart) =
@@ -271,7 +267,7 @@ impl Recipe<'_> {
                 }
                 let terms = tuned_terms(&terms, truncation, random)?;
                 let all = terms.iter().map(|(k, c, f)| (*k as u32, *c, f.clone()));
-                let judge = Judge::from_terms(&algebra, chart, all).ok()?.with_limits(limits);
+                let judge = Judge::from_terms(&algebra, chart, all).ok()?;
                 Some(Made { steps: make(&algebra, terms), judge: Some(judge) })
             };
             System {

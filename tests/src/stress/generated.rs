@@ -179,17 +179,23 @@ where
     vec![Model { judge, draw: Box::new(draw) }]
 }
 
-/// The terms of S of a free body in doubles, as (monomial, c h^k).
+/// The terms of S of a free body, as (monomial, c h^k), each rounded once.
 fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Terms {
-    let mut terms = Terms::new();
+    let exact = |value: f64| Rational::from_float(value).expect("finite");
+    let power =
+        |base: &Rational, power: usize| (0..power).fold(exact(1.0), |product, _| product * base);
+    let step = exact(h);
+    let symbols: Vec<Rational> = symbols.iter().map(|&symbol| exact(symbol)).collect();
+    let mut terms: Vec<(Vec<(usize, u32)>, Rational)> = Vec::new();
     for k in 1..=series.truncation() {
+        let step = power(&step, k);
         for (factors, c) in series.order(k).factors() {
-            let mut value = double(&c) * h.powi(k as i32);
+            let mut value = c * &step;
             let mut momenta = Vec::new();
-            for (variable, power) in factors {
+            for (variable, times) in factors {
                 match (variable as usize).checked_sub(dim) {
-                    Some(symbol) => value *= symbols[symbol].powi(power as i32),
-                    None => momenta.push((variable as usize, power)),
+                    Some(symbol) => value *= power(&symbols[symbol], times as usize),
+                    None => momenta.push((variable as usize, times)),
                 }
             }
             match terms.iter_mut().find(|term| term.0 == momenta) {
@@ -198,7 +204,7 @@ fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Term
             }
         }
     }
-    terms
+    terms.into_iter().map(|(momenta, value)| (momenta, double(&value))).collect()
 }
 
 type Terms = Vec<(Vec<(usize, u32)>, f64)>;

@@ -1,13 +1,12 @@
 //! Families of steps made by the programs of a kernel: by the interpreter, by C, and with the feature `jit` by Cranelift.
 
-use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, OnceLock};
 
 use coadjoint::groups::MatrixGroup;
 use coadjoint::{Exponential, GeneratingFunction, LieGroup};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::judge::{Judge, Limits};
+use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::{REACH, Step};
@@ -158,10 +157,7 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
     let series = derive(&algebra, chart, problem.generated(), truncation, limit);
     let series = series.expect("a series");
     let orders: Vec<_> = (1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect();
-    // Elements of SU(2) tell a full turn from none.
-    let exponential = if group == "SU2" { TAU } else { PI };
-    let limits = Limits { exponential, ..Limits::default() };
-    let judge = Judge::of_problem(&problem, limit).expect("a judge").with_limits(limits);
+    let judge = Judge::of_problem(&problem, limit).expect("a judge");
     let velocity = problem.hamiltonian.gradient(dim);
     let integrator = Integrator::build(problem, limit).expect("an integrator");
     let step = Step::build(&integrator, REACH).expect("a kernel");

@@ -130,7 +130,7 @@ impl<T: Scalar, G: LieGroup<Scalar = T>> LieGroup for DirectProduct<G> {
     type Vector = DVector<T>;
     type Element = Vec<G::Element>;
 
-    const HALF_TURNS: f64 = G::HALF_TURNS;
+    const ESTIMATED: f64 = G::ESTIMATED;
 
     fn dim(&self) -> usize {
         self.dim

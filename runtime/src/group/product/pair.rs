@@ -112,8 +112,7 @@ where
     type Vector = SVector<T, N>;
     type Element = (A::Element, B::Element);
 
-    const HALF_TURNS: f64 =
-        if A::HALF_TURNS > B::HALF_TURNS { A::HALF_TURNS } else { B::HALF_TURNS };
+    const ESTIMATED: f64 = if A::ESTIMATED < B::ESTIMATED { A::ESTIMATED } else { B::ESTIMATED };
 
     #[inline(always)]
     fn dim(&self) -> usize {

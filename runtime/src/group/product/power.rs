@@ -119,7 +119,7 @@ where
     type Vector = SVector<T, N>;
     type Element = [G::Element; COPIES];
 
-    const HALF_TURNS: f64 = G::HALF_TURNS;
+    const ESTIMATED: f64 = G::ESTIMATED;
 
     #[inline(always)]
     fn dim(&self) -> usize {
