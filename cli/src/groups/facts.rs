@@ -141,7 +141,6 @@ impl Facts {
         }
         let known = [
             ("SO3", "that is |x| < π: a half turn"),
-            ("SU2", "that is |x| < π: a half turn of the body"),
             ("SE3", "that is |ω| < π for x = (ω, v)"),
             ("SE2", "that is |x1| < π"),
         ];
