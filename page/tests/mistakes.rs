@@ -1,4 +1,5 @@
 //! Mistakes are where the user made them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_page::fields::Fields;
 use coadjoint_page::mistakes::Mistake;

@@ -1,4 +1,5 @@
 //! Runs, refusals, the method beside, and the surfaces.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_page::fields::Fields;
 use coadjoint_page::gallery::gallery;

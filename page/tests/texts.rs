@@ -1,4 +1,5 @@
 //! What is copied means the system on the screen.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::io::Write;
 use std::process::{Command, Stdio};
