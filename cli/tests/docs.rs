@@ -103,6 +103,10 @@ fn every_block_is_run() {
         "cargo install --locked --path cli\n",
         "cargo run --release -p coadjoint-tests --bin stress\n",
         "pip install ./python\n",
+        "coadjoint reproduce all --quick --html report.html ",
+        // Needs a cluster, or is a message that a test of the package looks for.
+        "sbatch examples/cluster/slurm.sh ",
+        "ManifestError: ",
         "pip install './python[all]'\n",
     ];
     for (name, page) in chapters() {
