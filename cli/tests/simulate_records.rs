@@ -297,7 +297,7 @@ fn setup_shows_progress_on_a_terminal() {
     let emit = ["emit", body, "--truncation", "9"];
     for (arguments, words) in [
         (&simulate[..], &["deriving the series, K = 9"][..]),
-        (&emit, &["deriving S for K = 9", "writing the module"]),
+        (&emit, &["deriving S and writing it"]),
     ] {
         let terminal = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
         grantpt(&terminal).unwrap();
