@@ -10,7 +10,7 @@ use coadjoint_run::RunError;
 pub enum CliError {
     /// A run that failed, or what was given for it.
     #[error(transparent)]
-    Run(#[from] RunError),
+    Run(Box<RunError>),
     /// An option that does not make sense.
     #[error("{0}")]
     Option(String),
@@ -55,6 +55,12 @@ pub enum CliError {
     Laws(String),
 }
 
+impl From<RunError> for CliError {
+    fn from(error: RunError) -> Self {
+        Self::Run(Box::new(error))
+    }
+}
+
 impl CliError {
     /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
@@ -73,16 +79,18 @@ impl CliError {
 
     /// The message for the terminal, with its line end.
     pub fn text(&self) -> String {
-        match self {
-            // Rendered mistakes begin with their own places.
-            Self::Run(RunError::Input(text)) => text.clone(),
-            other => format!("error: {other}\n"),
+        // Rendered mistakes begin with their own places.
+        if let Self::Run(error) = self
+            && let RunError::Input(text) = &**error
+        {
+            return text.clone();
         }
+        format!("error: {self}\n")
     }
 }
 
 impl From<LearnError> for CliError {
     fn from(error: LearnError) -> Self {
-        Self::Run(error.into())
+        RunError::from(error).into()
     }
 }

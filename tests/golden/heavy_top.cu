@@ -1278,13 +1278,12 @@ INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x
     const double t37 = __fma_rn(mu[3], mu[3], t36);
     const double t38 = __fma_rn(mu[4], mu[4], t37);
     const double t39 = __fma_rn(mu[5], mu[5], t38);
-    const double t43 = (coadjoint_slots[237] <= 0x1.fffffffffffffp+1023) ? 4.0 : 9.0;
-    const double t44 = __dmul_rn(t33, t43);
-    const double t45 = (t39 <= coadjoint_slots[237]) ? 1.0 : 0.0;
-    const double t46 = (t44 <= 1.0) ? t45 : 0.0;
-    const double t47 = (way <= 0x1.999999999999ap-5) ? t46 : 0.0;
-    const double t48 = (left <= 0x1p-50) ? t47 : 0.0;
-    *right = t48;
+    const double t42 = __dmul_rn(t33, 9.0);
+    const double t43 = (t39 <= coadjoint_slots[237]) ? 1.0 : 0.0;
+    const double t44 = (t42 <= 1.0) ? t43 : 0.0;
+    const double t45 = (way <= 0x1.999999999999ap-5) ? t44 : 0.0;
+    const double t46 = (left <= 0x1p-50) ? t45 : 0.0;
+    *right = t46;
 }
 
 INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT mu, const double *RESTRICT x, double *RESTRICT g_next, double *RESTRICT mu_next)

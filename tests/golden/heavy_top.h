@@ -1154,13 +1154,12 @@ static inline void heavy_top_internal_accept(const double *HEAVY_TOP_RESTRICT c,
     const double t37 = HEAVY_TOP_FMA(mu[3], mu[3], t36);
     const double t38 = HEAVY_TOP_FMA(mu[4], mu[4], t37);
     const double t39 = HEAVY_TOP_FMA(mu[5], mu[5], t38);
-    const double t43 = (c[241] <= 1.7976931348623157e308) ? 4.0 : 9.0;
-    const double t44 = t33 * t43;
-    const double t45 = (t39 <= c[241]) ? 1.0 : 0.0;
-    const double t46 = (t44 <= 1.0) ? t45 : 0.0;
-    const double t47 = (way <= 0.05) ? t46 : 0.0;
-    const double t48 = (left <= 8.881784197001252e-16) ? t47 : 0.0;
-    *right = t48;
+    const double t42 = t33 * 9.0;
+    const double t43 = (t39 <= c[241]) ? 1.0 : 0.0;
+    const double t44 = (t42 <= 1.0) ? t43 : 0.0;
+    const double t45 = (way <= 0.05) ? t44 : 0.0;
+    const double t46 = (left <= 8.881784197001252e-16) ? t45 : 0.0;
+    *right = t46;
 }
 
 /* Internal: the state moved by the increment x. */

@@ -1518,13 +1518,12 @@ static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT 
     const double t53 = mu[0] * mu[0];
     const double t54 = THREE_WAVE_FMA(mu[1], mu[1], t53);
     const double t55 = THREE_WAVE_FMA(mu[2], mu[2], t54);
-    const double t59 = (c[40] <= 1.7976931348623157e308) ? 4.0 : 9.0;
-    const double t60 = t52 * t59;
-    const double t61 = (t55 <= c[40]) ? 1.0 : 0.0;
-    const double t62 = (t60 <= 1.0) ? t61 : 0.0;
-    const double t63 = (way <= 0.05) ? t62 : 0.0;
-    const double t64 = (left <= 8.881784197001252e-16) ? t63 : 0.0;
-    *right = t64;
+    const double t58 = t52 * 9.0;
+    const double t59 = (t55 <= c[40]) ? 1.0 : 0.0;
+    const double t60 = (t58 <= 1.0) ? t59 : 0.0;
+    const double t61 = (way <= 0.05) ? t60 : 0.0;
+    const double t62 = (left <= 8.881784197001252e-16) ? t61 : 0.0;
+    *right = t62;
 }
 
 /* Internal: the state moved by the increment x. */
