@@ -38,7 +38,7 @@ pub enum RunError {
         /// The system file.
         file: PathBuf,
         /// Why.
-        source: DeriveError,
+        source: Box<DeriveError>,
     },
     /// No truncation and step can be picked.
     #[error("{}: {source}", .file.display())]
@@ -46,7 +46,7 @@ pub enum RunError {
         /// The system file.
         file: PathBuf,
         /// Why.
-        source: ToleranceError,
+        source: Box<ToleranceError>,
     },
     /// The series is too large to write as Rust.
     #[error("{}: {source}", .file.display())]

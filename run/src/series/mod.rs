@@ -37,7 +37,7 @@ impl Series {
             problem.truncation,
             TermLimit::default(),
         )
-        .map_err(|source| RunError::Derive { file: file.into(), source })?;
+        .map_err(|source| RunError::Derive { file: file.into(), source: source.into() })?;
         Ok(Self { problem, series })
     }
 }
