@@ -288,6 +288,7 @@ test("a link holds the whole state", async () => {
   assert.equal(await text(second.tab, "text"), shown);
   // A link that is put into the address of the open page.
   await second.tab.evaluate(() => { location.hash = "#system=rigid-body&truncation=3&paused=1"; });
+  await second.tab.waitForFunction(() => page.about().name === "rigid-body");
   await second.tab.evaluate(() => { location.hash = "#system=three-wave"; });
   await second.tab.waitForFunction(() => page.about().name === "three-wave");
   await second.done();
