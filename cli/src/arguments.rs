@@ -376,7 +376,7 @@ pub struct EnsembleOptions {
     /// What evaluates the steps
     #[arg(long, value_enum, default_value_t)]
     pub backend: BackendName,
-    /// Make the steps on a device, opencl[:N] or cuda[:N]. What it refuses --backend makes
+    /// Make the steps on a device, opencl, opencl:N, cuda or cuda:N. What it refuses --backend makes
     #[arg(long, value_name = "DEVICE")]
     pub device: Option<Device>,
     /// The numbers that the device computes with
