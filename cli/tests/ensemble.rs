@@ -239,7 +239,8 @@ fn rows_noted(journal: &Path) -> Option<u64> {
 #[test]
 fn a_changed_run_is_refused_until_told_to_begin_anew() {
     let directory = TempDir::new().unwrap();
-    let initial = written(&directory, "in.csv", &momenta(6000));
+    // Seconds of work: the journal is written after a fifth of one.
+    let initial = written(&directory, "in.csv", &momenta(60_000));
     let out = at(&directory, "out.csv");
     let journal = at(&directory, "out.csv.journal");
     kill_in_the_middle(start(&initial, &out), &journal);

@@ -26,6 +26,7 @@
 mod axis;
 pub mod curves;
 mod panel;
+mod points;
 pub mod run;
 mod sheet;
 mod style;
@@ -33,6 +34,7 @@ mod svg;
 
 pub use axis::{Axis, Tick};
 pub use panel::{Curve, FONT, LINE, Mark, Panel, Place, RIGHT, Sample, WIDTH, legend, paragraph};
+pub use points::unbeaten;
 pub use sheet::sheet;
 pub use style::{BAND, STYLE_SHEET, Style};
 pub use svg::{Anchor, Svg, cut, escaped, width, wrapped};

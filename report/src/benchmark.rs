@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
+use coadjoint_draw::{Axis, Curve as Line, Panel, Style, unbeaten};
 use coadjoint_learn::experiment::{Cell, Table};
 use serde::Deserialize;
 
@@ -131,13 +131,7 @@ fn families(benchmark: &Benchmark) -> Vec<(String, Vec<(f64, f64)>)> {
         }
     }
     for (_, points) in &mut families {
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut cheapest = f64::INFINITY;
-        points.retain(|&(_, cost)| {
-            let better = cost < cheapest;
-            cheapest = cheapest.min(cost);
-            better
-        });
+        *points = unbeaten(std::mem::take(points));
     }
     families
 }

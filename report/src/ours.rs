@@ -1,6 +1,6 @@
 //! Comparisons of our own: charts, orders, work, harder truths.
 
-use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
+use coadjoint_draw::{Axis, Curve as Line, Panel, Style, unbeaten};
 use coadjoint_learn::experiment::{Cell, Curve, Report};
 
 use crate::section::{BODY, Section, curve, figure, places, points, values};
@@ -109,16 +109,8 @@ pub fn work(report: &Report) -> Section {
     let family = |at: usize| -> Vec<(f64, f64)> {
         let own = rows.iter().filter(|row| row[0] == at as f64);
         let points = own.map(|row| (row[2], row[3])).filter(|p| p.0.is_finite() && p.0 < 1.0);
-        let mut points: Vec<(f64, f64)> = points.map(|p| (p.0.max(ROUNDING), p.1)).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
         // Rounding gathers where steps are too small; nobody goes there.
-        let mut cheapest = f64::INFINITY;
-        points.retain(|&(_, cost)| {
-            let better = cost < cheapest;
-            cheapest = cheapest.min(cost);
-            better
-        });
-        points
+        unbeaten(points.map(|p| (p.0.max(ROUNDING), p.1)).collect())
     };
     let panel = |heading: &str, prefix: &str| {
         let own = names.iter().enumerate();

@@ -1,6 +1,6 @@
 //! A figure or a table of the page.
 
-use coadjoint_draw::{Curve as Line, Panel, Style};
+use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
 use coadjoint_learn::experiment::{Cell, Curve, Judgement, Report, Table};
 
 /// A figure or a table: what the paper shows, what came out, and what judges it.
@@ -60,6 +60,19 @@ pub(crate) fn curve(report: &Report, name: &str) -> Curve {
 /// Two columns as points.
 pub(crate) fn points(curve: &Curve, x: &str, y: &str) -> Vec<(f64, f64)> {
     curve.column(x).into_iter().zip(curve.column(y)).collect()
+}
+
+/// Curves over time on a logarithmic axis with this floor, as powers of ten.
+pub(crate) fn over_time(heading: &str, end: f64, curves: Vec<Line>, floor: (i32, i32)) -> Panel {
+    let panel = Panel {
+        heading: heading.to_owned(),
+        across: "time (s)".to_owned(),
+        x: Axis::linear(0.0, end, 6),
+        y: Axis::floored(&values(&curves), floor, 6),
+        curves,
+        ..Panel::default()
+    };
+    panel.with_legend()
 }
 
 /// Stretches of time with one point each.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coadjoint_draw::{Axis, Curve, Panel, Style, sheet};
+use coadjoint_draw::{Axis, Curve, Panel, Style, sheet, unbeaten};
 
 use super::Report;
 
@@ -57,13 +57,7 @@ fn curves(report: &Report) -> Vec<(String, Vec<(f64, f64)>)> {
         }
     }
     for (_, points) in &mut families {
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut cheapest = f64::INFINITY;
-        points.retain(|&(_, cost)| {
-            let beaten = cost >= cheapest;
-            cheapest = cheapest.min(cost);
-            !beaten
-        });
+        *points = unbeaten(std::mem::take(points));
         points.reverse();
     }
     families

@@ -1,14 +1,14 @@
 //! What stays of a finished run with `--keep`: a note beside its file that says what the file is.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::journal::{Journal, write_whole};
-use super::output::unwritten;
+use super::journal::Journal;
+use super::note;
 use crate::error::CliError;
 
 /// A finished run, for the same command started again and for whatever joins shards.
@@ -33,22 +33,12 @@ impl Finished {
 
     /// The note at `path`; `None` where there is none.
     pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
-        match fs::read_to_string(path) {
-            Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| {
-                CliError::Option(format!(
-                    "{} is no note of this version ({error}); begin anew with --restart",
-                    path.display()
-                ))
-            }),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(source) => Err(CliError::Read { path: path.into(), source }),
-        }
+        note::read(path, "note")
     }
 
     /// Writes the note: all of it or nothing.
     pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        let text = serde_json::to_string(self).map_err(|error| unwritten(path, &error))?;
-        write_whole(path, &text)
+        note::write(self, path)
     }
 
     /// Whether the files are those that it describes.

@@ -1,14 +1,14 @@
 //! How far a run has come: what a restart needs.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use coadjoint_run::ensemble::Drift;
 use serde::{Deserialize, Serialize};
 
-use super::output::{beside, rename, unwritten};
+use super::note;
 use crate::error::CliError;
 
 /// What the run is, in words; a restart must agree in every one.
@@ -49,22 +49,12 @@ pub struct Journal {
 impl Journal {
     /// The journal at `path`; `None` where there is none.
     pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
-        match fs::read_to_string(path) {
-            Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| {
-                CliError::Option(format!(
-                    "{} is no journal of this version ({error}); begin anew with --restart",
-                    path.display()
-                ))
-            }),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(source) => Err(CliError::Read { path: path.into(), source }),
-        }
+        note::read(path, "journal")
     }
 
     /// Writes it: the old journal or the new one, never a piece.
     pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        let text = serde_json::to_string(self).map_err(|error| unwritten(path, &error))?;
-        write_whole(path, &text)
+        note::write(self, path)
     }
 
     /// Refuses to go on with a run that is another.
@@ -102,18 +92,6 @@ impl Journal {
         self.casimirs = drift.casimirs.to_bits();
         self.ratio = drift.ratio.to_bits();
     }
-}
-
-/// Writes a small file: what was there before or the new text, never a piece.
-pub fn write_whole(path: &Path, text: &str) -> Result<(), CliError> {
-    let next = beside(path, ".next");
-    let write = || -> std::io::Result<()> {
-        let mut file = File::create(&next)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_data()
-    };
-    write().map_err(|error| unwritten(&next, &error))?;
-    rename(&next, path)
 }
 
 /// Bytes read in one piece to recognise a file.

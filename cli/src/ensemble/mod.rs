@@ -5,6 +5,7 @@ mod device;
 mod finished;
 mod input;
 mod journal;
+mod note;
 mod output;
 #[cfg(feature = "parquet")]
 mod parquet_file;

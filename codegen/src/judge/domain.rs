@@ -6,22 +6,13 @@ use super::geometry::Geometry;
 use super::series::norm;
 use crate::lie::Chart;
 
-/// The limits of the charts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x. π, a half turn, by default. On groups that are
-    /// not unimodular |tr ad_x| ≤ π is its limit besides. Nilpotent algebras have no limit.
-    pub exponential: f64,
-    /// Cayley chart: |λ| must not be more for every eigenvalue λ of the matrix x. 2 by default, which on
-    /// SO(3) is |x| ≤ 2 and on SU(2) |x| ≤ 4.
-    pub cayley: f64,
-}
+/// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x: a half turn. On groups that are not unimodular
+/// the runtime asks for |tr ad_x| ≤ π besides. Nilpotent algebras have no limit.
+const EXPONENTIAL: f64 = std::f64::consts::PI;
 
-impl Default for Limits {
-    fn default() -> Self {
-        Self { exponential: std::f64::consts::PI, cayley: 2.0 }
-    }
-}
+/// Cayley chart: |λ| must not be more for every eigenvalue λ of the matrix x, which on SO(3) is |x| ≤ 2 and on
+/// SU(2) |x| ≤ 4.
+const CAYLEY: f64 = 2.0;
 
 /// Whether x is inside the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,13 +28,13 @@ pub enum Inside {
 /// Eigenvalues of a defective matrix are as inexact as the root of its rounding.
 const DEFECTIVE: f64 = 4e-8;
 
-pub(super) fn inside(geometry: &Geometry, x: &[f64], limits: Limits) -> Inside {
+pub(super) fn inside(geometry: &Geometry, x: &[f64]) -> Inside {
     let (size, matrix, limit) = match geometry.chart {
         Chart::Exponential if geometry.nilpotent => return Inside::Yes,
-        Chart::Exponential => (geometry.dim, geometry.ad_transpose(x), limits.exponential),
+        Chart::Exponential => (geometry.dim, geometry.ad_transpose(x), EXPONENTIAL),
         Chart::Cayley => {
             let (size, matrix) = geometry.representation(x);
-            (size, matrix, limits.cayley)
+            (size, matrix, CAYLEY)
         }
     };
     // Sufficient: no eigenvalue is larger than any norm.

@@ -44,7 +44,7 @@ mod step;
 mod wide;
 
 pub use branch::{Branch, RightSolution};
-pub use domain::{Inside, Limits};
+pub use domain::Inside;
 pub use double_double::{DoubleDouble, Real};
 pub use error::JudgeError;
 pub use motion::{Motion, Stop};
@@ -69,7 +69,6 @@ pub struct Judge {
     geometry: Geometry,
     series: Series,
     frame: Vec<Series>,
-    limits: Limits,
 }
 
 impl Judge {
@@ -81,7 +80,7 @@ impl Judge {
         let geometry = Geometry::new(algebra, series.chart())?;
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
         let series = Series::new(algebra.dim(), orders);
-        Ok(Self { geometry, series, frame: Vec::new(), limits: Limits::default() })
+        Ok(Self { geometry, series, frame: Vec::new() })
     }
 
     /// For the problem that a front end has read, its comoving frame included.
@@ -111,7 +110,7 @@ impl Judge {
         let geometry = Geometry::new(algebra, chart)?;
         let mut series = Series::from_terms(algebra.dim(), terms)?;
         series.step_is_counted();
-        Ok(Self { geometry, series, frame: Vec::new(), limits: Limits::default() })
+        Ok(Self { geometry, series, frame: Vec::new() })
     }
 
     /// The same where S generates the motion in a comoving frame, whose own motion follows each step.
@@ -119,13 +118,6 @@ impl Judge {
     pub fn with_frame(mut self, frame: &Frame) -> Self {
         let dim = self.geometry.dim;
         self.frame = frame.parts().map(|part| Series::new(dim, [(1, part)])).collect();
-        self
-    }
-
-    /// The same with other limits of the charts.
-    #[must_use]
-    pub fn with_limits(mut self, limits: Limits) -> Self {
-        self.limits = limits;
         self
     }
 
@@ -202,7 +194,6 @@ impl Setting<'_> {
         }
         let momentum: Vec<_> = momentum.iter().map(|m| m.scaled(scale - unit)).collect();
         let double = momentum.iter().map(|m| m.to_f64()).collect();
-        let (geometry, limits) = (&self.judge.geometry, self.judge.limits);
-        Ok(Step { geometry, folded, limits, momentum, double })
+        Ok(Step { geometry: &self.judge.geometry, folded, momentum, double })
     }
 }

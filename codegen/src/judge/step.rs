@@ -1,7 +1,7 @@
 //! One step to be judged.
 
 use super::branch::RightSolution;
-use super::domain::{Inside, Limits, inside};
+use super::domain::{Inside, inside};
 use super::geometry::{Geometry, size};
 use super::linear::multiply;
 use super::point::{Point, Residual};
@@ -29,7 +29,6 @@ impl Scaled {
 pub struct Step<'a> {
     pub(super) geometry: &'a Geometry,
     pub(super) folded: &'a Scaled,
-    pub(super) limits: Limits,
     pub(super) momentum: Vec<DoubleDouble>,
     pub(super) double: Vec<f64>,
 }
@@ -99,7 +98,7 @@ impl Step<'_> {
     /// Whether x is inside the chart.
     #[must_use]
     pub fn inside(&self, x: &[f64]) -> Inside {
-        inside(self.geometry, x, self.limits)
+        inside(self.geometry, x)
     }
 
     /// The ratio of the last two terms of the series: see [`Point::series_ratio`].

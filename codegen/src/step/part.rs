@@ -3,6 +3,9 @@
 use crate::graph::{Graph, Id};
 use crate::step::vector::Matrix;
 
+/// [`Part::estimated`] where nothing better is known.
+pub const ESTIMATED: f64 = 1.0 / 3.0;
+
 /// A factor of a group, with the chart of a step: what programs of a step are built of.
 ///
 /// Coordinates x and μ have n entries, a group element m numbers. Conventions are those of the runtime's `LieGroup`.
@@ -46,7 +49,7 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// Up to which share of a half turn the estimate of what Newton's method leaves is taken for a bound, as in the runtime
     /// (`LieGroup::ESTIMATED`).
     fn estimated(&self) -> f64 {
-        1.0 / 3.0
+        ESTIMATED
     }
 
     /// How far g is from the group; not a number where g is not finite.

@@ -3,7 +3,7 @@
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
-use crate::step::part::{Moved, Part};
+use crate::step::part::{ESTIMATED, Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, sum, three};
 
 /// The largest θ² of a step: a quarter turn, and what is beyond it by rounding. Longer ones are not accepted at once.
@@ -289,7 +289,7 @@ impl Part for Rotation {
     }
 
     fn estimated(&self) -> f64 {
-        if self.double_cover { 1.0 / 3.0 } else { 0.5 }
+        if self.double_cover { ESTIMATED } else { 0.5 }
     }
 
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {

@@ -42,7 +42,8 @@ const INLINED: usize = 4000;
 /// the length.
 const LONGEST: usize = 1000;
 
-/// A text with the kernel [`KERNEL_NAME`], which moves trajectories by the steps of [`Stepper::advance`](crate::Stepper::advance), a thread each:
+/// A text with the kernel [`KERNEL_NAME`], which moves trajectories by the steps of
+/// [`Stepper::advance`](crate::Stepper::advance), a thread each:
 ///
 /// ```text
 /// coadjoint_steps(g, mu, done, status, rows, target)

@@ -3,7 +3,7 @@
 use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
 use coadjoint_learn::experiment::{Curve, Report};
 
-use crate::section::{BODY, Section, curve, figure, peaks, places, points, values};
+use crate::section::{BODY, Section, curve, figure, over_time, peaks, places, points, values};
 
 /// Training with and without symmetry, and learned trajectories.
 pub fn trained(report: &Report) -> Vec<Section> {
@@ -87,15 +87,7 @@ fn trajectory(report: &Report) -> Section {
             .enumerate()
             .map(|(i, (key, name))| peaks(&run, "t", &format!("{key}_{quantity}"), name, i))
             .collect();
-        let panel = Panel {
-            heading: heading.to_owned(),
-            across: "time (s)".to_owned(),
-            x: Axis::linear(0.0, end, 6),
-            y: Axis::floored(&values(&curves), floor, 6),
-            curves,
-            ..Panel::default()
-        };
-        panel.with_legend()
+        over_time(heading, end, curves, floor)
     };
     section.panels = vec![
         panel("relative error of the energy", "energy", (-10, -2)),

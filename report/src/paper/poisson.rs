@@ -3,7 +3,7 @@
 use coadjoint_draw::{Axis, Curve as Line, Panel, Style};
 use coadjoint_learn::experiment::{Cell, Report};
 
-use crate::section::{BODY, Section, curve, figure, peaks, places, values};
+use crate::section::{BODY, Section, curve, figure, over_time, peaks, places, values};
 
 /// Records of a short time.
 const LONGER: usize = 101;
@@ -185,15 +185,7 @@ pub fn geometrize(report: &Report) -> Section {
         let curves: Vec<Line> = lines
             .map(|(i, (key, name))| peaks(&run, "t", &format!("{key}_{quantity}"), name, i))
             .collect();
-        let panel = Panel {
-            heading: heading.to_owned(),
-            across: "time (s)".to_owned(),
-            x: Axis::linear(0.0, end, 6),
-            y: Axis::floored(&values(&curves), floor, 6),
-            curves,
-            ..Panel::default()
-        };
-        panel.with_legend()
+        over_time(heading, end, curves, floor)
     };
     section.panels = vec![
         panel("relative error of the energy", "energy", (-6, 1)),
