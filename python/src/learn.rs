@@ -15,7 +15,8 @@ use pyo3::types::PyDict;
 use crate::control::work;
 use crate::error::{raised, refused};
 use crate::record::{Keeper, Table};
-use crate::system::{emitted, result_of};
+use crate::emit::emitted;
+use crate::outcome::result_of;
 
 /// Named columns of numbers.
 type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;

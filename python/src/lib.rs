@@ -2,10 +2,15 @@
 //!
 //! Python's own part of the package (`coadjoint/`) builds the text, checks what users pass, and gives results their form.
 
+mod asked;
 mod control;
+mod emit;
 mod error;
+mod given;
 mod learn;
+mod outcome;
 mod record;
+mod stepper;
 mod system;
 
 use pyo3::prelude::*;
@@ -16,7 +21,9 @@ mod _core {
     #[pymodule_export]
     use super::learn::{ModelCore, learn};
     #[pymodule_export]
-    use super::system::{Core, Stepper};
+    use super::stepper::Stepper;
+    #[pymodule_export]
+    use super::system::Core;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

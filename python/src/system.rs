@@ -7,25 +7,28 @@ use std::sync::{Arc, Mutex, PoisonError};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::System;
 use coadjoint_run::ensemble::{self, Attitude, How, Layout, Shape, Watch};
-use coadjoint_run::simulate::{Outcome, Schedule, Setup, Single, Times, run, split};
+use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Backend, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
+    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
 };
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::asked::{Asked, backend_of};
 use crate::control::work;
-use crate::error::{raised, refused, stopped};
+use crate::emit::emitted;
+use crate::error::{raised, refused};
+use crate::given::Given;
+use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
+use crate::stepper::Stepper;
 
 /// The most that records of one run may take in memory.
 const MOST_BYTES: f64 = 8e9;
 /// Single steps are compiled, whatever that takes: many of them are going to be made.
 const MANY: f64 = 1e9;
-/// So many steps at once are made without looking for signals.
-const FEW: u64 = 64;
 
 /// A system that is known as text; never changed.
 #[pyclass(frozen, module = "coadjoint._core", name = "Core")]
@@ -38,20 +41,6 @@ pub struct Core {
 
 /// Systems that have been derived, by truncation, and whether they are for ensembles.
 type Cache = Arc<Mutex<Vec<((usize, bool), Arc<Derived>)>>>;
-
-/// A backend by its name.
-fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
-    match name {
-        "auto" => Ok(Backend::Auto),
-        "interpreter" => Ok(Backend::Interpreter),
-        "c" => Ok(Backend::C),
-        "jit" => Ok(Backend::Jit),
-        _ => Err(refused(
-            py,
-            format!("backend=\"{name}\": there are \"auto\", \"interpreter\", \"jit\" and \"c\""),
-        )),
-    }
-}
 
 /// Derived systems are shared by all that is done with them.
 fn derive(
@@ -89,33 +78,6 @@ impl Core {
         }
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
         Ok((system, choice.map(|choice| choice.to_string())))
-    }
-}
-
-/// What both kinds of run say of the accuracy.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-struct Asked {
-    step: Option<f64>,
-    tolerance: Option<f64>,
-    region: Option<f64>,
-    truncation: Option<usize>,
-    time: Option<f64>,
-}
-
-impl Asked {
-    fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
-        let Self { step, tolerance, region, truncation, time } = *self;
-        if let Some(k) = truncation
-            && (k % 2 == 0 || k > 63)
-        {
-            let what = "truncation must be an odd number from 1 to 63: the even terms vanish";
-            return Err(refused(py, format!("{what}; {k} was given")));
-        }
-        if step.is_some() && tolerance.is_some() {
-            return Err(refused(py, "give step or tolerance, not both".to_owned()));
-        }
-        Ok(Accuracy { step, tolerance, region, truncation, time })
     }
 }
 
@@ -467,67 +429,11 @@ impl Core {
     }
 }
 
-/// The code of a system or a model in this language.
-pub fn emitted(
-    name: &str,
-    source: emit::Source,
-    language: &str,
-    prefix: Option<String>,
-    step: Option<f64>,
-    single: bool,
-) -> Result<String, RunError> {
-    use coadjoint_codegen::emit::c::Language;
-    use coadjoint_program::{Precision, print::DeviceLanguage};
-    let path = Path::new(name);
-    let precision = if single { Precision::Single } else { Precision::Double };
-    match language {
-        "rust" => emit::rust(path, source),
-        "c" => emit::header(path, source, Language::C, prefix),
-        "cpp" => emit::header(path, source, Language::Cpp, prefix),
-        "opencl" => emit::kernel(path, source, step, precision, DeviceLanguage::OpenCl),
-        "cuda" => emit::kernel(path, source, step, precision, DeviceLanguage::Cuda),
-        _ => Err(RunError::Option(format!(
-            "language=\"{language}\": there are \"rust\", \"c\", \"cpp\", \"opencl\" and \"cuda\""
-        ))),
-    }
-}
-
 /// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
 fn rows_of(algebra: &lie::LieAlgebra) -> usize {
     match algebra.basis() {
         Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
         None => algebra.dim(),
-    }
-}
-
-/// Rows that Python has given.
-struct Given {
-    values: Vec<f64>,
-    width: usize,
-    next: usize,
-}
-
-impl Given {
-    fn new(rows: &PyReadonlyArray2<'_, f64>) -> Self {
-        Self { values: rows.as_array().iter().copied().collect(), width: rows.shape()[1], next: 0 }
-    }
-}
-
-impl verify::Rows for Given {
-    type Error = RunError;
-
-    fn next_row(&mut self) -> Result<Option<Vec<f64>>, RunError> {
-        let row = self.values.get(self.next..self.next + self.width);
-        self.next += self.width;
-        Ok(row.filter(|row| !row.is_empty()).map(<[f64]>::to_vec))
-    }
-
-    fn value(&self, _: &str) -> Option<&str> {
-        None
-    }
-
-    fn numbers(&self, _: &str) -> Option<Vec<f64>> {
-        None
     }
 }
 
@@ -541,126 +447,5 @@ fn record_size(system: &System, setup: &Setup) -> f64 {
         8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64
     } else {
         0.0
-    }
-}
-
-/// What a run has come to, as Python has it.
-pub fn result_of<'py>(
-    py: Python<'py>,
-    table: Table,
-    outcome: &Outcome,
-    schedule: &Schedule,
-) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    let rows = table.time.len();
-    let wide = |values: Vec<f64>| {
-        let width = if rows == 0 { 0 } else { values.len() / rows };
-        values.into_pyarray(py).reshape([rows, width])
-    };
-    found.set_item("time", table.time.into_pyarray(py))?;
-    found.set_item("momentum", wide(table.momentum)?)?;
-    found.set_item("entries", wide(table.element)?)?;
-    found.set_item("spatial_momentum", wide(table.spatial)?)?;
-    found.set_item("energy", table.energy.into_pyarray(py))?;
-    found.set_item("drifts", wide(table.drift)?)?;
-    found.set_item("blocks", table.blocks)?;
-    found.set_item("columns", table.columns)?;
-    found.set_item("warnings", table.warnings)?;
-    found.set_item("announcement", schedule.announcement())?;
-    found.set_item("step", schedule.step)?;
-    found.set_item("steps", outcome.steps)?;
-    let end = PyDict::new(py);
-    end.set_item("time", outcome.time)?;
-    end.set_item("momentum", PyArray1::from_slice(py, &outcome.momentum))?;
-    let blocks: Vec<(usize, usize)> =
-        outcome.blocks.iter().map(|b| (b.range.start, b.range.len())).collect();
-    end.set_item("blocks", blocks)?;
-    let own = split(&outcome.blocks, &outcome.element);
-    end.set_item(
-        "entries",
-        PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()),
-    )?;
-    found.set_item("end", end)?;
-    let drift = outcome.drift;
-    found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
-    found.set_item("conserved_momenta", outcome.momenta)?;
-    found.set_item("casimirs", outcome.casimirs)?;
-    found.set_item("potential", outcome.potential)?;
-    found.set_item("has_energy", outcome.energy.is_some())?;
-    let used = outcome.backend.as_ref();
-    found.set_item("backend", used.map_or("interpreter", |used| used.name.as_str()))?;
-    let ready = used.and_then(|used| used.ready).map(|time| time.as_secs_f64());
-    found.set_item("ready", ready)?;
-    let solver = outcome.solver.map(|solver| (solver.most_iterations, solver.max_residual));
-    found.set_item("solver", solver)?;
-    Ok(found)
-}
-
-/// Steps of one size, ready to be made.
-#[pyclass(frozen, module = "coadjoint._core")]
-pub struct Stepper {
-    single: Arc<Single<Arc<Derived>>>,
-    dimension: usize,
-}
-
-#[pymethods]
-impl Stepper {
-    /// What makes the steps.
-    #[getter]
-    fn backend(&self) -> String {
-        self.single.backend()
-    }
-
-    /// The state after so many steps: momentum and matrix.
-    fn advance<'py>(
-        &self,
-        py: Python<'py>,
-        momentum: PyReadonlyArray1<'py, f64>,
-        group_element: Option<PyReadonlyArray2<'py, f64>>,
-        steps: u64,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let size = self.single.matrix_size();
-        let mut mu = momentum.as_array().to_vec();
-        if mu.len() != self.dimension {
-            let what =
-                format!("momentum has {} numbers; the group needs {}", mu.len(), self.dimension);
-            return Err(refused(py, what));
-        }
-        if let Some(bad) = mu.iter().find(|x| !x.is_finite()) {
-            return Err(refused(py, format!("momentum: {bad} is no finite number")));
-        }
-        let mut matrix = match group_element {
-            None => {
-                (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect()
-            }
-            Some(given) => {
-                if given.shape() != [size, size] {
-                    let what = format!("group_element must be a matrix of {size} rows and columns");
-                    return Err(refused(py, what));
-                }
-                let given: Vec<f64> = given.as_array().iter().copied().collect();
-                self.single.element(&given).map_err(|error| raised(py, &error))?
-            }
-        };
-        let made = if steps <= FEW {
-            self.single.advance(&mut matrix, &mut mu, steps)
-        } else {
-            let single = self.single.clone();
-            let (made, new_matrix, new_mu) = work(py, None, move |control| {
-                let mut done = 0;
-                let mut made = Ok(());
-                while done < steps && made.is_ok() && !control.stop.load(Ordering::Relaxed) {
-                    let count = (steps - done).min(FEW);
-                    made = single.advance(&mut matrix, &mut mu, count);
-                    made = made.map_err(|(step, error)| (done + step, error));
-                    done += count;
-                }
-                (made, matrix, mu)
-            })?;
-            (matrix, mu) = (new_matrix, new_mu);
-            made
-        };
-        made.map_err(|(step, error)| stopped(py, step, error.to_string()))?;
-        Ok((mu.into_pyarray(py), matrix.into_pyarray(py).reshape([size, size])?))
     }
 }

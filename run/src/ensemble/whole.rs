@@ -16,7 +16,7 @@ pub fn problem_of(system: System) -> Result<Problem, RunError> {
     let System { mut problem, potential, .. } = system;
     if potential.is_some() {
         return Err(RunError::Option(
-            "ensembles of systems with a potential do not run on the command line: emit the step, \
+            "ensembles do not run systems with a potential: simulate them one by one, or emit the step \
              and see `Kicked`"
                 .into(),
         ));

@@ -46,7 +46,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 truncations: &[3, 5, 7, 9, 11, 13],
                 models: 4,
                 must_accept: true,
-                weight: 16,
+                weight: 256,
                 ..base()
             },
             known!(SO3::<f64>::new(), Exponential, compensated) as Maker,
@@ -58,7 +58,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 truncations: &[15, 17],
                 models: 1,
                 must_accept: true,
-                weight: 2,
+                weight: 32,
                 ..base()
             },
             known!(SO3::<f64>::new(), Exponential),
@@ -68,7 +68,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 name: "so3-promise",
                 truncations: &[5, 7, 9],
                 models: 8,
-                weight: 16,
+                weight: 256,
                 ..promise()
             },
             known!(SO3::<f64>::new(), Exponential),
@@ -136,7 +136,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 truncations: &[3],
                 single: true,
                 decades: 1.0,
-                weight: 2,
+                weight: 32,
                 ..base()
             },
             known!(SE3::<f32>::new(), Exponential),
@@ -166,7 +166,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         (
             Recipe {
                 name: "se3-exp-top",
-                weight: 2,
+                weight: 32,
                 group: "SE3",
                 energy: Energy::Top,
                 truncations: &[3, 5, 7],
@@ -176,11 +176,11 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
             known!(SE3::<f64>::new(), Exponential, compensated),
         ),
         (
-            Recipe { name: "se3-exp-fluid", weight: 2, group: "SE3", ..base() },
+            Recipe { name: "se3-exp-fluid", weight: 32, group: "SE3", ..base() },
             known!(SE3::<f64>::new(), Exponential),
         ),
         (
-            Recipe { name: "se3-cayley", weight: 2, group: "SE3", truncations: &[3], ..cayley() },
+            Recipe { name: "se3-cayley", weight: 32, group: "SE3", truncations: &[3], ..cayley() },
             known!(SE3::<f64>::new(), Cayley),
         ),
         (
@@ -188,11 +188,17 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
             known!(Heisenberg::<f64>::new(), Exponential),
         ),
         (
-            Recipe { name: "so3-power", weight: 2, group: "SO3^2", truncations: &[3, 5], ..base() },
+            Recipe {
+                name: "so3-power",
+                weight: 32,
+                group: "SO3^2",
+                truncations: &[3, 5],
+                ..base()
+            },
             known!(Power::<SO3, 2, 6>::default(), Exponential),
         ),
         (
-            Recipe { name: "su3", weight: 1, group: "SU3", truncations: &[3], ..base() },
+            Recipe { name: "su3", weight: 4, group: "SU3", truncations: &[3], ..base() },
             known!(SU3::<f64>::new(), Exponential),
         ),
     ]
@@ -209,12 +215,12 @@ fn tables() -> Vec<(Recipe<'static>, Maker)> {
                 energy: Energy::Body,
                 truncations: &[5, 9],
                 must_accept: true,
-                weight: 4,
+                weight: 32,
                 ..base()
             },
             table as Maker,
         ),
-        (Recipe { name: "so4-table", weight: 1, group: "SO4", ..base() }, table),
+        (Recipe { name: "so4-table", weight: 4, group: "SO4", ..base() }, table),
         (
             Recipe {
                 name: "so5-table",
@@ -240,7 +246,7 @@ fn tables() -> Vec<(Recipe<'static>, Maker)> {
         (
             Recipe {
                 name: "so4-table-cayley",
-                weight: 1,
+                weight: 16,
                 group: "SO4",
                 truncations: &[3],
                 ..cayley()
@@ -258,19 +264,19 @@ fn tables() -> Vec<(Recipe<'static>, Maker)> {
             },
             table,
         ),
-        (Recipe { name: "sl2-table", weight: 4, group: "SL2", ..base() }, table),
+        (Recipe { name: "sl2-table", weight: 32, group: "SL2", ..base() }, table),
         (
             Recipe {
                 name: "sl2-table-cayley",
-                weight: 4,
+                weight: 32,
                 group: "SL2",
                 truncations: &[3],
                 ..cayley()
             },
             table_cayley,
         ),
-        (Recipe { name: "u2-table", weight: 4, group: "U2", ..base() }, table),
-        (Recipe { name: "aff1-table", weight: 4, group: "Aff1", ..base() }, table),
+        (Recipe { name: "u2-table", weight: 32, group: "U2", ..base() }, table),
+        (Recipe { name: "aff1-table", weight: 32, group: "Aff1", ..base() }, table),
     ]
 }
 

@@ -200,7 +200,7 @@ impl Default for Recipe<'_> {
             must_accept: false,
             promise: false,
             tuned: false,
-            weight: 8,
+            weight: 128,
             decades: 30.0,
         }
     }

@@ -283,7 +283,7 @@ pub fn families(only: &str) -> Vec<Family> {
         (
             "generated-fixed-7",
             30.0,
-            16,
+            256,
             of_bodies!(fixed, true, |steps| Runner::new(steps).compensated().in_lanes()),
         ),
         ("generated-promise-7", 30.0, 16, of_bodies!(fixed, true, |steps| Runner::new(steps))),
@@ -291,34 +291,34 @@ pub fn families(only: &str) -> Vec<Family> {
         (
             "generated-fixed-point-7",
             30.0,
-            8,
+            128,
             of_bodies!(fixed, false, |steps| Runner::new(MatrixFree(steps))),
         ),
         (
             "generated-comoving-9",
             30.0,
-            16,
+            256,
             of_bodies!(comoving, true, |steps| Runner::new(steps).compensated().in_lanes()),
         ),
         (
             "generated-cayley-5",
             30.0,
-            8,
+            128,
             of_bodies!(half_turn, false, |steps| Runner::new(steps).compensated().in_lanes()),
         ),
-        ("generated-top-5", 1.0, 4, || {
+        ("generated-top-5", 1.0, 64, || {
             tops(top::TEXT, |h, i, weight| {
                 let steps = top::System::<f64>::new(h, i, weight).ok()?;
                 Some(Made::series(Runner::new(steps).compensated().in_lanes()))
             })
         }),
-        ("generated-top-7", 1.0, 2, || {
+        ("generated-top-7", 1.0, 32, || {
             tops(long_top::TEXT, |h, i, weight| {
                 let steps = long_top::System::<f64>::new(h, i, weight).ok()?;
                 Some(Made::series(Runner::new(steps)))
             })
         }),
-        ("generated-manakov-5", 30.0, 2, || {
+        ("generated-manakov-5", 30.0, 32, || {
             let source = Source::new(manakov::TEXT);
             let judge = source.judge();
             let draw = move |_: &mut Random| {

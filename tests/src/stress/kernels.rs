@@ -198,7 +198,7 @@ pub fn families(only: &str) -> Vec<Family> {
         name,
         models: SYSTEMS.iter().map(|&system| model(system, backend)).collect(),
         decades: 30.0,
-        weight: 8,
+        weight: 128,
         promise: false,
     };
     chosen.map(family).collect()

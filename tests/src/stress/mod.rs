@@ -44,16 +44,18 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
     }
     let schedule = schedule(&families, options);
     let per = schedule.len() as u64;
-    let rounds = match options.instance {
-        Some(_) => 1,
-        None => options.steps.div_ceil(per * instance::DRAWS as u64),
+    // An example is repeated by each family once; so is every family where all are to have a turn.
+    let instances = match options.instance {
+        Some(_) => per,
+        None => options.steps.div_ceil(instance::DRAWS as u64),
     };
+    let instances = if options.even { instances.next_multiple_of(per) } else { instances };
     let next = AtomicU64::new(0);
     let work = || {
         let mut found: Vec<(u64, Tally)> = Vec::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            if index >= rounds * per {
+            if index >= instances {
                 return found;
             }
             let seed = options.instance.unwrap_or_else(|| {

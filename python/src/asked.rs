@@ -1,0 +1,54 @@
+//! What Python's arguments ask of a run.
+
+use coadjoint_run::{Accuracy, Backend};
+use pyo3::prelude::*;
+
+use crate::error::refused;
+
+/// A backend by its name.
+///
+/// # Errors
+/// Where there is none of that name.
+pub fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
+    match name {
+        "auto" => Ok(Backend::Auto),
+        "interpreter" => Ok(Backend::Interpreter),
+        "c" => Ok(Backend::C),
+        "jit" => Ok(Backend::Jit),
+        _ => Err(refused(
+            py,
+            format!("backend=\"{name}\": there are \"auto\", \"interpreter\", \"jit\" and \"c\""),
+        )),
+    }
+}
+
+/// What both kinds of run say of the accuracy.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    step: Option<f64>,
+    tolerance: Option<f64>,
+    region: Option<f64>,
+    truncation: Option<usize>,
+    time: Option<f64>,
+}
+
+impl Asked {
+    /// The same, as the run wants it.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    pub fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
+        let Self { step, tolerance, region, truncation, time } = *self;
+        if let Some(k) = truncation
+            && (k % 2 == 0 || k > 63)
+        {
+            let what = "truncation must be an odd number from 1 to 63: the even terms vanish";
+            return Err(refused(py, format!("{what}; {k} was given")));
+        }
+        if step.is_some() && tolerance.is_some() {
+            return Err(refused(py, "give step or tolerance, not both".to_owned()));
+        }
+        Ok(Accuracy { step, tolerance, region, truncation, time })
+    }
+}

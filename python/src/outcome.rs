@@ -1,0 +1,60 @@
+//! What a run has come to, in Python's types.
+
+use coadjoint_run::simulate::{Outcome, Schedule, split};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::record::Table;
+
+/// What a run has come to, as Python has it.
+pub fn result_of<'py>(
+    py: Python<'py>,
+    table: Table,
+    outcome: &Outcome,
+    schedule: &Schedule,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let rows = table.time.len();
+    let wide = |values: Vec<f64>| {
+        let width = if rows == 0 { 0 } else { values.len() / rows };
+        values.into_pyarray(py).reshape([rows, width])
+    };
+    found.set_item("time", table.time.into_pyarray(py))?;
+    found.set_item("momentum", wide(table.momentum)?)?;
+    found.set_item("entries", wide(table.element)?)?;
+    found.set_item("spatial_momentum", wide(table.spatial)?)?;
+    found.set_item("energy", table.energy.into_pyarray(py))?;
+    found.set_item("drifts", wide(table.drift)?)?;
+    found.set_item("blocks", table.blocks)?;
+    found.set_item("columns", table.columns)?;
+    found.set_item("warnings", table.warnings)?;
+    found.set_item("announcement", schedule.announcement())?;
+    found.set_item("step", schedule.step)?;
+    found.set_item("steps", outcome.steps)?;
+    let end = PyDict::new(py);
+    end.set_item("time", outcome.time)?;
+    end.set_item("momentum", PyArray1::from_slice(py, &outcome.momentum))?;
+    let blocks: Vec<(usize, usize)> =
+        outcome.blocks.iter().map(|b| (b.range.start, b.range.len())).collect();
+    end.set_item("blocks", blocks)?;
+    let own = split(&outcome.blocks, &outcome.element);
+    end.set_item(
+        "entries",
+        PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()),
+    )?;
+    found.set_item("end", end)?;
+    let drift = outcome.drift;
+    found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
+    found.set_item("conserved_momenta", outcome.momenta)?;
+    found.set_item("casimirs", outcome.casimirs)?;
+    found.set_item("potential", outcome.potential)?;
+    found.set_item("has_energy", outcome.energy.is_some())?;
+    let used = outcome.backend.as_ref();
+    found.set_item("backend", used.map_or("interpreter", |used| used.name.as_str()))?;
+    let ready = used.and_then(|used| used.ready).map(|time| time.as_secs_f64());
+    found.set_item("ready", ready)?;
+    let solver = outcome.solver.map(|solver| (solver.most_iterations, solver.max_residual));
+    found.set_item("solver", solver)?;
+    Ok(found)
+}

@@ -1,0 +1,87 @@
+//! Single steps of one size.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use coadjoint_run::Derived;
+use coadjoint_run::simulate::Single;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::control::work;
+use crate::error::{raised, refused, stopped};
+
+/// So many steps at once are made without looking for signals.
+const FEW: u64 = 64;
+
+/// Steps of one size, ready to be made.
+#[pyclass(frozen, module = "coadjoint._core")]
+pub struct Stepper {
+    /// The steps.
+    pub single: Arc<Single<Arc<Derived>>>,
+    /// Of the algebra.
+    pub dimension: usize,
+}
+
+#[pymethods]
+impl Stepper {
+    /// What makes the steps.
+    #[getter]
+    fn backend(&self) -> String {
+        self.single.backend()
+    }
+
+    /// The state after so many steps: momentum and matrix.
+    fn advance<'py>(
+        &self,
+        py: Python<'py>,
+        momentum: PyReadonlyArray1<'py, f64>,
+        group_element: Option<PyReadonlyArray2<'py, f64>>,
+        steps: u64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let size = self.single.matrix_size();
+        let mut mu = momentum.as_array().to_vec();
+        if mu.len() != self.dimension {
+            let what =
+                format!("momentum has {} numbers; the group needs {}", mu.len(), self.dimension);
+            return Err(refused(py, what));
+        }
+        if let Some(bad) = mu.iter().find(|x| !x.is_finite()) {
+            return Err(refused(py, format!("momentum: {bad} is no finite number")));
+        }
+        let mut matrix = match group_element {
+            None => {
+                (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect()
+            }
+            Some(given) => {
+                if given.shape() != [size, size] {
+                    let what = format!("group_element must be a matrix of {size} rows and columns");
+                    return Err(refused(py, what));
+                }
+                let given: Vec<f64> = given.as_array().iter().copied().collect();
+                self.single.element(&given).map_err(|error| raised(py, &error))?
+            }
+        };
+        let made = if steps <= FEW {
+            self.single.advance(&mut matrix, &mut mu, steps)
+        } else {
+            let single = self.single.clone();
+            let (made, new_matrix, new_mu) = work(py, None, move |control| {
+                let mut done = 0;
+                let mut made = Ok(());
+                while done < steps && made.is_ok() && !control.stop.load(Ordering::Relaxed) {
+                    let count = (steps - done).min(FEW);
+                    made = single.advance(&mut matrix, &mut mu, count);
+                    made = made.map_err(|(step, error)| (done + step, error));
+                    done += count;
+                }
+                (made, matrix, mu)
+            })?;
+            (matrix, mu) = (new_matrix, new_mu);
+            made
+        };
+        made.map_err(|(step, error)| stopped(py, step, error.to_string()))?;
+        Ok((mu.into_pyarray(py), matrix.into_pyarray(py).reshape([size, size])?))
+    }
+}
