@@ -17,7 +17,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A front end reads a system: [`parse`] from text or from the tokens of a Rust function, `system` from a file. It
+//! The exact half, from arithmetic to the programs of a step, is `coadjoint-symbolic`, whose modules are here under the same
+//! names. A front end reads a system: [`parse`] from text or from the tokens of a Rust function, `system` from a file. It
 //! becomes a [`problem::Problem`], from which [`integrator`] builds programs and a table of coefficients, [`emit`]
 //! writes Rust, and [`graph`] interprets. Most crates do this with the attribute of the crate `coadjoint`, or in a build
 //! script, where [`Build`] writes the integrator of a system file as a module:
@@ -40,28 +41,23 @@
 //! `system` (default): reading system files in TOML, with [`Build`] and the module [`system`]. With
 //! `default-features = false` neither is there, unless the dependency says `features = ["system"]`.
 
-pub mod comoving;
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;
-pub mod graph;
-pub mod hamilton_jacobi;
-pub mod integrator;
-#[cfg(feature = "judge")]
-pub mod judge;
-pub mod lie;
-pub mod number;
 pub mod parse;
 pub mod pass;
-pub mod poly;
-pub mod potential;
-pub mod problem;
-pub mod step;
 #[cfg(feature = "system")]
 pub mod system;
-pub mod tolerance;
 
 #[cfg(feature = "system")]
 mod build_script;
 #[cfg(feature = "system")]
 pub use build_script::{Build, BuildError};
+
+/// Steps judged in doubled precision, independently of the runtime.
+#[cfg(feature = "judge")]
+pub use coadjoint_symbolic::judge;
+pub use coadjoint_symbolic::{
+    comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem, step,
+    tolerance,
+};

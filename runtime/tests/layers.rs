@@ -27,9 +27,9 @@ const LAYERS: [&str; 17] = [
 ];
 
 /// The crates, the lowest first.
-const CRATES: [&str; 11] = [
-    "draw", "program", "native", "device", "codegen", "macros", "runtime", "learn", "report",
-    "run", "cli",
+const CRATES: [&str; 12] = [
+    "draw", "program", "native", "device", "symbolic", "codegen", "macros", "runtime", "learn",
+    "report", "run", "cli",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -107,7 +107,9 @@ pub fn generating_function(
             }
         }
     });
-    let bend = integrator.problem.is_quadratic().then(|| {
+    // In a comoving frame x is short where S is far from quadratic.
+    let of_chart = integrator.problem.is_quadratic() && integrator.problem.comoving.is_none();
+    let bend = of_chart.then(|| {
         quote! {
             #[inline(always)]
             fn bend(&self, x: T) -> T {

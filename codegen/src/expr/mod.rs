@@ -2,9 +2,6 @@
 //! parameters only that become opaque coefficients ([`ParameterExpr`]).
 
 mod arena;
-mod function;
-mod parameter;
 
 pub use arena::{Arena, ExprId, Node};
-pub use function::Function;
-pub use parameter::ParameterExpr;
+pub use coadjoint_symbolic::expr::{Function, ParameterExpr};

@@ -172,6 +172,9 @@ fn accepted<S: Integrator + ?Sized>(
 /// (tried by the program `stress`); beyond it, what is left is measured by another correction.
 const TRUSTED: f64 = 1e-3;
 
+/// What is left is told by shrinking steps down to this share of the estimate (tried by the program `stress`).
+const BELOW_ESTIMATE: f64 = 1.0 / 64.0;
+
 /// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
 /// (tried by the program `stress`, not proven).
 const NEAR: f64 = 0.05;
@@ -200,11 +203,16 @@ impl<T: Scalar> Yardstick<T> {
     /// the size of the step before it, if it has one with which to compare.
     ///
     /// The estimate knows no more of S than the size of its coefficients, and counts for small steps only. From the
-    /// second step on the steps themselves tell by what they shrink, and one of rounding's size is the last.
+    /// second step on the steps themselves tell by what they shrink, and one of rounding's size is the last. Where the
+    /// first step goes another way than what is left, along an axis of the body say, they tell too little: what is left
+    /// counts as a sixty-fourth of the estimate at least.
     #[inline(always)]
     fn left(&self, estimate: T, relative: T, previous: Option<T>) -> T {
         let left = match previous {
-            Some(previous) => estimate.simd_min(T::of(2.0) * relative * relative / previous),
+            Some(previous) => {
+                let shrunk = T::of(2.0) * relative * relative / previous;
+                estimate.simd_min(shrunk.simd_max(T::of(BELOW_ESTIMATE) * estimate))
+            }
             None => estimate.select(relative.simd_le(T::of(TRUSTED)), relative),
         };
         left.simd_min(relative).select(relative.simd_le(self.tolerance), left)

@@ -179,14 +179,22 @@ where
     vec![Model { judge, draw: Box::new(draw) }]
 }
 
-/// The terms of S of a free body, as (monomial, c h^k), each rounded once.
-fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Terms {
+/// A term of S: its monomial, the coefficient rounded once, and the sum of the absolute values from which that is summed,
+/// which are what an emitted step rounds.
+struct Term {
+    monomial: Vec<(usize, u32)>,
+    value: f64,
+    size: f64,
+}
+
+/// The terms of S of a free body.
+fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Vec<Term> {
     let exact = |value: f64| Rational::from_float(value).expect("finite");
     let power =
         |base: &Rational, power: usize| (0..power).fold(exact(1.0), |product, _| product * base);
     let step = exact(h);
     let symbols: Vec<Rational> = symbols.iter().map(|&symbol| exact(symbol)).collect();
-    let mut terms: Vec<(Vec<(usize, u32)>, Rational)> = Vec::new();
+    let mut terms: Vec<(Vec<(usize, u32)>, Rational, f64)> = Vec::new();
     for k in 1..=series.truncation() {
         let step = power(&step, k);
         for (factors, c) in series.order(k).factors() {
@@ -198,22 +206,25 @@ fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Term
                     None => momenta.push((variable as usize, times)),
                 }
             }
+            let size = double(&value).abs();
             match terms.iter_mut().find(|term| term.0 == momenta) {
-                Some(term) => term.1 += value,
-                None => terms.push((momenta, value)),
+                Some(term) => {
+                    term.1 += value;
+                    term.2 += size;
+                }
+                None => terms.push((momenta, value, size)),
             }
         }
     }
-    terms.into_iter().map(|(momenta, value)| (momenta, double(&value))).collect()
+    let term = |(monomial, value, size)| Term { monomial, value: double(&value), size };
+    terms.into_iter().map(term).collect()
 }
-
-type Terms = Vec<(Vec<(usize, u32)>, f64)>;
 
 /// S with its coefficients adjusted at random, as a fit does, and the judge of that S.
 fn adjusted<S: Adjustable>(
     plain: &S,
     algebra: &LieAlgebra,
-    mut terms: Terms,
+    mut terms: Vec<Term>,
     random: &mut Random,
 ) -> Option<(S, Judge)>
 where
@@ -228,11 +239,15 @@ where
         }
         let monomial: Vec<_> =
             term.monomial.iter().map(|&(i, power)| (i as usize, power)).collect();
-        let known = terms.iter_mut().find(|term| term.0 == monomial)?;
-        *correction = known.1 * share * random.between(-1.0, 1.0);
-        known.1 += *correction;
+        let known = terms.iter_mut().find(|term| term.monomial == monomial)?;
+        *correction = known.value * share * random.between(-1.0, 1.0);
+        known.value += *correction;
     }
-    let all = terms.into_iter().map(|(factors, c)| (1, c, factors));
+    // What cancels in a coefficient counts for the bound: twice a half of it, one half less the other.
+    let all = terms.into_iter().flat_map(|Term { monomial, value, size }| {
+        let half = 0.5 * (size - value.abs()).max(0.0);
+        [value, half, -half].map(|c| (1, c, monomial.clone()))
+    });
     let judge = Judge::from_terms(algebra, Chart::Exponential, all).ok()?;
     Some((plain.adjusted(&corrections), judge))
 }

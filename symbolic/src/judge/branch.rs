@@ -3,7 +3,7 @@
 use super::geometry::{apply, size};
 use super::linear::{Lu, identity, multiply};
 use super::series::norm;
-use super::step::Step;
+use super::step::{Step, spacing};
 use super::{DoubleDouble, JudgeError};
 
 /// Whether a given x is the right solution.
@@ -258,16 +258,32 @@ impl Step<'_> {
             Err(branch) => return (branch, None),
         };
         // To which solution x belongs: the one that Newton's method finds from it.
-        let Some(own) = own else {
-            let far = norm(&difference(&right, x)) / norm(&right);
-            let branch = if far > APART { Branch::Another(far) } else { Branch::CannotTell };
-            return (branch, None);
+        let apart = match &own {
+            Some(own) => distance(&own.x, &right),
+            None => norm(&difference(&right, x)) / norm(&right),
         };
-        match distance(&own.x, &right) {
-            apart if apart <= SAME => (Branch::Right, Some(own)),
-            apart if apart > APART => (Branch::Another(apart), None),
+        if apart <= SAME && own.is_some() {
+            return (Branch::Right, own);
+        }
+        if norm(&difference(&right, x)) <= self.grain(x) {
+            return (Branch::CannotTell, None);
+        }
+        // Where rounding of double precision moves solutions, the end of the continuation is none.
+        let exact = right.iter().map(|&x| DoubleDouble::from(x)).collect();
+        match self.polish(exact, None) {
+            Ok(end) if distance(&end.x, &right) <= SAME && apart > APART => {
+                (Branch::Another(apart), None)
+            }
             _ => (Branch::CannotTell, None),
         }
+    }
+
+    /// How far apart the solutions are that numbers of double precision tell apart where they are next to nothing.
+    fn grain(&self, x: &[f64]) -> f64 {
+        let Ok((p, _)) = self.geometry.pull_back_derivative(x, &self.double) else {
+            return f64::INFINITY;
+        };
+        self.spaced(x.len(), self.hessian_norm(&p), spacing(0.5 * f64::EPSILON))
     }
 
     /// ‖Hess S‖ at p, the smaller of Frobenius' norm and the row sum: both bound the spectral norm.

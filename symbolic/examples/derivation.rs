@@ -1,14 +1,14 @@
 //! Time and size of derivations as the truncation K and the number of variables n grow.
 //!
-//! `cargo run -p coadjoint-codegen --example derivation` measures what a macro costs (macros are
+//! `cargo run -p coadjoint-symbolic --example derivation` measures what a macro costs (macros are
 //! never optimised); with `--release` the figures compare with `derivation_flint.py` beside this
 //! file, which runs the same recurrence with FLINT. `--export` prints the cases for it; other
 //! arguments choose systems by parts of their names.
 
-use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive, predictor};
-use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
-use coadjoint_codegen::number::{Rational, ratio};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive, predictor};
+use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
+use coadjoint_symbolic::number::{Rational, ratio};
+use coadjoint_symbolic::poly::Polynomial;
 use std::error::Error;
 use std::time::{Duration, Instant};
 

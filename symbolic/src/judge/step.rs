@@ -112,11 +112,15 @@ impl Step<'_> {
         let hessian = self.hessian_norm(p);
         let momenta = norm(p) + norm(&self.double);
         let n = x.len() as f64;
-        let spacing = spacing(unit);
-        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
         let bound = 16.0 * n * unit * (norm(x) + norm(terms) + hessian * momenta)
-            + 16.0 * n * spacing * (1.0 + unscaled);
+            + self.spaced(x.len(), hessian, spacing(unit));
         (bound, hessian)
+    }
+
+    /// What of x = ∂S(p̂) is lost where numbers next to nothing are so far apart.
+    pub(super) fn spaced(&self, n: usize, hessian: f64, spacing: f64) -> f64 {
+        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
+        16.0 * n as f64 * spacing * (1.0 + unscaled)
     }
 
     /// Where the right solution leads, frame motions included.
@@ -172,7 +176,7 @@ impl Step<'_> {
 }
 
 /// The spacing of numbers below the smallest normal one.
-fn spacing(unit: f64) -> f64 {
+pub(super) fn spacing(unit: f64) -> f64 {
     f64::from_bits(if unit > 1e-10 { (1023 - 149) << 52 } else { 1 })
 }
 

@@ -158,8 +158,9 @@ impl Polynomial {
         }
     }
 
-    /// The same polynomial in more variables.
-    pub(crate) fn widened(&self, variables: usize) -> Cow<'_, Self> {
+    /// The same polynomial in so many variables, where it has fewer.
+    #[must_use]
+    pub fn widened(&self, variables: usize) -> Cow<'_, Self> {
         if variables <= self.variables {
             return Cow::Borrowed(self);
         }

@@ -1,11 +1,9 @@
 //! What is checked when a Lie algebra is built, and the charts it has.
 
-#![allow(clippy::unwrap_used)]
-
-use coadjoint_codegen::lie::{
+use coadjoint_symbolic::lie::{
     Chart, ChartError, LieAlgebra, LieAlgebraError, RationalMatrix, catalogue,
 };
-use coadjoint_codegen::number::{Rational, integer, ratio};
+use coadjoint_symbolic::number::{Rational, integer, ratio};
 
 fn matrix(rows: &[&[i64]]) -> RationalMatrix {
     RationalMatrix::from_rows(rows.iter().map(|row| row.iter().map(|&x| integer(x)).collect()))

@@ -141,9 +141,10 @@ impl Key for Factors {
 }
 
 /// Factors (variable, exponent), ascending by variable.
-type Monomial = [(u32, u32)];
+pub type Monomial = [(u32, u32)];
 
 /// The factors with variables before this one, the momenta say, and the others.
-pub(crate) fn split_at(factors: &Monomial, variable: usize) -> (&Monomial, &Monomial) {
+#[must_use]
+pub fn split_at(factors: &Monomial, variable: usize) -> (&Monomial, &Monomial) {
     factors.split_at(factors.partition_point(|&(own, _)| (own as usize) < variable))
 }

@@ -1,11 +1,9 @@
 //! Sizes, values and limits of derivations.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::needless_range_loop)]
-
-use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit, derive, predictor};
-use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
-use coadjoint_codegen::number::{Rational, integer, ratio};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::hamilton_jacobi::{DeriveError, TermLimit, derive, predictor};
+use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
+use coadjoint_symbolic::number::{Rational, integer, ratio};
+use coadjoint_symbolic::poly::Polynomial;
 
 fn quadratic(variables: usize, terms: &[(usize, usize, i64, i64)]) -> Polynomial {
     Polynomial::from_factors(

@@ -8,6 +8,7 @@ mod polynomial;
 mod product;
 mod table;
 
-pub(crate) use monomial::{Factors, split_at};
+pub(crate) use monomial::Factors;
+pub use monomial::{Monomial, split_at};
 pub use polynomial::Polynomial;
 pub(crate) use product::{Product, SumError, sum_of_products};

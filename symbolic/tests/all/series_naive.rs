@@ -3,12 +3,10 @@
 //! Here S is one polynomial in p and t over a map from exponents to rationals, every order is
 //! computed from the beginning with Bernoulli numbers from a table, and nothing is skipped.
 
-#![allow(clippy::unwrap_used)]
-
-use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
-use coadjoint_codegen::number::{Rational, integer, ratio};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
+use coadjoint_symbolic::number::{Rational, integer, ratio};
+use coadjoint_symbolic::poly::Polynomial;
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use std::collections::BTreeMap;

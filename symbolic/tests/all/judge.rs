@@ -1,13 +1,11 @@
 //! The judge against exact references: end states of motions, and steps that are wrong on purpose.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_codegen::judge::{Branch, DoubleDouble, Inside, Judge, Motion, Real};
-use coadjoint_codegen::lie::{Chart, catalogue::lookup};
-use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::number::ratio;
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_symbolic::judge::{Branch, DoubleDouble, Inside, Judge, Motion, Real};
+use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
+use coadjoint_symbolic::number::Rational;
+use coadjoint_symbolic::number::ratio;
+use coadjoint_symbolic::poly::Polynomial;
 use serde_json::Value;
 
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -43,7 +41,7 @@ fn energy(entry: &Value, dim: usize) -> Polynomial {
 /// series' truncation error: the signs, both charts, and the group element.
 #[test]
 fn motions_reach_the_references_end_states() {
-    let text = include_str!("../../tests/reference/end_states.json");
+    let text = include_str!("../../../tests/reference/end_states.json");
     let entries: Vec<Value> = serde_json::from_str(text).unwrap();
     for (name, group, chart, truncation, steps, tolerance) in [
         ("rigid-body (DMV driver)", "SO3", Chart::Exponential, 9, 200, 1e-9),

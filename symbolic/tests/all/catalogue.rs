@@ -1,9 +1,7 @@
 //! The groups of the catalogue: dimensions, brackets, products, charts.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-use coadjoint_codegen::lie::{Chart, ChartError, LieAlgebra, RationalMatrix, catalogue};
-use coadjoint_codegen::number::{Rational, integer, ratio};
+use coadjoint_symbolic::lie::{Chart, ChartError, LieAlgebra, RationalMatrix, catalogue};
+use coadjoint_symbolic::number::{Rational, integer, ratio};
 
 fn lookup(text: &str) -> LieAlgebra {
     catalogue::lookup(text).unwrap_or_else(|error| panic!("{error}"))

@@ -1,9 +1,7 @@
 //! Polynomial arithmetic against a second implementation: a map from exponents to rationals.
 
-#![allow(clippy::unwrap_used)]
-
-use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::number::Rational;
+use coadjoint_symbolic::poly::Polynomial;
 use num_bigint::BigInt;
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;

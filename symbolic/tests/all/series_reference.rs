@@ -1,12 +1,10 @@
 //! The series of `reference/series.json`, term by term. The file was computed in exact arithmetic
 //! by a separate implementation.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, catalogue};
-use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_symbolic::lie::{Chart, LieAlgebra, RationalMatrix, catalogue};
+use coadjoint_symbolic::number::Rational;
+use coadjoint_symbolic::poly::Polynomial;
 use serde_json::Value;
 
 fn polynomial(variables: usize, terms: &Value) -> Polynomial {
@@ -18,7 +16,7 @@ fn polynomial(variables: usize, terms: &Value) -> Polynomial {
 }
 
 fn algebra(group: &str) -> LieAlgebra {
-    let bases: Value = serde_json::from_str(include_str!("reference/bases.json")).unwrap();
+    let bases: Value = serde_json::from_str(include_str!("../reference/bases.json")).unwrap();
     let matrices = bases[group].as_array().unwrap().iter().map(|matrix| {
         RationalMatrix::from_rows(matrix.as_array().unwrap().iter().map(|row| {
             let row = row.as_array().unwrap().iter();
@@ -34,7 +32,7 @@ fn algebra(group: &str) -> LieAlgebra {
 
 #[test]
 fn every_entry_term_by_term() {
-    let entries: Value = serde_json::from_str(include_str!("reference/series.json")).unwrap();
+    let entries: Value = serde_json::from_str(include_str!("../reference/series.json")).unwrap();
     let entries = entries.as_array().unwrap();
     assert_eq!(entries.len(), 7);
     for entry in entries {
@@ -58,7 +56,7 @@ fn every_entry_term_by_term() {
 
 #[test]
 fn catalogue_has_the_reference_bases() {
-    let bases: Value = serde_json::from_str(include_str!("reference/bases.json")).unwrap();
+    let bases: Value = serde_json::from_str(include_str!("../reference/bases.json")).unwrap();
     let groups: Vec<&String> = bases.as_object().unwrap().keys().collect();
     assert_eq!(groups.len(), 6);
     for group in groups {

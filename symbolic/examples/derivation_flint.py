@@ -1,7 +1,7 @@
 """The recurrence of `derivation.rs` with FLINT (pip install python-flint).
 
-    cargo run --release -p coadjoint-codegen --example derivation -- --export \
-        | python3 codegen/examples/derivation_flint.py [NAME]
+    cargo run --release -p coadjoint-symbolic --example derivation -- --export \
+        | python3 symbolic/examples/derivation_flint.py [NAME]
 
 Reads algebras and Hamiltonians as exported, runs the same incremental recurrence (exponential
 chart, odd orders only, zero coefficients skipped, Hamiltonian in nested form) on multivariate

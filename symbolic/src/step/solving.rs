@@ -174,9 +174,10 @@ impl Matrices {
     }
 }
 
-/// How much faster than with the length of a correction the chart bends what it adds to x.
+/// How much faster than with the length of a correction the chart bends what it adds to x. In a comoving frame x is short
+/// where S is far from quadratic.
 fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
-    if !integrator.problem.is_quadratic() {
+    if !integrator.problem.is_quadratic() || integrator.problem.comoving.is_some() {
         return graph.constant(1.0);
     }
     let size = largest(graph, x);

@@ -1,10 +1,8 @@
 //! Polynomial Casimirs.
 
-#![allow(clippy::unwrap_used)]
-
-use coadjoint_codegen::lie::{CasimirError, LieAlgebra, casimirs, catalogue};
-use coadjoint_codegen::number::{Rational, integer, ratio};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_symbolic::lie::{CasimirError, LieAlgebra, casimirs, catalogue};
+use coadjoint_symbolic::number::{Rational, integer, ratio};
+use coadjoint_symbolic::poly::Polynomial;
 
 fn found(group: &str, degree: u32) -> Vec<Polynomial> {
     let algebra = catalogue::lookup(group).unwrap();

@@ -1,9 +1,8 @@
 //! The quadratic forms that bound eigenvalues, against eigenvalues computed numerically.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use coadjoint_codegen::lie::catalogue::lookup;
-use coadjoint_codegen::lie::{LieAlgebra, QuadraticForm};
-use coadjoint_codegen::number::{Rational, integer};
+use coadjoint_symbolic::lie::catalogue::lookup;
+use coadjoint_symbolic::lie::{LieAlgebra, QuadraticForm};
+use coadjoint_symbolic::number::{Rational, integer};
 use nalgebra::{Complex, DMatrix, Schur};
 use num_traits::ToPrimitive;
 

@@ -1,6 +1,6 @@
 //! Lowered programs compute the polynomials they were made from.
 
-use coadjoint_codegen::graph::{Graph, Node, SlotTerm, lower};
+use coadjoint_symbolic::graph::{Graph, Node, SlotTerm, lower};
 use proptest::prelude::*;
 
 /// The polynomial term by term, the definition.

@@ -1,0 +1,7 @@
+//! Expressions in parameters only, which become opaque coefficients ([`ParameterExpr`]).
+
+mod function;
+mod parameter;
+
+pub use function::Function;
+pub use parameter::ParameterExpr;
