@@ -114,7 +114,11 @@ impl Step<'_> {
             if by < SHORTEST || steps > 2000 {
                 // Near a fold ∂F/∂x becomes singular as the root of what is left to it.
                 let ratio = model.jacobian.smallest / model.jacobian.largest;
-                let folds = by < SHORTEST && model.jacobian.inverse_norm() > 30.0 && ratio < 0.05;
+                let response = model.jacobian.inverse_norm();
+                let folds = by < SHORTEST
+                    && response > 30.0
+                    && ratio < 0.05
+                    && response * self.noise(&x) < 1e-6 * norm(&x);
                 return Err(if folds { Branch::Folds(s) } else { Branch::CannotTell });
             }
             let by_now = f64::min(by, 1.0 - s);
@@ -276,6 +280,15 @@ impl Step<'_> {
             }
             _ => (Branch::CannotTell, None),
         }
+    }
+
+    /// What rounding in double precision leaves of x − ∂S(p̂).
+    fn noise(&self, x: &[f64]) -> f64 {
+        let Ok((p, _)) = self.geometry.pull_back_derivative(x, &self.double) else {
+            return f64::INFINITY;
+        };
+        let momenta = norm(&p) + norm(&self.double);
+        f64::EPSILON * (norm(x) + self.hessian_norm(&p) * momenta)
     }
 
     /// How far apart the solutions are that numbers of double precision tell apart where they are next to nothing.

@@ -88,6 +88,15 @@ impl Motion {
         }
     }
 
+    /// Whether the motion and its bounds are numbers, so that a deviation means something: turns of hundreds of radians are
+    /// bounded by what exceeds all numbers.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        let element = self.element.iter().flatten().all(|entry| entry.is_finite());
+        let momentum = self.momentum.iter().all(|entry| entry.is_finite());
+        element && momentum && self.momentum_bound.is_finite() && self.element_bound.is_finite()
+    }
+
     /// How far a momentum is from this one over the bound of both motions' difference.
     #[must_use]
     pub fn momentum_deviation(&self, momentum: &[f64]) -> f64 {

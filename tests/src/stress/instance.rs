@@ -285,6 +285,9 @@ fn judge_increment(
                 // By so much that the residual grows by three bounds at least.
                 let by = 4.0 * point.residual(unit).bound * right.response;
                 let direction = random.direction(x.len());
+                if !(by < x.iter().copied().fold(0.0, f64::hypot)) {
+                    return Some(right.clone());
+                }
                 let spoilt: Vec<f64> = x.iter().zip(&direction).map(|(x, d)| x + by * d).collect();
                 let found = step.at(&spoilt).map(|spoilt| spoilt.residual(unit).relative());
                 tally.spoilt += 1;
@@ -312,7 +315,8 @@ fn fault(point: &Point<'_>, inside: Inside, unit: f64) -> Option<(Wrong, String)
         return Some((Wrong::Chart, format!("an eigenvalue of {eigenvalue}")));
     }
     let ratio = point.series_ratio()?;
-    let small = ratio <= 0.5 + 1e-9;
+    // Where the terms along p vanish, the ratio is that of coordinates of rounding's size.
+    let small = ratio <= 0.5 + 1e-9 + 2e5 * unit;
     (!small).then(|| (Wrong::Series, format!("a ratio of {ratio:.3}")))
 }
 
@@ -380,6 +384,10 @@ fn judge_outcome(
             }
             cut = !matches!(stop, Stop::Branch(Branch::Folds(_)));
             break;
+        }
+        if !walk.is_bounded() {
+            tally.unsure += 1;
+            return;
         }
     }
     match best {

@@ -63,8 +63,8 @@ fn integrator(text: &str, truncation: usize) -> Integrator {
     Integrator::build(read(text, options).unwrap().problem, TermLimit::default()).unwrap()
 }
 
-const RIGID_BODY: &str = include_str!("../../examples/rigid_body.toml");
-const HEAVY_TOP: &str = include_str!("../../examples/heavy_top.toml");
+const RIGID_BODY: &str = include_str!("../../../examples/rigid_body.toml");
+const HEAVY_TOP: &str = include_str!("../../../examples/heavy_top.toml");
 
 /// Tables, products, Cayley's chart, a comoving frame.
 const OTHERS: [(&str, usize); 5] = [

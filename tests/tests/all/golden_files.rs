@@ -1,6 +1,6 @@
 //! Emitted code is the committed code.
 //!
-//! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test golden_files` rewrites the files.
+//! `COADJOINT_BLESS=1 cargo test -p coadjoint-tests --test all golden_files` rewrites the files.
 
 #![allow(clippy::unwrap_used)]
 

@@ -13,7 +13,7 @@ use coadjoint::{Exponential, GeneratingFunction, Phase, SO3, advance, poisson_ma
 use coadjoint_learn::{Generating, ModelFile};
 
 mod learned {
-    include!("../golden/learned.rs");
+    include!("../../golden/learned.rs");
 }
 
 #[test]

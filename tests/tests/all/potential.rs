@@ -155,7 +155,7 @@ fn symmetries_that_are_left() {
     assert_eq!(kernel(top), [unit(&[0, 0, 1])], "turning about the vertical");
     let pulled = "group = \"SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[2][2] + g[0][1]\"";
     assert!(kernel(pulled).is_empty());
-    let file = include_str!("../../examples/satellite.toml");
+    let file = include_str!("../../../examples/satellite.toml");
     assert_eq!(kernel(file), [unit(&[0, 0, 1, 1])], "attitude and orbit together");
 }
 

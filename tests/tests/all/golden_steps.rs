@@ -9,19 +9,19 @@ use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_tests::{from_function, golden};
 
 mod rigid_body {
-    include!("../golden/rigid_body.rs");
+    include!("../../golden/rigid_body.rs");
 }
 mod cayley_body {
-    include!("../golden/cayley_body.rs");
+    include!("../../golden/cayley_body.rs");
 }
 mod heavy_top {
-    include!("../golden/heavy_top.rs");
+    include!("../../golden/heavy_top.rs");
 }
 mod comoving_body {
-    include!("../golden/comoving_body.rs");
+    include!("../../golden/comoving_body.rs");
 }
 mod three_wave {
-    include!("../golden/three_wave.rs");
+    include!("../../golden/three_wave.rs");
 }
 
 fn built(source: (&str, &str)) -> Integrator {

@@ -1,0 +1,40 @@
+//! Tests that need several of the crates, each in a module of its own: one program, which is linked once and shares what
+//! it instantiates.
+#![allow(missing_docs)]
+
+mod allocation;
+mod at_once;
+mod attribute;
+mod backend_laws;
+mod catalogue;
+mod closed_form_groups;
+mod comoving;
+mod compensated;
+mod defects;
+mod devices;
+mod documents;
+mod fitted;
+mod front_ends;
+mod global_error;
+mod golden_files;
+mod golden_steps;
+mod in_parts;
+mod inline_algebra;
+mod kernels;
+mod kicked;
+mod lanes;
+mod laws;
+mod learned_step;
+mod order;
+mod parts;
+mod potential;
+mod predictor;
+mod runtime_groups;
+mod stress;
+mod system_files;
+mod systems_integrals;
+mod systems_library;
+mod systems_literature;
+mod systems_reference;
+mod toutatis;
+mod tuned;
