@@ -6,7 +6,8 @@ use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 /// Rows that Python has given.
 pub struct Given {
     values: Vec<f64>,
-    width: usize,
+    /// Numbers of a row.
+    pub width: usize,
     next: usize,
 }
 

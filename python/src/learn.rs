@@ -13,10 +13,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::control::work;
-use crate::error::{raised, refused};
-use crate::record::{Keeper, Table};
 use crate::emit::emitted;
+use crate::error::{raised, refused};
 use crate::outcome::result_of;
+use crate::record::{Keeper, Table};
 
 /// Named columns of numbers.
 type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;

@@ -17,7 +17,7 @@ pub fn result_of<'py>(
     let found = PyDict::new(py);
     let rows = table.time.len();
     let wide = |values: Vec<f64>| {
-        let width = if rows == 0 { 0 } else { values.len() / rows };
+        let width = values.len().checked_div(rows).unwrap_or(0);
         values.into_pyarray(py).reshape([rows, width])
     };
     found.set_item("time", table.time.into_pyarray(py))?;

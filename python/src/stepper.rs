@@ -33,6 +33,7 @@ impl Stepper {
     }
 
     /// The state after so many steps: momentum and matrix.
+    #[allow(clippy::type_complexity)]
     fn advance<'py>(
         &self,
         py: Python<'py>,

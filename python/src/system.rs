@@ -210,6 +210,7 @@ impl Core {
 
     /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts.
     #[pyo3(signature = (states, asked, *, backend, threads, progress))]
+    #[allow(clippy::type_complexity)]
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
