@@ -51,10 +51,10 @@ impl Frame {
 /// of symmetry in it. Variables of `hamiltonian` beyond the dimension are symbols.
 ///
 /// ```
-/// use coadjoint_codegen::comoving::comoving;
-/// use coadjoint_codegen::lie::{Chart, catalogue::lookup};
-/// use coadjoint_codegen::number::ratio;
-/// use coadjoint_codegen::poly::Polynomial;
+/// use coadjoint_symbolic::comoving::comoving;
+/// use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
+/// use coadjoint_symbolic::number::ratio;
+/// use coadjoint_symbolic::poly::Polynomial;
 ///
 /// let body = |inverse: [i64; 3]| {
 ///     let square = |i: usize| Polynomial::variable(3, i).pow(2).scale(&ratio(inverse[i], 2));

@@ -6,11 +6,11 @@
 //! shares no code with the steps it judges.
 //!
 //! ```
-//! use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-//! use coadjoint_codegen::judge::{Branch, Judge};
-//! use coadjoint_codegen::lie::{Chart, catalogue::lookup};
-//! use coadjoint_codegen::number::ratio;
-//! use coadjoint_codegen::poly::Polynomial;
+//! use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
+//! use coadjoint_symbolic::judge::{Branch, Judge};
+//! use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
+//! use coadjoint_symbolic::number::ratio;
+//! use coadjoint_symbolic::poly::Polynomial;
 //!
 //! // A rigid body, I = (1.5, 2, 2.5).
 //! let square = |i: usize, d: i64| Polynomial::variable(3, i).pow(2).scale(&ratio(1, d));

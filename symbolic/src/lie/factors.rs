@@ -8,7 +8,7 @@ impl LieAlgebra {
     /// own. SO3^64 has 64; an algebra that does not split is its own only factor.
     ///
     /// ```
-    /// use coadjoint_codegen::lie::catalogue::lookup;
+    /// use coadjoint_symbolic::lie::catalogue::lookup;
     ///
     /// let factors = lookup("SO3^4").unwrap().factors();
     /// assert_eq!((factors.len(), factors[2].dim()), (4, 3));

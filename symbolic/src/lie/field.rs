@@ -8,9 +8,9 @@ impl LieAlgebra {
     /// of `hamiltonian` beyond the dimension are constants.
     ///
     /// ```
-    /// use coadjoint_codegen::lie::catalogue::lookup;
-    /// use coadjoint_codegen::number::ratio;
-    /// use coadjoint_codegen::poly::Polynomial;
+    /// use coadjoint_symbolic::lie::catalogue::lookup;
+    /// use coadjoint_symbolic::number::ratio;
+    /// use coadjoint_symbolic::poly::Polynomial;
     ///
     /// // A symmetric body, H = (μ₀² + μ₁²)/2 + μ₂²: its spin μ₂ is an integral.
     /// let square = |i, half| (Polynomial::variable(3, i).pow(2)).scale(&ratio(half, 2));

@@ -13,7 +13,7 @@ impl LieAlgebra {
     /// nilpotent, and d exp is invertible at every x.
     ///
     /// ```
-    /// use coadjoint_codegen::lie::catalogue::lookup;
+    /// use coadjoint_symbolic::lie::catalogue::lookup;
     ///
     /// assert!(lookup("Heisenberg").unwrap().is_nilpotent());
     /// assert!(!lookup("SE2").unwrap().is_nilpotent());

@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 /// are packed into one word while they fit and kept as lists of factors otherwise.
 ///
 /// ```
-/// use coadjoint_codegen::number::ratio;
-/// use coadjoint_codegen::poly::Polynomial;
+/// use coadjoint_symbolic::number::ratio;
+/// use coadjoint_symbolic::poly::Polynomial;
 ///
 /// let x = Polynomial::variable(2, 0);
 /// let y = Polynomial::variable(2, 1);

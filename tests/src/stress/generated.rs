@@ -194,7 +194,8 @@ fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Vec<
         |base: &Rational, power: usize| (0..power).fold(exact(1.0), |product, _| product * base);
     let step = exact(h);
     let symbols: Vec<Rational> = symbols.iter().map(|&symbol| exact(symbol)).collect();
-    let mut terms: Vec<(Vec<(usize, u32)>, Rational, f64)> = Vec::new();
+    type Sum = (Vec<(usize, u32)>, Rational, f64);
+    let mut terms: Vec<Sum> = Vec::new();
     for k in 1..=series.truncation() {
         let step = power(&step, k);
         for (factors, c) in series.order(k).factors() {
@@ -216,7 +217,7 @@ fn terms(series: &GeneratingSeries, dim: usize, h: f64, symbols: &[f64]) -> Vec<
             }
         }
     }
-    let term = |(monomial, value, size)| Term { monomial, value: double(&value), size };
+    let term = |(monomial, value, size): Sum| Term { monomial, value: double(&value), size };
     terms.into_iter().map(term).collect()
 }
 

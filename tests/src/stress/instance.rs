@@ -285,7 +285,7 @@ fn judge_increment(
                 // By so much that the residual grows by three bounds at least.
                 let by = 4.0 * point.residual(unit).bound * right.response;
                 let direction = random.direction(x.len());
-                if !(by < x.iter().copied().fold(0.0, f64::hypot)) {
+                if by >= x.iter().copied().fold(0.0, f64::hypot) {
                     return Some(right.clone());
                 }
                 let spoilt: Vec<f64> = x.iter().zip(&direction).map(|(x, d)| x + by * d).collect();

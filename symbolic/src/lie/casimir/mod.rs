@@ -58,7 +58,7 @@ pub enum CasimirError {
 /// commuting ideals, as that of a direct product does, each is treated by itself.
 ///
 /// ```
-/// use coadjoint_codegen::lie::{casimirs, catalogue::lookup};
+/// use coadjoint_symbolic::lie::{casimirs, catalogue::lookup};
 ///
 /// let found = casimirs(&lookup("SE3").unwrap(), 2).unwrap();
 /// assert_eq!(found.len(), 2); // Π·Γ and |Γ|²

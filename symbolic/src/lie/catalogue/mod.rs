@@ -58,7 +58,7 @@ pub fn names() -> &'static [&'static str] {
 /// The Lie algebra of the group or product of groups of this text.
 ///
 /// ```
-/// use coadjoint_codegen::lie::catalogue::lookup;
+/// use coadjoint_symbolic::lie::catalogue::lookup;
 ///
 /// assert_eq!(lookup("SO3^4").unwrap().dim(), 12);
 /// assert_eq!(lookup("SO3 |x R3").unwrap().structure(), lookup("SE3").unwrap().structure());

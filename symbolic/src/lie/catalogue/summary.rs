@@ -4,7 +4,7 @@
 /// parentheses. `None` for products and for unknown names.
 ///
 /// ```
-/// use coadjoint_codegen::lie::catalogue::{names, summary};
+/// use coadjoint_symbolic::lie::catalogue::{names, summary};
 ///
 /// assert!(names().iter().all(|name| summary(name).is_some()));
 /// assert_eq!(summary("SO3").as_deref(), Some("rotations of space; about axes 1, 2, 3"));

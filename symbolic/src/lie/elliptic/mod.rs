@@ -38,7 +38,7 @@ impl LieAlgebra {
     /// are given once. It is |ω|² on 𝔰𝔬(3), 𝔰𝔢(2) and 𝔰𝔢(3), two forms on 𝔰𝔬(4).
     ///
     /// ```
-    /// use coadjoint_codegen::lie::catalogue::lookup;
+    /// use coadjoint_symbolic::lie::catalogue::lookup;
     ///
     /// let forms = lookup("SE3").unwrap().elliptic_forms();
     /// assert_eq!(forms.len(), 1);
