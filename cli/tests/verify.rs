@@ -225,7 +225,7 @@ fn growing_momenta_are_judged_as_far_as_can_be() {
     assert_eq!(run(&["simulate", &system, "--out", &out]).0, 1);
     let (code, found, error) = run(&["verify", &format!("{out}.part")]);
     assert!(code == 0 || code == 3, "{found}{error}");
-    simulate(&[&system, "--time", "5"], &out);
+    simulate(&[&system, "--time", "4"], &out);
     right(&[&out]);
 }
 
