@@ -699,13 +699,7 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ComovingBody<T> {
-        #[inline(always)]
-        fn bend(&self, x: T) -> T {
-            x * x * T::of(0.25)
-        }
-    }
-
+    impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ComovingBody<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ComovingBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
         #[inline(always)]
