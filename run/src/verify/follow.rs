@@ -347,7 +347,7 @@ fn advance(
             return Err(Trouble::Unknown("it lies at the limit of the chart".to_owned()));
         }
     }
-    if let Some(ratio) = step.series_ratio(&x)
+    if let Some(ratio) = step.series_ratio(&x, UNIT)
         && !(ratio <= LARGEST_RATIO)
     {
         let what = format!("is of a series whose last two terms have the ratio {ratio:.3}");

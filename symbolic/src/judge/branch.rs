@@ -30,7 +30,8 @@ pub struct RightSolution {
     pub response: f64,
 }
 
-/// The shortest step in s.
+/// The longest step in s, so that none goes over two folds at once, and the shortest.
+const LONGEST: f64 = 1.0 / 64.0;
 const SHORTEST: f64 = 1e-6;
 /// Corrections of one step in s at most.
 const CORRECTIONS: usize = 6;
@@ -106,7 +107,7 @@ impl Step<'_> {
         let n = self.double.len();
         let mut x = vec![0.0; n];
         let mut s = 0.0;
-        let mut by = 0.25;
+        let mut by = LONGEST;
         let mut model = self.model(&x, s).map_err(|_| Branch::CannotTell)?;
         let mut steps = 0;
         while s < 1.0 {
@@ -129,7 +130,7 @@ impl Step<'_> {
             match self.correct(guess, end, by_now * norm(&tangent), model.jacobian.sign) {
                 Some((found, next)) => {
                     (x, s, model) = (found, end, next);
-                    by *= 2.0;
+                    by = f64::min(2.0 * by, LONGEST);
                 }
                 None => by = 0.5 * by_now,
             }

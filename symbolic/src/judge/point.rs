@@ -58,17 +58,17 @@ impl<'a> Point<'a> {
     }
 
     /// The ratio of the last two terms of the series: at p̂, of the sums of the absolute values of all monomials of
-    /// their gradients; or of the bounds on these for all momenta as long as μ, if that is less. `None` where the
-    /// series has one term.
+    /// their gradients; or of the bounds on these for all momenta as long as μ, if that is less. Terms below rounding of
+    /// a scalar of this unit roundoff do not count. `None` where the series has one term.
     #[must_use]
-    pub fn series_ratio(&self) -> Option<f64> {
+    pub fn series_ratio(&self, unit: f64) -> Option<f64> {
         let series = &self.step.folded.series;
         if !series.has_two() {
             return None;
         }
         // Nothing to compare with is no ratio, and a term below rounding of coordinates of order one is what cancels
         // (in a spherical body, say).
-        let negligible = 16.0 * f64::EPSILON;
+        let negligible = 32.0 * unit;
         let ratio = |[last, before]: [f64; 2]| {
             let compares = before > 0.0 && !(last <= negligible);
             if compares { last / before } else { 0.0 * last }

@@ -103,8 +103,8 @@ impl Step<'_> {
 
     /// The ratio of the last two terms of the series: see [`Point::series_ratio`].
     #[must_use]
-    pub fn series_ratio(&self, x: &[f64]) -> Option<f64> {
-        self.at(x).ok()?.series_ratio()
+    pub fn series_ratio(&self, x: &[f64], unit: f64) -> Option<f64> {
+        self.at(x).ok()?.series_ratio(unit)
     }
 
     /// What the residual at x may be, where p̂ and the terms of ∂S there are known; and ‖Hess S‖ there.

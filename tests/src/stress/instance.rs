@@ -314,9 +314,8 @@ fn fault(point: &Point<'_>, inside: Inside, unit: f64) -> Option<(Wrong, String)
     if let Inside::No(eigenvalue) = inside {
         return Some((Wrong::Chart, format!("an eigenvalue of {eigenvalue}")));
     }
-    let ratio = point.series_ratio()?;
-    // Where the terms along p vanish, the ratio is that of coordinates of rounding's size.
-    let small = ratio <= 0.5 + 1e-9 + 2e5 * unit;
+    let ratio = point.series_ratio(unit)?;
+    let small = ratio <= 0.5 + 1e-9;
     (!small).then(|| (Wrong::Series, format!("a ratio of {ratio:.3}")))
 }
 
