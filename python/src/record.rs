@@ -53,8 +53,9 @@ impl Outlet for Keeper<'_> {
         let Table { time, momentum, element, spatial, energy, drift, .. } = &mut self.table;
         time.push(record.time);
         momentum.extend_from_slice(record.momentum);
-        if !record.element.is_empty() {
-            element.extend_from_slice(record.element);
+        let entries = (record.element)();
+        if !entries.is_empty() {
+            element.extend(entries);
             spatial.extend((record.spatial_momentum)());
         }
         energy.push(record.energy.unwrap_or(f64::NAN));

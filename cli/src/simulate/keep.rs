@@ -296,7 +296,7 @@ impl Outlet for Keeper<'_> {
         let after = record.energy.map(|_| drift.energy);
         let drifts = [drift.spatial_momentum, drift.casimirs];
         let last = record.energy.into_iter().chain(drifts).chain(after);
-        let state = record.momentum.iter().chain(record.element).copied();
+        let state = record.momentum.iter().copied().chain((record.element)());
         let written = sink.row(std::iter::once(record.time).chain(state).chain(last));
         self.note(written)
     }

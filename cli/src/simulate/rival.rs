@@ -4,7 +4,7 @@ use coadjoint::{LieGroup, Phase, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::problem::Problem;
 use coadjoint_run::Derived;
 use coadjoint_run::engine::{FloatPolynomial, Restore, Torque};
-use coadjoint_run::simulate::{Moment, Recorder};
+use coadjoint_run::simulate::{At, Moment, Recorder};
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
 };
@@ -62,10 +62,11 @@ pub fn rk45(
     };
     let end = setup.schedule.end;
     let name = format!("RK45, tolerance {tolerance:e}");
-    let mut recorder = Recorder::new(group, system.watched(), &start);
+    let seen = At { group, phase: &start };
+    let mut recorder = Recorder::new(group, system.watched(), &start, &seen);
     let mut samples = Samples::new(n);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
-    let moment = recorder.visit(&start).map_err(|what| failed(0.0, what))?;
+    let moment = recorder.visit(&seen).map_err(|what| failed(0.0, what))?;
     samples.offer(0.0, start.momentum.as_slice(), moment.energy.unwrap_or(0.0), moment.drift);
     let mut watch = Watch { group, recorder, samples, last: start, moment, size, failure: None };
     let _phase = progress::phase("integrating with RK45");
@@ -148,7 +149,7 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         // What has left the group is measured as it is, not put back on it.
         let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
         self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
-        match self.recorder.visit(&self.last) {
+        match self.recorder.visit(&At { group: self.group, phase: &self.last }) {
             Ok(moment) => {
                 let energy = moment.energy.unwrap_or(0.0);
                 self.samples.offer(time, self.last.momentum.as_slice(), energy, moment.drift);

@@ -3,11 +3,12 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
+use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
 use super::restore::{entries_of, phase_of};
-use super::{Interpreter, Restore};
+use super::{Interpreter, Restore, Scratch, Spatial};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
@@ -27,8 +28,23 @@ pub struct Numbers {
 /// What has been compiled of one integrator, for whoever comes next: programs do not depend on the size of a step.
 #[derive(Default)]
 pub struct Kept {
-    step: OnceLock<Arc<Step>>,
+    programs: OnceLock<Arc<Programs>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
+}
+
+/// The programs of one integrator.
+#[derive(Debug)]
+struct Programs {
+    step: Step,
+    spatial: Spatial,
+}
+
+impl Programs {
+    fn build(integrator: &Integrator) -> Result<Arc<Self>, coadjoint_codegen::step::StepError> {
+        let step = Step::build(integrator, REACH)?;
+        let spatial = Spatial::new(&step);
+        Ok(Arc::new(Self { step, spatial }))
+    }
 }
 
 impl std::fmt::Debug for Kept {
@@ -59,7 +75,7 @@ impl Kept {
 
 /// The steps of an interpreter as straight-line programs.
 pub struct Compiled {
-    step: Arc<Step>,
+    programs: Arc<Programs>,
     slots: Vec<f64>,
     code: Arc<Code>,
     /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
@@ -90,15 +106,16 @@ impl Compiled {
             Backend::Auto | Backend::Interpreter => Ok(None),
             _ => Err(RunError::Option(format!("--backend: {why}"))),
         };
-        let step = match kept.step.get() {
-            Some(step) => step.clone(),
-            None => match Step::build(interpreter.integrator, REACH) {
-                Ok(step) => kept.step.get_or_init(|| Arc::new(step)).clone(),
+        let programs = match kept.programs.get() {
+            Some(programs) => programs.clone(),
+            None => match Programs::build(interpreter.integrator) {
+                Ok(programs) => kept.programs.get_or_init(|| programs).clone(),
                 Err(error) => return unfit(&error),
             },
         };
-        let programs = step.kernel().programs();
-        let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
+        let step = &programs.step;
+        let parts = step.kernel().programs();
+        let operations = parts.correct.nodes().len() + parts.transport.nodes().len();
         if operations > MOST_OPERATIONS {
             let most = MOST_OPERATIONS;
             return unfit(&format_args!(
@@ -106,7 +123,7 @@ impl Compiled {
             ));
         }
         let slots = step.slots(&interpreter.slots, interpreter.radius);
-        let framed = programs.frame.is_some();
+        let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
             None => {
@@ -115,7 +132,7 @@ impl Compiled {
                 code
             }
         };
-        Ok(Some(Self { step, slots, code, framed }))
+        Ok(Some(Self { programs, slots, code, framed }))
     }
 
     /// What makes the steps.
@@ -125,13 +142,21 @@ impl Compiled {
 
     /// The programs.
     pub fn kernel(&self) -> &Kernel {
-        self.step.kernel()
+        self.programs.step.kernel()
     }
 
     /// A state as the programs have it.
     pub fn numbers<G: Restore>(&self, group: &G, phase: &Phase<G>) -> Numbers {
         let matrix = entries_of(group, &phase.group_element);
-        Numbers { g: self.step.element_of(&matrix), mu: phase.momentum.as_slice().to_vec() }
+        Numbers {
+            g: self.programs.step.element_of(&matrix),
+            mu: phase.momentum.as_slice().to_vec(),
+        }
+    }
+
+    /// Writes the spatial momentum Ad\*_g μ of a state.
+    pub fn spatial_momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
+        self.programs.spatial.momentum(state, scratch, momentum);
     }
 
     /// A state as the group has it.
@@ -182,7 +207,7 @@ impl Compiled {
 
     /// The numbers of the element with this matrix, row by row.
     pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
-        self.step.element_of(matrix)
+        self.programs.step.element_of(matrix)
     }
 
     /// The matrix of an element, row by row.

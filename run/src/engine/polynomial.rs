@@ -71,6 +71,11 @@ impl Energy {
         self.sum(group, phase, FloatPolynomial::evaluate)
     }
 
+    /// The energy of a system without a potential.
+    pub fn kinetic(&self, mu: &[f64]) -> f64 {
+        self.hamiltonian.evaluate(mu)
+    }
+
     /// The sum of the absolute values of its terms.
     pub fn magnitude<G: Group>(&self, group: &G, phase: &Phase<G>) -> f64 {
         self.sum(group, phase, FloatPolynomial::magnitude)

@@ -18,7 +18,8 @@ use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows, Stopped};
 use crate::engine::{
-    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
+    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Scratch, Steepness, advise, entries_of,
+    phase_of,
 };
 use crate::error::RunError;
 
@@ -37,6 +38,8 @@ pub struct Steps<'a, G, C> {
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
     attitudes: Attitudes,
+    /// The numbers of the identity, where rows that give no attitude start.
+    identity: Vec<f64>,
     step: f64,
     /// Those of half the size, of a quarter, …, as far as they were needed to advise.
     shorter: Mutex<Vec<Interpreter<'a, G, C>>>,
@@ -71,6 +74,8 @@ where
         let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes, kept)?;
         let card = how.device.map(|asked| device::open(&stepper, asked)).transpose()?;
         let attitudes = Attitudes::of(&integrator.problem.algebra);
+        let group = stepper.group();
+        let identity = numbers_of(compiled.as_ref(), entries_of(group, &group.identity()));
         Ok(Self {
             integrator,
             stepper,
@@ -78,6 +83,7 @@ where
             card: card.map(Mutex::new),
             redone: AtomicU64::new(0),
             attitudes,
+            identity,
             step,
             shorter: Mutex::default(),
         })
@@ -85,10 +91,7 @@ where
 
     /// The numbers of the element with this matrix, row by row.
     fn element_of(&self, matrix: Vec<f64>) -> Vec<f64> {
-        match &self.compiled {
-            Some(compiled) => compiled.element_of(&matrix),
-            None => matrix,
-        }
+        numbers_of(self.compiled.as_ref(), matrix)
     }
 
     /// The matrix of an element, row by row.
@@ -126,9 +129,9 @@ where
         }
         let group = self.stepper.group();
         let (mu, attitude) = row.split_at(group.dim());
-        let matrix = match self.attitudes.read(layout.attitude, group.matrix_size(), attitude)? {
-            Some(matrix) => matrix,
-            None => entries_of(group, &group.identity()),
+        let given = self.attitudes.read(layout.attitude, group.matrix_size(), attitude)?;
+        let Some(matrix) = given else {
+            return Ok(Numbers { g: self.identity.clone(), mu: mu.to_vec() });
         };
         let size = group.matrix_size();
         let element = group.element_from_matrix(|i, j| matrix[i * size + j]);
@@ -161,21 +164,36 @@ where
         })
     }
 
+    /// Writes the spatial momentum of a state.
+    fn spatial_momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
+        match &self.compiled {
+            Some(compiled) => compiled.spatial_momentum(state, scratch, momentum),
+            None => {
+                let found = self.phase(state).spatial_momentum(self.stepper.group());
+                momentum.copy_from_slice(found.as_slice());
+            }
+        }
+    }
+
     /// The drifts of one row.
-    fn drift(&self, before: &Numbers, after: &Numbers) -> Drift {
+    fn drift(&self, scratch: &mut Scratch, before: &Numbers, after: &Numbers) -> Drift {
         let group = self.stepper.group();
         let relative = |difference: f64, size: f64| {
             if size > 0.0 { difference.abs() / size } else { difference.abs() }
         };
-        let (before, after) = (self.phase(before), self.phase(after));
-        let (start, end) = (before.spatial_momentum(group), after.spatial_momentum(group));
+        let [mut start, mut end] = [before, after].map(|state| DVector::zeros(state.mu.len()));
+        self.spatial_momentum(before, scratch, start.as_mut_slice());
+        self.spatial_momentum(after, scratch, end.as_mut_slice());
         let difference = (0..group.dim()).map(|i| (end[i] - start[i]).abs()).fold(0.0, larger);
+        // The vectors have served; they take the momenta now.
+        start.copy_from_slice(&before.mu);
+        end.copy_from_slice(&after.mu);
         let casimirs = (0..group.casimir_count()).map(|index| {
-            let start = group.casimir(index, &before.momentum);
-            relative(group.casimir(index, &after.momentum) - start, start.abs())
+            let before = group.casimir(index, &start);
+            relative(group.casimir(index, &end) - before, before.abs())
         });
         Drift {
-            spatial_momentum: relative(difference, before.momentum.largest_entry()),
+            spatial_momentum: relative(difference, start.largest_entry()),
             casimirs: casimirs.fold(0.0, larger),
             ratio: 0.0,
         }
@@ -336,11 +354,12 @@ where
             });
         }
         rows.values.fill(f64::NAN);
-        let drift = |(place, (before, after)): (usize, (&Numbers, &Numbers))| {
-            (!failed.contains_key(&place)).then(|| self.drift(before, after))
+        let drift = |scratch: &mut Scratch,
+                     (place, (before, after)): (usize, (&Numbers, &Numbers))| {
+            (!failed.contains_key(&place)).then(|| self.drift(scratch, before, after))
         };
-        let drifts: Vec<Option<Drift>> =
-            before.par_iter().zip(&states).enumerate().map(drift).collect();
+        let rows_moved = before.par_iter().zip(&states).enumerate();
+        let drifts: Vec<Option<Drift>> = rows_moved.map_init(Scratch::default, drift).collect();
         let mut largest = Drift { ratio, ..Drift::default() };
         for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
             let Some(drift) = drift else { continue };
@@ -356,6 +375,14 @@ where
         }
         rows.rejected.sort_by_key(|r| r.row);
         Ok(largest)
+    }
+}
+
+/// The numbers of the element with this matrix, row by row: the matrix itself where there are no programs.
+fn numbers_of(compiled: Option<&Compiled>, matrix: Vec<f64>) -> Vec<f64> {
+    match compiled {
+        Some(compiled) => compiled.element_of(&matrix),
+        None => matrix,
     }
 }
 

@@ -6,7 +6,8 @@ use coadjoint::{Cayley, Chart, Exponential, StepError, advance};
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
 use coadjoint_learn::{Generating, LearnError, ModelFile};
 
-use super::march::{Made, March, Stepper, each};
+use super::march::{Beside, March};
+use super::mover::{Made, OneByOne};
 use super::outlet::Outlet;
 use super::recorder::{Outcome, Watched};
 use super::schedule::Schedule;
@@ -95,15 +96,14 @@ fn follow<G: Restore, C: Chart<G>>(
     outlet: &mut dyn Outlet,
 ) -> Result<Outcome, RunError> {
     let map = Generating::<G, C, _>::new(group.clone(), &model.model);
-    let stepper = Stepper {
-        steps: &each(&subject.setup.schedule, |_, phase| {
-            let report = advance(&map, phase)?;
-            Ok(Made { solve: Some((report.iterations, report.residual)) })
-        }),
+    let mut mover = OneByOne::new(&group, &subject.setup.schedule, |_, phase: &mut _| {
+        let report = advance(&map, phase)?;
+        Ok(Made { solve: Some((report.iterations, report.residual)) })
+    });
+    let beside = Beside {
         // Times between steps are refused: a learned map has one step.
         side: &|_, part, _| Err(StepError::InvalidStep { step: part }),
         ratio: &|_| 0.0,
-        kept: None,
     };
-    March { subject, group: &group }.run(&stepper, outlet)
+    March { subject, group: &group }.run(&mut mover, &beside, outlet)
 }

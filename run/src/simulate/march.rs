@@ -1,56 +1,18 @@
 //! The steps of a run, one after the other: measured, and handed out.
 
-use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use coadjoint::{Phase, StepError};
 use nalgebra::DVector;
 
 use super::blocks::split;
+use super::mover::{At, Mover, Seen};
 use super::outlet::{Outlet, Record, Resume, Standing};
 use super::recorder::{Moment, Outcome, Recorder};
-use super::schedule::Schedule;
 use super::subject::Subject;
 use super::warning::Warning;
-use crate::engine::Numbers;
 use crate::engine::Restore;
 use crate::error::RunError;
-use crate::number::maximum;
-
-/// How steps of the grid went.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Made {
-    /// The most iterations and the largest residual of a solve, where there was one.
-    pub solve: Option<(u32, f64)>,
-}
-
-impl Made {
-    /// The worse of both in everything.
-    fn worse(&mut self, other: Self) {
-        self.solve = match (self.solve, other.solve) {
-            (Some((a, b)), Some((c, d))) => Some((a.max(c), maximum(b, d))),
-            (a, b) => a.or(b),
-        };
-    }
-}
-
-/// Steps of the grid, so many after the first so many. Where one is refused: how many were made, and why.
-type GridSteps<'s, G> = dyn Fn(u64, &mut Phase<G>, u64) -> Result<Made, (u64, StepError)> + 's;
-
-/// Steps made one by one, by what makes a single one from the time given.
-pub fn each<'s, G: Restore>(
-    schedule: &'s Schedule,
-    step: impl Fn(f64, &mut Phase<G>) -> Result<Made, StepError> + 's,
-) -> impl Fn(u64, &mut Phase<G>, u64) -> Result<Made, (u64, StepError)> + 's {
-    move |first, phase, count| {
-        let mut total = Made::default();
-        for done in 0..count {
-            let made = step(schedule.time(first + done), phase).map_err(|error| (done, error))?;
-            total.worse(made);
-        }
-        Ok(total)
-    }
-}
 
 /// A step of another length, from the time given: (time, length, state).
 type SideStep<'s, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 's;
@@ -81,16 +43,12 @@ impl Pace {
     }
 }
 
-/// What makes steps on a group.
-pub struct Stepper<'s, G: Restore> {
-    /// Makes steps of the grid. The state that comes back does not depend on how many are made at a time.
-    pub steps: &'s GridSteps<'s, G>,
+/// What a run asks of its steps besides.
+pub struct Beside<'s, G: Restore> {
     /// Makes a step of another length.
     pub side: &'s SideStep<'s, G>,
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     pub ratio: &'s dyn Fn(&G::Vector) -> f64,
-    /// What the steps keep beside the state, where they keep anything.
-    pub kept: Option<&'s RefCell<Option<Numbers>>>,
 }
 
 /// A run on a group.
@@ -102,10 +60,10 @@ pub struct March<'a, G> {
 }
 
 /// What changes along a run.
-struct State<'a, G: Restore> {
+struct State<'a, 'm, G: Restore> {
     /// Steps made.
     n: u64,
-    phase: Phase<G>,
+    mover: &'m mut dyn Mover<G>,
     moment: Moment,
     recorder: Recorder<'a, G>,
     /// How many of the times asked for are recorded.
@@ -113,42 +71,44 @@ struct State<'a, G: Restore> {
 }
 
 impl<'a, G: Restore> March<'a, G> {
-    /// Makes the steps that are left.
+    /// Makes the steps that are left, by what moves, from the start or where an earlier run has ended.
     ///
     /// # Errors
     /// Why the run stopped.
     pub fn run(
         &self,
-        stepper: &Stepper<'_, G>,
+        mover: &mut dyn Mover<G>,
+        beside: &Beside<'_, G>,
         outlet: &mut dyn Outlet,
     ) -> Result<Outcome, RunError> {
         let subject = self.subject;
         let schedule = &subject.setup.schedule;
-        let mut state = self.begin(stepper, outlet)?;
-        self.go(&mut state, stepper, outlet)?;
+        let mut state = self.begin(mover, outlet)?;
+        self.go(&mut state, beside, outlet)?;
         let end = (schedule.steps, schedule.end);
-        let State { recorder, phase, moment, .. } = state;
-        let mut outcome = recorder.finish(end, &phase, &moment);
+        let State { recorder, mover, moment, .. } = state;
+        let mut outcome = recorder.finish(end, &mover.phase(), &moment);
         outcome.warnings.splice(0..0, subject.warnings.iter().cloned());
         Ok(outcome)
     }
 
     /// The state at the start, or where an earlier run has ended.
-    fn begin(
+    fn begin<'m>(
         &self,
-        stepper: &Stepper<'_, G>,
+        mover: &'m mut dyn Mover<G>,
         outlet: &mut dyn Outlet,
-    ) -> Result<State<'a, G>, RunError> {
+    ) -> Result<State<'a, 'm, G>, RunError> {
         let (subject, group) = (self.subject, self.group);
         let setup = subject.setup;
         let start = Phase::<G>::new(setup.element(subject.file, group)?, setup.momentum.clone());
-        let mut recorder = Recorder::new(group, subject.watched, &start);
+        mover.place(start.clone(), None);
+        let mut recorder = Recorder::new(group, subject.watched, &start, mover);
         let found = outlet.resume(recorder.blocks()).map_err(|_| self.halted(0))?;
         let Some(found) = found else {
-            let moment = recorder.visit(&start).map_err(|what| self.stuck(0, what))?;
+            let moment = recorder.visit(mover).map_err(|what| self.stuck(0, what))?;
             outlet.look(0.0, start.momentum.as_slice(), &moment);
             outlet.begin(recorder.recorded()).map_err(|_| self.halted(0))?;
-            return Ok(State { n: 0, phase: start, moment, recorder, times: 0 });
+            return Ok(State { n: 0, mover, moment, recorder, times: 0 });
         };
         let Resume { step, momentum, element, own, times, tally } = found;
         let entries: usize = recorder.blocks().iter().map(|b| b.range.len().pow(2)).sum();
@@ -163,71 +123,57 @@ impl<'a, G: Restore> March<'a, G> {
             }
         }
         let element = group.restore(&|i, j| g[(i, j)]);
-        let phase = Phase::<G>::new(element, DVector::from_vec(momentum));
-        if let (Some(kept), Some(g)) = (stepper.kept, own) {
-            let mu = phase.momentum.as_slice().to_vec();
-            *kept.borrow_mut() = Some(Numbers { g, mu });
-        }
-        let moment = recorder.measure(&phase).map_err(|what| self.stuck(step, what))?;
+        mover.place(Phase::<G>::new(element, DVector::from_vec(momentum)), own);
+        let moment = recorder.measure(mover).map_err(|what| self.stuck(step, what))?;
         outlet.begin(recorder.recorded()).map_err(|_| self.halted(step))?;
         recorder.tally = tally;
-        Ok(State { n: step, phase, moment, recorder, times })
+        Ok(State { n: step, mover, moment, recorder, times })
     }
 
     fn go(
         &self,
-        state: &mut State<'a, G>,
-        stepper: &Stepper<'_, G>,
+        state: &mut State<'a, '_, G>,
+        beside: &Beside<'_, G>,
         outlet: &mut dyn Outlet,
     ) -> Result<(), RunError> {
         let steps = self.subject.setup.schedule.steps;
         if state.n == 0 {
-            self.record(state, stepper, outlet)?;
+            self.record(state, beside, outlet)?;
         }
         let mut pace = Pace::default();
         while state.n < steps {
-            if let Some(warning) = self.steps(state, stepper, &mut pace)? {
+            if let Some(warning) = self.steps(state, beside, &mut pace)? {
                 outlet.warn(&warning.text());
             }
-            self.record(state, stepper, outlet)?;
-            let standing = Standing { step: state.n, state: &|| self.kept(state, stepper) };
+            self.record(state, beside, outlet)?;
+            let standing = Standing { step: state.n, state: &|| kept(state) };
             outlet.pause(&standing).map_err(|_| self.halted(state.n))?;
         }
         Ok(())
     }
 
-    /// What the run would need to go on from here.
-    fn kept(&self, state: &State<'a, G>, stepper: &Stepper<'_, G>) -> Resume {
-        let own = stepper.kept.and_then(|kept| kept.borrow().clone());
-        Resume {
-            step: state.n,
-            momentum: state.phase.momentum.as_slice().to_vec(),
-            element: state.recorder.entries(&state.phase).collect(),
-            own: own.map(|numbers| numbers.g),
-            times: state.times,
-            tally: state.recorder.tally,
-        }
-    }
-
     /// Makes steps of the grid, up to the next look at them; what there is to be said of them.
     fn steps(
         &self,
-        state: &mut State<'a, G>,
-        stepper: &Stepper<'_, G>,
+        state: &mut State<'a, '_, G>,
+        beside: &Beside<'_, G>,
         pace: &mut Pace,
     ) -> Result<Option<Warning>, RunError> {
         let schedule = &self.subject.setup.schedule;
         let (first, next) = (state.n, self.next_look(state));
         let count = (next - first).min(pace.steps());
-        let ratio = if self.watched(first) { (stepper.ratio)(&state.phase.momentum) } else { 0.0 };
-        let begun = Instant::now();
-        let made = (stepper.steps)(first, &mut state.phase, count);
+        let ratio = if self.watched(first) { (beside.ratio)(state.mover.momentum()) } else { 0.0 };
+        // Where records come more often than the driver must, none of its time goes into clocks.
+        let begun = (count == pace.steps()).then(Instant::now);
+        let made = state.mover.advance(first, count);
         let made = made.map_err(|(done, source)| RunError::Run {
             time: schedule.time(first + done),
             step: first + done + 1,
             what: source.to_string(),
         })?;
-        pace.took(count, begun.elapsed());
+        if let Some(begun) = begun {
+            pace.took(count, begun.elapsed());
+        }
         let n = first + count;
         state.n = n;
         if let Some((iterations, residual)) = made.solve {
@@ -237,11 +183,11 @@ impl<'a, G: Restore> March<'a, G> {
         let warning = state.recorder.steep(first + 1, schedule.time(first), ratio);
         // Times of `--at` change no report of the drift.
         if self.watched(n) {
-            let moment = state.recorder.visit(&state.phase).map_err(|what| self.stuck(n, what))?;
+            let moment = state.recorder.visit(&*state.mover).map_err(|what| self.stuck(n, what))?;
             state.moment = moment;
         } else if n == next {
             let moment =
-                state.recorder.measure(&state.phase).map_err(|what| self.stuck(n, what))?;
+                state.recorder.measure(&*state.mover).map_err(|what| self.stuck(n, what))?;
             state.moment = moment;
         }
         Ok(warning)
@@ -263,7 +209,7 @@ impl<'a, G: Restore> March<'a, G> {
     }
 
     /// The next grid point at which the drift is looked at, or something is recorded.
-    fn next_look(&self, state: &State<'a, G>) -> u64 {
+    fn next_look(&self, state: &State<'a, '_, G>) -> u64 {
         let setup = self.subject.setup;
         let (n, end) = (state.n, setup.schedule.steps);
         let mut next = (n / self.interval() + 1).saturating_mul(self.interval()).min(end);
@@ -278,8 +224,8 @@ impl<'a, G: Restore> March<'a, G> {
     /// Hands out the records at this grid point, and at the times nearer to it than to others.
     fn record(
         &self,
-        state: &mut State<'a, G>,
-        stepper: &Stepper<'_, G>,
+        state: &mut State<'a, '_, G>,
+        beside: &Beside<'_, G>,
         outlet: &mut dyn Outlet,
     ) -> Result<(), RunError> {
         let setup = self.subject.setup;
@@ -289,7 +235,7 @@ impl<'a, G: Restore> March<'a, G> {
             setup.every.is_some_and(|every| n.is_multiple_of(every) || n == schedule.steps);
         // Pictures show moments at which the drift is looked at.
         if n > 0 && self.watched(n) {
-            outlet.look(here, state.phase.momentum.as_slice(), &state.moment);
+            outlet.look(here, state.mover.momentum().as_slice(), &state.moment);
         }
         if !setup.recording {
             return Ok(());
@@ -311,13 +257,14 @@ impl<'a, G: Restore> March<'a, G> {
                 {
                     self.write(state, time, None, outlet)?;
                 }
-                let mut phase = state.phase.clone();
-                (stepper.side)(here, part, &mut phase).map_err(|source| RunError::Run {
+                let mut phase = state.mover.phase();
+                (beside.side)(here, part, &mut phase).map_err(|source| RunError::Run {
                     time: here,
                     step: n,
                     what: format!("the record at {time}: {source}"),
                 })?;
-                let moment = state.recorder.measure(&phase).map_err(|what| RunError::Run {
+                let seen = At { group: self.group, phase: &phase };
+                let moment = state.recorder.measure(&seen).map_err(|what| RunError::Run {
                     time,
                     step: n,
                     what,
@@ -335,23 +282,27 @@ impl<'a, G: Restore> March<'a, G> {
     /// Hands out a record: of the state of the grid, or of one beside it.
     fn write(
         &self,
-        state: &State<'a, G>,
+        state: &State<'a, '_, G>,
         time: f64,
         beside: Option<(Phase<G>, Moment)>,
         outlet: &mut dyn Outlet,
     ) -> Result<(), RunError> {
-        let (phase, moment) = match &beside {
-            Some((phase, moment)) => (phase, moment),
-            None => (&state.phase, &state.moment),
+        let here = beside.as_ref().map(|(phase, _)| At { group: self.group, phase });
+        let seen: &dyn Seen = match &here {
+            Some(here) => here,
+            None => &*state.mover,
         };
-        let Moment { energy, drift } = *moment;
+        let Moment { energy, drift } = beside.as_ref().map_or(state.moment, |(_, moment)| *moment);
         let written = self.subject.watched.attitude;
-        let entries = written.then(|| state.recorder.entries(phase)).into_iter().flatten();
-        let element: Vec<f64> = entries.collect();
-        let spatial_momentum = || phase.spatial_momentum(self.group).as_slice().to_vec();
+        let element = || match &beside {
+            _ if !written => Vec::new(),
+            Some((phase, _)) => state.recorder.entries(phase).collect(),
+            None => state.recorder.entries(&state.mover.phase()).collect(),
+        };
+        let spatial_momentum = || seen.spatial_momentum().as_slice().to_vec();
         let record = Record {
             time,
-            momentum: phase.momentum.as_slice(),
+            momentum: seen.momentum().as_slice(),
             element: &element,
             energy,
             drift,
@@ -367,5 +318,17 @@ impl<'a, G: Restore> March<'a, G> {
 
     fn halted(&self, step: u64) -> RunError {
         RunError::Halted { time: self.subject.setup.schedule.time(step), step }
+    }
+}
+
+/// What a run would need to go on from here.
+fn kept<G: Restore>(state: &State<'_, '_, G>) -> Resume {
+    Resume {
+        step: state.n,
+        momentum: state.mover.momentum().as_slice().to_vec(),
+        element: state.recorder.entries(&state.mover.phase()).collect(),
+        own: state.mover.own(),
+        times: state.times,
+        tally: state.recorder.tally,
     }
 }

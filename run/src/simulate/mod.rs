@@ -3,6 +3,7 @@
 mod blocks;
 mod learned;
 mod march;
+mod mover;
 mod names;
 mod outlet;
 mod recorder;
@@ -16,6 +17,7 @@ mod warning;
 
 pub use blocks::{Block, Kind, matrix, split};
 pub use learned::{algebra_of, run_model, schedule_of};
+pub use mover::At;
 pub use names::columns;
 pub use outlet::{Halt, Outlet, Record, Resume, Standing};
 pub use recorder::{Drift, Moment, Outcome, Recorder, Solver, Tally, Watched};

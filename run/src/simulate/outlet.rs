@@ -13,8 +13,8 @@ pub struct Record<'a> {
     pub time: f64,
     /// μ.
     pub momentum: &'a [f64],
-    /// The entries of the blocks of g, row by row; empty where attitudes mean nothing.
-    pub element: &'a [f64],
+    /// Computes the entries of the blocks of g, row by row; none where attitudes mean nothing.
+    pub element: &'a dyn Fn() -> Vec<f64>,
     /// H_red(μ), plus V(g) where there is a potential; none where no energy is known.
     pub energy: Option<f64>,
     /// The differences from the start.

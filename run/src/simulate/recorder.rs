@@ -5,6 +5,7 @@ use coadjoint_codegen::lie::LieAlgebra;
 use nalgebra::DVector;
 
 use super::blocks::{Block, blocks};
+use super::mover::Seen;
 use super::warning::{Steep, Warning};
 use crate::backend::Used;
 use crate::engine::{Energy, Group, STEEP};
@@ -130,17 +131,37 @@ struct Invariants {
     energy: Option<f64>,
 }
 
+impl Invariants {
+    fn of<G: Group>(group: &G, watched: &Watched<'_>, state: &dyn Seen) -> Self {
+        let spatial = state.spatial_momentum();
+        let momenta = match watched.symmetries {
+            None => spatial,
+            // Each relative to the largest component of its ξ.
+            Some(list) => {
+                let along = list.iter().map(|xi| xi.dot(&spatial) / xi.amax());
+                DVector::from_iterator(list.len(), along)
+            }
+        };
+        let casimir = |index| group.casimir(index, state.momentum());
+        Self {
+            momenta,
+            casimirs: (0..group.casimir_count()).map(casimir).collect(),
+            energy: watched.energy.map(|energy| state.energy(energy)),
+        }
+    }
+}
+
 impl<'a, G: Group> Recorder<'a, G> {
-    /// Measures drifts against `phase`.
-    pub fn new(group: &'a G, watched: Watched<'a>, phase: &Phase<G>) -> Self {
+    /// Measures drifts against `phase`, which is `seen` as all that come after it are.
+    pub fn new(group: &'a G, watched: Watched<'a>, phase: &Phase<G>, seen: &dyn Seen) -> Self {
         let algebra = watched.algebra;
         Self {
             group,
             watched,
             blocks: blocks(algebra, group.blocks()),
-            start: invariants(group, &watched, phase),
+            start: Invariants::of(group, &watched, seen),
             energy_scale: watched.energy.map_or(0.0, |energy| energy.magnitude(group, phase)),
-            momentum_scale: largest(phase.spatial_momentum(group).iter().copied()),
+            momentum_scale: largest(seen.spatial_momentum().iter().copied()),
             casimir_scales: casimir_scales(group, &phase.momentum),
             tally: Tally::default(),
         }
@@ -182,8 +203,8 @@ impl<'a, G: Group> Recorder<'a, G> {
     ///
     /// # Errors
     /// What is not finite.
-    pub fn visit(&mut self, phase: &Phase<G>) -> Result<Moment, String> {
-        let moment = self.measure(phase)?;
+    pub fn visit(&mut self, state: &dyn Seen) -> Result<Moment, String> {
+        let moment = self.measure(state)?;
         self.tally.drift.raise(moment.drift);
         Ok(moment)
     }
@@ -192,14 +213,14 @@ impl<'a, G: Group> Recorder<'a, G> {
     ///
     /// # Errors
     /// What is not finite.
-    pub fn measure(&self, phase: &Phase<G>) -> Result<Moment, String> {
-        for (name, value) in self.watched.coordinates.iter().zip(phase.momentum.iter()) {
+    pub fn measure(&self, state: &dyn Seen) -> Result<Moment, String> {
+        for (name, value) in self.watched.coordinates.iter().zip(state.momentum().iter()) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
-        if let Some(bad) = self.entries(phase).find(|entry| !entry.is_finite()) {
+        if let Some(bad) = state.flaw() {
             finite("an entry of the group element", bad)?;
         }
-        let now = invariants(self.group, &self.watched, phase);
+        let now = Invariants::of(self.group, &self.watched, state);
         finite("the energy", now.energy.unwrap_or(0.0))?;
         for (number, casimir) in now.casimirs.iter().enumerate() {
             finite(&format_args!("Casimir {}", number + 1), *casimir)?;
@@ -257,23 +278,6 @@ impl<'a, G: Group> Recorder<'a, G> {
 /// Refuses NaN and infinities.
 fn finite(what: &(impl std::fmt::Display + ?Sized), value: f64) -> Result<(), String> {
     if value.is_finite() { Ok(()) } else { Err(format!("{what} is {value}")) }
-}
-
-fn invariants<G: Group>(group: &G, watched: &Watched<'_>, phase: &Phase<G>) -> Invariants {
-    let count = group.casimir_count();
-    let spatial = phase.spatial_momentum(group);
-    let momenta = match watched.symmetries {
-        None => spatial,
-        // Each relative to the largest component of its ξ.
-        Some(list) => {
-            DVector::from_iterator(list.len(), list.iter().map(|xi| xi.dot(&spatial) / xi.amax()))
-        }
-    };
-    Invariants {
-        momenta,
-        casimirs: (0..count).map(|i| group.casimir(i, &phase.momentum)).collect(),
-        energy: watched.energy.map(|energy| energy.value(group, phase)),
-    }
 }
 
 /// The largest value each Casimir takes at ±|μ₁|, … with at most one sign changed: one that starts

@@ -1,7 +1,5 @@
 //! A run: flows, or flows and kicks, from the initial state to the end.
 
-use std::cell::RefCell;
-
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint::{
     Cayley, Chart, Exponential, GeneratingFunction, Phase, StepError, solve::Solution,
@@ -11,15 +9,16 @@ use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 
-use super::march::{Made, March, Stepper, each};
+use super::march::{Beside, March};
+use super::mover::{ByPrograms, Made, OneByOne};
 use super::outlet::Outlet;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::subject::Subject;
 use super::warning::Warning;
 use crate::engine::{
-    Compiled, Forces, Interpreter, Numbers, Restore, Steepness, advise, cayley_group,
-    product_group, whole_group,
+    Compiled, Forces, Interpreter, Restore, Steepness, advise, cayley_group, product_group,
+    whole_group,
 };
 use crate::error::RunError;
 use crate::load::Derived;
@@ -141,19 +140,18 @@ impl<'a> Task<'a> {
         let flow = flow.map_err(at_start)?;
         let steepness = Steepness::new(&flow);
         let subject = self.subject(Vec::new(), outlet);
-        let stepper = Stepper {
-            steps: &each(&self.setup.schedule, |time, phase| {
-                step(phase, time).map_err(|error| {
-                    let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
-                    advise(error, h, works)
-                })?;
-                Ok(Made { solve: None })
-            }),
+        let mut mover = OneByOne::new(group, &self.setup.schedule, |time, phase: &mut _| {
+            step(phase, time).map_err(|error| {
+                let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
+                advise(error, h, works)
+            })?;
+            Ok(Made { solve: None })
+        });
+        let beside = Beside {
             side: &|time, part, phase| make(part)?(phase, time),
             ratio: &|mu| steepness.ratio(mu),
-            kept: None,
         };
-        March { subject: &subject, group }.run(&stepper, outlet)
+        March { subject: &subject, group }.run(&mut mover, &beside, outlet)
     }
 
     /// The flow alone.
@@ -198,7 +196,7 @@ impl<'a> Task<'a> {
             let solution = solve(step, &phase.momentum)?;
             let residual = residual(step, &phase.momentum, &solution);
             reconstruct(step, phase, &solution.x)?;
-            Ok((solution, residual))
+            Ok((solution.iterations, residual))
         };
         let side = |_: f64, part: f64, phase: &mut Phase<G>| {
             let step = series(part / f64::from(count))?;
@@ -207,40 +205,21 @@ impl<'a> Task<'a> {
         let advised = |error, phase: &Phase<G>| {
             advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
         };
+        let beside = Beside { side: &side, ratio: &|mu| steepness.ratio(mu) };
+        let march = March { subject: &subject, group };
         let (backend, steps) = (self.setup.backend, schedule.steps as f64);
         let Some(compiled) =
             Compiled::new(&step, backend, steps, Trajectories::One, &self.system.kept)?
         else {
-            let stepper = Stepper {
-                steps: &each(schedule, |_, phase| {
-                    let (solution, residual) =
-                        one(&step, phase).map_err(|error| advised(error, phase))?;
-                    Ok(Made { solve: Some((solution.iterations, residual)) })
-                }),
-                side: &side,
-                ratio: &|mu| steepness.ratio(mu),
-                kept: None,
-            };
-            return March { subject: &subject, group }.run(&stepper, outlet);
+            let mut mover = OneByOne::new(group, schedule, |_, phase: &mut _| {
+                let made = one(&step, phase).map_err(|error| advised(error, phase))?;
+                Ok(Made { solve: Some(made) })
+            });
+            return march.run(&mut mover, &beside, outlet);
         };
         compiled.code().notes().iter().for_each(|note| outlet.warn(note));
-        let kept = RefCell::new(None);
-        let stepper = Stepper {
-            steps: &|_, phase, count| {
-                let mut kept = kept.borrow_mut();
-                let numbers = kept.get_or_insert_with(|| compiled.numbers(group, phase));
-                let rescue = |numbers: &mut Numbers| compiled.rescue(&step, numbers);
-                let made = compiled.advance(numbers, count, rescue);
-                *phase = compiled.phase(group, numbers);
-                let made = made.map_err(|(done, error)| (done, advised(error, phase)))?;
-                // A bound, which may be far below what rounding leaves.
-                Ok(Made { solve: Some((made.corrections, made.residual.max(f64::EPSILON))) })
-            },
-            side: &side,
-            ratio: &|mu| steepness.ratio(mu),
-            kept: Some(&kept),
-        };
-        let outcome = March { subject: &subject, group }.run(&stepper, outlet)?;
+        let mut mover = ByPrograms::new(&compiled, &step, &advised);
+        let outcome = march.run(&mut mover, &beside, outlet)?;
         Ok(Outcome { backend: Some(compiled.code().used()), ..outcome })
     }
 }

@@ -1,0 +1,48 @@
+//! The spatial momentum of states as the programs have them.
+
+use coadjoint_codegen::step::Step;
+use coadjoint_program::Program;
+use nalgebra::DMatrix;
+
+use super::Numbers;
+
+/// g, μ ↦ Ad\*_g μ, by a program of its own.
+#[derive(Debug)]
+pub struct Spatial {
+    program: Program,
+    /// Where matrices begin whose inverses the program reads, and how many rows they have.
+    inverted: Vec<(usize, usize)>,
+}
+
+/// What is reused from one momentum to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    inputs: Vec<f64>,
+    nodes: Vec<f64>,
+}
+
+impl Spatial {
+    /// Of the states of this step.
+    pub fn new(step: &Step) -> Self {
+        Self { program: step.spatial(), inverted: step.inverted() }
+    }
+
+    /// Writes the spatial momentum of a state; NaN where a matrix has no inverse.
+    pub fn momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
+        let Numbers { g, mu } = state;
+        let Scratch { inputs, nodes } = scratch;
+        inputs.clear();
+        inputs.extend_from_slice(g);
+        // The program reads of the inverse what has been inverted here, and nothing else.
+        inputs.extend_from_slice(g);
+        inputs.extend_from_slice(mu);
+        for &(start, rows) in &self.inverted {
+            let block = DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
+            let inverse = block.try_inverse();
+            let inverse = inverse.unwrap_or_else(|| DMatrix::from_element(rows, rows, f64::NAN));
+            let own = &mut inputs[g.len() + start..][..rows * rows];
+            own.copy_from_slice(inverse.transpose().as_slice());
+        }
+        self.program.run(inputs, &[], nodes, momentum);
+    }
+}

@@ -1,0 +1,243 @@
+//! What is on its way in a run: a state, and what makes its steps.
+
+use std::cell::RefCell;
+
+use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
+use nalgebra::DVector;
+
+use super::schedule::Schedule;
+use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, Scratch, entries_of};
+use crate::number::maximum;
+
+/// A state as it is watched.
+pub trait Seen {
+    /// μ.
+    fn momentum(&self) -> &DVector<f64>;
+
+    /// Ad\*_g μ.
+    fn spatial_momentum(&self) -> DVector<f64>;
+
+    /// The energy.
+    fn energy(&self, energy: &Energy) -> f64;
+
+    /// A number of the group element that is not finite, where there is one.
+    fn flaw(&self) -> Option<f64>;
+}
+
+/// A state as its group has it.
+pub struct At<'a, G: Group> {
+    /// The group.
+    pub group: &'a G,
+    /// The state.
+    pub phase: &'a Phase<G>,
+}
+
+impl<G: Group> Seen for At<'_, G> {
+    fn momentum(&self) -> &DVector<f64> {
+        &self.phase.momentum
+    }
+
+    fn spatial_momentum(&self) -> DVector<f64> {
+        self.phase.spatial_momentum(self.group)
+    }
+
+    fn energy(&self, energy: &Energy) -> f64 {
+        energy.value(self.group, self.phase)
+    }
+
+    fn flaw(&self) -> Option<f64> {
+        let entries = entries_of(self.group, &self.phase.group_element);
+        entries.into_iter().find(|entry| !entry.is_finite())
+    }
+}
+
+/// How steps of the grid went.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Made {
+    /// The most iterations and the largest residual of a solve, where there was one.
+    pub solve: Option<(u32, f64)>,
+}
+
+impl Made {
+    /// The worse of both in everything.
+    fn worse(&mut self, other: Self) {
+        self.solve = match (self.solve, other.solve) {
+            (Some((a, b)), Some((c, d))) => Some((a.max(c), maximum(b, d))),
+            (a, b) => a.or(b),
+        };
+    }
+}
+
+/// A state on its way.
+pub trait Mover<G: Group>: Seen {
+    /// Puts a state in place of the one that there is; `own` are the numbers that [`Mover::own`] gave of it.
+    fn place(&mut self, phase: Phase<G>, own: Option<Vec<f64>>);
+
+    /// Makes steps of the grid, so many after the first so many. The state that comes of them does not depend on how many
+    /// are made at a time.
+    ///
+    /// # Errors
+    /// How many were made, and why the next one was not; the state is then that before it.
+    fn advance(&mut self, first: u64, count: u64) -> Result<Made, (u64, StepError)>;
+
+    /// The state as the group has it.
+    fn phase(&self) -> Phase<G>;
+
+    /// The numbers that make g, where they are other than its matrix.
+    fn own(&self) -> Option<Vec<f64>>;
+}
+
+/// Steps made one by one, by what makes a single one from the time given.
+pub struct OneByOne<'a, G: Group, F> {
+    at: (&'a G, Phase<G>),
+    schedule: &'a Schedule,
+    step: F,
+}
+
+impl<'a, G, F> OneByOne<'a, G, F>
+where
+    G: Group,
+    F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
+{
+    /// By these steps.
+    pub fn new(group: &'a G, schedule: &'a Schedule, step: F) -> Self {
+        let start = Phase::<G>::new(group.identity(), DVector::zeros(group.dim()));
+        Self { at: (group, start), schedule, step }
+    }
+
+    fn seen(&self) -> At<'_, G> {
+        At { group: self.at.0, phase: &self.at.1 }
+    }
+}
+
+impl<G: Group, F> Seen for OneByOne<'_, G, F>
+where
+    F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
+{
+    fn momentum(&self) -> &DVector<f64> {
+        &self.at.1.momentum
+    }
+
+    fn spatial_momentum(&self) -> DVector<f64> {
+        self.seen().spatial_momentum()
+    }
+
+    fn energy(&self, energy: &Energy) -> f64 {
+        self.seen().energy(energy)
+    }
+
+    fn flaw(&self) -> Option<f64> {
+        self.seen().flaw()
+    }
+}
+
+impl<G: Group, F> Mover<G> for OneByOne<'_, G, F>
+where
+    F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
+{
+    fn place(&mut self, phase: Phase<G>, _own: Option<Vec<f64>>) {
+        self.at.1 = phase;
+    }
+
+    fn advance(&mut self, first: u64, count: u64) -> Result<Made, (u64, StepError)> {
+        let mut total = Made::default();
+        for done in 0..count {
+            let time = self.schedule.time(first + done);
+            let made = (self.step)(time, &mut self.at.1).map_err(|error| (done, error))?;
+            total.worse(made);
+        }
+        Ok(total)
+    }
+
+    fn phase(&self) -> Phase<G> {
+        self.at.1.clone()
+    }
+
+    fn own(&self) -> Option<Vec<f64>> {
+        None
+    }
+}
+
+/// Steps made by programs.
+pub struct ByPrograms<'a, 's, G: Restore, C> {
+    compiled: &'a Compiled,
+    interpreter: &'a Interpreter<'s, G, C>,
+    /// What is said of a step that there is not, and of the state before it.
+    advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
+    state: Numbers,
+    /// The same μ as the state's.
+    mu: DVector<f64>,
+    /// The state that was put here, as long as no step was made: what is read of it has the bits that were given.
+    placed: Option<Phase<G>>,
+    scratch: RefCell<Scratch>,
+}
+
+impl<'a, 's, G: Restore, C: Chart<G>> ByPrograms<'a, 's, G, C> {
+    /// By these programs, and where they refuse by the interpreter of the generating function.
+    pub fn new(
+        compiled: &'a Compiled,
+        interpreter: &'a Interpreter<'s, G, C>,
+        advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
+    ) -> Self {
+        Self {
+            compiled,
+            interpreter,
+            advised,
+            state: Numbers { g: Vec::new(), mu: Vec::new() },
+            mu: DVector::zeros(0),
+            placed: None,
+            scratch: RefCell::default(),
+        }
+    }
+}
+
+impl<G: Restore, C: Chart<G>> Seen for ByPrograms<'_, '_, G, C> {
+    fn momentum(&self) -> &DVector<f64> {
+        &self.mu
+    }
+
+    fn spatial_momentum(&self) -> DVector<f64> {
+        let mut momentum = DVector::zeros(self.mu.len());
+        let scratch = &mut self.scratch.borrow_mut();
+        self.compiled.spatial_momentum(&self.state, scratch, momentum.as_mut_slice());
+        momentum
+    }
+
+    fn energy(&self, energy: &Energy) -> f64 {
+        energy.kinetic(&self.state.mu)
+    }
+
+    fn flaw(&self) -> Option<f64> {
+        self.state.g.iter().copied().find(|number| !number.is_finite())
+    }
+}
+
+impl<G: Restore, C: Chart<G>> Mover<G> for ByPrograms<'_, '_, G, C> {
+    fn place(&mut self, phase: Phase<G>, own: Option<Vec<f64>>) {
+        self.state = self.compiled.numbers(self.interpreter.group(), &phase);
+        if let Some(own) = own {
+            self.state.g = own;
+        }
+        self.mu.clone_from(&phase.momentum);
+        self.placed = Some(phase);
+    }
+
+    fn advance(&mut self, _first: u64, count: u64) -> Result<Made, (u64, StepError)> {
+        let Self { compiled, interpreter, state, .. } = self;
+        let made = compiled.advance(state, count, |numbers| compiled.rescue(interpreter, numbers));
+        self.mu.copy_from_slice(&self.state.mu);
+        self.placed = None;
+        let made = made.map_err(|(done, error)| (done, (self.advised)(error, &self.phase())))?;
+        // A bound, which may be far below what rounding leaves.
+        Ok(Made { solve: Some((made.corrections, made.residual.max(f64::EPSILON))) })
+    }
+
+    fn phase(&self) -> Phase<G> {
+        let made = || self.compiled.phase(self.interpreter.group(), &self.state);
+        self.placed.clone().unwrap_or_else(made)
+    }
+
+    fn own(&self) -> Option<Vec<f64>> {
+        Some(self.state.g.clone())
+    }
+}
