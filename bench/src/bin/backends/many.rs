@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::lanes::{F64x8, Lanes};
 use coadjoint::{GeneratingFunction, LieGroup, Phase};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_run::ensemble::{self, Attitude, How, Layout, Watch, engine, problem_of};
 use coadjoint_run::{Backend, engine::Kept};
@@ -37,8 +38,7 @@ where
             text.momentum.iter().map(move |mu| mu * size)
         })
         .collect();
-    let integrator =
-        Integrator::build(problem_of(text.system()?)?, coadjoint_codegen::hamilton_jacobi::TermLimit::default())?;
+    let integrator = Integrator::build(problem_of(text.system()?)?, TermLimit::default())?;
     let mut states: Vec<Phase<S::Group>> = momenta
         .chunks_exact(N)
         .map(|mu| Phase::at_identity(nalgebra::SVector::<f64, N>::from_column_slice(mu)))
