@@ -1,6 +1,5 @@
 //! The arena of nodes, hash-consed so that equal sub-expressions are one node.
 
-use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -128,11 +127,18 @@ impl Cost {
     }
 }
 
+/// Where nodes are found again.
+#[cfg(feature = "std")]
+type Known = std::collections::HashMap<Node, Id>;
+/// Without the standard library there are no numbers at random to hash with.
+#[cfg(not(feature = "std"))]
+type Known = alloc::collections::BTreeMap<Node, Id>;
+
 /// A growing graph. Ids are handed out in order of creation, so output never depends on hashing.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    known: BTreeMap<Node, Id>,
+    known: Known,
 }
 
 impl Graph {

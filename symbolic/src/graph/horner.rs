@@ -1,6 +1,7 @@
 //! Horner's scheme in several variables, with shared powers.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, HashMap};
 use std::hash::Hash;
 
 use coadjoint_program::{Graph, Id};
@@ -86,7 +87,8 @@ fn by_parity(graph: &mut Graph, classes: &[Vec<SlotTerm>]) -> Id {
             Some(term) => odd(term),
             None => continue,
         };
-        let rest = class.iter().map(|term| divide(term, &parity)).collect();
+        let mut rest = class.clone();
+        rest.iter_mut().for_each(|term| divide(term, &parity));
         let value = horner(graph, rest);
         sum = match monomial(graph, &parity) {
             Some(factor) => graph.times_plus(value, factor, sum),
@@ -96,18 +98,15 @@ fn by_parity(graph: &mut Graph, classes: &[Vec<SlotTerm>]) -> Id {
     sum
 }
 
-/// The term divided by a monomial, as far as it goes.
-fn divide(term: &SlotTerm, divisor: &[(u32, u32)]) -> SlotTerm {
+/// Divides a term by a monomial, as far as it goes.
+fn divide(term: &mut SlotTerm, divisor: &[(u32, u32)]) {
     let mut divisor = divisor.iter().peekable();
-    let mut factors = Vec::with_capacity(term.factors.len());
-    for &(variable, exponent) in &term.factors {
-        while divisor.next_if(|(other, _)| *other < variable).is_some() {}
-        let by = divisor.next_if(|(other, _)| *other == variable).map_or(0, |&(_, by)| by);
-        if exponent > by {
-            factors.push((variable, exponent - by));
-        }
-    }
-    SlotTerm { factors, slot: term.slot }
+    term.factors.retain_mut(|(variable, exponent)| {
+        while divisor.next_if(|(other, _)| *other < *variable).is_some() {}
+        let by = divisor.next_if(|(other, _)| *other == *variable).map_or(0, |&(_, by)| by);
+        *exponent = exponent.saturating_sub(by);
+        *exponent > 0
+    });
 }
 
 /// The product of powers, or `None` for the empty product.
@@ -140,6 +139,13 @@ fn content(terms: &[SlotTerm]) -> Vec<(u32, u32)> {
     content
 }
 
+/// In how many terms a variable is, and its lowest exponent there.
+struct Occurrence {
+    variable: u32,
+    count: usize,
+    lowest: u32,
+}
+
 /// Greedy Horner (Ceberio and Kreinovich 2004): take out what all terms share, then split on the
 /// variable that occurs in most terms.
 fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
@@ -148,9 +154,7 @@ fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
     }
     let content = content(&terms);
     if let Some(factor) = monomial(graph, &content) {
-        for term in &mut terms {
-            *term = divide(term, &content);
-        }
+        terms.iter_mut().for_each(|term| divide(term, &content));
         let rest = horner(graph, terms);
         return graph.mul(factor, rest);
     }
@@ -159,22 +163,26 @@ fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
     }
     // No common factor and at least two distinct monomials: some variable splits the terms. How
     // many terms it occurs in, and its lowest exponent there:
-    let mut occurrences: BTreeMap<u32, (usize, u32)> = BTreeMap::new();
+    let mut occurrences: Vec<Occurrence> = Vec::new();
     for &(variable, exponent) in terms.iter().flat_map(|term| &term.factors) {
-        let (count, lowest) = occurrences.entry(variable).or_insert((0, exponent));
-        *count += 1;
-        *lowest = (*lowest).min(exponent);
+        match occurrences.iter_mut().find(|other| other.variable == variable) {
+            Some(known) => {
+                known.count += 1;
+                known.lowest = known.lowest.min(exponent);
+            }
+            None => occurrences.push(Occurrence { variable, count: 1, lowest: exponent }),
+        }
     }
-    // Of equal counts the first variable, which comes last.
-    let most = occurrences.into_iter().rev().max_by_key(|&(_, (count, _))| count);
-    let Some((variable, (_, lowest))) = most else {
+    // Of equal counts the first variable.
+    let most = occurrences.iter().max_by_key(|own| (own.count, Reverse(own.variable)));
+    let Some(&Occurrence { variable, lowest, .. }) = most else {
         // Equal monomials twice (not normalised input): add them up.
         let slots: Vec<Id> = terms.iter().map(|t| graph.slot(t.slot)).collect();
         return slots.into_iter().reduce(|a, b| graph.add(a, b)).unwrap_or_else(|| graph.zero());
     };
     let has = |term: &SlotTerm| term.factors.iter().any(|&(other, _)| other == variable);
-    let (with, without): (Vec<_>, Vec<_>) = terms.into_iter().partition(has);
-    let with = with.iter().map(|term| divide(term, &[(variable, lowest)])).collect();
+    let (mut with, without): (Vec<_>, Vec<_>) = terms.into_iter().partition(has);
+    with.iter_mut().for_each(|term| divide(term, &[(variable, lowest)]));
     let input = graph.input(variable as usize);
     let power = graph.power(input, lowest);
     let quotient = horner(graph, with);
