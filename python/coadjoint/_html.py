@@ -30,7 +30,7 @@ def _rows(rows: list[tuple[str, str]]) -> str:
 
 
 def system(system: System) -> str:
-    """A table of what the system is."""
+    """A table of what the system is, and the level curves of H where momenta lie on spheres."""
 
     def code(text: str) -> str:
         return f"<code>{escape(text)}</code>"
@@ -46,7 +46,90 @@ def system(system: System) -> str:
         rows.append(("frame", "comoving"))
     if facts["splitting"]:
         rows.append(("potential", f"kicks by {escape(facts['splitting'])}"))
-    return f"<b>{escape(system.name)}</b>{_rows(rows)}"
+    return f"<b>{escape(system.name)}</b>{_rows(rows)}{_sphere(system)}"
+
+
+# Cells of the grid on which level curves of H are found, on a side; how many curves; the picture's radius and margin.
+_CELLS, _LEVELS, _RADIUS, _MARGIN = 48, 9, 80, 28
+# Where the eye is: elevation and azimuth in degrees, as in the pictures of matplotlib.
+_VIEW = (25, 40)
+
+
+def _sphere(system: System) -> str:
+    """The level curves of H on the sphere |μ| = 1, where momenta lie on spheres: what every motion follows."""
+    if system.group not in ("SO3", "SU2"):
+        return ""
+    try:
+        import sympy
+    except ImportError:
+        return ""
+    up, turned = np.radians(_VIEW)
+    right = np.array([-np.sin(turned), np.cos(turned), 0.0])
+    eye = np.array([np.cos(up) * np.cos(turned), np.cos(up) * np.sin(turned), np.sin(up)])
+    frame = np.array([right, np.cross(eye, right), eye])
+    # A little beyond the rim, so that curves reach it.
+    side = np.linspace(-1.0, 1.0, _CELLS + 1) * (1 + 1 / _CELLS)
+    u, v = np.meshgrid(side, side)
+    length = np.maximum(np.hypot(u, v), 1.0)
+    seen = np.stack([u / length, v / length, np.sqrt(np.maximum(1 - u**2 - v**2, 0))], axis=-1)
+    place = seen @ frame
+    symbols = [sympy.Symbol(name) for name in system.coordinates]
+    energy = sympy.lambdify(symbols, system.hamiltonian, "numpy")
+    values = np.array(np.broadcast_to(energy(*np.moveaxis(place, -1, 0)), u.shape), dtype=float)
+    inside = np.hypot(u, v) <= 1
+    if not np.isfinite(values).all() or np.ptp(values[inside]) < 1e-12 * np.abs(values).max():
+        return ""
+    size = 2 * (_RADIUS + _MARGIN)
+    middle = size / 2
+
+    def at(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+        return middle + _RADIUS * x, middle - _RADIUS * y
+
+    curves = []
+    for level in np.quantile(values[inside], (np.arange(_LEVELS) + 0.5) / _LEVELS):
+        ends = [at(x, y) for x, y in _crossings(side, values - level)]
+        pieces = zip(*[np.round(part, 1) for end in ends for part in end], strict=True)
+        path = "".join(f"M{a:g} {b:g}L{c:g} {d:g}" for a, b, c, d in pieces)
+        curves.append(f'<path d="{path}"/>')
+    axes = []
+    for name, direction in zip(system.coordinates, frame.T, strict=True):
+        foot, tip, word = (at(r * direction[0], r * direction[1]) for r in (1.0, 1.18, 1.3))
+        colour = "#333" if direction[2] >= 0 else "#aaa"
+        axes.append(
+            f'<line x1="{foot[0]:.1f}" y1="{foot[1]:.1f}" x2="{tip[0]:.1f}" y2="{tip[1]:.1f}" stroke="{colour}"/>'
+            f'<text x="{word[0]:.1f}" y="{word[1] + 3:.1f}" text-anchor="middle" fill="{colour}">{escape(name)}</text>'
+        )
+    title = "level curves of H on a sphere of momenta"
+    return (
+        f'<div><svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}" viewBox="0 0 {size} {size}" '
+        f'font-family="sans-serif" font-size="11" role="img" aria-label="{title}"><title>{title}</title>'
+        f'<rect width="100%" height="100%" fill="white"/><clipPath id="coadjoint-rim"><circle cx="{middle}" '
+        f'cy="{middle}" r="{_RADIUS}"/></clipPath><circle cx="{middle}" cy="{middle}" r="{_RADIUS}" fill="#f4f6f8" '
+        f'stroke="#999"/><g clip-path="url(#coadjoint-rim)" fill="none" stroke="{_COLOURS[0]}">'
+        f'{"".join(curves)}</g>{"".join(axes)}</svg></div>'
+    )
+
+
+def _crossings(side: Floats, values: Floats) -> list[tuple[Floats, Floats]]:
+    """Both ends of the straight pieces on which numbers on a square grid are 0: each cell is two triangles."""
+    x, y = np.meshgrid(side, side)
+    points = np.stack([x, y, values], axis=-1)
+    a, b, c, d = points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]
+    corners = np.concatenate([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)]).reshape(-1, 3, 3)
+    above = corners[..., 2] > 0
+    cut = above.any(axis=1) & ~above.all(axis=1)
+    corners, above = corners[cut], above[cut]
+    # The corner that is alone on its side, and the two others.
+    alone = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), (~above).argmax(axis=1))
+    row = np.arange(len(corners))
+    apex = corners[row, alone]
+    ends = []
+    for step in (1, 2):
+        other = corners[row, (alone + step) % 3]
+        share = (apex[:, 2] / (apex[:, 2] - other[:, 2]))[:, None]
+        end = apex[:, :2] + share * (other[:, :2] - apex[:, :2])
+        ends.append((end[:, 0], end[:, 1]))
+    return ends
 
 
 def run(run: Run) -> str:

@@ -61,6 +61,19 @@ def test_notebooks_show_tables_and_pictures(body: ca.System) -> None:
     assert "1/3*x^2" in body._repr_html_() and "SO3" in body._repr_html_()
 
 
+def test_notebooks_show_the_sphere_of_a_system(body: ca.System) -> None:
+    html = body._repr_html_()
+    tree = ET.fromstring("<svg" + html.split("<svg")[1].split("</svg>")[0] + "</svg>")
+    curves = [node for node in tree.iter() if node.tag.endswith("path")]
+    assert len(curves) == 9 and all(curve.attrib["d"].startswith("M") for curve in curves)
+    # H = x²/3 + y²/4 + z²/5 and its axes: every piece of the curves lies within the rim's square.
+    numbers = [float(n) for curve in curves for n in curve.attrib["d"].replace("M", " ").replace("L", " ").split()]
+    assert min(numbers) >= 22 and max(numbers) <= 194
+    # No sphere: no picture; one level only: none either.
+    assert "<svg" not in ca.System("SE3", "m1^2", coordinates="m1 m2 m3 p1 p2 p3")._repr_html_()
+    assert "<svg" not in ca.System("SO3", "x^2 + y^2 + z^2", coordinates="x y z")._repr_html_()
+
+
 def test_frames_have_the_columns_of_the_command(body: ca.System) -> None:
     frame = body.simulate([2, 0.5, 1], time=1, step=0.1).to_frame()
     assert list(frame.columns[:5]) == ["time", "x", "y", "z", "g_11"] and len(frame) == 11

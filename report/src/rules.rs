@@ -11,7 +11,7 @@ h3{font-size:1.2rem;margin:1.8em 0 .3em}
 p,dl,ul{max-width:78ch}
 a{color:var(--s0)}
 .settings{color:var(--faint);font-size:.9rem;margin:.1em 0 .6em}
-.settings span{white-space:nowrap}
+.settings span{display:inline-block;max-width:100%}
 sup,sub{line-height:0;font-size:.75em}
 dl{display:grid;grid-template-columns:9em 1fr;gap:.25em 1em;margin:.6em 0}
 dt{font-weight:600;color:var(--faint)}

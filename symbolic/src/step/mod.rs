@@ -1,7 +1,7 @@
 //! A whole step as straight-line programs, ready for any target.
 //!
 //! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
-//! chart: closed forms for SO(3), SU(2), SE(2), SE(3) and the Heisenberg group, series by tables for all others, products
+//! chart: closed forms for SO(3), SU(2), SE(2), SE(3), the Heisenberg group and translations, series by tables for all others, products
 //! factor by factor. The test that accepts a step is the runtime's (`docs/book/src/guarantee.md`), with sufficient conditions in
 //! place of eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other
 //! means.
@@ -15,6 +15,7 @@ mod programs;
 mod rotation;
 mod solving;
 mod tables;
+mod translations;
 mod unitriangular;
 mod vector;
 
@@ -31,6 +32,7 @@ use product::Product;
 use rotation::Rotation;
 use solving::Scheme;
 use tables::Tables;
+use translations::Translations;
 use unitriangular::Unitriangular;
 
 /// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
@@ -204,6 +206,9 @@ fn part(
     }
     if is("Heisenberg") {
         return Ok(Box::new(Unitriangular));
+    }
+    if is(&format!("R{}", algebra.dim())) {
+        return Ok(Box::new(Translations { dim: algebra.dim() }));
     }
     match Tables::new(algebra, chart, reach, slope) {
         Some(tables) => Ok(Box::new(tables)),
