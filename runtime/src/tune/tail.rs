@@ -43,6 +43,9 @@ const SHORT_STEPS: usize = 2;
 /// Factors that differ from one by more than this together tell of terms that do not fall.
 const FAR: f64 = 0.5;
 
+/// What may be left of the errors for factors to be taken.
+const SHARE: f64 = 0.5;
+
 /// The factors of the terms S_k that sum the tail of a series: what `tuned` of a generated
 /// integrator uses. Far from the motions it was made for the map is of the same order, and as
 /// geometric, but no longer better than the plain series.
@@ -100,8 +103,8 @@ impl<T: Scalar> Tail<T> {
 
     /// The tail for motions that start with `momenta`, at three of the first nine steps of each.
     /// `series` makes the generating function Σ factor(k) S_k for given factors. Where the terms do not
-    /// fall fast enough to tell, where 64 steps in a row along the motions (up to eight of them) do not err by
-    /// half as much at most, and for K < 5, all factors are one: the series is then the plain one
+    /// fall fast enough to tell, where 256 steps in a row along the motions (up to eight of them), or single steps as far
+    /// again, do not err by half as much at most, and for K < 5, all factors are one: the series is then the plain one
     /// ([`Tail::is_plain`]).
     ///
     /// # Errors
@@ -154,7 +157,7 @@ impl<T: Scalar> Tail<T> {
         let one = T::of(1.0);
         let tail = Self { factors: shares.map(|share| (one + share).select(tells, one)), ..none };
         let summed = series(&|k| tail.factor(k));
-        let better = is_better(&whole, &summed, |mu| exact_increment(&short, mu), &motions);
+        let better = is_better(&whole, &summed, |mu| exact_increment(&short, mu), &motions, SHARE);
         Ok(Self { factors: tail.factors.map(|factor| factor.select(better, one)), ..none })
     }
 }

@@ -40,6 +40,8 @@ const EQUATIONS: usize = 2;
 const MIN_SAMPLES: usize = 5;
 /// One in so many samples is left out of the fit, to judge it.
 const UNSEEN: usize = 5;
+/// What may be left of the errors for a fit to be taken.
+const SHARE: f64 = 0.1;
 /// Steps over which a motion is followed at most: some seconds of work.
 const MAX_STEPS: f64 = 1e6;
 
@@ -116,9 +118,9 @@ impl From<crate::Stopped> for FitError {
 ///
 /// As geometric as the series itself, and as fast; along the motions it is as accurate as a
 /// truncation higher by some six. Near them it is about as accurate as near; far from them it may be
-/// less accurate than the series. Where the fit does not hold at samples that were left out of it, or does not halve
-/// the error of 64 steps in a row from the given momenta (of up to eight of them), the integrator is the series as
-/// it was ([`Fit::unseen`] then equals [`Fit::before`]).
+/// less accurate than the series. Where the fit does not hold at samples that were left out of it, or does not leave
+/// a tenth of the error of 256 steps in a row from the given momenta (of up to eight of them) and of single steps as far
+/// again, the integrator is the series as it was ([`Fit::unseen`] then equals [`Fit::before`]).
 ///
 /// ```
 /// use coadjoint::{Phase, SO3, tune::fit, lie_poisson};
@@ -180,7 +182,7 @@ where
     let before = error(&whole, &unseen);
     let (fitted, at_unseen) = (error(&integrator, &seen), error(&integrator, &unseen));
     let exact = |mu: &V| by_halves(&half, mu);
-    let holds = at_unseen < before && is_better(&whole, &integrator, exact, &motions);
+    let holds = at_unseen < before && is_better(&whole, &integrator, exact, &motions, SHARE);
     let guesses = guess_error(&integrator, &unseen) <= guess_error(&whole, &unseen);
     let integrator = match (holds, guesses) {
         (true, true) => integrator,
