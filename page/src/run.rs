@@ -1,5 +1,6 @@
 //! A run: our steps and the rival's side by side, and how far each has drifted.
 
+use coadjoint_codegen::step::{Scratch, Spatial};
 use coadjoint_program::{Program, Stepper};
 
 use crate::history::{History, Sample};
@@ -33,7 +34,7 @@ pub struct Run {
     /// μ and μ̇ after each step, ours and the rival's.
     trail: [Vec<f64>; 2],
     start: Start,
-    spatial: Program,
+    spatial: Spatial,
     history: History,
     /// Why there is no next step.
     pub refusal: Option<Refusal>,
@@ -87,7 +88,7 @@ impl Run {
             rival_rate: rate,
             trail: [Vec::new(), Vec::new()],
             start,
-            spatial: system.step.spatial(),
+            spatial: Spatial::new(&system.step),
             history: History::default(),
             refusal: None,
         };
@@ -226,7 +227,7 @@ impl Run {
 
     fn record(&mut self, system: &System) {
         let n = self.now.mu.len();
-        let ours = self.drift(system, &self.now.mu, &self.our_spatial(system));
+        let ours = self.drift(system, &self.now.mu, &self.our_spatial());
         let rival = self.drift(system, &self.rival[..n], &system.rival.spatial(&self.rival));
         self.history.push(Sample { time: self.time(), drifts: [ours, rival] });
     }
@@ -247,21 +248,11 @@ impl Run {
         ]
     }
 
-    fn our_spatial(&self, system: &System) -> Vec<f64> {
+    fn our_spatial(&self) -> Vec<f64> {
         let State { g, mu, .. } = &self.now;
-        let mut inverse = vec![0.0; g.len()];
-        for (start, rows) in system.step.inverted() {
-            let block =
-                nalgebra::DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
-            let found = block
-                .try_inverse()
-                .unwrap_or_else(|| nalgebra::DMatrix::from_element(rows, rows, f64::NAN));
-            inverse[start..start + rows * rows].copy_from_slice(found.transpose().as_slice());
-        }
-        let input: Vec<f64> = g.iter().chain(&inverse).chain(mu).copied().collect();
-        let mut out = vec![0.0; mu.len()];
-        self.spatial.run(&input, &system.slots, &mut Vec::new(), &mut out);
-        out
+        let mut momentum = vec![0.0; mu.len()];
+        self.spatial.momentum(g, mu, &mut Scratch::default(), &mut momentum);
+        momentum
     }
 }
 

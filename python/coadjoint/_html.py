@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._arrays import Floats
+from ._sphere import VIEW, energies, frame, levels
 
 if TYPE_CHECKING:
     from .results import Run
@@ -51,33 +52,27 @@ def system(system: System) -> str:
 
 # Cells of the grid on which level curves of H are found, on a side; how many curves; the picture's radius and margin.
 _CELLS, _LEVELS, _RADIUS, _MARGIN = 48, 9, 80, 28
-# Where the eye is: elevation and azimuth in degrees, as in the pictures of matplotlib.
-_VIEW = (25, 40)
 
 
 def _sphere(system: System) -> str:
     """The level curves of H on the sphere |μ| = 1, where momenta lie on spheres: what every motion follows."""
     if system.group not in ("SO3", "SU2"):
         return ""
-    try:
-        import sympy
-    except ImportError:
-        return ""
-    up, turned = np.radians(_VIEW)
-    right = np.array([-np.sin(turned), np.cos(turned), 0.0])
-    eye = np.array([np.cos(up) * np.cos(turned), np.cos(up) * np.sin(turned), np.sin(up)])
-    frame = np.array([right, np.cross(eye, right), eye])
+    axes_seen = frame(VIEW)
     # A little beyond the rim, so that curves reach it.
     side = np.linspace(-1.0, 1.0, _CELLS + 1) * (1 + 1 / _CELLS)
     u, v = np.meshgrid(side, side)
     length = np.maximum(np.hypot(u, v), 1.0)
     seen = np.stack([u / length, v / length, np.sqrt(np.maximum(1 - u**2 - v**2, 0))], axis=-1)
-    place = seen @ frame
-    symbols = [sympy.Symbol(name) for name in system.coordinates]
-    energy = sympy.lambdify(symbols, system.hamiltonian, "numpy")
-    values = np.array(np.broadcast_to(energy(*np.moveaxis(place, -1, 0)), u.shape), dtype=float)
+    try:
+        values = energies(system, *np.moveaxis(seen @ axes_seen, -1, 0))
+    except ImportError:
+        return ""
     inside = np.hypot(u, v) <= 1
-    if not np.isfinite(values).all() or np.ptp(values[inside]) < 1e-12 * np.abs(values).max():
+    if not np.isfinite(values).all():
+        return ""
+    chosen = levels(values[inside], _LEVELS)
+    if not len(chosen):
         return ""
     size = 2 * (_RADIUS + _MARGIN)
     middle = size / 2
@@ -86,13 +81,13 @@ def _sphere(system: System) -> str:
         return middle + _RADIUS * x, middle - _RADIUS * y
 
     curves = []
-    for level in np.quantile(values[inside], (np.arange(_LEVELS) + 0.5) / _LEVELS):
+    for level in chosen:
         ends = [at(x, y) for x, y in _crossings(side, values - level)]
         pieces = zip(*[np.round(part, 1) for end in ends for part in end], strict=True)
         path = "".join(f"M{a:g} {b:g}L{c:g} {d:g}" for a, b, c, d in pieces)
         curves.append(f'<path d="{path}"/>')
     axes = []
-    for name, direction in zip(system.coordinates, frame.T, strict=True):
+    for name, direction in zip(system.coordinates, axes_seen.T, strict=True):
         foot, tip, word = (at(r * direction[0], r * direction[1]) for r in (1.0, 1.18, 1.3))
         colour = "#333" if direction[2] >= 0 else "#aaa"
         axes.append(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._arrays import Floats
+from ._sphere import VIEW, energies, frame, levels as levels_of
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -131,7 +132,7 @@ def orbit(
     *,
     levels: int = 12,
     figure: Figure | None = None,
-    view: tuple[float, float] = (25, 40),
+    view: tuple[float, float] = VIEW,
 ) -> Figure:
     """The orbit of a momentum with three coordinates on its sphere; with the ``system``, the level curves of H too.
 
@@ -149,7 +150,11 @@ def orbit(
     axes = figure.subplots()
     axes.set_aspect("equal")
     axes.axis("off")
-    project = _projection(view)
+    seen = frame(view).T
+
+    def project(points: Floats) -> Floats:
+        return points @ seen
+
     circle = np.linspace(0, 2 * np.pi, 361)
     axes.fill(radius * np.cos(circle), radius * np.sin(circle), color="#f4f6f8", zorder=0)
     axes.plot(radius * np.cos(circle), radius * np.sin(circle), color="0.6", linewidth=0.8)
@@ -171,14 +176,6 @@ def orbit(
     return figure
 
 
-def _projection(view: tuple[float, float]) -> Any:
-    up, round_ = np.radians(view)
-    right = np.array([-np.sin(round_), np.cos(round_), 0.0])
-    eye = np.array([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)])
-    frame = np.array([right, np.cross(eye, right), eye])
-    return lambda points: points @ frame.T
-
-
 def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
     """A curve on the sphere: solid in front, dashed behind."""
     front = points[:, 2] >= 0
@@ -192,19 +189,15 @@ def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
 def _level_curves(system: System, radius: float, levels: int) -> list[Floats]:
     """The curves of equal energy on the sphere, from a grid of longitude and latitude."""
     import matplotlib.pyplot as plt
-    import sympy
 
-    symbols = [sympy.Symbol(name) for name in system.coordinates]
-    energy = sympy.lambdify(symbols, system.hamiltonian, "numpy")
     longitude, latitude = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(-np.pi / 2, np.pi / 2, 181))
-    place = _place(radius, longitude, latitude)
-    values = np.broadcast_to(energy(*place), longitude.shape)
-    if np.ptp(values) < 1e-12 * np.abs(values).max():
+    values = energies(system, *_place(radius, longitude, latitude))
+    chosen = levels_of(values, levels)
+    if not len(chosen):
         return []
-    chosen = np.quantile(values, (np.arange(levels) + 0.5) / levels)
     scratch = plt.figure()
     try:
-        found = scratch.subplots().contour(longitude, latitude, values, np.unique(chosen))
+        found = scratch.subplots().contour(longitude, latitude, values, chosen)
         curves = [part for level in found.allsegs for part in level if len(part) > 1]
     finally:
         plt.close(scratch)

@@ -4,11 +4,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::{REACH, Scratch, Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
 use super::restore::{entries_of, phase_of};
-use super::{Interpreter, Restore, Scratch, Spatial};
+use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
@@ -156,7 +156,7 @@ impl Compiled {
 
     /// Writes the spatial momentum Ad\*_g μ of a state.
     pub fn spatial_momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
-        self.programs.spatial.momentum(state, scratch, momentum);
+        self.programs.spatial.momentum(&state.g, &state.mu, scratch, momentum);
     }
 
     /// A state as the group has it.

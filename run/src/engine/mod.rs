@@ -8,7 +8,6 @@ mod interpreter;
 mod kick;
 mod polynomial;
 mod restore;
-mod spatial;
 mod steep;
 
 pub use advise::advise;
@@ -19,7 +18,6 @@ pub use interpreter::Interpreter;
 pub use kick::{Forces, Torque};
 pub use polynomial::{Energy, FloatPolynomial};
 pub use restore::{Restore, entries_of, phase_of};
-pub use spatial::{Scratch, Spatial};
 pub use steep::{STEEP, Steepness};
 
 use std::ops::Range;

@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::step::Scratch;
 use coadjoint_device::Card;
 use coadjoint_program::{Precision, Trajectories};
 use nalgebra::DVector;
@@ -18,8 +19,7 @@ use super::layout::{Layout, Shape};
 use super::pack::{Manner, march};
 use super::rows::{Rejected, Rows, Stopped};
 use crate::engine::{
-    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Scratch, Steepness, advise, entries_of,
-    phase_of,
+    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
 use crate::error::RunError;
 

@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 
 use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
+use coadjoint_codegen::step::Scratch;
 use nalgebra::DVector;
 
 use super::schedule::Schedule;
-use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, Scratch, entries_of};
+use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, entries_of};
 use crate::number::maximum;
 
 /// A state as it is watched.
@@ -89,7 +90,8 @@ pub trait Mover<G: Group>: Seen {
 
 /// Steps made one by one, by what makes a single one from the time given.
 pub struct OneByOne<'a, G: Group, F> {
-    at: (&'a G, Phase<G>),
+    group: &'a G,
+    phase: Phase<G>,
     schedule: &'a Schedule,
     step: F,
 }
@@ -101,12 +103,12 @@ where
 {
     /// By these steps.
     pub fn new(group: &'a G, schedule: &'a Schedule, step: F) -> Self {
-        let start = Phase::<G>::new(group.identity(), DVector::zeros(group.dim()));
-        Self { at: (group, start), schedule, step }
+        let phase = Phase::<G>::new(group.identity(), DVector::zeros(group.dim()));
+        Self { group, phase, schedule, step }
     }
 
     fn seen(&self) -> At<'_, G> {
-        At { group: self.at.0, phase: &self.at.1 }
+        At { group: self.group, phase: &self.phase }
     }
 }
 
@@ -115,7 +117,7 @@ where
     F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
 {
     fn momentum(&self) -> &DVector<f64> {
-        &self.at.1.momentum
+        &self.phase.momentum
     }
 
     fn spatial_momentum(&self) -> DVector<f64> {
@@ -136,21 +138,21 @@ where
     F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
 {
     fn place(&mut self, phase: Phase<G>, _own: Option<Vec<f64>>) {
-        self.at.1 = phase;
+        self.phase = phase;
     }
 
     fn advance(&mut self, first: u64, count: u64) -> Result<Made, (u64, StepError)> {
         let mut total = Made::default();
         for done in 0..count {
             let time = self.schedule.time(first + done);
-            let made = (self.step)(time, &mut self.at.1).map_err(|error| (done, error))?;
+            let made = (self.step)(time, &mut self.phase).map_err(|error| (done, error))?;
             total.worse(made);
         }
         Ok(total)
     }
 
     fn phase(&self) -> Phase<G> {
-        self.at.1.clone()
+        self.phase.clone()
     }
 
     fn own(&self) -> Option<Vec<f64>> {

@@ -119,13 +119,11 @@ pub(super) fn is_better<S: Integrator + Predict>(
     let zero = ScalarOf::<S>::of(0.0);
     let (mut along, mut later) = ([zero; 2], [zero; 2]);
     for start in motions.iter() {
-        match errors_along(plain, chosen, &exact, start) {
-            Some((more, after)) => {
-                along = from_fn(|n| along[n] + more[n]);
-                later = from_fn(|n| later[n] + after[n]);
-            }
-            None => return zero.simd_gt(zero),
-        }
+        let Some((more, after)) = errors_of(plain, chosen, &exact, start) else {
+            return zero.simd_gt(zero);
+        };
+        along = from_fn(|n| along[n] + more[n]);
+        later = from_fn(|n| later[n] + after[n]);
     }
     // Of the sums of squares.
     let share = ScalarOf::<S>::of(share * share);
@@ -138,8 +136,15 @@ pub(super) fn is_better<S: Integrator + Predict>(
 /// Sums of the squares of the errors of both maps, for what is not a number stays in them.
 type Errors<S> = [ScalarOf<S>; 2];
 
+/// The square of how far apart two elements are, of the first its inverse; none where that is beyond the chart. The momentum
+/// is the group action on that at the start, so its error follows from this one.
+fn apart<G: LieGroup>(group: &G, inverse: &G::Element, found: &G::Element) -> Option<G::Scalar> {
+    let apart = group.log(&group.compose(inverse, found))?;
+    Some(apart.pairing(&apart))
+}
+
 /// The errors along the motion from `start`, and those of single steps later on; none where a step fails.
-fn errors_along<S: Integrator + Predict>(
+fn errors_of<S: Integrator + Predict>(
     plain: &S,
     chosen: &S,
     exact: &impl Fn(&VectorOf<S>) -> Result<Moved<S>, StepError>,
@@ -156,9 +161,7 @@ fn errors_along<S: Integrator + Predict>(
         for ((map, at), error) in [plain, chosen].into_iter().zip(&mut tried).zip(&mut errors) {
             let (increment, end) = step(map, &at.1).ok()?;
             *at = (group.compose(&at.0, &increment), end);
-            // The momentum is the group action on that at the start, so its error follows from this one.
-            let apart = group.log(&group.compose(&inverse, &at.0))?;
-            *error += apart.pairing(&apart);
+            *error += apart(group, &inverse, &at.0)?;
         }
     }
     Some((errors, errors_later(plain, chosen, exact, truth.1)?))
@@ -177,8 +180,7 @@ fn errors_later<S: Integrator + Predict>(
         if number % LOOK == 0 {
             let inverse = group.inverse(&exact(&mu).ok()?.0);
             for (map, error) in [plain, chosen].into_iter().zip(&mut errors) {
-                let apart = group.log(&group.compose(&inverse, &step(map, &mu).ok()?.0))?;
-                *error += apart.pairing(&apart);
+                *error += apart(group, &inverse, &step(map, &mu).ok()?.0)?;
             }
         }
         mu = about_onwards(plain, &mu).ok()?;

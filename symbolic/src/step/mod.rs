@@ -1,10 +1,10 @@
 //! A whole step as straight-line programs, ready for any target.
 //!
 //! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
-//! chart: closed forms for SO(3), SU(2), SE(2), SE(3), the Heisenberg group and translations, series by tables for all others, products
-//! factor by factor. The test that accepts a step is the runtime's (`docs/book/src/guarantee.md`), with sufficient conditions in
-//! place of eigenvalues: what the programs refuse may still be a right step, which whoever drives them finds by other
-//! means.
+//! chart: closed forms for SO(3), SU(2), SE(2), SE(3), the Heisenberg group and translations, series by tables for all
+//! others, products factor by factor. The test that accepts a step is the runtime's (`docs/book/src/guarantee.md`), with
+//! sufficient conditions in place of eigenvalues: what the programs refuse may still be a right step, which whoever drives
+//! them finds by other means.
 
 mod entire;
 mod motion;
@@ -14,6 +14,8 @@ mod product;
 mod programs;
 mod rotation;
 mod solving;
+#[cfg(feature = "spatial")]
+mod spatial;
 mod tables;
 mod translations;
 mod unitriangular;
@@ -31,6 +33,8 @@ use plane::Plane;
 use product::Product;
 use rotation::Rotation;
 use solving::Scheme;
+#[cfg(feature = "spatial")]
+pub use spatial::{Scratch, Spatial};
 use tables::Tables;
 use translations::Translations;
 use unitriangular::Unitriangular;

@@ -1,10 +1,9 @@
 //! The spatial momentum of states as the programs have them.
 
-use coadjoint_codegen::step::Step;
-use coadjoint_program::Program;
 use nalgebra::DMatrix;
 
-use super::Numbers;
+use super::Step;
+use crate::graph::Program;
 
 /// g, μ ↦ Ad\*_g μ, by a program of its own.
 #[derive(Debug)]
@@ -23,13 +22,14 @@ pub struct Scratch {
 
 impl Spatial {
     /// Of the states of this step.
+    #[must_use]
     pub fn new(step: &Step) -> Self {
         Self { program: step.spatial(), inverted: step.inverted() }
     }
 
-    /// Writes the spatial momentum of a state; NaN where a matrix has no inverse.
-    pub fn momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
-        let Numbers { g, mu } = state;
+    /// Writes the spatial momentum of the state with these numbers of the group element and this μ; NaN where a matrix has no
+    /// inverse.
+    pub fn momentum(&self, g: &[f64], mu: &[f64], scratch: &mut Scratch, momentum: &mut [f64]) {
         let Scratch { inputs, nodes } = scratch;
         inputs.clear();
         inputs.extend_from_slice(g);
