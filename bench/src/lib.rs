@@ -18,3 +18,6 @@ pub mod peers;
 pub mod problem;
 pub mod report;
 pub mod state;
+
+#[cfg(test)]
+mod tests;

@@ -241,7 +241,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for CayleyBody<T> {
         type Group = ::coadjoint::groups::SO3<T>;
         type Chart = ::coadjoint::Cayley;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SO3<T> {
             const { &<::coadjoint::groups::SO3<T>>::new() }
         }
@@ -322,7 +322,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t16, t24, t32])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p1 = input[0];
@@ -401,7 +401,7 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn radius(&self) -> T {
             self.radius
         }
@@ -421,7 +421,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for CayleyBody<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -566,7 +566,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t50, t92, t133])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict_after(&self, last: &Vector<T>, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let twice_even = {
@@ -675,7 +675,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for CayleyBody<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for CayleyBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

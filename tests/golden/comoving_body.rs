@@ -283,7 +283,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for ComovingBody<T> {
         type Group = ::coadjoint::groups::SE3<T>;
         type Chart = ::coadjoint::Exponential;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SE3<T> {
             const { &<::coadjoint::groups::SE3<T>>::new() }
         }
@@ -383,7 +383,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t8, t14, t24, t29, t34, t42])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p3 = input[2];
@@ -496,7 +496,7 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn frame(
             &self,
             motion: usize,
@@ -545,7 +545,7 @@ const _: () = {
             }
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn radius(&self) -> T {
             self.radius
         }
@@ -565,7 +565,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for ComovingBody<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict_increment(
             &self,
             input: &Vector<T>,
@@ -702,7 +702,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ComovingBody<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ComovingBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

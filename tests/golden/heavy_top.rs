@@ -270,7 +270,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for HeavyTop<T> {
         type Group = ::coadjoint::groups::SE3<T>;
         type Chart = ::coadjoint::Exponential;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SE3<T> {
             const { &<::coadjoint::groups::SE3<T>>::new() }
         }
@@ -348,7 +348,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t7, t13, t20, t23, t26, c[10]])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p2 = input[1];
@@ -420,7 +420,7 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn radius(&self) -> T {
             self.radius
         }
@@ -440,7 +440,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for HeavyTop<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -759,7 +759,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t46, t89, t127, t185, t243, t301])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict_after(&self, last: &Vector<T>, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let twice_even = {
@@ -974,7 +974,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for HeavyTop<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
         }
@@ -982,7 +982,7 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for HeavyTop<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

@@ -268,7 +268,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for Learned<T> {
         type Group = ::coadjoint::groups::SO3<T>;
         type Chart = ::coadjoint::Exponential;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SO3<T> {
             const { &<::coadjoint::groups::SO3<T>>::new() }
         }
@@ -384,7 +384,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t19, t36, t55])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p1 = input[0];
@@ -496,7 +496,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for Learned<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -869,7 +869,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for Learned<T> {}
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for Learned<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

@@ -256,7 +256,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for RigidBody<T> {
         type Group = ::coadjoint::groups::SO3<T>;
         type Chart = ::coadjoint::Exponential;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SO3<T> {
             const { &<::coadjoint::groups::SO3<T>>::new() }
         }
@@ -421,7 +421,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t34, t61, t92])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p2 = input[1];
@@ -647,7 +647,7 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn radius(&self) -> T {
             self.radius
         }
@@ -667,7 +667,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for RigidBody<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -838,7 +838,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t55, t107, t159])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict_after(&self, last: &Vector<T>, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let twice_even = {
@@ -951,7 +951,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for RigidBody<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn newton_model(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p2 = input[1];
@@ -1124,12 +1124,12 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn hessian_defect(&self, size: T) -> T {
             ::coadjoint::plumbing::polynomial(&self.defect, size)
         }
@@ -1137,7 +1137,7 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for RigidBody<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

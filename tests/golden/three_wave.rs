@@ -242,7 +242,7 @@ const _: () = {
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for ThreeWave<T> {
         type Group = ::coadjoint::groups::SL2<T>;
         type Chart = ::coadjoint::Exponential;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn group(&self) -> &::coadjoint::groups::SL2<T> {
             const { &<::coadjoint::groups::SL2<T>>::new() }
         }
@@ -297,7 +297,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t7, t14, t19])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn gradient_and_hessian(&self, input: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let c = &self.coefficients;
             let p2 = input[1];
@@ -354,7 +354,7 @@ const _: () = {
             (gradient, hessian)
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn radius(&self) -> T {
             self.radius
         }
@@ -374,7 +374,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::Predict for ThreeWave<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict(&self, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let mu1 = input[0];
@@ -428,7 +428,7 @@ const _: () = {
             <Vector<T> as From<_>>::from([t12, t27, t42])
         }
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn predict_after(&self, last: &Vector<T>, input: &Vector<T>) -> Vector<T> {
             let c = &self.coefficients;
             let twice_even = {
@@ -477,7 +477,7 @@ const _: () = {
     }
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::solve::NewtonModel for ThreeWave<T> {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn bend(&self, x: T) -> T {
             x * x * T::of(0.25)
         }
@@ -485,7 +485,7 @@ const _: () = {
 
     impl<T: ::coadjoint::Scalar> ::coadjoint::Integrator for ThreeWave<T> {
         type Method = ::coadjoint::solve::Newton<Self>;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
             seldom(&::core::clone::Clone::clone(self))
         }

@@ -29,7 +29,7 @@ pub fn generating_function(
         let scope = scope.of(Meaning::Hessian(all));
         let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gradient_and_hessian(&self, input: &#vector) -> (#vector, #matrix) {
                 let c = &self.coefficients;
                 #function
@@ -43,14 +43,14 @@ pub fn generating_function(
     let predictor = vector_function(&integrator.predictor, vector, &scope.of(guess));
     let predictor = match integrator.plan.predictor {
         Predictor::Explicit(_) => quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn predict(&self, input: &#vector) -> #vector {
                 let c = &self.coefficients;
                 #predictor
             }
         },
         Predictor::Flow(_) => quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn predict_increment(&self, input: &#vector) -> ::core::option::Option<#vector> {
                 let c = &self.coefficients;
                 ::core::option::Option::Some({ #predictor })
@@ -60,7 +60,7 @@ pub fn generating_function(
     let continuation = integrator.continuation.as_ref().map(|program| {
         let twice_even = vector_function(program, vector, &scope.of(Meaning::EvenGuess));
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn predict_after(&self, last: &#vector, input: &#vector) -> #vector {
                 let c = &self.coefficients;
                 let twice_even = { #twice_even };
@@ -72,7 +72,7 @@ pub fn generating_function(
         let scope = scope.of(Meaning::Hessian(kept));
         let function = hessian_function(program, *dim, vector, matrix, &scope);
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn newton_model(&self, input: &#vector) -> (#vector, #matrix) {
                 let c = &self.coefficients;
                 #function
@@ -97,7 +97,7 @@ pub fn generating_function(
             quote!(#part => ::core::option::Option::Some({ #function }),)
         });
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn frame(&self, motion: usize, input: &#vector) -> ::core::option::Option<#vector> {
                 let c = &self.coefficients;
                 match motion {
@@ -111,7 +111,7 @@ pub fn generating_function(
     let of_chart = integrator.problem.is_quadratic() && integrator.problem.comoving.is_none();
     let bend = of_chart.then(|| {
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn bend(&self, x: T) -> T {
                 x * x * T::of(0.25)
             }
@@ -119,7 +119,7 @@ pub fn generating_function(
     });
     let defect = (!integrator.defect.is_empty()).then(|| {
         quote! {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn hessian_defect(&self, size: T) -> T {
                 #krate::plumbing::polynomial(&self.defect, size)
             }
@@ -139,7 +139,7 @@ pub fn generating_function(
     let judged =
         (integrator.coefficients.last_terms(integrator.problem.truncation) > 0).then(|| {
             quote! {
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn radius(&self) -> T {
                     self.radius
                 }
@@ -164,7 +164,7 @@ pub fn generating_function(
             type Group = #group;
             type Chart = #chart;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn group(&self) -> &#group {
                 const { &<#group>::new() }
             }
@@ -214,7 +214,7 @@ fn method(
             impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
                 type Method = #krate::solve::#method;
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn apart<R>(&self, seldom: impl ::core::ops::FnOnce(&Self) -> R) -> R {
                     seldom(&::core::clone::Clone::clone(self))
                 }
@@ -259,7 +259,7 @@ fn lagged_model(
         quote! {
             #wide_registers
             impl<T: #krate::Scalar> #krate::solve::BlockModel for #name<T> {
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn linearise(
                     &self,
                     mu: &#vector,
@@ -270,7 +270,7 @@ fn lagged_model(
                     #krate::plumbing::linearise::<T, #name<f64>, #slots, #n>(c, mu, substeps, found)
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn refine(&self, found: &mut #krate::solve::LinearisedOf<Self>) -> bool {
                     #krate::plumbing::refine::<T, #name<f64>, #slots, #n>(&self.coefficients, found)
                 }
@@ -279,13 +279,13 @@ fn lagged_model(
     });
     quote! {
         impl<T: #krate::Scalar> #krate::solve::LaggedModel for #name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn coarse_gradient(&self, input: &#vector) -> #vector {
                 let c = &self.coefficients;
                 #coarse
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fine_gradient(&self, p: &#vector) -> #vector {
                 let fine = <Self as #krate::plumbing::FinePart<T, #slots, #n>>::fine(
                     &self.coefficients,
@@ -294,7 +294,7 @@ fn lagged_model(
                 ::core::convert::Into::into(fine)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn leading_product(&self, p: &#vector, direction: &#vector) -> #vector {
                 let c = &self.coefficients;
                 let input: [T; #both] =
@@ -317,7 +317,7 @@ fn fine_part(program: &Program, name: &Ident, dim: usize, scope: &Scope) -> Toke
     let slots = Literal::usize_unsuffixed(*slots);
     quote! {
         impl<C: #krate::Scalar> #krate::plumbing::FinePart<C, #slots, #dim> for #name<C> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fine<T: #krate::Scalar + #krate::plumbing::Lift<C>>(
                 c: &[C; #slots],
                 input: &[T; #dim],
@@ -371,31 +371,31 @@ fn wide_step(
     Some(quote! {
         #wide_registers
         impl<C: #krate::Scalar> #krate::plumbing::WideStep<C, #slots, #dim> for #name<C> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn onwards<T: #number>(c: &[C; #slots], mu: &#vector, steps: T) -> #vector {
                 let input: &[T; #more] =
                     &::core::array::from_fn(|i| if i < #dim { mu[i] } else { steps });
                 #onwards
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn around<T: #number>(c: &[C; #slots], input: &#vector) -> [#vector; 2] {
                 #statements
                 [#(#outputs),*]
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn pulled_back<T: #krate::Scalar>(x: &#vector, mu: &#vector) -> (#vector, #matrix) {
                 let group = const { &<#group>::new() };
                 <#chart as #krate::Chart<#group>>::pull_back_with_derivative(#chart, group, x, mu)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn coarse<T: #number>(c: &[C; #slots], input: &#vector) -> (#vector, #matrix) {
                 #coarse
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fine<T: #number>(c: &[C; #slots], input: &#vector) -> #vector {
                 #fine
             }

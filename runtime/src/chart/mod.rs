@@ -38,7 +38,7 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
     ) -> (G::Vector, Matrix<G>);
 
     /// About ∂p/∂x·v, the change of p = (d^R τ_x)ᵀ μ where x moves by v; ½ ad\*_v p if not more.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back_change(
         self,
         group: &G,
@@ -81,7 +81,7 @@ impl<G: LieGroup> Chart<G> for Exponential {
     const NAME: &'static str = "exp";
     const CHANGE_ORDER: u32 = 2;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
         group.exp_transport(x, mu)
     }
@@ -96,12 +96,12 @@ impl<G: LieGroup> Chart<G> for Exponential {
         group.log(g)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dexp_transpose(x, mu)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back_with_derivative(
         self,
         group: &G,
@@ -113,7 +113,7 @@ impl<G: LieGroup> Chart<G> for Exponential {
 
     // ½ ad*_v μ + (ad*_v ad*_x + ad*_x ad*_v) μ/6 = (1 + ad*_x/3) ½ ad*_v (μ + ad*_x μ/3), where
     // ad*_x μ is 2 (p − μ) to second order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back_change(
         self,
         group: &G,
@@ -129,7 +129,7 @@ impl<G: LieGroup> Chart<G> for Exponential {
         G::Vector::from_entries(v.dim(), |i| again[i].times_plus(third, turned[i]))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
         group.dexp_inverse_transpose(x, p)
     }
@@ -138,7 +138,7 @@ impl<G: LieGroup> Chart<G> for Exponential {
 impl<G: CayleyGroup> Chart<G> for Cayley {
     const NAME: &'static str = "cayley";
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
         group.cayley_transport(x, mu)
     }
@@ -153,12 +153,12 @@ impl<G: CayleyGroup> Chart<G> for Cayley {
         group.cayley_inverse(g)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dcay_transpose(x, mu)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back_with_derivative(
         self,
         group: &G,
@@ -168,7 +168,7 @@ impl<G: CayleyGroup> Chart<G> for Cayley {
         group.dcay_transpose_with_derivative(x, mu)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
         group.dcay_inverse_transpose(x, p)
     }

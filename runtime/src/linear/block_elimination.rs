@@ -13,7 +13,7 @@ const SIDE: usize = 3;
 /// Replaces the matrix by its factors: on the diagonal the inverses of the pivots, below the blocks
 /// that eliminate, above what is left of the matrix. The last pivot is kept as its adjugate, and the
 /// inverse of its determinant returned: so the solve need not wait for that division.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn factor<T: Scalar, M>(n: usize, a: &mut M) -> T
 where
     M: IndexMut<(usize, usize), Output = T>,
@@ -54,7 +54,7 @@ where
 }
 
 /// Solves by the factors and what [`factor`] returned, in place.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve<T: Scalar, M, V>(n: usize, a: &M, last: T, b: &mut V)
 where
     M: Index<(usize, usize), Output = T>,

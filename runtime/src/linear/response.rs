@@ -16,7 +16,7 @@ type Tile<T> = [[T; SIDE]; SIDE];
 ///
 /// Tiles are not pivoted: 1 − H D is near the identity. A singular one gives entries that are not finite.
 // Written out: in loops the tiles would go through memory.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn response<T: Scalar, const N: usize>(
     hessian: &SMatrix<T, N, N>,
     derivative: &SMatrix<T, N, N>,
@@ -69,7 +69,7 @@ fn unit<T: Scalar>(on: T) -> Tile<T> {
 }
 
 /// a·b
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn product<T: Scalar>(a: &Tile<T>, b: &Tile<T>) -> Tile<T> {
     let entry = |i: usize, j: usize| {
         a[i][2].times_plus(b[2][j], a[i][1].times_plus(b[1][j], a[i][0] * b[0][j]))
@@ -79,7 +79,7 @@ fn product<T: Scalar>(a: &Tile<T>, b: &Tile<T>) -> Tile<T> {
 }
 
 /// from − a·b
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn less<T: Scalar>(from: &Tile<T>, a: &Tile<T>, b: &Tile<T>) -> Tile<T> {
     let entry = |i: usize, j: usize| {
         let first = (-a[i][0]).times_plus(b[0][j], from[i][j]);
@@ -104,7 +104,7 @@ fn less_applied<T: Scalar>(from: &[T; SIDE], a: &Tile<T>, v: &[T; SIDE]) -> [T; 
 }
 
 /// By cofactors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inverse<T: Scalar>(a: &Tile<T>) -> Tile<T> {
     let cross = |u: &[T; SIDE], v: &[T; SIDE]| {
         let entry = |i: usize, j: usize| (-u[j]).times_plus(v[i], u[i] * v[j]);

@@ -131,7 +131,7 @@ impl<S: BlockModel + ?Sized> Method<S> for BlockNewton<S> {
         Self { block: None }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn propose(
         &mut self,
         generating: &S,
@@ -206,7 +206,7 @@ impl<S: BlockModel + ?Sized> Block<S> {
     }
 
     /// The next step, where it can be made in a block.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn propose(
         &mut self,
         generating: &S,
@@ -251,7 +251,7 @@ impl<S: BlockModel + ?Sized> Block<S> {
     }
 
     /// A step as linearised, for `mu`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn follow(
         &self,
         generating: &S,

@@ -69,7 +69,7 @@ impl<S: Predict + ?Sized> Method<S> for FixedPoint {
 }
 
 /// A step by the fixed point from this guess, of a multiple of S where a scale is given.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

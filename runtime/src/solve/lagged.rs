@@ -104,7 +104,7 @@ impl<V> Start<V> {
 }
 
 /// A step by [`LaggedNewton`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn lagged_newton<S: LaggedModel + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

@@ -130,7 +130,7 @@ pub struct Solution<V, T> {
 ///
 /// # Errors
 /// Any [`StepError`]: what `advance` would refuse.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -144,7 +144,7 @@ pub fn solve<S: Integrator + ?Sized>(
 ///
 /// # Errors
 /// As [`solve`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve_from<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

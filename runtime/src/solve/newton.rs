@@ -132,7 +132,7 @@ impl<S: NewtonModel + Predict + ?Sized> Method<S> for Newton<S> {
 }
 
 /// A step by Newton's method from this guess, and its p.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn newton<S: NewtonModel + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

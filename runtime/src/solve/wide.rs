@@ -58,7 +58,7 @@ fn numbers<'a, C: Scalar, const SLOTS: usize, const N: usize>(
 }
 
 /// [`BlockModel::linearise`](super::BlockModel::linearise) where numbers are `f64`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn linearise<C, P, const SLOTS: usize, const N: usize>(
     c: &[C; SLOTS],
     mu: &V<C, N>,
@@ -76,7 +76,7 @@ where
 }
 
 /// The steps in the lanes of one number, however wide registers are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
     mu: &V<f64, N>,
@@ -118,7 +118,7 @@ pub fn linearise_in_lanes<P, const SLOTS: usize, const N: usize>(
 }
 
 /// [`BlockModel::refine`](super::BlockModel::refine) where numbers are `f64`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn refine<C, P, const SLOTS: usize, const N: usize>(
     c: &[C; SLOTS],
     found: &mut Linearised<V<C, N>, M<C, N>, C>,
@@ -133,7 +133,7 @@ where
 }
 
 /// The same in lanes, however wide registers are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn refine_in_lanes<P, const SLOTS: usize, const N: usize>(
     c: &[f64; SLOTS],
     found: &mut Found<N>,

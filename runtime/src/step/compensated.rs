@@ -71,7 +71,7 @@ impl<G: CompensatedGroup> Moves<G> for CompensatedPhase<G> {
         &self.phase.momentum
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn move_by(&mut self, group: &G, k: &G::Element, _: G::Vector) {
         let change = group.momentum_change(k, &self.phase.momentum);
         for i in 0..change.dim() {
@@ -90,7 +90,7 @@ impl<G: CompensatedGroup> Moves<G> for CompensatedPhase<G> {
 ///
 /// # Errors
 /// [`StepError`]; `state` is then left as it was.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn advance_compensated<S>(
     generating: &S,
     state: &mut CompensatedPhase<S::Group>,

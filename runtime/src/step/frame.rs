@@ -7,7 +7,7 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// Moves a comoving frame on by so many steps; whether there is one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn move_frame<S, M>(generating: &S, state: &mut M, steps: u64) -> bool
 where
     S: GeneratingFunction + ?Sized,

@@ -16,7 +16,7 @@ use crate::solve::{Candidate, CandidateOf, Integrator, Method, Settings, is_righ
 pub(crate) const STEPS_PER_BLOCK: u64 = 256;
 
 /// The steps of [`advance_by`](super::advance_by).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn march<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
@@ -38,7 +38,7 @@ pub(super) fn march<S: Integrator + ?Sized>(
 }
 
 /// So many steps, at most [`STEPS_PER_BLOCK`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn block<S: Integrator + ?Sized>(
     generating: &S,
     method: &mut S::Method,
@@ -94,7 +94,7 @@ fn rescued<S: Integrator + ?Sized>(
 
 /// Moves the frame of the state that so many steps have led to from `phase`, and checks it; where it is not sound, finds
 /// the step that was not.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn finish<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,

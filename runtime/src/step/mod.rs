@@ -70,7 +70,7 @@ pub fn advance<S: Integrator + ?Sized>(
 ///
 /// # Errors
 /// As [`advance`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn advance_with<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
@@ -112,7 +112,7 @@ pub fn advance_by_with<S: Integrator + ?Sized>(
 }
 
 /// One step of whatever moves; it is left as it was where there is none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn single<S: Integrator + ?Sized, M: Moves<S::Group>>(
     generating: &S,
     state: &mut M,
@@ -144,7 +144,7 @@ fn rescued<S: Integrator + ?Sized, M: Moves<S::Group>>(
 }
 
 /// Moves a state by an accepted step, and checks what comes of it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn complete<S: Integrator + ?Sized, M: Moves<S::Group>>(
     generating: &S,
     state: &mut M,
@@ -163,7 +163,7 @@ fn complete<S: Integrator + ?Sized, M: Moves<S::Group>>(
 ///
 /// # Errors
 /// [`StepError::OffGroup`] and [`StepError::Overflow`]; `phase` is then left as it was.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn reconstruct<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,

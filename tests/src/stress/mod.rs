@@ -84,7 +84,10 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
 /// Families in the order of their instances, each as often as its weight says, spread evenly.
 fn schedule(families: &[Family], options: &Options) -> Vec<usize> {
     if options.even || options.instance.is_some() {
-        return (0..families.len()).collect();
+        // What takes longest goes first, or it is waited for at the end.
+        let mut order: Vec<_> = (0..families.len()).collect();
+        order.sort_by_key(|&family| families[family].weight);
+        return order;
     }
     let mut places: Vec<(f64, usize)> = Vec::new();
     for (family, of) in families.iter().enumerate() {

@@ -6,7 +6,7 @@ use coadjoint_tests::stress::{Options, report, run};
 #[test]
 fn no_wrong_step_is_accepted() {
     let options = Options {
-        steps: 4_000,
+        steps: 2_688,
         seed: 20,
         only: String::new(),
         threads: 2,

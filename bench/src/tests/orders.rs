@@ -1,7 +1,7 @@
 //! Each peer converges to the exact motion with its own order: slopes of log error against log step.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint_bench::{
+use crate::{
     method::{Method, Setting},
     ours, peers,
     problem::{self, Problem},

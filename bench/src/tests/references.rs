@@ -3,7 +3,7 @@
 // Figures stand as they were handed down.
 #![allow(clippy::excessive_precision)]
 
-use coadjoint_bench::{
+use crate::{
     method::{Method, Setting},
     peers, problem,
     state::{Rotation, State},
@@ -30,9 +30,9 @@ fn body_a_ends_where_others_say() {
 #[test]
 fn shorter_runs_end_where_others_say() {
     let independent: Value =
-        serde_json::from_str(include_str!("../reference/independent.json")).unwrap();
+        serde_json::from_str(include_str!("../../reference/independent.json")).unwrap();
     let computed: Value =
-        serde_json::from_str(include_str!("../reference/end_states.json")).unwrap();
+        serde_json::from_str(include_str!("../../reference/end_states.json")).unwrap();
     let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     for given in independent.as_array().unwrap() {
         let entry = computed
