@@ -77,10 +77,20 @@ fn random_kernels_have_the_bits_of_the_interpreter() {
 }
 
 #[test]
-fn thousands_of_steps_and_operations_have_the_bits_of_the_interpreter() {
+fn thousands_of_steps_have_the_bits_of_the_interpreter() {
+    thousands(&[(20, 600), (21, 600)]);
+}
+
+/// So many that they are printed in pieces.
+#[test]
+fn thousands_of_operations_have_the_bits_of_the_interpreter() {
+    thousands(&[(22, 4000)]);
+}
+
+/// Kernels of these seeds and lengths.
+fn thousands(kernels: &[(u64, usize)]) {
     let mut met = Met::default();
-    // The last is long enough to be printed in pieces.
-    for (seed, length) in [(20, 600), (21, 600), (22, 4000)] {
+    for &(seed, length) in kernels {
         let kernel = kernel(seed, [4, 4, 2], length, true, 0.0);
         compare(&kernel, &compiled(&kernel), seed, 3000, &mut met);
     }

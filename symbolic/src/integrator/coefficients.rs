@@ -1,6 +1,6 @@
 //! Coefficients of a step: numbers once the step size and the parameters are known.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use num_traits::ToPrimitive;
 
@@ -161,6 +161,14 @@ impl Coefficients {
             .enumerate()
             .filter(move |(_, (_, order))| truncation > 1 && order + 2 >= truncation)
             .map(|(number, (base, order))| (number, order, base))
+    }
+
+    /// The coordinates on which S₃ … S_K depend.
+    #[must_use]
+    pub fn beyond_first(&self) -> BTreeSet<usize> {
+        let series = self.bases.iter().zip(&self.monomials);
+        let beyond = series.filter(|(parts, _)| parts.iter().any(|term| term.step_power > 1));
+        beyond.flat_map(|(_, factors)| factors.iter().map(|&(i, _)| i as usize)).collect()
     }
 
     /// The value of every part for a step size and symbol values.

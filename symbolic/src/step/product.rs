@@ -1,5 +1,6 @@
 //! Direct products, factor by factor.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::graph::{Graph, Id};
@@ -28,6 +29,12 @@ impl Product {
         let places: Vec<_> = self.0.iter().map(|part| factor(part.as_ref())).collect();
         let factors = self.0.iter().zip(places);
         factors.map(|(part, (own, element))| Factor { part: part.as_ref(), own, element }).collect()
+    }
+
+    /// The coordinates of those factors that have one of these.
+    pub fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<usize> {
+        let factors = self.factors().into_iter().map(|factor| factor.own);
+        factors.filter(|own| own.clone().any(|i| coordinates.contains(&i))).flatten().collect()
     }
 
     /// The rows of a factor's matrices.

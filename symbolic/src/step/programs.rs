@@ -6,8 +6,8 @@ use num_traits::ToPrimitive;
 use super::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::solving::{Scheme, tolerance};
-use super::vector::{all_at_most, dot, finite};
+use super::solving::{Scheme, square_of_series, tolerance};
+use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
 use crate::lie;
@@ -47,7 +47,7 @@ pub fn kernel(
     let programs = Programs {
         guess,
         correct,
-        accept: accept(group, base + bound_len, precision),
+        accept: accept(integrator, group, base + bound_len, precision),
         transport: transport(group),
         frame: frame(integrator, group)?,
         sound: sound(group, precision),
@@ -60,7 +60,12 @@ pub fn kernel(
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.
-fn accept(group: &Product, radius: usize, precision: Precision) -> Program {
+fn accept(
+    integrator: &Integrator,
+    group: &Product,
+    radius: usize,
+    precision: Precision,
+) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -68,7 +73,7 @@ fn accept(group: &Product, radius: usize, precision: Precision) -> Program {
     let (tolerance, near) = (graph.constant(tolerance(precision)), graph.constant(NEAR));
     let extent = group.extent(&mut graph, &x);
     let one = graph.constant(1.0);
-    let square = dot(&mut graph, &mu, &mu);
+    let square = square_of_series(&mut graph, integrator, group, &mu);
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     let (series, others) = (inverse_square(group.estimated()), inverse_square(OF_OTHERS));

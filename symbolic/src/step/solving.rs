@@ -79,6 +79,19 @@ impl Scheme {
     }
 }
 
+/// |μ|², as far as it says how S₃ … S_K converge: without the factors of the group on which they do not depend, such as
+/// the translations of a free body.
+pub fn square_of_series(
+    graph: &mut Graph,
+    integrator: &Integrator,
+    group: &Product,
+    mu: &[Id],
+) -> Id {
+    let coordinates = group.whole_factors(&integrator.coefficients.beyond_first());
+    let mu: Vec<Id> = coordinates.into_iter().map(|i| mu[i]).collect();
+    dot(graph, &mu, &mu)
+}
+
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
 /// largest coordinate of μ.
 fn start(
@@ -100,7 +113,7 @@ fn start(
     let inverse_scale = graph.div(one, scale);
     let mut bound = graph.zero();
     if bound_len > 0 {
-        let square = dot(graph, mu, mu);
+        let square = square_of_series(graph, integrator, group, mu);
         let size = graph.sqrt(square);
         for degree in (0..bound_len).rev() {
             let coefficient = graph.slot(base + degree);

@@ -62,6 +62,23 @@ fn compare<G, C>(
     watched(name, &step, &slots, &momentum(n, 0.9), &mu, &g);
 }
 
+/// A body in space may move as fast as it likes: of its translation the series knows only the first term.
+#[test]
+fn momenta_beyond_the_radius_are_those_that_the_series_depends_on() {
+    let steps = |hamiltonian: &str, first: f64, fourth: f64| {
+        let integrator = integrator("SO3*R3", hamiltonian, "exponential", 7);
+        let step = Step::build(&integrator, REACH).unwrap();
+        let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 5.0);
+        let mut g = step.element_of(DMatrix::<f64>::identity(7, 7).as_slice());
+        let mut mu = [first, 0.5, 0.7, fourth, 1.0, 2.0];
+        step.kernel().advance(&slots, &mut g, &mut mu, 20).steps
+    };
+    let body = "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8";
+    assert_eq!(steps(body, 0.9, 1e3), 20);
+    assert_eq!(steps(body, 6.0, 1.0), 0);
+    assert_eq!(steps(&format!("{body} + a*d/9"), 0.9, 1e3), 0);
+}
+
 /// Lanes have the bits of scalars; one that is refused changes no neighbour.
 fn lanes(name: &str, step: &Step, slots: &[f64]) {
     let kernel = step.kernel();
