@@ -10,8 +10,6 @@ mod systems;
 #[path = "c_header/tools.rs"]
 mod tools;
 
-use std::path::Path;
-
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_program::{Scratch, Stepper};
 use systems::Built;
@@ -117,47 +115,36 @@ fn refusals(built: &Built, output: &str) {
     }
 }
 
+/// The bits under sanitizers are those of optimised code, and both are the interpreter's.
 #[test]
 fn headers_have_the_bits_of_the_interpreter() {
     let Some(gcc) = Tool::find("gcc") else { return };
     for built in systems::all() {
         let system = built.system;
         let folder = scratch(&format!("bits-{}", system.name));
+        let source = built.write_main(&folder);
+        let compile = |options: &[&str], program: &str| {
+            let program = folder.join(program);
+            let mut flags = FLAGS_C.to_vec();
+            flags.push("-ffp-contract=off");
+            flags.extend(options);
+            gcc.compile(&flags, &source, &program, &["-lm"]);
+            tools::output(&program, &[])
+        };
         let output = match system.language {
-            Language::C => run(&gcc, built, &folder, &[if system.large { "-O0" } else { "-O2" }]),
+            Language::C => compile(&[if system.large { "-O0" } else { "-O2" }], "fast"),
             Language::Cpp => built.by_class(&folder),
         };
         let Some(output) = output.into_iter().next() else { continue };
+        if system.language == Language::C && !system.large {
+            let checked =
+                ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+            let expected = std::slice::from_ref(&output);
+            assert_eq!(compile(&checked, "checked"), expected, "{}", system.name);
+        }
         compare(built, &output);
         refusals(built, &output);
     }
-}
-
-/// The bits under sanitizers are those of optimised code, for both are the interpreter's.
-#[test]
-fn headers_have_these_bits_under_sanitizers() {
-    let Some(gcc) = Tool::find("gcc") else { return };
-    let checked = ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
-    for built in systems::all() {
-        let system = built.system;
-        if system.language == Language::C && !system.large {
-            let folder = scratch(&format!("sanitizers-{}", system.name));
-            for output in run(&gcc, built, &folder, &checked) {
-                compare(built, &output);
-                refusals(built, &output);
-            }
-        }
-    }
-}
-
-/// The output of a system's program, compiled with these options.
-fn run(gcc: &Tool, built: &Built, folder: &Path, options: &[&str]) -> Vec<String> {
-    let source = built.write_main(folder);
-    let program = folder.join("program");
-    let flags: Vec<_> =
-        FLAGS_C.iter().chain(&["-ffp-contract=off"]).chain(options).copied().collect();
-    gcc.compile(&flags, &source, &program, &["-lm"]);
-    tools::output(&program, &[])
 }
 
 #[test]
