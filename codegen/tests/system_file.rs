@@ -145,6 +145,16 @@ fn mistakes() {
         "hamiltonian = \"a\"\n[algebra]\nbrackets = [\"[a, b] = a\"]\ngenerator = [\"a\", \"b\"]",
         "group = \"SO3\"\nhamiltonian = \"a\"\n[algebra]\nbrackets = []",
         "group = \"SO3\"\ncoordinates = [\"px\", \"py\", \"pz\"]\nhamiltonian = \"px\"\n[units]\ntimes = \"s\"\npy = 3\npz = \" \"\nmomentum = \"the unit in which this momentum was measured\"",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"log(x) + t*y + t*z\"",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2\"\npotential = \"-m*gee*g[2][2]\"\n[parameters]\nm = 1",
+        "group = \"SO3^6\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"sum(b, 0..9, Jx*x[P[b]]*x[Q[b]] + y[P[b]]*y[Q[b]] + z[P[b]])\"",
+        "hamiltonian = \"x\"\n[algebra]\ngenerators = [\"x\", \"y\"]\nbrackets = [\"[x, y] = x*y\"]",
+        "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = a\", \"[b, c] = sqrt(3)*b\", \"[c, a] = c\"]",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + inv(h)[0][0]*x + inv(J)*y\"\n[parameters]\na = \"b\"\nb = \"a\"\nh = [1, 2]\nJ = [[1, 1], [1, 1]]",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + y\"\n[initial]\nangular_velocity = [0, 0, \"1/0\"]\nquaternion = [1, 1, 0, 0]\nproject = 1",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + y\"\n[initial]\nangular_velocity = [0, 0, 1]",
+        "group = \"SL2\"\nhamiltonian = \"mu[0]^2\"\n[initial]\nmomentum = [1, 2, 3]\nangular_velocity = [0, 0, 1]\ntranslation = [1, 2, 3]\ngroup_element = [[1, 0], [0, 1]]\nproject = true",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + y\"\n[initial]\ngroup_element = [[1, 0, 0], [0, 1, 0], [0, 0.1, 1]]\nproject = true",
     ];
     let mut text = String::new();
     for case in cases {

@@ -34,6 +34,15 @@ pub enum Mistake {
     /// A name that is neither a coordinate nor a parameter: name, nearest, all known.
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
+    /// A name that is read as time.
+    #[error("unknown variable `{0}`: a system file cannot depend on time")]
+    Time(String),
+    /// The inverse of something that has none: the name.
+    #[error("`{0}` is not known")]
+    Inverse(String),
+    /// An index that is not an integer.
+    #[error("the index `{0}` is not an integer known here")]
+    Index(String),
     /// A function that does not exist: name, nearest.
     #[error("unknown function `{0}`{did}", did = did_you_mean(.1))]
     UnknownFunction(String, Option<String>),
@@ -69,9 +78,6 @@ pub enum Mistake {
     /// The momentum in an exponent.
     #[error("the momentum stands in an exponent: the Hamiltonian must be a polynomial in it")]
     MomentumInExponent,
-    /// A power of a parameter that is neither whole nor half-whole.
-    #[error("the power of a parameter expression must be a whole number or a half of one")]
-    ParameterPower,
     /// A power beyond the limit: power, limit.
     #[error("the power {0} is too large; at most {1} is allowed")]
     LargePower(String, u32),
@@ -204,6 +210,18 @@ impl Mistake {
         Self::Other(said, help.as_deref().map(words))
     }
 
+    /// Whether a name is wrong wherever it stands, so that one place is enough.
+    pub(super) fn is_of_a_name(&self) -> bool {
+        matches!(
+            self,
+            Self::UnknownVariable(..)
+                | Self::UnknownFunction(..)
+                | Self::Time(_)
+                | Self::Inverse(_)
+                | Self::Index(..)
+        )
+    }
+
     /// What to write instead, where there is more to say than the message does.
     #[must_use]
     pub fn help(&self) -> Option<String> {
@@ -226,6 +244,18 @@ impl Mistake {
             Self::UnknownVariable(_, _, known) => {
                 return Some(format!("known here: {}", list(known)));
             }
+            Self::Time(_) => {
+                "drive the system from Rust or Python: kicks between steps or parameters changed from step to step, \
+                 see docs/book/src/forces.md; a constant torque is a potential that is linear on R1"
+            }
+            Self::Inverse(_) => {
+                "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: inv(J)[0][1]; \
+                 kept as parameters, matrices have at most 3 rows"
+            }
+            Self::Index(..) => {
+                "an index is made of integers, indices of sums and parameters that are integers, with + - * % and \
+                 parentheses; such parameters cannot be kept"
+            }
             Self::UnknownFunction(..) => "known functions: sqrt, sin, cos, tan, exp, ln, abs",
             Self::FunctionWithoutArgument(name) => {
                 return Some(format!("write `{name}(…)` with parentheses"));
@@ -242,8 +272,7 @@ impl Mistake {
             Self::UnknownPower | Self::MomentumInExponent => {
                 "write the power as a whole number, such as x^2"
             }
-            Self::ParameterPower => "write a whole number, or `sqrt` for a half",
-            Self::NotReal(_) => "only real, finite coefficients make sense in a Hamiltonian",
+            Self::NotReal(_) => "numbers must be real and finite",
             Self::LargeCoefficient(_) => "write large powers of numbers out as decimals",
             Self::NoDependence => "the momentum's coordinates must occur in it",
             Self::TooManyTerms(..) => "lower the degree, or split the Hamiltonian",

@@ -50,10 +50,16 @@ impl Diagnostics {
         Self::default()
     }
 
-    /// Records a mistake, unless the very same one is already recorded at this place, or there are
-    /// a hundred already.
+    /// Records a mistake, unless the very same one is already recorded at this place, or in text at any place, or
+    /// there are a hundred already. Input that could not be read is no mistake beside those that say why.
     pub fn report(&mut self, span: Span, mistake: Mistake) {
-        let known = |d: &Diagnostic| d.mistake == mistake && d.span.same_place(span);
+        let repeated =
+            |d: &Diagnostic| mistake.is_of_a_name() && d.span.is_text() && span.is_text();
+        let known =
+            |d: &Diagnostic| d.mistake == mistake && (d.span.same_place(span) || repeated(d));
+        if mistake == Mistake::Unreadable && !self.list.is_empty() {
+            return;
+        }
         if self.list.len() < MOST && !self.list.iter().any(known) {
             self.list.push(Diagnostic { mistake, span });
         }

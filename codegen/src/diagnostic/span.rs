@@ -78,6 +78,10 @@ impl Span {
         }
     }
 
+    pub(super) fn is_text(self) -> bool {
+        matches!(self, Self::Text { .. })
+    }
+
     pub(super) fn syn_error(self, message: impl Display) -> syn::Error {
         match self {
             Self::Tokens { first, last } => {

@@ -1,7 +1,5 @@
 //! The expression as the user wrote it.
 
-use num_traits::ToPrimitive;
-
 use crate::diagnostic::Span;
 use crate::expr::Function;
 use crate::number::Rational;
@@ -109,28 +107,6 @@ impl Arena {
     #[must_use]
     pub fn span(&self, id: ExprId) -> Span {
         self.nodes[id.index()].1
-    }
-
-    /// The value of an expression in floating point; `None` if it has momenta or parameters.
-    #[must_use]
-    pub fn evaluate(&self, root: ExprId) -> Option<f64> {
-        let mut values: Vec<Option<f64>> = Vec::with_capacity(root.index() + 1);
-        for (node, _) in self.nodes.iter().take(root.index() + 1) {
-            let value = |id: &ExprId| values[id.index()];
-            let two = |a, b, apply: fn(f64, f64) -> f64| Some(apply(value(a)?, value(b)?));
-            values.push(match node {
-                Node::Number(number) => number.to_f64(),
-                Node::Coordinate(_) | Node::Parameter(_) | Node::Wrong => None,
-                Node::Neg(a) => value(a).map(|a| -a),
-                Node::Add(a, b) => two(a, b, |a, b| a + b),
-                Node::Sub(a, b) => two(a, b, |a, b| a - b),
-                Node::Mul(a, b) => two(a, b, |a, b| a * b),
-                Node::Div(a, b) => two(a, b, |a, b| a / b),
-                Node::Pow(a, b) => two(a, b, f64::powf),
-                Node::Call(function, a) => value(a).map(|a| function.apply(a)),
-            });
-        }
-        values.pop().flatten()
     }
 
     /// The nodes in their order, with identity and place.

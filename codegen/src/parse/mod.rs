@@ -11,3 +11,4 @@ mod token;
 pub use brackets::{Bracket, bracket};
 pub use decimal::{NumberError, decimal, rational};
 pub use names::{Name, Names};
+pub use token::words;

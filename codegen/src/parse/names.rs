@@ -15,13 +15,15 @@ pub enum Name {
     Parameter(usize),
     /// A number.
     Number(Rational),
+    /// An expression of other names.
+    Formula(String),
 }
 
 impl Name {
     fn describe(&self) -> &'static str {
         match self {
             Self::Coordinate(_) => "a coordinate of the momentum",
-            Self::Parameter(_) | Self::Number(_) => "a parameter",
+            Self::Parameter(_) | Self::Number(_) | Self::Formula(_) => "a parameter",
         }
     }
 }
@@ -35,6 +37,17 @@ pub struct Names {
 }
 
 impl Names {
+    /// No names.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self { known: BTreeMap::new(), order: Vec::new() }
+    }
+
+    /// Adds a second name of something, which messages do not list; nothing where the name is known already.
+    pub fn alias(&mut self, name: String, meaning: Name) {
+        self.known.entry(name).or_insert(meaning);
+    }
+
     /// Adds a name, or reports that it is no name or already taken.
     pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &mut Diagnostics) {
         if !is_name(name) {
@@ -51,6 +64,15 @@ impl Names {
         }
     }
 
+    /// Adds every name of others that is not known yet.
+    pub fn include(&mut self, others: &Self) {
+        let new = others.order.iter().filter(|name| !self.known.contains_key(*name)).cloned();
+        self.order.extend(new.collect::<Vec<_>>());
+        for (name, meaning) in &others.known {
+            self.alias(name.clone(), meaning.clone());
+        }
+    }
+
     /// What the name stands for.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Name> {
@@ -60,6 +82,12 @@ impl Names {
     /// The mistake of using a name that is not known.
     #[must_use]
     pub fn unknown(&self, name: &str) -> Mistake {
+        if matches!(name, "t" | "time") {
+            return Mistake::Time(name.to_owned());
+        }
+        if name.starts_with("inv(") {
+            return Mistake::Inverse(name.to_owned());
+        }
         let suggestion = nearest(name, self.order.iter().map(String::as_str));
         let suggestion = suggestion.map(str::to_owned);
         Mistake::UnknownVariable(name.to_owned(), suggestion, self.order.clone())

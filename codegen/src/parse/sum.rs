@@ -5,8 +5,12 @@ use std::iter::Peekable;
 use std::ops::Range;
 use std::str::Chars;
 
+use num_traits::ToPrimitive;
+
 use super::names::{Name, Names};
-use crate::number::integer;
+use super::token::bracketed;
+use crate::diagnostic::Mistake;
+use crate::number::{Rational, integer};
 
 /// The most terms one sum may have.
 pub(super) const MOST_TERMS: i64 = 10_000;
@@ -19,28 +23,38 @@ pub(super) struct Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// What a name stands for, its indices worked out; or the name that is not known.
-    pub fn get(&self, name: &str) -> Result<Name, String> {
+    /// The meaning of a name, its indices worked out.
+    ///
+    /// # Errors
+    /// The mistake of using it, where it is not known.
+    pub fn get(&self, name: &str) -> Result<Name, Mistake> {
         if let Some((_, value)) = self.indices.iter().find(|(index, _)| index == name) {
             return Ok(Name::Number(integer(*value)));
         }
-        let full = self.resolved(name).unwrap_or_else(|| name.to_owned());
-        self.names.get(&full).cloned().ok_or(full)
+        let full = self.resolved(name)?;
+        match self.names.get(&full) {
+            Some(meaning) => Ok(meaning.clone()),
+            None if full == "pi" => Ok(Name::Number(pi())),
+            None => Err(self.names.unknown(&full)),
+        }
     }
 
     /// `x[(i + 1) % 64]` as `x[1]` where i is 0.
-    fn resolved(&self, name: &str) -> Option<String> {
-        let mut parts = name.split('[');
-        let mut result = parts.next()?.to_owned();
-        for part in parts {
-            let value = self.integer(part.strip_suffix(']')?)?;
+    fn resolved(&self, name: &str) -> Result<String, Mistake> {
+        let (head, mut rest) = name.split_at(name.find('[').unwrap_or(name.len()));
+        let mut result: String = head.split_whitespace().collect();
+        while let Some(length) = bracketed(rest) {
+            let inside = &rest[1..length - 1];
+            let index = || Mistake::Index(inside.to_owned());
+            let value = self.integer(inside).ok_or_else(index)?;
             result.push_str(&format!("[{value}]"));
+            rest = &rest[length..];
         }
-        Some(result)
+        Ok(result)
     }
 
-    /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses; `%` is never
-    /// negative, so that `(i - 1) % 64` goes round a ring.
+    /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses, in indices of sums and
+    /// parameters that are integers; `%` is never negative, so that `(i - 1) % 64` goes round a ring.
     pub fn integer(&self, text: &str) -> Option<i64> {
         let mut reader = Reader { scope: self, rest: text.chars().peekable() };
         let value = reader.sum()?;
@@ -99,10 +113,31 @@ impl Reader<'_> {
                 word.push(c);
             }
             let index = self.scope.indices.iter().find(|(name, _)| *name == word);
-            index.map(|(_, value)| *value).or_else(|| word.parse().ok())?
+            match index.map(|(_, value)| *value).or_else(|| word.parse().ok()) {
+                Some(value) => value,
+                None => self.parameter(word)?,
+            }
         };
         if negative { value.checked_neg() } else { Some(value) }
     }
+
+    /// A parameter that is an integer, or such an entry of a list of numbers: `P[b]` in `x[P[b]]`.
+    fn parameter(&mut self, mut name: String) -> Option<i64> {
+        while self.next_of(&['[']).is_some() {
+            let at = self.sum()?;
+            self.next_of(&[']'])?;
+            name.push_str(&format!("[{at}]"));
+        }
+        match self.scope.names.get(&name)? {
+            Name::Number(value) if value.is_integer() => value.to_integer().to_i64(),
+            _ => None,
+        }
+    }
+}
+
+/// A fraction that agrees with π to 21 digits: more than any step computes with, and short.
+fn pi() -> Rational {
+    Rational::new(21_053_343_141_i64.into(), 6_701_487_259_i64.into())
 }
 
 /// The three arguments of a sum, as places in `text`.

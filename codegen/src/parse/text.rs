@@ -228,10 +228,15 @@ impl Parser<'_> {
             Ok(Name::Coordinate(i)) => Node::Coordinate(i),
             Ok(Name::Parameter(i)) => Node::Parameter(i),
             Ok(Name::Number(value)) => Node::Number(value),
+            Ok(Name::Formula(text)) => {
+                let scope = Scope { names: self.scope.names, indices: Vec::new() };
+                let root = parse_in(&text, 0, &scope, self.arena, self.diagnostics);
+                return self.operands.push((root, span));
+            }
             Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
-            Err(full) => return self.wrong(span, self.scope.names.unknown(&full)),
+            Err(mistake) => return self.wrong(span, mistake),
         };
         self.operand(node, span);
     }
@@ -247,7 +252,12 @@ impl Parser<'_> {
                 return;
             }
             let known = Function::ALL.map(Function::name);
-            let suggestion = nearest(&name, known).map(str::to_owned);
+            let suggestion = match name.as_str() {
+                "log" => Some("ln"),
+                "fabs" => Some("abs"),
+                name => nearest(name, known),
+            };
+            let suggestion = suggestion.map(str::to_owned);
             self.diagnostics.report(span, Mistake::UnknownFunction(name.clone(), suggestion));
         }
         let call = Some(Callee { name, function });

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::decimal::{NumberError, decimal};
-use super::names::{begins_name, continues_name};
+use super::names::{begins_name, continues_name, is_word};
 use crate::diagnostic::Mistake;
 use crate::number::Rational;
 
@@ -63,18 +63,44 @@ impl<'a> Tokens<'a> {
 
     fn name(&self) -> usize {
         let mut length = self.run(0, continues_name);
-        let bytes = self.rest().as_bytes();
-        while bytes.get(length) == Some(&b'[') {
-            // A number, or an expression in the indices of sums around.
-            let index = |c: char| c.is_alphanumeric() || "_+-*%() ".contains(c);
-            let inside = self.run(length + 1, index);
-            if inside == 0 || bytes.get(length + 1 + inside) != Some(&b']') {
-                break;
-            }
-            length += inside + 2;
+        let rest = self.rest();
+        // `inv(J)` is the name of a matrix.
+        if let Some(inside) = rest.strip_prefix("inv(")
+            && let Some((matrix, _)) = inside.split_once(')')
+            && is_word(matrix.trim())
+        {
+            length += matrix.len() + 2;
+        }
+        while let Some(inside) = bracketed(&rest[length..]) {
+            length += inside;
         }
         length
     }
+}
+
+/// The words of a text: names without their indices.
+pub fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+    let word = |c: char| !continues_name(c);
+    text.split(word).filter(|word| is_word(word)).map(str::to_owned)
+}
+
+/// The length of an index in brackets that `text` begins with: a number, or an expression in indices of sums and
+/// parameters.
+pub(super) fn bracketed(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (at, c) in text.char_indices() {
+        match c {
+            '[' => depth += 1,
+            ']' if depth == 1 => return (at > 1).then_some(at + 1),
+            ']' => depth -= 1,
+            _ if depth > 0 && (c.is_alphanumeric() || "_+-*%() ".contains(c)) => {}
+            _ => return None,
+        }
+        if depth == 0 {
+            return None;
+        }
+    }
+    None
 }
 
 impl Iterator for Tokens<'_> {

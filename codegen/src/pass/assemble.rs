@@ -275,6 +275,14 @@ pub fn frame(name: &str) -> Result<FrameChoice, Mistake> {
     })
 }
 
+/// The value of an expression in numbers alone, exact where it is rational; reports one that has none.
+pub fn constant(arena: &Arena, root: ExprId, diagnostics: &mut Diagnostics) -> Option<Rational> {
+    let mut table = Table::new();
+    let value = polynomial(arena, Some(root), &mut table, diagnostics)?.as_constant()?;
+    let value = table.value(&value);
+    value.map_err(|mistake| diagnostics.report(arena.span(root), mistake)).ok()
+}
+
 /// The components of an expression that must be Σ number · coordinate; reports it if it is not.
 pub fn linear(
     arena: &Arena,
@@ -285,12 +293,15 @@ pub fn linear(
     let sum = polynomial(arena, Some(root), &mut table, diagnostics)?;
     let mut components = Vec::new();
     for (monomial, coefficient) in sum.terms {
-        match (&monomial[..], coefficient.as_number()) {
-            (&[(coordinate, 1)], Some(number)) => components.push((coordinate, number.clone())),
+        match (&monomial[..], table.value(&coefficient)) {
+            (&[(coordinate, 1)], Ok(number)) => components.push((coordinate, number)),
             _ => {
-                let message = "a bracket must be a sum of numbers times generators".to_owned();
-                let help = Some("write for example \"[a, b] = 2*c - 1/2*a\"".to_owned());
-                diagnostics.report(arena.span(root), Mistake::Other(message, help));
+                let message =
+                    "a bracket must be linear: a sum of numbers times generators".to_owned();
+                let help = "write for example \"[a, b] = 2*c - 1/2*a\"; Poisson brackets that are not linear in the \
+                            coordinates (Lotka-Volterra, [x, y] = x*y) are those of no Lie algebra";
+                diagnostics
+                    .report(arena.span(root), Mistake::Other(message, Some(help.to_owned())));
                 return None;
             }
         }

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 
@@ -257,6 +258,39 @@ impl Table {
         self.atom(Atom::Call(function, a.clone()))
     }
 
+    /// base^power, by a root where that is exact or a square root, else by exp(power·ln base).
+    pub(super) fn root(
+        &mut self,
+        base: &Coefficient,
+        power: &Coefficient,
+    ) -> Result<Coefficient, Mistake> {
+        let whole = |value: &BigInt| value.to_i64().filter(|n| n.abs() <= HIGHEST_POWER);
+        let fraction = power.as_number().and_then(|p| Some((whole(p.numer())?, whole(p.denom())?)));
+        if let Some((n, 2)) = fraction {
+            let root = self.call(Function::Sqrt, base)?;
+            return self.power(&root, n);
+        }
+        if let (Some((n, degree)), Some(number)) = (fraction, base.as_number())
+            && let Some(root) = exact_root(number, degree as u32)
+        {
+            return self.power(&Coefficient::number(root), n);
+        }
+        let logarithm = self.call(Function::Ln, base)?;
+        let exponent = self.multiply(power, &logarithm)?;
+        self.call(Function::Exp, &exponent)
+    }
+
+    /// The value of a coefficient without parameters: exact where it is rational, else the number of floating point
+    /// nearest to it, to rounding.
+    pub(super) fn value(&self, a: &Coefficient) -> Result<Rational, Mistake> {
+        if let Some(number) = a.as_number() {
+            return Ok(number.clone());
+        }
+        let expression = self.scaled(&a.factor, a.product);
+        let value = expression.evaluate(&[]);
+        Rational::from_float(value).ok_or_else(|| Mistake::NotReal(expression.text(&[])))
+    }
+
     /// The product as an expression in parameters.
     pub(super) fn expression(&self, product: Product) -> ParameterExpr {
         let powers = &self.products[product];
@@ -347,14 +381,20 @@ fn limited(value: Rational) -> Result<Rational, Mistake> {
     Ok(value)
 }
 
+/// The root of this degree of a number from 0, if it is rational.
+fn exact_root(x: &Rational, degree: u32) -> Option<Rational> {
+    if x.is_negative() || degree == 0 {
+        return None;
+    }
+    let root = Rational::new(x.numer().nth_root(degree), x.denom().nth_root(degree));
+    (Pow::pow(&root, degree as i32) == *x).then_some(root)
+}
+
 /// Values that are rational numbers.
 fn exact(function: Function, x: &Rational) -> Option<Rational> {
     match function {
         Function::Abs => Some(x.abs()),
-        Function::Sqrt if !x.is_negative() => {
-            let root = Rational::new(x.numer().sqrt(), x.denom().sqrt());
-            (&root * &root == *x).then_some(root)
-        }
+        Function::Sqrt => exact_root(x, 2),
         Function::Sin | Function::Tan if x.is_zero() => Some(Rational::zero()),
         Function::Cos | Function::Exp if x.is_zero() => Some(Rational::one()),
         Function::Ln if x.is_one() => Some(Rational::zero()),

@@ -7,5 +7,5 @@ mod sums;
 
 pub use assemble::{
     DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, PotentialDraft, assemble, assemble_potential, chart,
-    check_chart, check_truncation, frame, linear, solver,
+    check_chart, check_truncation, constant, frame, linear, solver,
 };

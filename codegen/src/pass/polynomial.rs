@@ -6,8 +6,8 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::coefficient::{Coefficient, Table};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
-use crate::expr::{Arena, ExprId, Function, Node};
-use crate::number::{Rational, ratio};
+use crate::expr::{Arena, ExprId, Node};
+use crate::number::Rational;
 
 /// The highest degree of a Hamiltonian.
 const HIGHEST_DEGREE: u32 = 100;
@@ -35,7 +35,7 @@ impl Sum {
     }
 
     /// The value, if no coordinate occurs.
-    fn as_constant(&self) -> Option<Coefficient> {
+    pub(super) fn as_constant(&self) -> Option<Coefficient> {
         match self.terms.len() {
             0 => Some(Coefficient::number(Rational::zero())),
             1 => self.terms.get(&Monomial::new()).cloned(),
@@ -227,9 +227,9 @@ impl Pass<'_> {
     fn power(&mut self, base: &Sum, power: &Coefficient, span: Span) -> Option<Sum> {
         let constant = base.as_constant();
         let Some(number) = power.as_number() else {
-            let mistake =
-                if constant.is_some() { Mistake::ParameterPower } else { Mistake::UnknownPower };
-            return self.wrong(span, mistake);
+            let Some(base) = constant else { return self.wrong(span, Mistake::UnknownPower) };
+            let value = self.table.root(&base, power);
+            return self.checked(span, value).map(Sum::constant);
         };
         let whole = number.is_integer().then(|| number.numer().to_i64());
         let large = || Mistake::LargePower(number.to_string(), HIGHEST_DEGREE);
@@ -239,14 +239,7 @@ impl Pass<'_> {
                 self.checked(span, value).map(Sum::constant)
             }
             (Some(base), None) => {
-                let twice = number * ratio(2, 1);
-                let Some(n) = twice.is_integer().then(|| twice.numer().to_i64()).flatten() else {
-                    return self.wrong(span, Mistake::ParameterPower);
-                };
-                let value = self
-                    .table
-                    .call(Function::Sqrt, &base)
-                    .and_then(|root| self.table.power(&root, n));
+                let value = self.table.root(&base, power);
                 self.checked(span, value).map(Sum::constant)
             }
             (None, None) => self.wrong(span, Mistake::FractionalPower(number.to_string())),

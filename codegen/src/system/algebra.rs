@@ -5,6 +5,7 @@ use toml::de::DeValue;
 use super::table::{Table, matrix, span, wrong_kind};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix, catalogue};
+use crate::number::Rational;
 use crate::parse::{Name, Names, bracket};
 
 const BASIS: &str = "basis = [[[\"0\", \"-1\"], [\"1\", \"0\"]]]";
@@ -61,7 +62,7 @@ fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> O
     let mut places = Vec::new();
     for value in list {
         places.push(span(value));
-        if let Some(rows) = matrix("basis", value, BASIS, diagnostics) {
+        if let Some(rows) = matrix("basis", value, BASIS, table.constants, diagnostics) {
             matrices.push(RationalMatrix::from_rows(rows));
         }
     }
@@ -79,6 +80,7 @@ fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> O
         }
         None => (1..=matrices.len()).map(|i| format!("e{i}")).collect(),
     };
+    let rounded = matrices.iter().flat_map(RationalMatrix::entries).any(|(_, _, v)| rounded(v));
     match LieAlgebra::from_named_basis(name, names.clone(), matrices) {
         Ok(algebra) => Some(algebra),
         Err(error) => {
@@ -90,7 +92,7 @@ fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> O
             };
             let at = generator.and_then(|g| names.iter().position(|name| name == g));
             let place = at.and_then(|at| places.get(at).copied()).unwrap_or(whole);
-            diagnostics.report(place, Mistake::Algebra(error));
+            diagnostics.report(place, not_exact(error, rounded));
             None
         }
     }
@@ -115,6 +117,7 @@ fn by_brackets(
     for (i, (name, place)) in named.iter().enumerate() {
         names.add(name, Name::Coordinate(i), *place, diagnostics);
     }
+    names.include(table.constants);
     let mut brackets = Vec::new();
     for value in list {
         match value.get_ref() {
@@ -130,11 +133,27 @@ fn by_brackets(
         return None;
     }
     let generators = named.into_iter().map(|(name, _)| name).collect();
+    let rounded = brackets.iter().flat_map(|(_, _, terms)| terms).any(|(_, value)| rounded(value));
     match LieAlgebra::from_brackets(name, generators, brackets) {
         Ok(algebra) => Some(algebra),
         Err(error) => {
-            diagnostics.report(whole, Mistake::Algebra(error));
+            diagnostics.report(whole, not_exact(error, rounded));
             None
         }
     }
+}
+
+/// Whether a number is one of floating point, as roots are, and no fraction that somebody wrote.
+fn rounded(value: &Rational) -> bool {
+    value.denom().bits() > 40
+}
+
+/// The mistake that data are no algebra, which may be due to rounding.
+fn not_exact(error: LieAlgebraError, rounded: bool) -> Mistake {
+    if !rounded {
+        return Mistake::Algebra(error);
+    }
+    let help = "numbers such as sqrt(3) are rounded, while an algebra is checked exactly: scale the generators so that \
+                its numbers are rational";
+    Mistake::Other(error.to_string(), Some(help.to_owned()))
 }

@@ -1,16 +1,14 @@
-//! Coordinates, parameters and the Hamiltonian of a system file.
+//! Coordinates and the Hamiltonian of a system file.
 
-use toml::Spanned;
 use toml::de::DeValue;
 
-use super::table::{Table, exact, matrix, span, wrong_kind};
-use super::{Options, Parameters};
+use super::parameters::Parameters;
+use super::table::{Table, span, wrong_kind};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
 use crate::lie::LieAlgebra;
-use crate::number::Rational;
 use crate::parse::{Name, Names, text};
-use crate::problem::{Parameter, Shape};
+use crate::problem::Parameter;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
@@ -25,12 +23,12 @@ pub(super) struct Written {
     pub source: String,
 }
 
-/// Reads `coordinates`, `[parameters]` and `hamiltonian`.
+/// Reads `coordinates` and `hamiltonian`.
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
+    parameters: &Parameters,
     file: &str,
-    options: Options,
     diagnostics: &mut Diagnostics,
 ) -> Written {
     let mut names = Names::default();
@@ -38,10 +36,11 @@ pub(super) fn read(
     for (i, (name, place)) in coordinates.iter().enumerate() {
         names.add(name, Name::Coordinate(i), *place, diagnostics);
     }
-    let parameters = match root.table("parameters", diagnostics) {
-        Some(table) => parameters(&table, options.parameters, &mut names, diagnostics),
-        None => Vec::new(),
-    };
+    let kept = parameters.add_to(&mut names, diagnostics);
+    if names.get("mu").is_none() {
+        let dim = algebra.map_or(0, LieAlgebra::dim);
+        (0..dim).for_each(|i| names.alias(format!("mu[{i}]"), Name::Coordinate(i)));
+    }
     let mut arena = Arena::new();
     let mut source = String::new();
     let mut hamiltonian = None;
@@ -63,7 +62,7 @@ pub(super) fn read(
         None => {}
     }
     let coordinates = coordinates.into_iter().map(|(name, _)| name).collect();
-    Written { coordinates, coordinates_span, parameters, arena, hamiltonian, source }
+    Written { coordinates, coordinates_span, parameters: kept, arena, hamiltonian, source }
 }
 
 /// The names of the coordinates; those of the generators, or mu[0], mu[1], … where none are given.
@@ -104,57 +103,6 @@ pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
     let (_, copies) = algebra.name().rsplit_once('^')?;
     let copies = copies.parse().ok()?;
     (copies > 1 && each * copies == algebra.dim()).then_some(copies)
-}
-
-/// Reads `[parameters]` and adds their names to `names`.
-pub(super) fn parameters(
-    table: &Table<'_>,
-    treatment: Parameters,
-    names: &mut Names,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Parameter> {
-    let mut result: Vec<Parameter> = Vec::new();
-    let mut scalars = 0;
-    for (name, place, value) in table.entries() {
-        let Some((shape, values)) = parameter(name, value, diagnostics) else {
-            // The name is known all the same, so that its uses are no further mistakes.
-            names.add(name, Name::Parameter(scalars), place, diagnostics);
-            continue;
-        };
-        let read = Parameter { name: name.to_owned(), shape, default: Some(values.clone()) };
-        for (i, (name, value)) in read.scalar_names().iter().zip(values).enumerate() {
-            let meaning = match treatment {
-                Parameters::Substituted => Name::Number(value),
-                Parameters::Kept => Name::Parameter(scalars + i),
-            };
-            names.add(name, meaning, place, diagnostics);
-        }
-        scalars += read.shape.len();
-        if treatment == Parameters::Kept {
-            result.push(read);
-        }
-    }
-    result
-}
-
-/// A number, an array of numbers, or an array of such arrays.
-fn parameter(
-    name: &str,
-    value: &Spanned<DeValue<'_>>,
-    diagnostics: &mut Diagnostics,
-) -> Option<(Shape, Vec<Rational>)> {
-    let example = format!("{name} = 1.5 or {name} = \"2/3\"");
-    let DeValue::Array(list) = value.get_ref() else {
-        return exact(name, value, &example, diagnostics).map(|x| (Shape::Scalar, vec![x]));
-    };
-    if list.iter().any(|entry| entry.get_ref().is_array()) {
-        let rows = matrix(name, value, &example, diagnostics)?;
-        let columns = rows.first().map_or(0, Vec::len);
-        return Some((Shape::Grid(rows.len(), columns), rows.concat()));
-    }
-    let values: Option<Vec<Rational>> =
-        list.iter().map(|entry| exact(name, entry, &example, diagnostics)).collect();
-    values.map(|values| (Shape::Array(values.len()), values))
 }
 
 /// Where the content of a TOML string begins in the file.

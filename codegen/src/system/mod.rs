@@ -40,7 +40,10 @@
 
 mod algebra;
 mod hamiltonian;
+mod initial;
+mod parameters;
 mod potential;
+mod project;
 mod run;
 mod splitting;
 mod table;
@@ -122,7 +125,9 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
-    let root = Table::root(document.get_ref());
+    let parameters =
+        parameters::Parameters::read(document.get_ref(), text, options, &mut diagnostics);
+    let root = Table::root(document.get_ref(), &parameters.constants);
     root.check_keys(
         &[
             "name",
@@ -142,7 +147,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let name = root.string("name", "name = \"rigid-body\"", &mut diagnostics);
     let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
     let algebra = group(&root, &name, &mut diagnostics);
-    let written = hamiltonian::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
+    let written = hamiltonian::read(&root, algebra.as_ref(), &parameters, text, &mut diagnostics);
     let units = units::read(&root, &written.coordinates, &mut diagnostics);
     let integrator = root.table("integrator", &mut diagnostics);
     let chosen = match &integrator {
@@ -154,11 +159,12 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         None => chosen.truncation,
     };
     let chart = options.chart.map_or(chosen.chart, |chart| (chart, Span::Whole));
-    let mut run = run::read(&root, integrator.as_ref(), algebra.as_ref(), &mut diagnostics);
+    let mut run = run::read(&root, integrator.as_ref(), &mut diagnostics);
+    let velocity = initial::read(&root, algebra.as_ref(), &mut run, &mut diagnostics);
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = truncation;
     }
-    let potential = potential::read(&root, algebra.as_ref(), text, options, &mut diagnostics);
+    let potential = potential::read(&root, algebra.as_ref(), &parameters, text, &mut diagnostics);
     let splitting = splitting::read(&root, integrator.as_ref(), &mut diagnostics);
     let draft = Draft {
         name,
@@ -181,6 +187,9 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
             .ok()
     });
     let problem = assemble(draft, diagnostics)?;
+    if let Some((velocity, place)) = velocity {
+        run.momentum = Some(initial::momentum(&problem, &velocity, place)?);
+    }
     let potential = match potential {
         Some(potential) => Some((potential, splitting::choose(splitting, &problem)?)),
         None => None,

@@ -1,7 +1,7 @@
 //! The key `potential`: a polynomial in the entries of the group element's matrix.
 
-use super::Options;
-use super::hamiltonian::{content_offset, parameters};
+use super::hamiltonian::content_offset;
+use super::parameters::Parameters;
 use super::table::Table;
 use crate::diagnostic::{Diagnostics, Span};
 use crate::expr::Arena;
@@ -16,8 +16,8 @@ const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
+    given: &Parameters,
     file: &str,
-    options: Options,
     diagnostics: &mut Diagnostics,
 ) -> Option<PotentialDraft> {
     let (text, place) = root.string("potential", POTENTIAL, diagnostics)?;
@@ -28,10 +28,7 @@ pub(super) fn read(
         let name = format!("g[{}][{}]", at / size, at % size);
         names.add(&name, Name::Coordinate(at), Span::Whole, diagnostics);
     }
-    let parameters = match root.table("parameters", diagnostics) {
-        Some(table) => parameters(&table, options.parameters, &mut names, diagnostics),
-        None => Vec::new(),
-    };
+    let parameters = given.add_to(&mut names, diagnostics);
     let mut arena = Arena::new();
     let offset = content_offset(file, place, text);
     let energy = text::parse(text, offset, &names, &mut arena, diagnostics);

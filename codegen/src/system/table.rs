@@ -5,8 +5,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
+use crate::expr::Arena;
 use crate::number::Rational;
-use crate::parse::{NumberError, rational};
+use crate::parse::{Names, NumberError, rational, text};
+use crate::pass::constant;
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -14,13 +16,15 @@ type Value<'a> = Spanned<DeValue<'a>>;
 #[derive(Clone, Debug)]
 pub(super) struct Table<'a> {
     entries: &'a DeTable<'a>,
+    /// What its numbers may use.
+    pub constants: &'a Names,
     name: String,
     pub span: Span,
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn root(entries: &'a DeTable<'a>) -> Self {
-        Self { entries, name: "the file".to_owned(), span: Span::Whole }
+    pub(super) fn root(entries: &'a DeTable<'a>, constants: &'a Names) -> Self {
+        Self { entries, constants, name: "the file".to_owned(), span: Span::Whole }
     }
 
     pub(super) fn has(&self, key: &str) -> bool {
@@ -68,7 +72,7 @@ impl<'a> Table<'a> {
                 // The header line itself, not all of the table.
                 let span = self.entries.get_key_value(key).map(|(key, _)| key.span());
                 let span = span.map_or(Span::Whole, Span::text);
-                Some(Table { entries, name, span })
+                Some(Table { entries, constants: self.constants, name, span })
             }
             _ => {
                 wrong_kind(
@@ -140,7 +144,8 @@ impl<'a> Table<'a> {
         diagnostics: &mut Diagnostics,
     ) -> Option<(Rational, Span)> {
         let value = self.get(key)?;
-        exact(key, value, example, diagnostics).map(|number| (number, span(value)))
+        let number = exact(key, value, example, self.constants, diagnostics);
+        number.map(|number| (number, span(value)))
     }
 }
 
@@ -149,11 +154,25 @@ pub(super) fn span(value: &Value<'_>) -> Span {
     Span::text(value.span())
 }
 
-/// The exact number a value is: a decimal, an integer, or a string such as `"2/3"`.
+/// The number that an expression in numbers, `constants` and integers `indices` is, its text from byte `offset` on.
+pub(super) fn expression(
+    text: &str,
+    offset: usize,
+    indices: &[(&str, i64)],
+    constants: &Names,
+    diagnostics: &mut Diagnostics,
+) -> Option<Rational> {
+    let mut arena = Arena::new();
+    let root = text::parse_with(text, offset, indices, constants, &mut arena, diagnostics);
+    constant(&arena, root, diagnostics)
+}
+
+/// The number a value is: a decimal, an integer, or a text such as `"2/3"` or `"sqrt(2)*I1"`.
 pub(super) fn exact(
     key: &str,
     value: &Value<'_>,
     example: &str,
+    constants: &Names,
     diagnostics: &mut Diagnostics,
 ) -> Option<Rational> {
     let text = match value.get_ref() {
@@ -162,9 +181,12 @@ pub(super) fn exact(
             Ok(integer) => integer.to_string(),
             Err(_) => number.as_str().to_owned(),
         },
-        DeValue::String(text) => text.to_string(),
+        DeValue::String(text) => {
+            // After the opening quote.
+            return expression(text, value.span().start + 1, &[], constants, diagnostics);
+        }
         _ => {
-            let expected = "a number, or a fraction such as \"2/3\"";
+            let expected = "a number, or an expression such as \"2/3\"";
             wrong_kind(key, expected, value, example, diagnostics);
             return None;
         }
@@ -192,6 +214,7 @@ pub(super) fn matrix(
     key: &str,
     value: &Value<'_>,
     example: &str,
+    constants: &Names,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Vec<Rational>>> {
     let expected = "a matrix, row by row";
@@ -205,8 +228,10 @@ pub(super) fn matrix(
             wrong_kind(key, expected, row, example, diagnostics);
             return None;
         };
-        let numbers: Option<Vec<Rational>> =
-            entries.iter().map(|entry| exact(key, entry, example, diagnostics)).collect();
+        let numbers: Option<Vec<Rational>> = entries
+            .iter()
+            .map(|entry| exact(key, entry, example, constants, diagnostics))
+            .collect();
         let numbers = numbers?;
         if let Some(first) = result.first()
             && first.len() != numbers.len()

@@ -32,7 +32,9 @@ pub(super) fn read(table: &Table<'_>, run: &mut Run, diagnostics: &mut Diagnosti
     }
     run.region = match value.get_ref() {
         DeValue::Array(_) => {
-            let Some(rows) = matrix("region", value, REGION, diagnostics) else { return };
+            let Some(rows) = matrix("region", value, REGION, table.constants, diagnostics) else {
+                return;
+            };
             let bounds: Option<Vec<[f64; 2]>> = rows
                 .iter()
                 .map(|row| match row.as_slice() {

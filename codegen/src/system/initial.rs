@@ -1,0 +1,315 @@
+//! The table `[initial]`: the state at the start.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::hamiltonian::copies;
+use super::project::project;
+use super::run::{Run, refuse};
+use super::table::{Table, exact, expression, matrix, nearest_float, span, wrong_kind};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::lie::{LieAlgebra, RationalMatrix};
+use crate::number::{Rational, integer};
+use crate::parse::Names;
+use crate::poly::split_at;
+use crate::problem::Problem;
+
+const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
+const VELOCITY: &str = "angular_velocity = [0.1, 0, 2]";
+const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
+const QUATERNION: &str = "quaternion = [1, 0, 0, 0]";
+const TRANSLATION: &str = "translation = [0, 0, 0]";
+/// How far from 1 the length of a quaternion may be without `project`.
+const UNIT: f64 = 1e-9;
+
+/// A velocity and its place.
+pub(super) type Velocity = (Vec<Rational>, Span);
+
+/// Reads `[initial]` into `run`; returns a velocity, from which [`momentum`] finds the momentum.
+pub(super) fn read(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    run: &mut Run,
+    diagnostics: &mut Diagnostics,
+) -> Option<Velocity> {
+    let table = root.table("initial", diagnostics)?;
+    let known =
+        ["momentum", "angular_velocity", "group_element", "quaternion", "translation", "project"];
+    table.check_keys(&known, diagnostics);
+    element(&table, algebra, run, diagnostics);
+    let momentum = coordinates(&table, "momentum", MOMENTUM, algebra, diagnostics);
+    run.momentum = momentum.map(|(list, _)| list.iter().map(nearest_float).collect());
+    let velocity = coordinates(&table, "angular_velocity", VELOCITY, algebra, diagnostics)?;
+    if table.has("momentum") {
+        let what = "`momentum` and `angular_velocity` are both given: keep one";
+        refuse(velocity.1, what, MOMENTUM, diagnostics);
+    }
+    if !algebra.is_none_or(|algebra| matches!(factor(algebra).0, "SO3" | "SU2")) {
+        let what = "an angular velocity is one of SO3, SU2 or a power of them: give the momentum";
+        refuse(velocity.1, what, MOMENTUM, diagnostics);
+    }
+    Some(velocity)
+}
+
+/// The group of which `algebra` is a power, and how many factors it has.
+fn factor(algebra: &LieAlgebra) -> (&str, usize) {
+    let power = algebra.name().rsplit_once('^');
+    let power = power.and_then(|(factor, copies)| Some((factor, copies.parse().ok()?)));
+    power.unwrap_or((algebra.name(), 1))
+}
+
+/// A list of numbers, as many as the momentum has coordinates. In a power of a group it may be given for one copy:
+/// numbers, or expressions in the copy's number i, counted from 0.
+fn coordinates(
+    table: &Table<'_>,
+    key: &str,
+    example: &str,
+    algebra: Option<&LieAlgebra>,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Vec<Rational>, Span)> {
+    let (list, place) = table.array(key, example, diagnostics)?;
+    if let Some(copies) = algebra.and_then(|algebra| copies(algebra, list.len())) {
+        let column = |value: &&Spanned<DeValue<'_>>| {
+            copy_by_copy(key, value, copies, example, table.constants, diagnostics)
+        };
+        let columns: Option<Vec<_>> = list.iter().map(column).collect();
+        let columns = columns?;
+        let all = (0..copies).flat_map(|i| columns.iter().map(move |column| column[i].clone()));
+        return Some((all.collect(), place));
+    }
+    let number =
+        |value: &&Spanned<DeValue<'_>>| exact(key, value, example, table.constants, diagnostics);
+    let numbers: Option<Vec<Rational>> = list.iter().map(number).collect();
+    if let Some(algebra) = algebra
+        && list.len() != algebra.dim()
+    {
+        let (name, dim) = (algebra.name().to_owned(), algebra.dim());
+        diagnostics.report(place, Mistake::Dimension(list.len(), name, dim));
+    }
+    numbers.map(|numbers| (numbers, place))
+}
+
+fn copy_by_copy(
+    key: &str,
+    value: &Spanned<DeValue<'_>>,
+    copies: usize,
+    example: &str,
+    constants: &Names,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Rational>> {
+    let DeValue::String(text) = value.get_ref() else {
+        return Some(vec![exact(key, value, example, constants, diagnostics)?; copies]);
+    };
+    // After the opening quote.
+    let offset = value.span().start + 1;
+    let mut at = |i: usize| expression(text, offset, &[("i", i as i64)], constants, diagnostics);
+    (0..copies).map(&mut at).collect()
+}
+
+/// The momentum with ∂H/∂μ = `velocity`, at the defaults of parameters that are kept.
+///
+/// # Errors
+/// Where the Hamiltonian is no quadratic function of which the velocity determines the momentum.
+pub(super) fn momentum(
+    problem: &Problem,
+    velocity: &[Rational],
+    place: Span,
+) -> Result<Vec<f64>, Diagnostics> {
+    solved(problem, velocity).ok_or_else(|| {
+        let what = "this does not determine the momentum: the Hamiltonian is not a quadratic function with an inverse";
+        let mut diagnostics = Diagnostics::new();
+        refuse(place, what, MOMENTUM, &mut diagnostics);
+        diagnostics
+    })
+}
+
+fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
+    let dim = problem.algebra.dim();
+    let defaults =
+        problem.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
+    let defaults: Vec<f64> = defaults.map(nearest_float).collect();
+    let symbols: Option<Vec<Rational>> = problem
+        .symbols
+        .iter()
+        .map(|symbol| Rational::from_float(symbol.expr.evaluate(&defaults)))
+        .collect();
+    let symbols = symbols?;
+    // A μ = ω − b, where H = μᵀAμ/2 + bᵀμ.
+    let mut right: Vec<Rational> = velocity.to_vec();
+    let mut quadratic = Vec::new();
+    for (factors, mut value) in problem.hamiltonian.factors() {
+        let (momenta, own) = split_at(&factors, dim);
+        for &(variable, power) in own {
+            for _ in 0..power {
+                value *= symbols.get(variable as usize - dim)?;
+            }
+        }
+        match *momenta {
+            [] => {}
+            [(i, 1)] => right[i as usize] -= value,
+            [(i, 2)] => quadratic.push((i as usize, i as usize, value * integer(2))),
+            [(i, 1), (j, 1)] => {
+                quadratic.push((i as usize, j as usize, value.clone()));
+                quadratic.push((j as usize, i as usize, value));
+            }
+            _ => return None,
+        }
+    }
+    let inverse = RationalMatrix::from_entries(dim, dim, quadratic).inverse()?;
+    let right = right.into_iter().enumerate().map(|(i, value)| (i, 0, value));
+    let momentum = inverse.times(&RationalMatrix::from_entries(dim, 1, right));
+    Some((0..dim).map(|i| nearest_float(&momentum.get(i, 0))).collect())
+}
+
+/// Reads the group element, by its matrix or by quaternions.
+fn element(
+    table: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    run: &mut Run,
+    diagnostics: &mut Diagnostics,
+) {
+    let projected = match table.get("project").map(|value| (value.get_ref(), value)) {
+        Some((&DeValue::Boolean(yes), _)) => yes,
+        Some((_, value)) => {
+            wrong_kind("project", "true or false", value, "project = true", diagnostics);
+            false
+        }
+        None => false,
+    };
+    if table.has("translation") && !table.has("quaternion") {
+        let what = "`translation` stands beside `quaternion`";
+        refuse(table.span, what, QUATERNION, diagnostics);
+    }
+    if let (Some(value), Some(algebra)) = (table.get("quaternion"), algebra) {
+        if table.has("group_element") {
+            let what = "`quaternion` and `group_element` are both given: keep one";
+            refuse(span(value), what, QUATERNION, diagnostics);
+        }
+        run.group_element = by_quaternions(table, value, algebra, projected, diagnostics);
+        return;
+    }
+    if let Some(value) = table.get("group_element")
+        && let Some(rows) = matrix("group_element", value, ELEMENT, table.constants, diagnostics)
+    {
+        // Elements are matrices of the basis's size, or adjoint matrices.
+        let size = algebra.map(|algebra| match algebra.basis().and_then(<[_]>::first) {
+            Some(first) => first.rows(),
+            None => algebra.dim(),
+        });
+        let square = rows.iter().all(|row| row.len() == rows.len());
+        if !square || size.is_some_and(|size| size != rows.len()) {
+            let expected = size.map_or("a square matrix".to_owned(), |n| format!("{n} × {n}"));
+            let message = format!("the group element must be {expected}");
+            return refuse(span(value), &message, ELEMENT, diagnostics);
+        }
+        let mut rows: Vec<Vec<f64>> =
+            rows.iter().map(|row| row.iter().map(nearest_float).collect()).collect();
+        if let (true, Some(algebra)) = (projected, algebra)
+            && let Err(what) = project(&mut rows, algebra)
+        {
+            refuse(span(value), &what, ELEMENT, diagnostics);
+        }
+        run.group_element = Some(rows);
+    }
+}
+
+/// The matrix, block by block, of rotations given by unit quaternions w, x, y, z, and of translations beside them.
+fn by_quaternions(
+    table: &Table<'_>,
+    value: &Spanned<DeValue<'_>>,
+    algebra: &LieAlgebra,
+    projected: bool,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Vec<f64>>> {
+    let (name, copies) = factor(algebra);
+    let block: fn([f64; 4], [f64; 3]) -> Vec<Vec<f64>> = match name {
+        "SO3" => |q, _| rotation(q),
+        "SE3" => |q, [x, y, z]| {
+            let mut rows = rotation(q);
+            rows.iter_mut().zip([x, y, z]).for_each(|(row, t)| row.push(t));
+            rows.push(vec![0.0, 0.0, 0.0, 1.0]);
+            rows
+        },
+        // U = w − i(xσ₁ + yσ₂ + zσ₃) as ((A, −B), (B, A)).
+        "SU2" => |[w, x, y, z], _| {
+            vec![vec![w, -y, z, x], vec![y, w, x, -z], vec![-z, -x, w, -y], vec![-x, z, y, w]]
+        },
+        _ => {
+            let what = "a quaternion is an element of SO3, SU2, SE3 or of a power of them";
+            refuse(span(value), what, ELEMENT, diagnostics);
+            return None;
+        }
+    };
+    let quaternions = lists::<4>(table, "quaternion", copies, QUATERNION, diagnostics)?;
+    let translations = match table.get("translation") {
+        Some(value) if name != "SE3" => {
+            let what = "only an element of SE3 has a translation";
+            refuse(span(value), what, QUATERNION, diagnostics);
+            return None;
+        }
+        Some(_) => lists::<3>(table, "translation", copies, TRANSLATION, diagnostics)?,
+        None => vec![[0.0; 3]; copies],
+    };
+    let mut blocks = Vec::new();
+    for (q, t) in quaternions.into_iter().zip(translations) {
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let off = (length - 1.0).abs();
+        if !(off <= UNIT || (projected && length.is_normal())) {
+            let what = format!(
+                "a quaternion of a rotation has length 1, not {length}; project = true divides by its length"
+            );
+            refuse(span(value), &what, QUATERNION, diagnostics);
+            return None;
+        }
+        blocks.push(block(q.map(|x| x / length), t));
+    }
+    let size = blocks.first().map_or(0, Vec::len);
+    let mut rows = vec![vec![0.0; copies * size]; copies * size];
+    for (copy, block) in blocks.iter().enumerate() {
+        for (i, row) in block.iter().enumerate() {
+            rows[copy * size + i][copy * size..][..size].copy_from_slice(row);
+        }
+    }
+    Some(rows)
+}
+
+/// N numbers, or as many lists of N numbers as there are copies.
+fn lists<const N: usize>(
+    table: &Table<'_>,
+    key: &str,
+    copies: usize,
+    example: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<[f64; N]>> {
+    let (list, place) = table.array(key, example, diagnostics)?;
+    let rows = if list.iter().any(|entry| entry.get_ref().is_array()) {
+        matrix(key, table.get(key)?, example, table.constants, diagnostics)?
+    } else {
+        let mut number = |entry: &&_| exact(key, entry, example, table.constants, diagnostics);
+        vec![list.iter().map(&mut number).collect::<Option<Vec<_>>>()?]
+    };
+    let row = |row: &Vec<Rational>| {
+        <[f64; N]>::try_from(row.iter().map(nearest_float).collect::<Vec<_>>()).ok()
+    };
+    let result: Option<Vec<[f64; N]>> = rows.iter().map(row).collect();
+    match result {
+        Some(result) if result.len() == copies => Some(result),
+        _ => {
+            let what = match copies {
+                1 => format!("`{key}` must be {N} numbers"),
+                _ => format!("`{key}` must be {copies} lists of {N} numbers, one for each factor"),
+            };
+            refuse(place, &what, example, diagnostics);
+            None
+        }
+    }
+}
+
+/// The matrix of the rotation v ↦ q v q⁻¹.
+fn rotation([w, x, y, z]: [f64; 4]) -> Vec<Vec<f64>> {
+    vec![
+        vec![1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        vec![2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        vec![2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+}

@@ -1,0 +1,208 @@
+//! The table `[parameters]`: numbers with names, which every other number of the file may use.
+
+use std::collections::BTreeSet;
+
+use num_traits::One;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::table::{Table, exact, matrix};
+use super::{Options, Parameters as Treatment};
+use crate::diagnostic::{Diagnostics, Span};
+use crate::lie::RationalMatrix;
+use crate::number::Rational;
+use crate::parse::{Name, Names, words};
+use crate::problem::{Parameter, Shape};
+
+/// The most rows of a matrix whose inverse is written out in its entries.
+const MOST_ROWS_KEPT: usize = 3;
+
+/// The parameters of a file, in its order.
+#[derive(Debug)]
+pub(super) struct Parameters {
+    /// With their places in the table.
+    list: Vec<(usize, Given)>,
+    /// All of them as numbers.
+    pub constants: Names,
+}
+
+#[derive(Debug)]
+struct Given {
+    parameter: Parameter,
+    place: Span,
+    kept: bool,
+    /// The rows and entries of the inverse, where there is one and the file asks for some.
+    inverse: Option<(usize, Vec<Rational>)>,
+}
+
+impl Parameters {
+    /// Reads the table: values may use other parameters. A parameter that `[algebra]` uses is never kept,
+    /// since structure constants are numbers.
+    pub(super) fn read(
+        root: &DeTable<'_>,
+        file: &str,
+        options: Options,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let nothing = Names::none();
+        let root = Table::root(root, &nothing);
+        let mut result = Self { list: Vec::new(), constants: Names::none() };
+        let Some(table) = root.table("parameters", diagnostics) else { return result };
+        let structural = match root.get("algebra").map(Spanned::get_ref) {
+            Some(algebra) => words_of(algebra),
+            None => BTreeSet::new(),
+        };
+        let entries = table.entries();
+        let used: Vec<_> = entries.iter().map(|(.., value)| words_of(value.get_ref())).collect();
+        // Each after those that it uses, as far as there is no circle.
+        let mut left: Vec<usize> = (0..entries.len()).collect();
+        let mut order = Vec::new();
+        while !left.is_empty() {
+            let ready = |&i: &usize| left.iter().all(|&other| !used[i].contains(entries[other].0));
+            let next = left.iter().position(ready).unwrap_or(0);
+            order.push(left.remove(next));
+        }
+        for at in order {
+            let (name, place, value) = entries[at];
+            // The name of a wrong one is known all the same, so that its uses are no further mistakes.
+            let (shape, values) = result
+                .value(name, value, diagnostics)
+                .unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
+            let parameter = Parameter { name: name.to_owned(), shape, default: Some(values) };
+            let kept = options.parameters == Treatment::Kept && !structural.contains(name);
+            let inverse = if file.contains("inv(") { inverse(&parameter) } else { None };
+            let given = Given { parameter, place, kept, inverse };
+            given.add_to(&mut result.constants, None, diagnostics);
+            result.list.push((at, given));
+        }
+        result.list.sort_by_key(|(at, _)| *at);
+        result
+    }
+
+    /// Adds their names to others, and returns those that are kept.
+    pub(super) fn add_to(
+        &self,
+        names: &mut Names,
+        diagnostics: &mut Diagnostics,
+    ) -> Vec<Parameter> {
+        let mut scalars = 0;
+        let mut kept = Vec::new();
+        for (_, given) in &self.list {
+            given.add_to(names, given.kept.then_some(scalars), diagnostics);
+            if given.kept {
+                scalars += given.parameter.shape.len();
+                kept.push(given.parameter.clone());
+            }
+        }
+        kept
+    }
+
+    /// A number, an array of numbers, an array of such arrays, or the inverse of one.
+    fn value(
+        &self,
+        name: &str,
+        value: &Spanned<DeValue<'_>>,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<(Shape, Vec<Rational>)> {
+        let example = format!("{name} = 1.5 or {name} = \"2/3\"");
+        let mut number = |entry| exact(name, entry, &example, &self.constants, diagnostics);
+        match value.get_ref() {
+            DeValue::Array(list) if list.iter().any(|entry| entry.get_ref().is_array()) => {
+                let rows = matrix(name, value, &example, &self.constants, diagnostics)?;
+                let columns = rows.first().map_or(0, Vec::len);
+                Some((Shape::Grid(rows.len(), columns), rows.concat()))
+            }
+            DeValue::Array(list) => {
+                let values: Option<Vec<Rational>> = list.iter().map(number).collect();
+                values.map(|values| (Shape::Array(values.len()), values))
+            }
+            DeValue::String(text) => match inverted(text).and_then(|name| self.inverse(name)) {
+                Some((rows, values)) => Some((Shape::Grid(rows, rows), values)),
+                None => number(value).map(|x| (Shape::Scalar, vec![x])),
+            },
+            _ => number(value).map(|x| (Shape::Scalar, vec![x])),
+        }
+    }
+
+    fn inverse(&self, name: &str) -> Option<(usize, Vec<Rational>)> {
+        let found = self.list.iter().find(|(_, given)| given.parameter.name == name);
+        found?.1.inverse.clone()
+    }
+}
+
+impl Given {
+    /// Adds the names of its scalars: numbers, or parameters counted from `first`. Those of its inverse, if it has one,
+    /// are known too.
+    fn add_to(&self, names: &mut Names, first: Option<usize>, diagnostics: &mut Diagnostics) {
+        let Parameter { name, default, .. } = &self.parameter;
+        let values = default.iter().flatten();
+        for (i, (scalar, value)) in self.parameter.scalar_names().iter().zip(values).enumerate() {
+            let meaning = match first {
+                None => Name::Number(value.clone()),
+                Some(first) => Name::Parameter(first + i),
+            };
+            names.add(scalar, meaning, self.place, diagnostics);
+        }
+        let Some((rows, values)) = &self.inverse else { return };
+        if first.is_some() && *rows > MOST_ROWS_KEPT {
+            return;
+        }
+        for (at, value) in values.iter().enumerate() {
+            let (row, column) = (at / rows, at % rows);
+            let meaning = match first {
+                None => Name::Number(value.clone()),
+                Some(_) => Name::Formula(inverse_entry(name, *rows, row, column)),
+            };
+            names.alias(format!("inv({name})[{row}][{column}]"), meaning);
+        }
+    }
+}
+
+/// The number of rows and the entries of the inverse of a square matrix.
+fn inverse(parameter: &Parameter) -> Option<(usize, Vec<Rational>)> {
+    let (Shape::Grid(rows, columns), Some(values)) = (&parameter.shape, &parameter.default) else {
+        return None;
+    };
+    if rows != columns {
+        return None;
+    }
+    let matrix = RationalMatrix::from_rows(values.chunks(*rows).map(<[_]>::to_vec)).inverse()?;
+    let entries = (0..rows * rows).map(|at| matrix.get(at / rows, at % rows));
+    Some((*rows, entries.collect()))
+}
+
+/// `J` of `inv(J)`.
+fn inverted(text: &str) -> Option<&str> {
+    Some(text.trim().strip_prefix("inv(")?.strip_suffix(')')?.trim())
+}
+
+/// An entry of the inverse of a matrix of at most [`MOST_ROWS_KEPT`] rows: a cofactor over the determinant.
+fn inverse_entry(name: &str, rows: usize, row: usize, column: usize) -> String {
+    let minor = |row: usize, column: usize| {
+        let others = |skipped: usize| (0..rows).filter(|&i| i != skipped).collect::<Vec<_>>();
+        let entry = |i: usize, j: usize| format!("{name}[{i}][{j}]");
+        match (&others(row)[..], &others(column)[..]) {
+            (&[a, b], &[c, d]) => {
+                format!("({}*{} - {}*{})", entry(a, c), entry(b, d), entry(a, d), entry(b, c))
+            }
+            (&[a], &[c]) => entry(a, c),
+            _ => "1".to_owned(),
+        }
+    };
+    let sign = |row: usize, column: usize| if (row + column).is_multiple_of(2) { "+" } else { "-" };
+    let term = |j: usize| format!("{}{name}[0][{j}]*{}", sign(0, j), minor(0, j));
+    let determinant: String = (0..rows).map(term).collect();
+    format!("{}{}/({determinant})", sign(row, column), minor(column, row))
+}
+
+/// The words in the texts of a value.
+fn words_of(value: &DeValue<'_>) -> BTreeSet<String> {
+    match value {
+        DeValue::String(text) => words(text).collect(),
+        DeValue::Array(list) => list.iter().flat_map(|entry| words_of(entry.get_ref())).collect(),
+        DeValue::Table(table) => {
+            table.iter().flat_map(|(_, entry)| words_of(entry.get_ref())).collect()
+        }
+        _ => BTreeSet::new(),
+    }
+}
