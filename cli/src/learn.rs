@@ -234,6 +234,9 @@ fn print(summary: &Summary) {
             drifts.casimir
         );
     }
+    if !summary.unused.is_empty() {
+        outln!("columns that are not used: {}", summary.unused.join(", "));
+    }
     for (row, reason) in &summary.dropped {
         outln!("left out row {row}: {reason}");
     }

@@ -410,6 +410,33 @@ fn a_run_without_a_single_end_state_fails() {
     assert_eq!(ensemble(&initial, &out, &[])["trajectories"], 0);
 }
 
+/// What `simulate` writes, `ensemble` reads: coordinates by their own names, matrices of products by their blocks.
+#[test]
+fn records_of_runs_are_states() {
+    let directory = TempDir::new().unwrap();
+    let (records, out) = (at(&directory, "records.csv"), at(&directory, "out.csv"));
+    for file in [BODY, "examples/heisenberg_spin_ring.toml"] {
+        let (code, _, error) = run(&["simulate", file, "--time", "2", "--out", &records]);
+        assert_eq!(code, 0, "{error}");
+        let half = ["ensemble", file, "--initial", &records, "--out", &out, "--time", "1"];
+        let (code, _, error) = run(&half);
+        assert_eq!(code, 0, "{error}");
+        let [before, after] = [&records, &out].map(|name| String::from_utf8(bytes(name)).unwrap());
+        let rows: Vec<&str> = before.lines().filter(|line| !line.starts_with('#')).collect();
+        let ends: Vec<&str> = after.lines().collect();
+        assert_eq!(rows[0], ends[0]);
+        let numbers = |line: &str| -> Vec<f64> {
+            line.split(',').map(|cell| cell.parse().unwrap()).collect()
+        };
+        let (found, expected) = (numbers(ends[rows.len() / 2]), numbers(rows[rows.len() - 1]));
+        // Time, energy and drifts are carried through.
+        let states = 1..found.len() - 4;
+        for (x, y) in found[states.clone()].iter().zip(&expected[states]) {
+            assert!((x - y).abs() < 1e-12, "{x} {y}");
+        }
+    }
+}
+
 #[test]
 fn mistakes_are_told_before_anything_runs() {
     let directory = TempDir::new().unwrap();
@@ -434,6 +461,7 @@ fn mistakes_are_told_before_anything_runs() {
     let both = header("both.csv", "mu_1,mu_2,mu_3,q_w,q_x,q_y,q_z,g_11");
     let part = header("part.csv", "mu_1,mu_2,mu_3,g_12,g_13");
     let fourth = header("fourth.csv", "mu_1,mu_2,mu_3,mu_4");
+    let parameter = header("parameter.csv", "mu_1,mu_2,mu_3,I1");
     let top = "examples/heavy_top.toml";
     for (file, initial, out, more, expected) in [
         (
@@ -446,6 +474,7 @@ fn mistakes_are_told_before_anything_runs() {
         (BODY, &both, &out, &[], "columns g_11 and q_w both give the attitude"),
         (BODY, &part, &out, &[], "column g_11 is missing"),
         (BODY, &fourth, &out, &[], "column mu_4: the momentum of this system has"),
+        (BODY, &parameter, &out, &[], "column I1 is called as a parameter of the system is"),
         (BODY, &long, &out, &[], "its header claims 4294967295 bytes; the file has 20 left"),
         (BODY, &good, &out, &["--threads", "1000000"], "--threads 1000000: at most"),
         (BODY, &missing, &out, &[], "column mu_3 is missing"),

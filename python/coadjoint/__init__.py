@@ -8,11 +8,16 @@
 (1001, 3)
 """
 
+from typing import TYPE_CHECKING
+
 from ._core import __version__
 from .errors import CoadjointWarning, Error, InputError, RunError
 from .learning import Model, geometrize, learn
 from .results import Drift, Failure, Run, States
 from .system import Law, Laws, System, Verdict
+
+if TYPE_CHECKING:
+    from . import cluster as cluster
 
 __all__ = [
     "CoadjointWarning",

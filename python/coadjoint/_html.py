@@ -64,10 +64,7 @@ def _sphere(system: System) -> str:
     u, v = np.meshgrid(side, side)
     length = np.maximum(np.hypot(u, v), 1.0)
     seen = np.stack([u / length, v / length, np.sqrt(np.maximum(1 - u**2 - v**2, 0))], axis=-1)
-    try:
-        values = energies(system, *np.moveaxis(seen @ axes_seen, -1, 0))
-    except ImportError:
-        return ""
+    values = energies(system, *np.moveaxis(seen @ axes_seen, -1, 0))
     inside = np.hypot(u, v) <= 1
     if not np.isfinite(values).all():
         return ""

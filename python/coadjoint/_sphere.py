@@ -24,12 +24,9 @@ def frame(view: tuple[float, float]) -> Floats:
 
 
 def energies(system: System, x: Floats, y: Floats, z: Floats) -> Floats:
-    """H at these momenta; needs SymPy."""
-    import sympy
-
-    symbols = [sympy.Symbol(name) for name in system.coordinates]
-    energy = sympy.lambdify(symbols, system.hamiltonian, "numpy")
-    return np.array(np.broadcast_to(energy(x, y, z), x.shape), dtype=float)
+    """H at these momenta."""
+    found: Floats = system._core.hamiltonian(np.stack([x, y, z], axis=-1).reshape(-1, 3))[0]
+    return found.reshape(x.shape)
 
 
 def levels(values: Floats, count: int) -> Floats:

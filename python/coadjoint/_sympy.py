@@ -4,26 +4,21 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import sympy
 
 
-def _symbols(coordinates: list[str]) -> list[Any]:
-    import sympy
-
-    return [sympy.Symbol(name) for name in coordinates]
-
-
-def polynomial(text: str, coordinates: list[str]) -> sympy.Expr:
-    """A polynomial in the notation of system files."""
+def polynomial(text: str, symbols: Mapping[str, Any]) -> sympy.Expr:
+    """A polynomial in the notation of system files, in these symbols by their names there."""
     import sympy
 
     # Names such as mu[0] and x' are no names of Python.
-    known = {f"coordinate_{i}_": symbol for i, symbol in enumerate(_symbols(coordinates))}
-    places = {name: f"coordinate_{i}_" for i, name in enumerate(coordinates)}
-    names = sorted(map(re.escape, coordinates), key=len, reverse=True)
+    known = {f"coordinate_{i}_": symbol for i, symbol in enumerate(symbols.values())}
+    places = {name: f"coordinate_{i}_" for i, name in enumerate(symbols)}
+    names = sorted(map(re.escape, symbols), key=len, reverse=True)
     if names:
         pattern = rf"(?<![\w'\]])({'|'.join(names)})(?![\w'\[])"
         text = re.sub(pattern, lambda m: places[m[1]], text)
@@ -31,15 +26,14 @@ def polynomial(text: str, coordinates: list[str]) -> sympy.Expr:
     return sympy.sympify(text, locals=known, rational=True)
 
 
-def series(text: str, coordinates: list[str]) -> dict[int, sympy.Expr]:
+def series(text: str, symbols: Mapping[str, Any]) -> dict[int, sympy.Expr]:
     """S₁, S₃, … of the JSON of a series."""
     import sympy
 
-    symbols = _symbols(coordinates)
     found: dict[int, sympy.Expr] = {}
     # Even terms vanish.
     for order in json.loads(text)["S"][::2]:
-        terms = [_coefficient(t["coefficient"]) * _power(symbols, t["exponents"]) for t in order["terms"]]
+        terms = [_coefficient(t["coefficient"]) * _power(list(symbols.values()), t["exponents"]) for t in order["terms"]]
         found[order["k"]] = sympy.Add(*terms)
     return found
 
@@ -49,7 +43,7 @@ def _coefficient(text: str) -> Any:
 
     if re.fullmatch(r"-?\d+(/\d+)?", text):
         return sympy.Rational(text)
-    return polynomial(text, [])
+    return polynomial(text, {})
 
 
 def _power(symbols: list[Any], exponents: list[int]) -> Any:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from . import _arrays
 from .errors import InputError
 
 # Functions of numbers and parameters that the text may have, by their names in SymPy.
@@ -53,6 +54,8 @@ def number(value: Any, what: str) -> str:
 
 def numbers(value: Any, what: str) -> str:
     """A number, a list of numbers, or a matrix."""
+    if hasattr(value, "to_numpy") and _arrays.names(value) is None:
+        value = value.to_numpy()
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
@@ -135,34 +138,63 @@ def _sympy(value: Any, what: str) -> str:
     return walk(sympy.sympify(value))
 
 
+def symbols(*values: Any) -> dict[str, Any]:
+    """SymPy's symbols in these expressions, by their names."""
+    found: dict[str, Any] = {}
+    for value in values:
+        for symbol in getattr(value, "free_symbols", ()):
+            if found.setdefault(str(symbol), symbol) != symbol:
+                raise InputError(f"two symbols are called {symbol}: give both the same assumptions")
+    return found
+
+
+def listed(values: Any, what: str) -> list[Any]:
+    """The entries of a list or of whatever else has some."""
+    try:
+        return list(values)
+    except TypeError:
+        raise InputError(f"{what}={values!r}: a list is needed") from None
+
+
+def mapping(value: Any, what: str) -> dict[str, Any]:
+    """A dictionary with texts, or SymPy's symbols, as keys; none is an empty one."""
+    if not isinstance(value, Mapping | None):
+        raise InputError(f"{what}={value!r}: a dictionary is needed")
+    return {str(key): entry for key, entry in (value or {}).items()}
+
+
 def names(value: str | Iterable[Any], what: str) -> list[str]:
     """Names in a text with blanks or commas between them, or a sequence of names or symbols."""
     if isinstance(value, str):
         return value.replace(",", " ").split()
-    found = [str(name) for name in value]
+    found = [str(name) for name in listed(value, what)]
     if not all(found):
         raise InputError(f"{what}: a name is empty")
     return found
 
 
-def algebra(group: Mapping[str, Any]) -> list[str]:
+def algebra(group: Any) -> dict[str, str | None]:
     """The table of an algebra by basis or brackets."""
-    unknown = set(group) - {"name", "basis", "generators", "brackets"}
+    if not isinstance(group, Mapping):
+        raise InputError(
+            'group must be a name such as "SO3", or a dictionary with a basis, or with generators and brackets'
+        )
+    unknown = {str(key) for key in group} - {"name", "basis", "generators", "brackets"}
     if unknown:
         raise InputError(
             f"group: unknown {', '.join(sorted(unknown))}; there are name, basis, generators and brackets"
         )
-    lines = ["[algebra]"]
+    found: dict[str, str | None] = {}
     if "name" in group:
-        lines.append(f"name = {quoted(str(group['name']))}")
+        found["name"] = quoted(str(group["name"]))
     if "generators" in group:
-        lines.append(f"generators = {strings(names(group['generators'], 'generators'))}")
+        found["generators"] = strings(names(group["generators"], "generators"))
     if "basis" in group:
-        matrices = [numbers(matrix, "basis") for matrix in group["basis"]]
-        lines.append("basis = [\n    " + ",\n    ".join(matrices) + ",\n]")
+        matrices = [numbers(matrix, "basis") for matrix in listed(group["basis"], "basis")]
+        found["basis"] = "[\n    " + ",\n    ".join(matrices) + ",\n]"
     if "brackets" in group:
-        lines.append(f"brackets = {strings(str(bracket) for bracket in group['brackets'])}")
-    return lines
+        found["brackets"] = strings(str(bracket) for bracket in listed(group["brackets"], "brackets"))
+    return found
 
 
 def strings(values: Iterable[str]) -> str:
@@ -170,13 +202,13 @@ def strings(values: Iterable[str]) -> str:
     return "[" + ", ".join(quoted(value) for value in values) + "]"
 
 
-def table(name: str, entries: Sequence[tuple[str, str | None]]) -> list[str]:
+def table(name: str | None, entries: Mapping[str, str | None]) -> list[str]:
     """A table with the entries that are there."""
-    lines = [f"{key} = {value}" for key, value in entries if value is not None]
-    return [f"\n[{name}]", *lines] if lines else []
+    lines = [f"{_key(key)} = {value}" for key, value in entries.items() if value is not None]
+    return [f"\n[{name}]", *lines] if lines and name else lines
 
 
-def key(name: str) -> str:
+def _key(name: str) -> str:
     """A key of TOML."""
     bare = name and all(c.isascii() and (c.isalnum() or c in "_-") for c in name)
     return name if bare else quoted(name)

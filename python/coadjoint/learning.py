@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -20,11 +21,10 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import Floats, floats, vector
+from ._arrays import Floats, Numbers, Real, count, floats, names, real, unused, vector
 from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
 from .results import Run
-from .system import _count, _real
 
 __all__ = ["Model", "geometrize", "learn"]
 
@@ -59,6 +59,16 @@ class Model:
         return self._model_text
 
     @property
+    def name(self) -> str:
+        """The model's name."""
+        return self._name
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the momentum's coordinates."""
+        return [f"mu[{i}]" for i in range(int(self._facts["dimension"]))]
+
+    @property
     def group(self) -> str:
         """The group's name."""
         return str(self._facts["group"])
@@ -80,27 +90,23 @@ class Model:
 
     def simulate(
         self,
-        momentum: Any,
+        momentum: Numbers,
         *,
-        time: float,
+        time: Real,
         every: int = 1,
         progress: bool | Progress | None = None,
     ) -> Run:
         """The motion from this momentum; ``time`` must be a whole number of the model's steps."""
-        dimension = int(self._facts["dimension"])
-        start = vector(momentum, "momentum", dimension)
-        if _count(every, "every") < 1:
-            raise InputError("every=0: every counts steps from 1; try every=1")
+        start = _momentum(momentum, "momentum", int(self._facts["dimension"]))
         told = listener(progress, "following")
         try:
-            found = self._core.simulate(start, _real(time, "time"), int(every), told)
+            found = self._core.simulate(start, real(time, "time"), count(every, "every", 1), told)
         finally:
             if told is not None:
                 told.close()
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
-        names = [f"mu[{i}]" for i in range(dimension)]
-        return Run(found, names, self._name, {"time": None, "momentum": [None] * dimension})
+        return Run(found, self)
 
     def emit(self, language: str = "rust", *, prefix: str | None = None, single: bool = False) -> str:
         """A learned polynomial as code, in the languages of :meth:`System.emit`."""
@@ -123,62 +129,95 @@ class Model:
         return f"<Model: {what}; {choice}>" if choice else f"<Model: {what}>"
 
 
+def _momentum(value: Any, what: str, length: int | None = None) -> Floats:
+    """One momentum: by the names ``mu_1`` … where there are names."""
+    found = names(value)
+    if found is None:
+        return vector(value, what, length)
+    wanted = [f"mu_{i + 1}" for i in range(length or sum(name.startswith("mu_") for name in found))]
+    if missing := [name for name in wanted if name not in found]:
+        raise InputError(f"{what}: {missing[0]} is missing; there are {', '.join(found)}")
+    unused(what, [name for name in found if name not in wanted])
+    return vector([value[name] for name in wanted], what)
+
+
+def _named(what: str, value: Any, after: bool) -> tuple[dict[str, Floats], list[str]]:
+    """Columns of momenta and attitudes by their names, those of the state after a step by the names of files; the others."""
+    found = names(value) or []
+    ours = {name: re.sub(r"^(mu|g|q)_", r"\1_next_", name) if after else name for name in found}
+    ours = {name: file for name, file in ours.items() if re.match(r"(mu|g|q)_", name)}
+    twice = [name for name in ours if found.count(name) > 1]
+    if twice:
+        raise InputError(f"{what}: column {twice[0]} is there twice: keep one")
+    columns = {file: floats(value[name], f"{what}, {name}", finite=False) for name, file in ours.items()}
+    if wrong := [name for name, column in columns.items() if column.ndim != 1]:
+        raise InputError(f"{what}, {wrong[0]}: a list of numbers is needed")
+    return columns, [name for name in found if name not in ours]
+
+
 def _columns(what: str, value: Any, names: tuple[str, str]) -> dict[str, Floats]:
     """Columns of an array (N, n), or (N, d, d) for attitudes, or (N, 4) quaternions, by the names of files."""
+    if hasattr(value, "as_matrix"):
+        value = value.as_matrix()
     array = floats(value, what, finite=False)
     momentum, element = names
+    size = array.shape[-1] if array.ndim else 0
     if array.ndim == 2 and momentum:
-        return {f"{momentum}_{i + 1}": np.ascontiguousarray(array[:, i]) for i in range(array.shape[1])}
-    if array.ndim == 2 and array.shape[1] == 4 and not momentum:
-        letter = element.replace("g", "q", 1)
-        return {f"{letter}_{x}": np.ascontiguousarray(array[:, i]) for i, x in enumerate("wxyz")}
-    if array.ndim == 3 and not momentum and array.shape[1] == array.shape[2]:
-        size = array.shape[1]
+        found = [f"{momentum}_{i + 1}" for i in range(size)]
+    elif array.ndim == 2 and size == 4 and not momentum:
+        found = [f"{element.replace('g', 'q', 1)}_{x}" for x in "wxyz"]
+    elif array.ndim == 3 and not momentum and array.shape[1] == size:
         separator = "_" if size > 9 else ""
-        return {
-            f"{element}_{i + 1}{separator}{j + 1}": np.ascontiguousarray(array[:, i, j])
-            for i in range(size)
-            for j in range(size)
-        }
-    form = "(N, n)" if momentum else "(N, d, d), or (N, 4) for quaternions"
-    raise InputError(f"{what} must have the shape {form}; it is {array.shape}")
+        found = [f"{element}_{i + 1}{separator}{j + 1}" for i in range(size) for j in range(size)]
+    else:
+        form = "(N, n)" if momentum else "(N, d, d), or (N, 4) for quaternions"
+        raise InputError(f"{what} must have the shape {form}; it is {array.shape}")
+    flat = array.reshape(len(array), -1)
+    return {name: np.ascontiguousarray(flat[:, i]) for i, name in enumerate(found)}
 
 
-def _data(before: Any, after: Any, attitudes: tuple[Any, Any] | None, what: str) -> list[tuple[str, Floats]]:
-    """All columns of pairs of states: arrays, or a data frame or dictionary with the names of files."""
-    if after is None:
-        if not (isinstance(before, Mapping) or hasattr(before, "columns")):
-            raise InputError(
-                f"{what}: give the states before and after a step, or a data frame with the columns mu_1 …, mu_next_1 …"
-            )
-        names = list(before.columns if hasattr(before, "columns") else before)
-        return [(str(n), np.ravel(floats(before[n], f"{what}, column {n}", finite=False))) for n in names]
-    columns = _columns("before", before, ("mu", ""))
-    columns |= _columns("after", after, ("mu_next", ""))
+def _data(
+    before: Any, after: Any, attitudes: tuple[Any, Any] | None, what: str
+) -> tuple[list[tuple[str, Floats]], list[str]]:
+    """All columns of pairs of states: arrays, or data frames or dictionaries by their names; those nobody uses."""
+    others: list[str] = []
+    if names(before) is not None:
+        columns, others = _named(what if after is None else "before", before, False)
+        if after is not None:
+            more, ignored = _named("after", after, True)
+            columns |= more
+            others += [name for name in ignored if name not in others]
+    elif after is None:
+        raise InputError(
+            f"{what}: give the states before and after a step, or a data frame with the columns mu_1 …, mu_next_1 …"
+        )
+    else:
+        columns = _columns("before", before, ("mu", ""))
+        columns |= _columns("after", after, ("mu_next", ""))
     if attitudes is not None:
         if not isinstance(attitudes, tuple) or len(attitudes) != 2:
             raise InputError("attitudes must be a pair: those before and those after the step")
         columns |= _columns("attitudes before", attitudes[0], ("", "g"))
         columns |= _columns("attitudes after", attitudes[1], ("", "g_next"))
-    return list(columns.items())
+    return list(columns.items()), others
 
 
 def learn(
-    before: Any,
-    after: Any = None,
+    before: Numbers,
+    after: Numbers | None = None,
     *,
-    step: float,
+    step: Real,
     attitudes: tuple[Any, Any] | None = None,
     group: str = "SO3",
     chart: str = "exp",
     model: str = "auto",
     degree: int | None = None,
-    ridge: float = 0.0,
+    ridge: Real = 0.0,
     loss: str = "chart",
-    tolerance: float = 1e-6,
+    tolerance: Real = 1e-6,
     drop_bad_rows: bool = False,
     test: Any = None,
-    start: Any = None,
+    start: Numbers | None = None,
     seed: int = 0,
     widths: Sequence[int] = (500, 500),
     activation: str = "tanh",
@@ -197,30 +236,30 @@ def learn(
     """
     if loss not in ("chart", "group"):
         raise InputError(f'loss="{loss}": there are "chart" and "group"')
-    data = _data(before, after, attitudes, "data")
+    data, others = _data(before, after, attitudes, "data")
     tested = None
     if test is not None:
         if isinstance(test, tuple) and len(test) in (2, 4):
-            tested = _data(test[0], test[1], (test[2], test[3]) if len(test) == 4 else None, "test")
+            tested, _ = _data(test[0], test[1], (test[2], test[3]) if len(test) == 4 else None, "test")
         else:
-            tested = _data(test, None, None, "test")
+            tested, _ = _data(test, None, None, "test")
     settings = {
         "group": str(group),
         "chart": str(chart),
-        "step": _real(step, "step"),
+        "step": real(step, "step"),
         "kind": str(model),
-        "degree": None if degree is None else _count(degree, "degree"),
-        "ridge": _real(ridge, "ridge"),
+        "degree": None if degree is None else count(degree, "degree"),
+        "ridge": real(ridge, "ridge"),
         "group_loss": loss == "group",
-        "tolerance": _real(tolerance, "tolerance"),
+        "tolerance": real(tolerance, "tolerance"),
         "drop": bool(drop_bad_rows),
         "momenta_only": _momenta_only,
-        "start": None if start is None else [float(x) for x in vector(start, "start")],
-        "seed": _count(seed, "seed"),
-        "widths": [_count(width, "widths") for width in widths],
+        "start": None if start is None else [float(x) for x in _momentum(start, "start")],
+        "seed": count(seed, "seed"),
+        "widths": [count(width, "widths") for width in widths],
         "activation": str(activation),
-        "evaluations": _count(evaluations, "evaluations"),
-        "drift_steps": _count(drift_steps, "drift_steps"),
+        "evaluations": count(evaluations, "evaluations"),
+        "drift_steps": count(drift_steps, "drift_steps"),
     }
     told = listener(progress, "learning")
     try:
@@ -229,6 +268,7 @@ def learn(
         if told is not None:
             told.close()
     found = Model(text, "model", json.loads(summary))
+    unused("data", others + found.summary.get("unused", []))
     dropped = found.summary.get("dropped") or []
     if dropped:
         row, reason = dropped[0]
@@ -238,15 +278,15 @@ def learn(
 
 
 def geometrize(
-    before: Any,
-    after: Any = None,
+    before: Numbers,
+    after: Numbers | None = None,
     *,
-    step: float,
+    step: Real,
     group: str = "SO3",
     chart: str = "exp",
     degree: int | None = None,
     test: Any = None,
-    start: Any = None,
+    start: Numbers | None = None,
     seed: int = 0,
     drop_bad_rows: bool = False,
     drift_steps: int = 1000,

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arrays import Floats
+from ._arrays import Floats, quaternions
+from .errors import InputError
 
 if TYPE_CHECKING:
     import pandas
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from .learning import Model
+    from .system import System
 
 __all__ = ["Drift", "Failure", "Run", "States"]
 
@@ -66,8 +69,10 @@ class Run:
     True
     """
 
-    def __init__(self, found: dict[str, Any], coordinates: list[str], name: str, units: dict[str, Any]) -> None:
-        self._found, self._coordinates, self._name, self._units = found, coordinates, name, units
+    def __init__(self, found: dict[str, Any], source: System | Model) -> None:
+        self._found, self._source, self._name = found, source, source.name
+        facts = source._facts
+        self._units = {"time": facts.get("time_unit"), "momentum": facts.get("units", [])}
 
     @property
     def time(self) -> Floats:
@@ -83,6 +88,31 @@ class Run:
     def group_element(self) -> Floats:
         """The matrices of the group element g, (N, d, d). For products, block by block."""
         return _dense(self._array("entries"), self._found["blocks"])
+
+    def quaternion(self, *, scalar_first: bool = True) -> Floats:
+        """The rotation from body to space as unit quaternions w, x, y, z, or x, y, z, w, (N, 4); of k factors (N, k, 4).
+
+        >>> import coadjoint as ca
+        >>> run = ca.System("SO3", "z^2", coordinates="x y z").simulate([0, 0, 1], time=0.2, step=0.1)
+        >>> run.quaternion().round(4)
+        array([[1.    , 0.    , 0.    , 0.    ],
+               [0.995 , 0.    , 0.    , 0.0998],
+               [0.9801, 0.    , 0.    , 0.1987]])
+        """
+        places = self._found["rotations"]
+        if not places:
+            raise InputError(f"no element of the group of {self._name} is a rotation of space")
+        found = [quaternions(self.group_element[:, at : at + 3, at : at + 3]) for at in places]
+        every = found[0] if len(found) == 1 else np.stack(found, axis=1)
+        return every if scalar_first else np.roll(every, -1, axis=-1)
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """The velocity in the Lie algebra, ξ = ∂H/∂μ, (N, n): for rotations the angular velocity in axes of the body."""
+        if not hasattr(self._source._core, "hamiltonian"):
+            raise InputError("a learned map has steps, and no velocity between them")
+        found: Floats = self._source._core.hamiltonian(self.momentum)[1]
+        return found
 
     @property
     def spatial_momentum(self) -> Floats:
@@ -158,13 +188,15 @@ class Run:
     @property
     def coordinates(self) -> list[str]:
         """The names of the momentum's coordinates."""
-        return list(self._coordinates)
+        return self._source.coordinates
 
     def to_frame(self) -> pandas.DataFrame:
-        """The records as a pandas data frame, one column for each number."""
+        """The records as a pandas data frame, one column for each number: ``mu_1`` …, as all calls read them."""
         import pandas
 
-        return pandas.DataFrame(self._table(), columns=self._found["columns"])
+        columns = list(self._found["columns"])
+        columns[1 : 1 + self.momentum.shape[1]] = [f"mu_{i + 1}" for i in range(self.momentum.shape[1])]
+        return pandas.DataFrame(self._table(), columns=columns)
 
     def _table(self) -> Floats:
         """All columns, as the command writes them."""
@@ -224,7 +256,8 @@ class Run:
 class States(np.ndarray[Any, np.dtype[np.float64]]):
     """The states at the end of an ensemble: an array, (N, columns), that knows how it was made.
 
-    Rows without an end state are NaN, and are listed in :attr:`failed`.
+    Rows without an end state are NaN, and are listed in :attr:`failed`. Copies know the same; parts, and what is
+    computed from it, are mere arrays.
     """
 
     #: The rows that have no end state.
@@ -245,9 +278,23 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
 
     _FACTS = ("failed", "drift", "backend", "columns", "step", "steps", "truncation", "notes")
 
-    def __array_finalize__(self, other: object) -> None:
-        # Of a part of the rows, or of numbers made from them, nothing is known.
-        pass
+    def __getattr__(self, name: str) -> Any:
+        if name in States._FACTS:
+            text = f"`{name}` belongs to the whole ensemble: it is known neither of a part nor of what is computed from it"
+            raise AttributeError(text)
+        raise AttributeError(f"an ensemble has no attribute {name!r}")
+
+    def copy(self, order: Any = "C") -> States:
+        """A copy that knows the same."""
+        found = super().copy(order)
+        found.__dict__.update(self.__dict__)
+        return found
+
+    def __copy__(self) -> States:
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> States:
+        return self.copy()
 
     @classmethod
     def _of(cls, array: Floats, failed: list[tuple[int, int, str]], facts: dict[str, Any]) -> States:
@@ -278,5 +325,5 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
     @property
     def ok(self) -> NDArray[np.bool_]:
         """Which rows have an end state, (N,)."""
-        found: NDArray[np.bool_] = np.logical_not(np.isnan(np.asarray(self)).any(axis=1))
+        found: NDArray[np.bool_] = np.logical_not(np.isnan(np.asarray(self)).any(axis=-1))
         return found

@@ -8,12 +8,12 @@ import os
 import warnings
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 
-from . import _core, _text
-from ._arrays import Floats, floats, matrix, vector
+from . import _arrays, _core, _text
+from ._arrays import Backend, Floats, Numbers, Real, Rotation
 from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
 from .results import Run, States
@@ -46,10 +46,6 @@ class System:
     True
     """
 
-    _text_: str
-    _name: str
-    _given: tuple[tuple[str, Any], ...] | None
-
     def __init__(
         self,
         group: str | Mapping[str, Any],
@@ -64,70 +60,65 @@ class System:
         solver: str | None = None,
         frame: str | None = None,
         splitting: str | None = None,
-        step: float | None = None,
-        tolerance: float | None = None,
-        region: Any = None,
-        momentum: Any = None,
-        group_element: Any = None,
-        time: float | None = None,
+        step: Real | str | None = None,
+        tolerance: Real | str | None = None,
+        region: Numbers | None = None,
+        momentum: Numbers | None = None,
+        group_element: Numbers | Rotation | None = None,
+        time: Real | str | None = None,
         name: str = "system",
     ) -> None:
-        given = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
-        defaults = {"name": "system"}
-        self._given = tuple(
-            (key, value) for key, value in given if value is not None and defaults.get(key) != value
-        )
-        quoted, number, numbers = _text.quoted, _text.number, _text.numbers
-        lines = [f"name = {quoted(name)}"]
-        if isinstance(group, str):
-            lines.append(f"group = {quoted(group)}")
-        elif not isinstance(group, Mapping):
-            raise InputError(
-                'group must be a name such as "SO3", or a dictionary with a basis, or with generators and brackets'
-            )
-        if coordinates is not None:
-            lines.append(f"coordinates = {_text.strings(_text.names(coordinates, 'coordinates'))}")
-        lines.append(f"hamiltonian = {quoted(_text.expression(hamiltonian, 'hamiltonian'))}")
-        if potential is not None:
-            lines.append(f"potential = {quoted(_text.expression(potential, 'potential'))}")
-        if not isinstance(group, str):
-            lines += ["", *_text.algebra(group)]
-        lines += _text.table(
-            "parameters",
-            [(_text.key(str(k)), numbers(v, f"parameter {k}")) for k, v in (parameters or {}).items()],
-        )
-        lines += _text.table(
-            "units", [(_text.key(str(k)), quoted(str(v))) for k, v in (units or {}).items()]
-        )
+        if not isinstance(coordinates, (str, type(None))):
+            coordinates = _text.listed(coordinates, "coordinates")
+        arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
+        given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
+        known = _text.symbols(hamiltonian, potential, *(coordinates or ()))
+        called = [] if coordinates is None else _text.names(coordinates, "coordinates")
+        shown = _text.mapping(units, "units")
+        each: _arrays.Units = [shown.get(own, shown.get("momentum")) for own in called] or shown.get("momentum")
 
         def text(value: Any) -> str | None:
-            return None if value is None else quoted(str(value))
+            return None if value is None else _text.quoted(str(value))
 
-        def some(value: Any, what: str) -> str | None:
-            return None if value is None else numbers(value, what)
+        def exact(value: Any, what: str, unit: _arrays.Units = None) -> str | None:
+            return None if value is None else _text.numbers(_arrays.bare(value, what, unit), what)
 
-        lines += _text.table(
-            "integrator",
-            [
-                ("truncation", None if truncation is None else number(truncation, "truncation")),
-                ("chart", text(chart)),
-                ("solver", text(solver)),
-                ("frame", text(frame)),
-                ("splitting", text(splitting)),
-                ("step", some(step, "step")),
-                ("tolerance", some(tolerance, "tolerance")),
-                ("region", some(region, "region")),
-            ],
-        )
-        lines += _text.table(
-            "initial",
-            [
-                ("momentum", some(momentum, "momentum")),
-                ("group_element", some(group_element, "group_element")),
-            ],
-        )
-        lines += _text.table("run", [("time", some(time, "time"))])
-        self._read("\n".join(lines) + "\n", name)
+        def formula(value: Any, what: str) -> str | None:
+            return None if value is None else _text.quoted(_text.expression(value, what))
+
+        name = str(name)
+        whole = isinstance(group, str)
+        top = {
+            "name": text(name),
+            "group": text(group) if whole else None,
+            "coordinates": _text.strings(called) if called else None,
+            "hamiltonian": formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
+            "potential": formula(potential, "potential"),
+        }
+        tables = {
+            "algebra": {} if whole else _text.algebra(group),
+            "parameters": {k: exact(v, f"parameter {k}") for k, v in _text.mapping(parameters, "parameters").items()},
+            "units": {k: text(v) for k, v in shown.items()},
+            "integrator": {
+                "truncation": exact(truncation, "truncation"),
+                "chart": text(chart),
+                "solver": text(solver),
+                "frame": text(frame),
+                "splitting": text(splitting),
+                "step": exact(step, "step", shown.get("time")),
+                "tolerance": exact(tolerance, "tolerance"),
+                "region": exact(region, "region", each),
+            },
+            "initial": {
+                "momentum": exact(momentum, "momentum", each),
+                "group_element": exact(_arrays.rotated(group_element), "group_element"),
+            },
+            "run": {"time": exact(time, "time", shown.get("time"))},
+        }
+        lines = _text.table(None, top)
+        for title, entries in tables.items():
+            lines += _text.table(title, entries)
+        self._read("\n".join(lines) + "\n", name, given, known)
 
     @classmethod
     def from_text(cls, text: str, name: str = "system") -> System:
@@ -137,10 +128,7 @@ class System:
         >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
         'SO3'
         """
-        system = cls.__new__(cls)
-        system._given = None
-        system._read(text, name)
-        return system
+        return _restored(cls, str(text), str(name), None, {})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
@@ -148,8 +136,10 @@ class System:
         with open(path, encoding="utf-8") as file:
             return cls.from_text(file.read(), os.fspath(path))
 
-    def _read(self, text: str, name: str) -> None:
-        self._text_, self._name = text, name
+    def _read(
+        self, text: str, name: str, given: tuple[tuple[str, Any], ...] | None, known: dict[str, Any]
+    ) -> None:
+        self._text_, self._name, self._given, self._known = text, name, given, known
         self._core = _core.Core(text, name)
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float, str], _core.Stepper] = {}
@@ -206,7 +196,14 @@ class System:
         """
         from . import _sympy
 
-        return _sympy.polynomial(self._facts["hamiltonian"], self.coordinates)
+        return _sympy.polynomial(self._facts["hamiltonian"], self._symbols)
+
+    @property
+    def _symbols(self) -> dict[str, sympy.Expr]:
+        """The coordinates as SymPy: the symbols that were given, with their assumptions, else plain ones."""
+        import sympy
+
+        return {name: self._known.get(name, sympy.Symbol(name)) for name in self.coordinates}
 
     @cached_property
     def identity(self) -> str:
@@ -226,19 +223,19 @@ class System:
 
     def simulate(
         self,
-        momentum: Any = None,
+        momentum: Numbers | None = None,
         *,
-        time: float | None = None,
-        step: float | None = None,
-        tolerance: float | None = None,
-        region: float | None = None,
-        group_element: Any = None,
+        time: Real | None = None,
+        step: Real | None = None,
+        tolerance: Real | None = None,
+        region: Real | None = None,
+        group_element: Numbers | Rotation | None = None,
         truncation: int | None = None,
         every: int | None = None,
-        at: Any = None,
+        at: Numbers | None = None,
         tuned: bool = False,
         fitted: float | None = None,
-        backend: str = "auto",
+        backend: Backend = "auto",
         progress: bool | Progress | None = None,
     ) -> Run:
         """One trajectory from this momentum (n,) and group element (d, d), the identity if none is given.
@@ -258,21 +255,20 @@ class System:
         >>> run.time
         array([ 5., 10., 20.])
         """
-        start = None if momentum is None else vector(momentum, "momentum", self.dimension)
-        element = None if group_element is None else matrix(group_element, "group_element", self.matrix_size)
-        times = None if at is None else vector(np.atleast_1d(at), "at")
-        if every is not None and (isinstance(every, bool) or int(every) != every or every < 1):
-            raise InputError(f"every={every!r}: every counts steps from 1; try every=1")
+        start, element = self._state(momentum, group_element)
+        times = None if at is None else np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
+        if times is not None and (times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any()):
+            raise InputError("at must be a list of times in the order of the run, each once: sort them")
         told = listener(progress, "integrating")
         try:
             found = self._core.simulate(
                 self._asked(time, step, tolerance, region, truncation),
                 momentum=start,
                 group_element=element,
-                every=None if every is None else int(every),
+                every=None if every is None else _arrays.count(every, "every", 1),
                 at=times,
                 tuned=bool(tuned),
-                fitted=None if fitted is None else _real(fitted, "fitted"),
+                fitted=None if fitted is None else _arrays.real(fitted, "fitted"),
                 backend=str(backend),
                 record=True,
                 progress=told,
@@ -283,19 +279,18 @@ class System:
         found["follows"] = bool(tuned) or fitted is not None
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
-        units = {"time": self._facts["time_unit"], "momentum": self._facts["units"]}
-        return Run(found, self.coordinates, self.name, units)
+        return Run(found, self)
 
     def ensemble(
         self,
-        states: Any,
+        states: Numbers,
         *,
-        time: float | None = None,
-        step: float | None = None,
-        tolerance: float | None = None,
-        region: float | None = None,
+        time: Real | None = None,
+        step: Real | None = None,
+        tolerance: Real | None = None,
+        region: Real | None = None,
         truncation: int | None = None,
-        backend: str = "auto",
+        backend: Backend = "auto",
         threads: int | None = None,
         progress: bool | Progress | None = None,
     ) -> States:
@@ -312,7 +307,7 @@ class System:
         >>> final.shape, final.failed
         ((1000, 3), [])
         """
-        rows = floats(states, "states", finite=False)
+        rows = self._table(states)
         if rows.ndim != 2:
             raise InputError(
                 f"states must be a table with a row for each state; its shape is {rows.shape}: "
@@ -324,7 +319,7 @@ class System:
                 rows,
                 self._asked(time, step, tolerance, region, truncation),
                 backend=str(backend),
-                threads=None if threads is None else _count(threads, "threads"),
+                threads=None if threads is None else _arrays.count(threads, "threads", 1),
                 progress=told,
             )
         finally:
@@ -346,12 +341,12 @@ class System:
 
     def step(
         self,
-        momentum: Any,
-        group_element: Any = None,
+        momentum: Numbers,
+        group_element: Numbers | Rotation | None = None,
         *,
-        step: float | None = None,
+        step: Real | None = None,
         steps: int = 1,
-        backend: str = "jit",
+        backend: Backend = "jit",
     ) -> tuple[Floats, Floats]:
         """The state after one step (or so many): the momentum (n,) and the group element (d, d).
 
@@ -367,18 +362,22 @@ class System:
         size = self._facts["step"] if step is None else step
         if size is None:
             raise InputError("step is missing: give step=0.1")
+        if type(size) is not float:
+            size = _arrays.real(size, "step", self._facts["time_unit"])
         key = (size, backend)
         stepper = self._steppers.get(key)
         if stepper is None:
-            stepper = self._core.stepper(_real(size, "step"), str(backend))
+            stepper = self._core.stepper(size, str(backend))
             self._steppers[key] = stepper
         if type(steps) is not int or steps < 0:
-            steps = _count(steps, "steps")
+            steps = _arrays.count(steps, "steps")
         # What comes from the last call needs no look; numbers are checked where they are copied.
-        mu = momentum if _ready(momentum, 1) else vector(momentum, "momentum", self.dimension)
-        if group_element is None or _ready(group_element, 2):
-            return stepper.advance(mu, group_element, steps)
-        return stepper.advance(mu, matrix(group_element, "group_element", self.matrix_size), steps)
+        if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
+            return stepper.advance(momentum, group_element, steps)
+        mu, element = self._state(momentum, group_element)
+        if mu is None:
+            raise InputError("momentum is missing: give momentum=[…]")
+        return stepper.advance(mu, element, steps)
 
     # Algebra.
 
@@ -391,8 +390,8 @@ class System:
         """
         from . import _sympy
 
-        found = self._core.casimirs(_count(degree, "degree"))
-        return [_sympy.polynomial(text, self.coordinates) for text in found]
+        found = self._core.casimirs(_arrays.count(degree, "degree"))
+        return [_sympy.polynomial(text, self._symbols) for text in found]
 
     def series(self, k: int | None = None, *, truncation: int | None = None) -> Any:
         """The exact generating function: S_k as a SymPy expression, or without ``k`` a dictionary of S₁, S₃, …
@@ -407,21 +406,20 @@ class System:
         from . import _sympy
 
         if k is not None:
-            k = _count(k, "k")
+            k = _arrays.count(k, "k", 1)
             if k % 2 == 0:
-                return _sympy.polynomial("0", self.coordinates)
-        wanted = truncation if truncation is not None else max(k or 0, 0 if k else self.truncation)
-        _odd(wanted)
-        found = _sympy.series(self._core.series("json", wanted), self.coordinates)
+                return _sympy.polynomial("0", {})
+        wanted = _odd(truncation if truncation is not None else k or self.truncation)
+        if k is not None and k > wanted:
+            raise InputError(f"k={k} is beyond truncation={wanted}: leave truncation out, or give truncation={k}")
+        found = _sympy.series(self._core.series("json", wanted), self._symbols)
         return found if k is None else found[k]
 
     def latex(self, *, truncation: int | None = None) -> str:
         """The Hamiltonian and the exact series as an ``align`` environment of LaTeX."""
-        if truncation is not None:
-            _odd(truncation)
-        return self._core.series("latex", truncation)
+        return self._core.series("latex", None if truncation is None else _odd(truncation))
 
-    def check(self, *, step: float | None = None, points: int = 3, seed: int = 1) -> Laws:
+    def check(self, *, step: Real | None = None, points: int = 3, seed: int = 1) -> Laws:
         """The laws of the method, tried on this system at random points.
 
         >>> import coadjoint as ca
@@ -429,13 +427,13 @@ class System:
         >>> bool(laws), laws["momentum"].holds
         (True, True)
         """
-        size = None if step is None else _real(step, "step")
-        found, warning = self._core.check(size, _count(points, "points"), int(seed))
+        size = None if step is None else _arrays.real(step, "step", self._facts["time_unit"])
+        found, warning = self._core.check(size, _arrays.count(points, "points"), _arrays.count(seed, "seed"))
         if warning:
             warnings.warn(warning, CoadjointWarning, stacklevel=2)
         return Laws([Law(*law) for law in found])
 
-    def verify(self, run: Run | States, states: Any = None) -> Verdict:
+    def verify(self, run: Run | States, states: Numbers | None = None) -> Verdict:
         """Judges a run afterwards, step by step in doubled precision; or an ensemble, with the ``states`` it started from.
 
         >>> import coadjoint as ca
@@ -446,7 +444,9 @@ class System:
         if isinstance(run, States):
             if states is None:
                 raise InputError("states are missing: give those that the ensemble started from")
-            starts = floats(states, "states", finite=False)
+            if not hasattr(run, "steps"):
+                raise InputError("a part of an ensemble does not know its step: verify the whole one")
+            starts = self._table(states)
             if starts.shape != run.shape:
                 raise InputError(f"the states have the shape {starts.shape}; the ensemble has {run.shape}")
             rows, names, steps, truncation = np.ascontiguousarray(run), [], run.steps, run.truncation
@@ -476,7 +476,7 @@ class System:
         language: str = "rust",
         *,
         prefix: str | None = None,
-        step: float | None = None,
+        step: Real | None = None,
         single: bool = False,
     ) -> str:
         """The integrator as code: ``"rust"``, a header of ``"c"`` or ``"cpp"``, a kernel of ``"opencl"`` or ``"cuda"``.
@@ -492,38 +492,48 @@ class System:
             raise InputError("prefix is for language=\"c\" and \"cpp\" alone")
         if (step is not None or single) and language not in ("opencl", "cuda"):
             raise InputError("step and single are for language=\"opencl\" and \"cuda\" alone")
-        return self._core.emit(language, prefix, None if step is None else _real(step, "step"), bool(single))
+        size = None if step is None else _arrays.real(step, "step", self._facts["time_unit"])
+        return self._core.emit(str(language), prefix, size, bool(single))
 
     # Python's own.
 
     def _asked(
         self,
-        time: float | None,
-        step: float | None,
-        tolerance: float | None,
-        region: float | None,
+        time: Real | None,
+        step: Real | None,
+        tolerance: Real | None,
+        region: Real | None,
         truncation: int | None,
     ) -> dict[str, Any]:
 
-        def real(value: Any, what: str) -> float | None:
-            return None if value is None else _real(value, what)
+        def real(value: Any, what: str, unit: _arrays.Units = None) -> float | None:
+            return None if value is None else _arrays.real(value, what, unit)
 
         if time is None and self._facts["time"] is None:
             raise InputError("time is missing: give time=100")
         if step is None and tolerance is None and self._facts["step"] is None and self._facts["tolerance"] is None:
             raise InputError("step is missing: give step=0.1, or tolerance=1e-9 to have it chosen")
         return {
-            "time": real(time, "time"),
-            "step": real(step, "step"),
+            "time": real(time, "time", self._facts["time_unit"]),
+            "step": real(step, "step", self._facts["time_unit"]),
             "tolerance": real(tolerance, "tolerance"),
-            "region": real(region, "region"),
-            "truncation": None if truncation is None else _count(truncation, "truncation"),
+            "region": real(region, "region", self._facts["units"]),
+            "truncation": None if truncation is None else _arrays.count(truncation, "truncation"),
         }
 
+    def _find(self, names: list[str]) -> tuple[list[int | None], list[str]]:
+        return self._core.columns(names, len(names))[1:]
+
+    def _table(self, states: Any) -> Floats:
+        return _arrays.table(states, "states", self._find, self._facts["units"])
+
+    def _state(self, momentum: Any, group_element: Any) -> tuple[Floats | None, Floats | None]:
+        if momentum is None:
+            return None, None if group_element is None else _arrays.element(group_element, self.matrix_size)
+        return _arrays.state(momentum, group_element, self._find, self._facts["units"], self.matrix_size)
+
     def __reduce__(self) -> Any:
-        if self._given is None:
-            return System.from_text, (self._text_, self._name)
-        return _restored, (self._text_, self._name, self._given)
+        return _restored, (type(self), self._text_, self._name, self._given, self._known)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
@@ -614,37 +624,18 @@ class Verdict:
         return f"<Verdict: {self.text}{': ' + more if more else ''}; {self.rows} rows, {self.steps} steps>"
 
 
-def _restored(text: str, name: str, given: tuple[tuple[str, Any], ...]) -> System:
-    system = System.from_text(text, name)
-    system._given = given
+def _restored(kind: type[System], *parts: Any) -> System:
+    system = kind.__new__(kind)
+    system._read(*parts)
     return system
 
 
-def _ready(array: Any, dimensions: int) -> bool:
+def _ready(array: Any, dimensions: int) -> TypeGuard[Floats]:
     """Whether this is an array that the extension takes as it is."""
     return type(array) is np.ndarray and array.dtype == np.float64 and array.ndim == dimensions
 
 
-def _real(value: Any, what: str) -> float:
-    array = floats(value, what, finite=False)
-    if array.ndim != 0:
-        raise InputError(f"{what} must be one number; it has the shape {array.shape}")
-    return float(array)
-
-
-def _count(value: Any, what: str) -> int:
-    try:
-        whole = int(value)
-        same = bool(whole == value) and not isinstance(value, (bool, str))
-    except (TypeError, ValueError, OverflowError):
-        same = False
-    if not same or whole < 0 or whole >= 2**63:
-        raise InputError(f"{what}={value!r}: a whole number, not negative, is needed")
-    return whole
-
-
-def _odd(truncation: Any) -> None:
-    if _count(truncation, "truncation") % 2 == 0 or truncation > 63:
-        raise InputError(
-            f"truncation={truncation!r}: give an odd number from 1 to 63; the even terms vanish"
-        )
+def _odd(truncation: Any) -> int:
+    if (k := _arrays.count(truncation, "truncation")) % 2 == 0 or k > 63:
+        raise InputError(f"truncation={k}: give an odd number from 1 to 63; the even terms vanish")
+    return k

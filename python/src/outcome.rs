@@ -1,6 +1,6 @@
 //! What a run has come to, in Python's types.
 
-use coadjoint_run::simulate::{Outcome, Schedule, split};
+use coadjoint_run::simulate::{Block, Kind, Outcome, Schedule, split};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -44,6 +44,10 @@ pub fn result_of<'py>(
         PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()),
     )?;
     found.set_item("end", end)?;
+    // Where rotations of space stand in the matrix: of a rigid motion the first rows are one.
+    let turns = |block: &&Block| matches!(block.kind, Kind::Rotation | Kind::Motion);
+    let rotations = outcome.blocks.iter().filter(turns).map(|block| block.range.start);
+    found.set_item("rotations", rotations.collect::<Vec<usize>>())?;
     let drift = outcome.drift;
     found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
     found.set_item("conserved_momenta", outcome.momenta)?;

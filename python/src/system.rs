@@ -6,13 +6,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::System;
-use coadjoint_run::ensemble::{self, Attitude, How, Layout, Shape, Watch};
+use coadjoint_run::engine::FloatPolynomial;
+use coadjoint_run::ensemble::{
+    self, Attitude, Found, How, Known, Layout, Shape, Watch, matrix_size,
+};
 use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
     Accuracy, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use numpy::{PyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -79,6 +82,16 @@ impl Core {
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
         Ok((system, choice.map(|choice| choice.to_string())))
     }
+
+    /// What a row can say.
+    fn shape(&self) -> Shape {
+        let algebra = &self.system.problem.algebra;
+        let matrix_size = match self.system.potential {
+            Some(_) => matrix_size(algebra),
+            None => algebra.factors().iter().map(matrix_size).sum(),
+        };
+        Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
+    }
 }
 
 #[pymethods]
@@ -92,7 +105,7 @@ impl Core {
 
     /// Everything that the text says, and what follows from it.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let System { problem, potential, run, units } = &self.system;
+        let System { problem, potential, run, units, .. } = &self.system;
         let facts = PyDict::new(py);
         facts.set_item("name", &problem.name)?;
         facts.set_item("group", problem.algebra.name())?;
@@ -114,9 +127,7 @@ impl Core {
         let of = |i| units.coordinate(i).map(str::to_owned);
         let of: Vec<Option<String>> = (0..problem.algebra.dim()).map(of).collect();
         facts.set_item("units", of)?;
-        let sizes: usize = problem.algebra.factors().iter().map(rows_of).sum();
-        let whole = rows_of(&problem.algebra);
-        facts.set_item("matrix_size", if potential.is_some() { whole } else { sizes })?;
+        facts.set_item("matrix_size", self.shape().matrix_size)?;
         Ok(facts)
     }
 
@@ -295,14 +306,58 @@ impl Core {
     /// What rows of an ensemble may hold: the names of the columns with momenta alone, with matrices, and, for
     /// rotations, with quaternions.
     fn layouts(&self) -> Vec<Vec<String>> {
-        let algebra = &self.system.problem.algebra;
-        let matrix_size = algebra.factors().iter().map(rows_of).sum();
-        let shape = Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" };
+        let shape = self.shape();
         let mut forms = vec![Attitude::None, Attitude::Matrix];
         if shape.quaternions {
             forms.push(Attitude::Quaternion);
         }
         forms.into_iter().map(|attitude| Layout { shape, attitude }.names()).collect()
+    }
+
+    /// Which columns of a table are a state: the names of a row's numbers, the column of each (none where the number is
+    /// 0), and the columns that are no part of it. A table without names is known by its width.
+    #[allow(clippy::type_complexity)]
+    fn columns(
+        &self,
+        py: Python<'_>,
+        names: Option<Vec<String>>,
+        width: usize,
+    ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>)> {
+        let shape = self.shape();
+        let found = match names {
+            Some(names) => Layout::find(shape, &Known::of(&self.system), &names),
+            None => Layout::of_width(shape, width).map(|layout| Found {
+                layout,
+                places: (0..width).map(Some).collect(),
+                unused: Vec::new(),
+            }),
+        };
+        let found = found.map_err(|error| raised(py, &error))?;
+        Ok((found.layout.names(), found.places, found.unused))
+    }
+
+    /// H and its gradient at momenta, a row each; a potential is no part of it.
+    #[allow(clippy::type_complexity)]
+    fn hamiltonian<'py>(
+        &self,
+        py: Python<'py>,
+        momenta: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let problem = &self.system.problem;
+        let dim = problem.algebra.dim();
+        let [count, width] = [momenta.shape()[0], momenta.shape()[1]];
+        if width != dim {
+            return Err(refused(py, format!("momenta have {width} numbers; {dim} are needed")));
+        }
+        let numbers = |polynomial| FloatPolynomial::new(polynomial, dim, &problem.symbols);
+        let (energy, gradient) = (numbers(&problem.hamiltonian), problem.hamiltonian.gradient(dim));
+        let gradient: Vec<FloatPolynomial> = gradient.iter().map(numbers).collect();
+        let momenta: Vec<f64> = momenta.as_array().iter().copied().collect();
+        let rows = momenta.chunks_exact(dim.max(1));
+        let energies: Vec<f64> = rows.clone().map(|mu| energy.evaluate(mu)).collect();
+        let velocities: Vec<f64> =
+            rows.flat_map(|mu| gradient.iter().map(move |part| part.evaluate(mu))).collect();
+        Ok((energies.into_pyarray(py), velocities.into_pyarray(py).reshape([count, dim])?))
     }
 
     /// Steps of this size, ready to be made.
@@ -430,20 +485,12 @@ impl Core {
     }
 }
 
-/// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
-fn rows_of(algebra: &lie::LieAlgebra) -> usize {
-    match algebra.basis() {
-        Some(basis) => basis.first().map_or(0, lie::RationalMatrix::rows),
-        None => algebra.dim(),
-    }
-}
-
 /// Bytes of the records of a run, about.
 fn record_size(system: &System, setup: &Setup) -> f64 {
     let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
     let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
     let algebra = &system.problem.algebra;
-    let entries: usize = algebra.factors().iter().map(|factor| rows_of(factor).pow(2)).sum();
+    let entries: usize = algebra.factors().iter().map(|factor| matrix_size(factor).pow(2)).sum();
     if setup.recording {
         8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64
     } else {

@@ -74,9 +74,9 @@ def test_notebooks_show_the_sphere_of_a_system(body: ca.System) -> None:
     assert "<svg" not in ca.System("SO3", "x^2 + y^2 + z^2", coordinates="x y z")._repr_html_()
 
 
-def test_frames_have_the_columns_of_the_command(body: ca.System) -> None:
+def test_frames_have_the_columns_that_calls_read(body: ca.System) -> None:
     frame = body.simulate([2, 0.5, 1], time=1, step=0.1).to_frame()
-    assert list(frame.columns[:5]) == ["time", "x", "y", "z", "g_11"] and len(frame) == 11
+    assert list(frame.columns[:5]) == ["time", "mu_1", "mu_2", "mu_3", "g_11"] and len(frame) == 11
     assert list(frame.columns[-3:]) == ["spatial_momentum_drift", "casimir_drift", "energy_drift"]
 
 

@@ -52,8 +52,11 @@ def test_every_backend_has_the_same_bits(body: ca.System) -> None:
 def test_records_are_chosen(body: ca.System) -> None:
     every = body.simulate(START, time=10, step=0.1, every=30)
     np.testing.assert_allclose(every.time, [0, 3, 6, 9, 10])
-    at = body.simulate(START, time=10, step=0.1, at=[10, 0.55, 2])
+    at = body.simulate(START, time=10, step=0.1, at=[0.55, 2, 10])
     np.testing.assert_allclose(at.time, [0.55, 2, 10])
+    for order in ([10, 0.55, 2], [2, 2], [[1], [2]]):
+        with pytest.raises(InputError, match="in the order of the run, each once"):
+            body.simulate(START, time=10, step=0.1, at=order)
     both = body.simulate(START, time=10, step=0.1, every=50, at=[2])
     np.testing.assert_allclose(both.time, [0, 2, 5, 10])
     assert np.abs(body.simulate(START, time=0.55, step=0.11).final_momentum - at.momentum[0]).max() < 1e-7

@@ -23,7 +23,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::engine::Kept;
-use coadjoint_run::ensemble::{How, Use, engine, problem_of};
+use coadjoint_run::ensemble::{How, Known, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -38,6 +38,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
     let run = system.run.clone();
+    let known = Known::of(&system);
     let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     if same_file(&options.initial, &options.out) {
@@ -53,7 +54,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let how = How { backend: options.backend.into(), work, device: asked };
     let engine = engine(path, &integrator, step, how, &Kept::default())?;
     engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
-    let input = input::open(&options.initial, engine.shape())?;
+    let input = input::open(&options.initial, engine.shape(), &known)?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;
     let mut identity: Identity = [

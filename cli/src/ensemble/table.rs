@@ -16,10 +16,12 @@ pub struct Table {
 
 impl Table {
     /// Of a header, in which the layout's columns are at `places`.
-    pub fn new(header: Vec<String>, places: &[usize]) -> Self {
+    pub fn new(header: Vec<String>, places: &[Option<usize>]) -> Self {
         let mut own = vec![None; header.len()];
         for (column, &place) in places.iter().enumerate() {
-            own[place] = Some(column);
+            if let Some(place) = place {
+                own[place] = Some(column);
+            }
         }
         Self { header, own }
     }

@@ -102,6 +102,8 @@ pub struct System {
     pub run: Run,
     /// The units that plots and reports show.
     pub units: Units,
+    /// The names of all parameters, also of those whose values are put into the Hamiltonian.
+    pub parameters: Vec<String>,
 }
 
 /// Reads the text of a system file.
@@ -194,7 +196,10 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
         Some(potential) => Some((potential, splitting::choose(splitting, &problem)?)),
         None => None,
     };
-    Ok(System { problem, potential, run, units })
+    let parameters = root.get("parameters").and_then(|table| table.get_ref().as_table());
+    let parameters = parameters.into_iter().flat_map(|table| table.keys());
+    let parameters = parameters.map(|name| name.get_ref().to_string()).collect();
+    Ok(System { problem, potential, run, units, parameters })
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.

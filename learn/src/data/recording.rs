@@ -36,6 +36,8 @@ pub struct Recording {
     pub momenta: MomentumPairs,
     /// The attitudes g′ before and g″ after, if they were recorded.
     pub attitudes: Option<Attitudes>,
+    /// The columns that are neither.
+    pub unused: Vec<String>,
 }
 
 impl Recording {
@@ -49,7 +51,9 @@ impl Recording {
         dim: usize,
         matrix_size: usize,
     ) -> Result<Self, LearnError> {
-        let gather = |names: &[String]| -> Result<DMatrix<f64>, LearnError> {
+        let mut unused = columns.names().to_vec();
+        let mut gather = |names: &[String]| -> Result<DMatrix<f64>, LearnError> {
+            unused.retain(|column| !names.contains(column));
             let mut gathered = DMatrix::zeros(names.len(), columns.rows());
             for (i, name) in names.iter().enumerate() {
                 let column = columns.column(name).ok_or_else(|| LearnError::MissingColumn {
@@ -78,7 +82,7 @@ impl Recording {
         } else {
             None
         };
-        Ok(Self { momenta, attitudes })
+        Ok(Self { momenta, attitudes, unused })
     }
 
     /// The pairs of phase points on `group`; rows that are not finite or off the group by more

@@ -104,6 +104,8 @@ pub struct Summary {
     pub drifts: Option<Drifts>,
     /// Rows left out of the training data, with the reason.
     pub dropped: Vec<(usize, String)>,
+    /// Columns of the training data that are neither a momentum nor an attitude.
+    pub unused: Vec<String>,
 }
 
 /// Learns, and says how well it went. `progress` is told (step, of, loss) by iterative fits.
@@ -208,12 +210,10 @@ impl Visitor for Learner<'_> {
             return Err(LearnError::Shape { what, expected, found });
         }
         if request.momenta_only || recording.attitudes.is_none() {
-            return momenta::learn::<G, C>(
-                request,
-                &group,
-                &recording.momenta,
-                test.as_ref().map(|t| &t.momenta),
-            );
+            let test = test.as_ref().map(|t| &t.momenta);
+            let (file, summary) =
+                momenta::learn::<G, C>(request, &group, &recording.momenta, test)?;
+            return Ok((file, Summary { unused: recording.unused, ..summary }));
         }
         let pairs = |recording: &Recording| -> Result<(PairRows<G>, Reduction), LearnError> {
             let rows = recording.phase_pairs(&group, request.tolerances.attitude)?;
@@ -240,6 +240,7 @@ impl Visitor for Learner<'_> {
             test,
             drifts: start.and_then(|s| drifts(&map, &group, &s, request.drift_steps, None).ok()),
             dropped: named(&reduction.dropped),
+            unused: recording.unused,
         };
         let training = TrainingRecord { train: Some(train), ..record };
         let (name, chart) = (&request.group, &request.chart);

@@ -94,6 +94,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         test: test.map(|t| figures(&model, t)),
         drifts: start.and_then(|s| drifts(&map, group, &s, request.drift_steps, None).ok()),
         dropped: named(&bad),
+        unused: Vec::new(),
     };
     let training = TrainingRecord {
         samples: pairs.len(),

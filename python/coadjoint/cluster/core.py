@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import platform
 import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pyarrow
 
-from .._arrays import Floats
+from .._arrays import Backend, Floats
 from .._core import Core, __version__
 from ..system import System
 from .errors import InputError, ShardError
@@ -38,7 +39,7 @@ def versions() -> dict[str, str]:
     return {"coadjoint": __version__, "pyarrow": pyarrow.__version__, "processor": platform.machine()}
 
 
-def pin(system: Any, asked: dict[str, Any], backend: str) -> dict[str, Any]:
+def pin(system: System, asked: dict[str, Any], backend: Backend) -> dict[str, Any]:
     """The run in text and numbers: what a tolerance picks is picked here, once."""
     if not isinstance(system, System):
         raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
@@ -48,9 +49,16 @@ def pin(system: Any, asked: dict[str, Any], backend: str) -> dict[str, Any]:
     return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
 
 
-def layouts(job: dict[str, Any]) -> list[list[str]]:
-    """The columns that rows may have."""
-    return _core(job["text"]).layouts()
+def columns(job: dict[str, Any], available: Sequence[str] | int) -> tuple[list[str], list[str]]:
+    """The columns of a state among those of a file, in the order in which the steps want them, and the others. A file
+    without names has a width, which says what it holds."""
+    if isinstance(available, int):
+        return _core(job["text"]).columns(None, available)[0], []
+    names, places, others = _core(job["text"]).columns(list(available), len(available))
+    missing = [name for name, place in zip(names, places, strict=True) if place is None]
+    if missing:
+        raise InputError(f"column {missing[0]} is missing: files of states have all entries of the matrix, also zeros")
+    return [available[place] for place in places if place is not None], others
 
 
 def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:

@@ -7,8 +7,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from .._arrays import Backend, unused
+from ..system import System
 from . import core, manifest, result, shard, states
-from .columns import choose
 from .drive import Engine, drive
 from .errors import ClusterError, InputError
 from .files import Folder, absolute
@@ -23,11 +24,11 @@ class Job:
 
     def __init__(
         self,
-        system: Any,
+        system: System,
         names: Any,
         out: str | os.PathLike[str],
         asked: dict[str, Any],
-        backend: str,
+        backend: Backend,
         rows_per_shard: int | None,
         share: tuple[int, int] | None,
         keep: Sequence[str],
@@ -38,11 +39,12 @@ class Job:
         self.states = states.inspect(names, storage_options)
         # Everything that workers need to make the same steps, as text and numbers.
         self.core = core.pin(system, asked, backend)
-        self.columns = choose(self.states.columns, core.layouts(self.core))
+        self.columns, others = core.columns(self.core, self.states.columns)
         for name in self.columns:
             if name in self.states.others:
                 raise InputError(f"column {name} is of the type {self.states.others[name]}; numbers are needed")
         self.keep = self._kept(keep)
+        unused("states", [name for name in others if name not in self.keep])
         self.plan = plan(self.states.rows, self.core["steps"], rows_per_shard)
         self.shards = range(self.plan.shards) if share is None else self.plan.share(*share)
         self.versions = core.versions()

@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from .._arrays import Backend, Real, count
+from ..system import System
 from . import local
 from .drive import Engine
 from .errors import InputError
@@ -15,16 +17,16 @@ from .result import Result
 
 
 def run(
-    system: Any,
+    system: System,
     *,
     states: str | os.PathLike[str] | Sequence[str],
     out: str | os.PathLike[str],
-    time: float | None = None,
-    step: float | None = None,
-    tolerance: float | None = None,
-    region: float | None = None,
+    time: Real | None = None,
+    step: Real | None = None,
+    tolerance: Real | None = None,
+    region: Real | None = None,
     truncation: int | None = None,
-    backend: str = "auto",
+    backend: Backend = "auto",
     client: Any = None,
     workers: int | None = None,
     threads: int = 1,
@@ -98,10 +100,7 @@ def run(
     """
     asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
     job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options)
-    if isinstance(attempts, bool) or not isinstance(attempts, int) or attempts < 1:
-        raise InputError(f"attempts = {attempts!r}: a whole number, at least 1, is needed")
-    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(f"threads = {threads!r}: a whole number, at least 1, is needed")
+    attempts, threads = count(attempts, "attempts", 1), count(threads, "threads", 1)
     if restart and share is not None:
         raise InputError(
             "restart with share: every job would remove what the others have made; remove the folder once, or begin "

@@ -10,8 +10,9 @@ import sys
 import threading
 from collections.abc import Iterable
 
+from .._arrays import count
 from . import shard
-from .errors import InputError, WorkerDied
+from .errors import WorkerDied
 from .shard import Summary, Task
 
 _START = (
@@ -162,6 +163,5 @@ def engine(workers: int | None) -> Here | Processes:
     """This process for one worker, else so many processes; as many as there are processors if not given."""
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InputError(f"workers = {workers!r}: a whole number, at least 1, is needed")
+    workers = count(workers, "workers", 1)
     return Here() if workers == 1 else Processes(workers)

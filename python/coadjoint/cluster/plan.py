@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .._arrays import count
 from .errors import InputError
 
 #: Numbers that a worker holds of one group of rows: 4 MiB of doubles.
@@ -47,8 +48,7 @@ def plan(rows: int, steps: int, rows_per_shard: int | None = None) -> Plan:
         rows_per_shard = 1 << min(max((_STEPS // max(steps, 1)).bit_length() - 1, 8), 20)
         while rows_per_shard < least:
             rows_per_shard *= 2
-    if isinstance(rows_per_shard, bool) or not isinstance(rows_per_shard, int) or rows_per_shard < 1:
-        raise InputError(f"rows_per_shard = {rows_per_shard!r}: a whole number of rows, at least 1, is needed")
+    rows_per_shard = count(rows_per_shard, "rows_per_shard", 1)
     if rows_per_shard < least:
         raise InputError(
             f"rows_per_shard = {rows_per_shard}: {rows} rows would be more than {_MOST} shards; give {least} at least"

@@ -21,10 +21,10 @@ def run(states, out, **options):
 def test_options_that_make_no_sense(serial, tmp_path):
     states, out, _ = serial
     for options, expected in [
-        ({"rows_per_shard": 0}, "rows_per_shard = 0"),
-        ({"workers": 0}, "workers = 0"),
-        ({"attempts": 0}, "attempts = 0"),
-        ({"threads": 1.5}, "threads = 1.5"),
+        ({"rows_per_shard": 0}, "rows_per_shard=0"),
+        ({"workers": 0}, "workers=0"),
+        ({"attempts": 0}, "attempts=0"),
+        ({"threads": 1.5}, "threads=1.5"),
         ({"share": (0, 3)}, "no share 0 of 3"),
         ({"share": (4, 3)}, "no share 4 of 3"),
         ({"share": (1, 3), "restart": True}, "every job would remove what the others have made"),

@@ -1,5 +1,10 @@
 //! Which columns a row of states has, in files as in memory.
 
+use std::collections::HashMap;
+
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
+use coadjoint_codegen::system::System;
+
 use crate::error::RunError;
 
 /// How a row gives the attitude.
@@ -22,6 +27,61 @@ pub struct Shape {
     pub matrix_size: usize,
     /// Whether a unit quaternion names an element.
     pub quaternions: bool,
+}
+
+/// The columns of a quaternion.
+const QUATERNION: [&str; 4] = ["q_w", "q_x", "q_y", "q_z"];
+
+/// What a system calls its own.
+#[derive(Clone, Debug)]
+pub struct Known {
+    coordinates: Vec<String>,
+    parameters: Vec<String>,
+    /// The rows of each block of the matrix of a group element.
+    blocks: Vec<usize>,
+}
+
+impl Known {
+    /// By this system.
+    pub fn of(system: &System) -> Self {
+        let algebra = &system.problem.algebra;
+        Self {
+            coordinates: system.problem.coordinates.clone(),
+            parameters: system.parameters.clone(),
+            blocks: algebra.factors().iter().map(matrix_size).collect(),
+        }
+    }
+
+    /// Whether this entry of the matrix is outside of all blocks, where entries are 0.
+    fn is_zero(&self, entry: usize, size: usize) -> bool {
+        let block = |index: usize| {
+            let mut end = 0;
+            self.blocks.iter().position(|rows| {
+                end += rows;
+                index < end
+            })
+        };
+        size > 0 && block(entry / size) != block(entry % size)
+    }
+}
+
+/// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
+pub fn matrix_size(algebra: &LieAlgebra) -> usize {
+    match algebra.basis() {
+        Some(basis) => basis.first().map_or(0, RationalMatrix::rows),
+        None => algebra.dim(),
+    }
+}
+
+/// Where named columns have the numbers of a state.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What the state has.
+    pub layout: Layout,
+    /// The column of each number; none where the number is 0 in every element of the group.
+    pub places: Vec<Option<usize>>,
+    /// The columns that are no part of the state.
+    pub unused: Vec<String>,
 }
 
 /// The columns of a row: `mu_1` … `mu_n`, then the attitude.
@@ -50,68 +110,95 @@ impl Layout {
         match self.attitude {
             Attitude::None => {}
             Attitude::Matrix => names.extend(matrix(self.shape.matrix_size)),
-            Attitude::Quaternion => names.extend(["w", "x", "y", "z"].map(|x| format!("q_{x}"))),
+            Attitude::Quaternion => names.extend(QUATERNION.map(str::to_owned)),
         }
         names
     }
 
-    /// The layout of a file with named columns, and for each of its columns the number in the
-    /// file. Other columns are not looked at.
-    pub fn find(shape: Shape, header: &[String]) -> Result<(Self, Vec<usize>), RunError> {
-        let any = |attitude| {
-            let names = Self { shape, attitude }.names();
-            names.into_iter().skip(shape.dim).find(|name| header.contains(name))
-        };
-        let first = matrix(shape.matrix_size).into_iter().next().unwrap_or_default();
-        let quaternion =
-            ["q_w", "q_x", "q_y", "q_z"].into_iter().find(|q| header.iter().any(|h| h == q));
-        let attitude = match (any(Attitude::Matrix), quaternion) {
+    /// Finds the numbers of a state among named columns. A coordinate is called `mu_i`, or what the system calls it, as
+    /// records of runs do.
+    ///
+    /// # Errors
+    /// Where a column is missing, is there twice, or is called what the system calls a parameter.
+    pub fn find(shape: Shape, known: &Known, header: &[String]) -> Result<Found, RunError> {
+        let refuse = |what: String| Err(RunError::Option(what));
+        let mut first = HashMap::new();
+        for (column, name) in header.iter().enumerate() {
+            first.entry(name.as_str()).or_insert(column);
+        }
+        let position = |name: &str| first.get(name).copied();
+        let entries = matrix(shape.matrix_size);
+        let attitude = match (
+            entries.iter().find(|name| position(name).is_some()),
+            QUATERNION.iter().find(|name| position(name).is_some()),
+        ) {
             (Some(g), Some(q)) => {
-                return Err(RunError::Option(format!(
+                return refuse(format!(
                     "columns {g} and {q} both give the attitude: keep either g_… or q_w, q_x, q_y, q_z"
-                )));
+                ));
             }
             (Some(_), None) => Attitude::Matrix,
             (None, Some(_)) => Attitude::Quaternion,
             (None, None) => Attitude::None,
         };
         if attitude == Attitude::Quaternion && !shape.quaternions {
-            return Err(RunError::Option(format!(
+            return refuse(format!(
                 "columns q_w … q_z: elements of this group are no quaternions; give the attitude \
                  as a {d}×{d} matrix, {first} …",
-                d = shape.matrix_size
-            )));
+                d = shape.matrix_size,
+                first = entries.first().map_or("g_11", String::as_str)
+            ));
         }
+        let layout = Self { shape, attitude };
+        let names = layout.names();
+        let mut places = Vec::with_capacity(names.len());
+        for (number, name) in names.iter().enumerate() {
+            let own = known
+                .coordinates
+                .get(number)
+                .and_then(|own| position(&format!("momentum_{own}")).or_else(|| position(own)));
+            let place = position(name).or(own);
+            let zero = number >= shape.dim && known.is_zero(number - shape.dim, shape.matrix_size);
+            if place.is_none() && !(attitude == Attitude::Matrix && zero) {
+                return refuse(format!(
+                    "column {name} is missing: this system needs {}; there are {}",
+                    names.join(", "),
+                    header.join(", ")
+                ));
+            }
+            places.push(place);
+        }
+        let mut used = vec![false; header.len()];
+        places.iter().flatten().for_each(|&place| used[place] = true);
+        let mut unused = Vec::new();
         for (column, name) in header.iter().enumerate() {
             let index = name.strip_prefix("mu_").and_then(|index| index.parse::<usize>().ok());
             if index.is_some_and(|index| index == 0 || index > shape.dim) {
-                return Err(RunError::Option(format!(
+                return refuse(format!(
                     "column {name}: the momentum of this system has the coordinates mu_1 … mu_{}; \
                      take it out or give it another name",
                     shape.dim
-                )));
+                ));
             }
-            let ours = Self { shape, attitude }.names().contains(name);
-            if let Some(before) = header[..column].iter().position(|h| ours && h == name) {
-                return Err(RunError::Option(format!(
+            if used[column] {
+                continue;
+            }
+            if let Some(before) = position(name).filter(|&before| used[before]) {
+                return refuse(format!(
                     "column {name} is there twice, in row 1 as cells {} and {}: keep one",
                     before + 1,
                     column + 1
-                )));
+                ));
             }
+            if known.parameters.iter().any(|p| name == p || name.starts_with(&format!("{p}["))) {
+                return refuse(format!(
+                    "column {name} is called as a parameter of the system is, which is the same for all rows: \
+                     give a group of rows with other values a system of its own, or the column another name"
+                ));
+            }
+            unused.push(name.clone());
         }
-        let layout = Self { shape, attitude };
-        let place = |name: String| {
-            header.iter().position(|h| *h == name).ok_or_else(|| {
-                RunError::Option(format!(
-                    "column {name} is missing: this system needs {}; the file has {}",
-                    layout.names().join(", "),
-                    header.join(", ")
-                ))
-            })
-        };
-        let places = layout.names().into_iter().map(place).collect::<Result<_, _>>()?;
-        Ok((layout, places))
+        Ok(Found { layout, places, unused })
     }
 
     /// The layout of a matrix without names, by its width.

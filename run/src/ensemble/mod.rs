@@ -11,6 +11,6 @@ mod whole;
 
 pub use device::{Asked, Use};
 pub use engine::{Drift, Engine, How, Watch, engine};
-pub use layout::{Attitude, Layout, Shape};
+pub use layout::{Attitude, Found, Known, Layout, Shape, matrix_size};
 pub use rows::{Rejected, Rows};
 pub use whole::{advance_all, piece, problem_of};

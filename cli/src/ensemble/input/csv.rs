@@ -9,15 +9,15 @@ use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
 use super::{Input, damaged, unread};
 use crate::ensemble::table::{Piece, Table};
 use crate::error::CliError;
-use coadjoint_run::ensemble::{Layout, Shape};
+use coadjoint_run::ensemble::{Found, Known, Layout, Shape};
 
 /// A CSV file; blanks around cells and lines that begin with # are passed over.
 pub struct CsvInput {
     path: PathBuf,
     reader: Reader<BufReader<File>>,
     layout: Layout,
-    /// The cell of each column.
-    places: Vec<usize>,
+    /// The cell of each number; none for those that are 0.
+    places: Vec<Option<usize>>,
     table: Table,
     total: u64,
     /// The number of the next row, from 0.
@@ -27,11 +27,11 @@ pub struct CsvInput {
 
 impl CsvInput {
     /// Reads the header and counts the rows.
-    pub fn open(path: &Path, shape: Shape) -> Result<Self, CliError> {
+    pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Self, CliError> {
         let mut reader = reader(path)?;
         let header = reader.headers().map_err(|error| damaged(path, error))?;
         let header: Vec<String> = header.iter().map(|name| name.trim().into()).collect();
-        let (layout, places) = Layout::find(shape, &header)?;
+        let Found { layout, places, .. } = Layout::find(shape, known, &header)?;
         let mut record = ByteRecord::new();
         let mut total = 0;
         let mut counter = self::reader(path)?;
@@ -49,6 +49,10 @@ impl CsvInput {
             return Err(format!("{} cells instead of {cells}", self.record.len()));
         }
         for (&place, column) in self.places.iter().zip(0..) {
+            let Some(place) = place else {
+                values.push(0.0);
+                continue;
+            };
             let cell = self.record.get(place).unwrap_or_default().trim_ascii();
             let number = std::str::from_utf8(cell).ok().and_then(|text| text.parse().ok());
             values.push(number.ok_or_else(|| {
@@ -113,7 +117,7 @@ impl Input for CsvInput {
                 return Err(damaged(&self.path, "it has become shorter while it was read"));
             }
             self.next += 1;
-            if self.places.len() < self.table.own.len() {
+            if self.table.others().next().is_some() {
                 let others = self.table.own.iter().enumerate().filter(|(_, own)| own.is_none());
                 let cells = others.map(|(cell, _)| self.record.get(cell).unwrap_or_default());
                 piece.others.push(cells.collect());

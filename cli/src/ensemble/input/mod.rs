@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::table::{Piece, Table};
 use crate::error::CliError;
-use coadjoint_run::ensemble::{Layout, Shape};
+use coadjoint_run::ensemble::{Known, Layout, Shape};
 
 /// A file of states that is read forwards.
 pub trait Input {
@@ -36,13 +36,13 @@ pub trait Input {
 }
 
 /// Opens a file by the ending of its name.
-pub fn open(path: &Path, shape: Shape) -> Result<Box<dyn Input>, CliError> {
+pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Box<dyn Input>, CliError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     match ending.as_deref() {
-        Some("csv") => Ok(Box::new(csv::CsvInput::open(path, shape)?)),
+        Some("csv") => Ok(Box::new(csv::CsvInput::open(path, shape, known)?)),
         Some("npy") => Ok(Box::new(npy::NpyInput::open(path, shape)?)),
         #[cfg(feature = "parquet")]
-        Some("parquet") => Ok(Box::new(parquet::ParquetInput::open(path, shape)?)),
+        Some("parquet") => Ok(Box::new(parquet::ParquetInput::open(path, shape, known)?)),
         _ => Err(CliError::Option(format!(
             "--initial {}: the name must end in .csv or .npy, or in .parquet where the program \
              was built with the feature `parquet`",

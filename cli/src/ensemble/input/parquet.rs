@@ -10,31 +10,34 @@ use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use super::{Input, damaged, unread};
 use crate::ensemble::table::Piece;
 use crate::error::CliError;
-use coadjoint_run::ensemble::{Layout, Shape};
+use coadjoint_run::ensemble::{Found, Known, Layout, Shape};
 
 /// A `.parquet` file, read row group by row group; a null is no number.
 pub struct ParquetInput {
     path: PathBuf,
     reader: SerializedFileReader<File>,
     layout: Layout,
-    /// The column of each number.
-    places: Vec<usize>,
+    /// The column of each number; none for those that are 0.
+    places: Vec<Option<usize>>,
     total: u64,
     next: u64,
     /// The readers of the current row group, the group's number and the rows left in it.
-    group: Option<(Vec<ColumnReader>, usize, usize)>,
+    group: Option<(Vec<Option<ColumnReader>>, usize, usize)>,
 }
 
 impl ParquetInput {
     /// Reads the footer.
-    pub fn open(path: &Path, shape: Shape) -> Result<Self, CliError> {
+    pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Self, CliError> {
         let file = File::open(path).map_err(unread(path))?;
         let reader = SerializedFileReader::new(file).map_err(|error| damaged(path, error))?;
         let metadata = reader.metadata().file_metadata();
         let columns = metadata.schema_descr().columns();
         let names: Vec<String> = columns.iter().map(|c| c.path().string()).collect();
         let total = u64::try_from(metadata.num_rows()).unwrap_or(0);
-        let (layout, places) = Layout::find(shape, &names)?;
+        let Found { layout, places, unused } = Layout::find(shape, known, &names)?;
+        if !unused.is_empty() {
+            eprintln!("not carried through, as only .csv files are: {}", unused.join(", "));
+        }
         Ok(Self { path: path.into(), reader, layout, places, total, next: 0, group: None })
     }
 
@@ -54,9 +57,11 @@ impl ParquetInput {
             return Err(damaged(&self.path, "it ends before its rows do"));
         };
         let group = self.reader.get_row_group(number).map_err(self.damaged())?;
-        let columns = self.places.iter().map(|&place| group.get_column_reader(place));
+        let column =
+            |place: &Option<usize>| place.map(|at| group.get_column_reader(at)).transpose();
+        let columns = self.places.iter().map(column);
         let mut columns = columns.collect::<Result<Vec<_>, _>>().map_err(self.damaged())?;
-        for column in &mut columns {
+        for column in columns.iter_mut().flatten() {
             let skipped = match column {
                 ColumnReader::DoubleColumnReader(reader) => reader.skip_records(skip),
                 ColumnReader::FloatColumnReader(reader) => reader.skip_records(skip),
@@ -137,6 +142,10 @@ impl Input for ParquetInput {
             let start = rows.values.len();
             rows.values.resize(start + take * width, f64::NAN);
             for (place, column) in columns.iter_mut().enumerate() {
+                let Some(column) = column else {
+                    (0..take).for_each(|i| rows.values[start + i * width + place] = 0.0);
+                    continue;
+                };
                 let numbers =
                     read_column(column, take).map_err(|error| damaged(&self.path, error))?;
                 for (i, number) in numbers.into_iter().enumerate().take(take) {
