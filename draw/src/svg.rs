@@ -125,7 +125,8 @@ fn coordinates(points: &[(f64, f64)]) -> String {
     text
 }
 
-/// The text with what has a meaning in XML written out; control characters become spaces.
+/// The text with what has a meaning in XML written out: for elements and quoted attributes of SVG and HTML. Control
+/// characters, and those that change the direction of text, become spaces.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -135,6 +136,14 @@ pub fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\u{61c}'
+            | '\u{200e}'
+            | '\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2066}'..='\u{2069}' => {
+                out.push(' ');
+            }
             c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
             c => out.push(c),
         }

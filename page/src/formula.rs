@@ -5,6 +5,7 @@
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
+use coadjoint_draw::escaped;
 use num_traits::{One, Signed};
 
 /// Longer polynomials are cut.
@@ -31,7 +32,7 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
             term.push_str(&rational(&size));
         }
         for (symbol, &power) in problem.symbols.iter().zip(symbols) {
-            let text = escape(&symbol.text);
+            let text = escaped(&symbol.text);
             push_power(
                 &mut term,
                 &format!("<mrow><mo>(</mo><mtext>{text}</mtext><mo>)</mo></mrow>"),
@@ -106,11 +107,5 @@ fn name_of(name: &str) -> (String, String) {
     ];
     let head = greek.iter().find(|(word, _)| *word == head).map_or(head, |(_, letter)| letter);
     let index: String = tail.chars().filter(|c| c.is_alphanumeric()).collect();
-    (escape(head), escape(&index))
-}
-
-/// For HTML.
-#[must_use]
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    (escaped(head), escaped(&index))
 }

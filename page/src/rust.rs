@@ -3,12 +3,13 @@
 use std::fmt::Write;
 
 use coadjoint_codegen::diagnostic::Diagnostics;
-use coadjoint_codegen::emit::{RUNTIME_TABLES, camel_case};
+use coadjoint_codegen::emit::{RUNTIME_TABLES, camel_case, identifier};
 use coadjoint_codegen::expr::{Arena, ExprId, Node};
 use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::parse::{Name, Names, text};
+use coadjoint_codegen::parse::{Name, Names, text, words};
 use coadjoint_codegen::problem::{Parameter, Problem, Shape};
+use coadjoint_program::quoting::{line, rust_comment};
 use num_traits::{Signed, ToPrimitive};
 
 use crate::fields::Fields;
@@ -18,14 +19,8 @@ use crate::system::System;
 const MOST_OPERATIONS: usize = 4000;
 /// Closed forms that the runtime has at its root.
 const AT_ROOT: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
-/// Words that name no argument.
-const TAKEN: [&str; 53] = [
-    "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for",
-    "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return",
-    "self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use", "where",
-    "while", "async", "await", "dyn", "abstract", "become", "box", "do", "final", "macro",
-    "override", "priv", "typeof", "unsized", "virtual", "yield", "try", "gen", "mu", "f64",
-];
+/// Names that mean something else in the function.
+const TAKEN: [&str; 2] = ["mu", "f64"];
 
 /// A program that makes steps of the system.
 ///
@@ -63,6 +58,9 @@ pub fn program(system: &System) -> Result<String, String> {
     let function = snake(&problem.name);
     let title = camel_case(&function);
     let own = !algebra.trim().is_empty();
+    if words(algebra).any(|word| words(&system.fields.parameters).any(|known| known == word)) {
+        return Err("[algebra] uses parameters: use the system file".to_owned());
+    }
     let group_argument = if own { inline(algebra)? } else { group.trim().to_owned() };
     let known = !own && catalogue::lookup(group).is_ok();
     let name = problem.algebra.name();
@@ -90,7 +88,7 @@ pub fn program(system: &System) -> Result<String, String> {
     signature.extend(arguments.iter().zip(types).map(|(name, ty)| format!("{name}: {ty}")));
     let mut out = format!(
         "{import}\n\n/// H = {}\n#[lie_poisson({})]\npub fn {function}({}) -> f64 {{\n",
-        one_line(&problem.source),
+        rust_comment(&problem.source),
         list.join(", "),
         signature.join(", "),
     );
@@ -127,6 +125,9 @@ fn expression(
     for (i, name) in problem.coordinates.iter().enumerate() {
         known.add(name, Name::Coordinate(i), Default::default(), &mut diagnostics);
     }
+    for i in 0..problem.coordinates.len() {
+        known.alias(format!("mu[{i}]"), Name::Coordinate(i));
+    }
     let mut place = 0;
     for parameter in &problem.parameters {
         for name in parameter.scalar_names() {
@@ -142,7 +143,7 @@ fn expression(
     }
     let root = text::parse(&problem.source, 0, &known, &mut arena, &mut diagnostics);
     if !diagnostics.is_empty() || arena.len() > MOST_OPERATIONS {
-        return Err("this Hamiltonian is too long for a function: use the system file, in a build script by coadjoint_codegen::Build".to_owned());
+        return Err("this Hamiltonian cannot be written as a function: use the system file, in a build script by coadjoint_codegen::Build".to_owned());
     }
     let mut written: Vec<(String, u8)> = Vec::with_capacity(arena.len());
     for (_, node, _) in arena.iter() {
@@ -259,7 +260,7 @@ fn names(parameters: &[Parameter], coordinates: &[String]) -> Vec<String> {
     parameters
         .iter()
         .map(|parameter| {
-            let mut name = lower(&parameter.name);
+            let mut name = identifier(&lower(&parameter.name)).to_string();
             while TAKEN.contains(&name.as_str()) || taken.contains(&name) {
                 name.push('_');
             }
@@ -274,10 +275,8 @@ fn lower(name: &str) -> String {
 }
 
 fn is_plain(name: &str) -> bool {
-    let word = |c: char| c.is_alphanumeric() || c == '_';
-    name.chars().all(word)
-        && !name.starts_with(|c: char| c.is_ascii_digit())
-        && !TAKEN.contains(&lower(name).as_str())
+    let name = lower(name);
+    identifier(&name) == name && !TAKEN.contains(&name.as_str())
 }
 
 fn uses(body: &str, name: &str) -> bool {
@@ -299,13 +298,9 @@ fn snake(name: &str) -> String {
     }
     let text = text.trim_matches('_').to_owned();
     match text.chars().next() {
-        Some(first) if first.is_ascii_alphabetic() && !TAKEN.contains(&text.as_str()) => text,
+        Some(first) if first.is_ascii_alphabetic() && is_plain(&text) => text,
         _ => format!("system_{text}").trim_end_matches('_').to_owned(),
     }
-}
-
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// `algebra(…)` as the attribute reads it.
@@ -316,7 +311,7 @@ fn inline(algebra: &str) -> Result<String, String> {
     let mut parts = Vec::new();
     for key in ["generators", "basis", "brackets"] {
         if let Some(value) = table.get(key) {
-            let raw = one_line(algebra.get(value.span()).unwrap_or_default());
+            let raw = line(algebra.get(value.span()).unwrap_or_default());
             let raw = raw.replace("[ ", "[").replace(", ]", "]").replace(" ]", "]");
             parts.push(format!("{key} = {raw}"));
         }

@@ -104,7 +104,9 @@ fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
     if !coordinates.is_empty() {
         arguments.push(format!("    coordinates={},", quoted(&coordinates.join(" "))));
     }
-    let usual = |parameter: &Parameter| !KEYWORDS.contains(&format!(" {} ", parameter.name));
+    let usual = |parameter: &Parameter| {
+        !KEYWORDS.contains(&format!(" {} ", parameter.name)) && !parameter.name.contains('\'')
+    };
     if parameters.iter().all(usual) && !parameters.is_empty() {
         let list = parameters.iter().map(|one| format!("{}={}", one.name, value(one)));
         arguments.push(format!("    parameters=dict({}),", list.collect::<Vec<_>>().join(", ")));

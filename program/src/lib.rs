@@ -27,6 +27,7 @@ mod packed;
 mod precision;
 pub mod print;
 mod program;
+pub mod quoting;
 mod stepper;
 
 pub use drive::Scratch;

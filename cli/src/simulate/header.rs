@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::system::Splitting;
 use coadjoint_learn::ModelFile;
+use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use serde_json::{Map, Value, json};
 
@@ -116,7 +117,7 @@ impl Header {
 /// On one line, numbers as short as they can be.
 fn text(value: &Value) -> String {
     match value {
-        Value::String(text) => text.replace(['\n', '\r'], " "),
+        Value::String(text) => line(text),
         Value::Number(number) if number.is_f64() => {
             number.as_f64().map_or_else(String::new, shortest)
         }

@@ -7,6 +7,7 @@ use quote::{format_ident, quote};
 
 use super::hygiene::fresh;
 use super::number::float;
+use super::options::identifier;
 use super::parameter;
 use super::table::Sizes;
 use crate::integrator::{Integrator, Products};
@@ -172,13 +173,15 @@ pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
     result
 }
 
-/// A parameter's name as an argument; underscores are added where it would be a keyword.
+/// A parameter's name as an argument; with another one, where it cannot be an identifier.
 fn argument_name(name: &str, names: &mut BTreeSet<String>) -> Ident {
-    syn::parse_str::<Ident>(name).unwrap_or_else(|_| {
-        let name = fresh(&format!("{name}_"), names);
-        names.insert(name.clone());
-        format_ident!("{name}")
-    })
+    let argument = identifier(name);
+    if argument == name {
+        return argument;
+    }
+    let argument = fresh(&argument.to_string(), names);
+    names.insert(argument.clone());
+    format_ident!("{argument}")
 }
 
 /// The type of a parameter over the scalar `T`.

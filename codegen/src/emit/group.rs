@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use coadjoint_program::quoting::rust_comment;
 use num_traits::ToPrimitive;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -47,7 +48,7 @@ pub fn group_type(
     // Factors act on their own coordinates: far cheaper than one group of large matrices.
     let (definition, tables) = match known.then(|| product(algebra, krate)).flatten() {
         Some(ty) => {
-            let about = format!(" The group {}.", algebra.name());
+            let about = format!(" The group {}.", rust_comment(algebra.name()));
             let definition = quote! {
                 #[doc = #about]
                 #visibility type #group<T = f64> = #ty;
@@ -136,8 +137,8 @@ fn own_tables(
         });
         quote!(&[#(#terms),*])
     });
-    let about = format!(" The Lie algebra of {} as tables.", algebra.name());
-    let about_group = format!(" The group of {}.", algebra.name());
+    let about = format!(" The Lie algebra of {} as tables.", rust_comment(algebra.name()));
+    let about_group = format!(" The group of {}.", rust_comment(algebra.name()));
     let definition = quote! {
         #[doc = #about_group]
         #visibility type #group<T = f64> = #krate::groups::StaticMatrixGroup<#marker, #n, #d, T>;

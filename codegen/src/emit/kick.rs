@@ -1,11 +1,11 @@
 //! A potential as Rust: a struct with its value and its torque.
 
+use coadjoint_program::quoting::rust_comment;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
-use super::header::one_line;
 use super::options::Options;
 use super::scope::{Meaning, Scope};
 use super::table::{Sizes, table_item};
@@ -46,11 +46,11 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let torque = vector_function(&kick.torque, vector, &scope.of(Meaning::Torque));
     let cost = kick.torque.cost();
     let summary = [
-        format!(" Potential: `{}`", one_line(&potential.source)),
+        format!(" Potential: `{}`", rust_comment(&potential.source)),
         String::new(),
         format!(
             " Group: {}. Torque: {} multiplications and {} additions.",
-            potential.algebra.name(),
+            rust_comment(potential.algebra.name()),
             cost.multiplications,
             cost.additions
         ),

@@ -32,7 +32,7 @@ pub use hygiene::{fresh, hygienic, identifiers};
 pub use item::tokens;
 pub use kick::kick;
 pub use limit::{MOST_TERMS, TooManyTerms, check_size};
-pub use options::{Options, camel_case};
+pub use options::{Options, camel_case, identifier};
 
 use proc_macro2::TokenStream;
 use quote::quote;

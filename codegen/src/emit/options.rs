@@ -1,7 +1,7 @@
 //! How emitted Rust looks from outside.
 
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
 
 /// How the Rust is to look from outside.
 #[derive(Clone, Debug)]
@@ -23,10 +23,26 @@ impl Options {
         Self {
             krate: quote!(::coadjoint),
             visibility: quote!(pub),
-            name: Ident::new(&camel_case(name), Span::call_site()),
+            name: identifier(&camel_case(name)),
             attributes: TokenStream::new(),
         }
     }
+}
+
+/// The name as an identifier of Rust, with an underscore in place of what none has, and at the end of a keyword or of `T`,
+/// which stands for the numbers.
+#[must_use]
+pub fn identifier(name: &str) -> Ident {
+    let valid = |word: &str| syn::parse_str::<Ident>(word).is_ok();
+    let allowed = |c: char| c.is_ascii_alphanumeric() || valid(&format!("a{c}"));
+    let mut word: String = name.chars().map(|c| if allowed(c) { c } else { '_' }).collect();
+    if !valid(&word) || ["T", "gen"].contains(&word.as_str()) {
+        word.push('_');
+    }
+    if !valid(&word) {
+        word.insert(0, 'n');
+    }
+    format_ident!("{word}")
 }
 
 /// `rigid_body` and `rigid-body` as `RigidBody`.

@@ -12,6 +12,7 @@ use super::signature::{Signature, signatures};
 use crate::kernel::{BLOCK, Kernel};
 use crate::node::Node;
 use crate::precision::Precision;
+use crate::quoting::c_comment;
 
 /// The name of the kernel in the text of [`device_unit`]. (`step` is a function of OpenCL.)
 pub const KERNEL_NAME: &str = "coadjoint_steps";
@@ -94,7 +95,7 @@ fn driven(kernel: &Kernel) -> impl Iterator<Item = Signature<'_>> {
 fn comment(kernel: &Kernel, about: &str) -> String {
     let mut text = String::from("/*\n");
     for line in about.lines() {
-        text.push_str(&format!(" * {}\n", line.replace("*/", "* /")));
+        text.push_str(&format!(" * {}\n", c_comment(line)));
     }
     let programs = kernel.programs();
     let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Node, Program};
 
 use super::dialect::decimal;
@@ -149,7 +150,7 @@ impl Fold {
         }
         if with_symbols {
             for (i, (expression, symbol)) in symbols.iter().zip(&problem.symbols).enumerate() {
-                let note = super::names::plain(&symbol.text);
+                let note = c_comment(&symbol.text);
                 let _ = writeln!(text, "    symbol[{i}] = {expression}; /* {note} */");
             }
             let count = symbols.len();

@@ -1,4 +1,4 @@
-//! Names in C, and text in its comments.
+//! Names in C.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ const KEYWORDS: &str = " alignas alignof and and_eq asm auto bitand bitor bool b
     inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
     register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
     switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void volatile \
-    wchar_t while xor xor_eq asm fortran linux unix ";
+    wchar_t while xor xor_eq asm fortran linux unix errno stdin stdout stderr near far small interface ";
 
 /// What the names of a system's header begin with: `rigid_body` for `rigid-body` and `RigidBody`'s words alike.
 #[must_use]
@@ -38,6 +38,13 @@ fn identifier(name: &str) -> String {
         }
     }
     result
+}
+
+/// Whether a name looks like a macro, as `NAN`, `M_PI` and, of complex numbers, `I` are: two capitals or more, or an
+/// underscore, and nothing in lower case.
+fn is_macro(name: &str) -> bool {
+    let capitals = name.chars().filter(|c| !c.is_ascii_digit()).count();
+    name == "I" || (capitals > 1 && !name.chars().any(|c| c.is_ascii_lowercase()))
 }
 
 /// The names of a header.
@@ -65,7 +72,9 @@ impl Names {
                 name if name.starts_with(|first: char| first.is_ascii_digit()) => {
                     format!("p{name}")
                 }
-                name if KEYWORDS.contains(&format!(" {name} ")) => format!("{name}_"),
+                name if KEYWORDS.contains(&format!(" {name} ")) || is_macro(name) => {
+                    format!("{name}_")
+                }
                 name => name.to_owned(),
             };
             let name = fresh(&name, &taken);
@@ -108,59 +117,6 @@ impl Names {
     }
 }
 
-/// Letters that comments are likely to have, in ASCII.
-const LETTERS: [(char, &str); 34] = [
-    ('²', "^2"),
-    ('³', "^3"),
-    ('⁻', "^-"),
-    ('¹', "1"),
-    ('·', "*"),
-    ('×', "x"),
-    ('°', "deg"),
-    ('½', "1/2"),
-    ('−', "-"),
-    ('–', "-"),
-    ('α', "alpha"),
-    ('β', "beta"),
-    ('γ', "gamma"),
-    ('δ', "delta"),
-    ('ε', "epsilon"),
-    ('η', "eta"),
-    ('θ', "theta"),
-    ('κ', "kappa"),
-    ('λ', "lambda"),
-    ('μ', "mu"),
-    ('µ', "micro"),
-    ('ν', "nu"),
-    ('ξ', "xi"),
-    ('π', "pi"),
-    ('ρ', "rho"),
-    ('σ', "sigma"),
-    ('τ', "tau"),
-    ('φ', "phi"),
-    ('χ', "chi"),
-    ('ψ', "psi"),
-    ('ω', "omega"),
-    ('Γ', "Gamma"),
-    ('Π', "Pi"),
-    ('Ω', "Omega"),
-];
-
-/// Text on one line of ASCII that may stand in a comment.
-#[must_use]
-pub fn plain(text: &str) -> String {
-    let mut result = String::new();
-    for letter in text.split_whitespace().collect::<Vec<_>>().join(" ").chars() {
-        match LETTERS.iter().find(|(known, _)| *known == letter) {
-            Some((_, ascii)) => result.push_str(ascii),
-            None if letter.is_ascii_graphic() || letter == ' ' => result.push(letter),
-            None => result.push('_'),
-        }
-    }
-    // Neither comments nor trigraphs begin or end in it, and no line goes on.
-    result.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "_")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,11 +127,5 @@ mod tests {
         assert_eq!(prefix("  Ω body 3!"), "body_3");
         assert_eq!(prefix("3 bodies"), "system_3_bodies");
         assert_eq!(prefix("…"), "system");
-    }
-
-    #[test]
-    fn comments_end_where_they_should() {
-        assert_eq!(plain("a */ b /* c"), "a * / b / * c");
-        assert_eq!(plain("kg m²/s\n\\ ??/ é"), "kg m^2/s _ ? ?/ _");
     }
 }

@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use coadjoint_program::BLOCK;
+use coadjoint_program::quoting::c_comment;
 use num_traits::ToPrimitive;
 
 use super::dialect::decimal;
 use super::fold::Fold;
-use super::names::{Names, plain};
+use super::names::Names;
 use super::programs::casimirs;
 use super::template::{CASIMIRS, STATE, TEXT};
 use super::{HeaderOptions, parameter};
@@ -56,7 +57,7 @@ pub fn types(
         text.push_str("\n/** Parameters of the Hamiltonian. */\ntypedef struct @p@_parameters {\n");
         for (parameter, name) in problem.parameters.iter().zip(&names.parameters) {
             let member = parameter::member(&parameter.shape, name);
-            let own = plain(&parameter.name);
+            let own = c_comment(&parameter.name);
             let note = if own == *name { String::new() } else { format!(" /**< {own} */") };
             let _ = writeln!(text, "    {member};{note}");
         }
@@ -71,8 +72,8 @@ pub fn types(
     text.push_str("    /** The body momentum, in the order of the basis of the Lie algebra:\n");
     for (i, name) in problem.coordinates.iter().enumerate() {
         let unit = options.momentum.get(i).and_then(Option::as_ref);
-        let unit = unit.map_or(String::new(), |unit| format!(" in {}", plain(unit)));
-        let _ = writeln!(text, "     *  mu[{i}] = {}{unit}", plain(name));
+        let unit = unit.map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
+        let _ = writeln!(text, "     *  mu[{i}] = {}{unit}", c_comment(name));
     }
     text.push_str("     */\n    double mu[@P@_DIMENSION];\n} @p@_state;\n");
     text.push_str(MAP);
