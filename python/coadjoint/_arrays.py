@@ -126,6 +126,29 @@ def count(value: Any, what: str, least: int = 0) -> int:
     return whole
 
 
+def text(value: Any, what: str, known: Sequence[str] = ()) -> str:
+    """A text, one of those that are known."""
+    if not isinstance(value, str) or (known and value not in known):
+        need = f"there are {', '.join(map(repr, known))}" if known else "a text is needed"
+        raise InputError(f"{what}={value!r}: {need}")
+    return value
+
+
+def flag(value: Any, what: str) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{what}={value!r}: True or False is needed")
+    return bool(value)
+
+
+def listed(values: Any, what: str) -> list[Any]:
+    """The entries of a list or of whatever else has some."""
+    try:
+        return list(values)
+    except TypeError:
+        raise InputError(f"{what}={values!r}: a list is needed") from None
+
+
 def vector(value: Any, what: str, length: int | None = None, unit: Units = None) -> Floats:
     """A list of finite numbers, of this length."""
     array = floats(value, what, unit=unit)

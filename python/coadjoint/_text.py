@@ -148,14 +148,6 @@ def symbols(*values: Any) -> dict[str, Any]:
     return found
 
 
-def listed(values: Any, what: str) -> list[Any]:
-    """The entries of a list or of whatever else has some."""
-    try:
-        return list(values)
-    except TypeError:
-        raise InputError(f"{what}={values!r}: a list is needed") from None
-
-
 def mapping(value: Any, what: str) -> dict[str, Any]:
     """A dictionary with texts, or SymPy's symbols, as keys; none is an empty one."""
     if not isinstance(value, Mapping | None):
@@ -167,7 +159,7 @@ def names(value: str | Iterable[Any], what: str) -> list[str]:
     """Names in a text with blanks or commas between them, or a sequence of names or symbols."""
     if isinstance(value, str):
         return value.replace(",", " ").split()
-    found = [str(name) for name in listed(value, what)]
+    found = [str(name) for name in _arrays.listed(value, what)]
     if not all(found):
         raise InputError(f"{what}: a name is empty")
     return found
@@ -190,10 +182,10 @@ def algebra(group: Any) -> dict[str, str | None]:
     if "generators" in group:
         found["generators"] = strings(names(group["generators"], "generators"))
     if "basis" in group:
-        matrices = [numbers(matrix, "basis") for matrix in listed(group["basis"], "basis")]
+        matrices = [numbers(matrix, "basis") for matrix in _arrays.listed(group["basis"], "basis")]
         found["basis"] = "[\n    " + ",\n    ".join(matrices) + ",\n]"
     if "brackets" in group:
-        found["brackets"] = strings(str(bracket) for bracket in listed(group["brackets"], "brackets"))
+        found["brackets"] = strings(str(bracket) for bracket in _arrays.listed(group["brackets"], "brackets"))
     return found
 
 

@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
-from ._arrays import Floats, Numbers, Real, count, floats, names, real, unused, vector
+from . import _arrays, _core
+from ._arrays import Floats, Numbers, Real, count, flag, floats, listed, names, real, text, unused, vector
 from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
 from .results import Run
@@ -36,11 +36,11 @@ class Model:
     """
 
     def __init__(self, text: str, name: str = "model", summary: Mapping[str, Any] | None = None) -> None:
-        self._model_text, self._name = text, name
+        self._model_text, self._name = _arrays.text(text, "text"), _arrays.text(name, "name")
         self._core = _core.ModelCore(text, name)
         self._facts = self._core.facts()
         #: How well it fits: errors on the data, drifts along a trajectory, what was chosen, rows left out.
-        self.summary: dict[str, Any] = dict(summary or {})
+        self.summary: dict[str, Any] = dict(summary) if isinstance(summary, Mapping) else {}
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Model:
@@ -104,13 +104,15 @@ class Model:
         finally:
             if told is not None:
                 told.close()
-        for text in found["warnings"]:
-            warnings.warn(text, CoadjointWarning, stacklevel=2)
+        for said in found["warnings"]:
+            warnings.warn(said, CoadjointWarning, stacklevel=2)
         return Run(found, self)
 
     def emit(self, language: str = "rust", *, prefix: str | None = None, single: bool = False) -> str:
         """A learned polynomial as code, in the languages of :meth:`System.emit`."""
-        return self._core.emit(language, prefix, bool(single))
+        return self._core.emit(
+            text(language, "language"), None if prefix is None else text(prefix, "prefix"), flag(single, "single")
+        )
 
     def __reduce__(self) -> Any:
         return Model, (self._model_text, self._name, self.summary)
@@ -234,8 +236,6 @@ def learn(
     best), ``"polynomial"``, ``"gp"``, ``"network"`` or ``"hybrid"``; ``loss`` is ``"chart"`` or ``"group"``.
     ``tolerance`` is how far attitudes may be off the group and momenta off conservation; ``inf`` for noisy data.
     """
-    if loss not in ("chart", "group"):
-        raise InputError(f'loss="{loss}": there are "chart" and "group"')
     data, others = _data(before, after, attitudes, "data")
     tested = None
     if test is not None:
@@ -244,36 +244,36 @@ def learn(
         else:
             tested, _ = _data(test, None, None, "test")
     settings = {
-        "group": str(group),
-        "chart": str(chart),
+        "group": text(group, "group"),
+        "chart": text(chart, "chart"),
         "step": real(step, "step"),
-        "kind": str(model),
+        "kind": text(model, "model"),
         "degree": None if degree is None else count(degree, "degree"),
         "ridge": real(ridge, "ridge"),
-        "group_loss": loss == "group",
+        "group_loss": text(loss, "loss", ("chart", "group")) == "group",
         "tolerance": real(tolerance, "tolerance"),
-        "drop": bool(drop_bad_rows),
+        "drop": flag(drop_bad_rows, "drop_bad_rows"),
         "momenta_only": _momenta_only,
         "start": None if start is None else [float(x) for x in _momentum(start, "start")],
         "seed": count(seed, "seed"),
-        "widths": [count(width, "widths") for width in widths],
-        "activation": str(activation),
+        "widths": [count(width, "widths") for width in listed(widths, "widths")],
+        "activation": text(activation, "activation"),
         "evaluations": count(evaluations, "evaluations"),
         "drift_steps": count(drift_steps, "drift_steps"),
     }
     told = listener(progress, "learning")
     try:
-        text, summary = _core.learn(data, tested, settings, told)
+        found_text, summary = _core.learn(data, tested, settings, told)
     finally:
         if told is not None:
             told.close()
-    found = Model(text, "model", json.loads(summary))
+    found = Model(found_text, "model", json.loads(summary))
     unused("data", others + found.summary.get("unused", []))
     dropped = found.summary.get("dropped") or []
     if dropped:
         row, reason = dropped[0]
-        text = f"{len(dropped)} rows were left out; the first is row {row}: {reason}"
-        warnings.warn(text, CoadjointWarning, stacklevel=2)
+        said = f"{len(dropped)} rows were left out; the first is row {row}: {reason}"
+        warnings.warn(said, CoadjointWarning, stacklevel=2)
     return found
 
 

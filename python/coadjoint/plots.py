@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import Floats
+from ._arrays import Floats, text
 from ._sphere import VIEW, energies, frame, levels as levels_of
 from .errors import InputError
 
@@ -49,14 +49,12 @@ def _time(run: Run) -> str:
 
 def run(run: Run, what: str = "all", figure: Figure | None = None) -> Figure:
     """The momentum above the drift, or one of them; or the orbit."""
-    if what == "orbit":
+    if text(what, "what", ("all", "momentum", "drift", "orbit")) == "orbit":
         return orbit(run, figure=figure)
     if what == "momentum":
         return momentum(run, figure=figure)
     if what == "drift":
         return drift(run, figure=figure)
-    if what != "all":
-        raise InputError(f'what="{what}": there are "all", "momentum", "drift" and "orbit"')
     figure = _figure(figure, (8, 5.5))
     above, below = figure.subplots(2, 1, sharex=True)
     _momentum(above, run)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arrays import Floats, quaternions
+from ._arrays import Floats, flag, quaternions
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Run:
             raise InputError(f"no element of the group of {self._name} is a rotation of space")
         found = [quaternions(self.group_element[:, at : at + 3, at : at + 3]) for at in places]
         every = found[0] if len(found) == 1 else np.stack(found, axis=1)
-        return every if scalar_first else np.roll(every, -1, axis=-1)
+        return every if flag(scalar_first, "scalar_first") else np.roll(every, -1, axis=-1)
 
     @property
     def angular_velocity(self) -> Floats:

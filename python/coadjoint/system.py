@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeGuard
 
@@ -69,8 +69,9 @@ class System:
         name: str = "system",
     ) -> None:
         if not isinstance(coordinates, (str, type(None))):
-            coordinates = _text.listed(coordinates, "coordinates")
+            coordinates = _arrays.listed(coordinates, "coordinates")
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
+        name = _arrays.text(name, "name")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         known = _text.symbols(hamiltonian, potential, *(coordinates or ()))
         called = [] if coordinates is None else _text.names(coordinates, "coordinates")
@@ -86,7 +87,6 @@ class System:
         def formula(value: Any, what: str) -> str | None:
             return None if value is None else _text.quoted(_text.expression(value, what))
 
-        name = str(name)
         whole = isinstance(group, str)
         top = {
             "name": text(name),
@@ -128,7 +128,7 @@ class System:
         >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
         'SO3'
         """
-        return _restored(cls, str(text), str(name), None, {})
+        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
@@ -267,9 +267,9 @@ class System:
                 group_element=element,
                 every=None if every is None else _arrays.count(every, "every", 1),
                 at=times,
-                tuned=bool(tuned),
+                tuned=_arrays.flag(tuned, "tuned"),
                 fitted=None if fitted is None else _arrays.real(fitted, "fitted"),
-                backend=str(backend),
+                backend=_arrays.text(backend, "backend"),
                 record=True,
                 progress=told,
             )
@@ -318,7 +318,7 @@ class System:
             array, failed, facts = self._core.ensemble(
                 rows,
                 self._asked(time, step, tolerance, region, truncation),
-                backend=str(backend),
+                backend=_arrays.text(backend, "backend"),
                 threads=None if threads is None else _arrays.count(threads, "threads", 1),
                 progress=told,
             )
@@ -362,14 +362,15 @@ class System:
         size = self._facts["step"] if step is None else step
         if size is None:
             raise InputError("step is missing: give step=0.1")
-        if type(size) is not float:
+        if type(size) is not float or type(backend) is not str:
             size = _arrays.real(size, "step", self._facts["time_unit"])
+            _arrays.text(backend, "backend")
         key = (size, backend)
         stepper = self._steppers.get(key)
         if stepper is None:
-            stepper = self._core.stepper(size, str(backend))
+            stepper = self._core.stepper(size, backend)
             self._steppers[key] = stepper
-        if type(steps) is not int or steps < 0:
+        if type(steps) is not int or not 0 <= steps < 2**63:
             steps = _arrays.count(steps, "steps")
         # What comes from the last call needs no look; numbers are checked where they are copied.
         if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
@@ -488,12 +489,13 @@ class System:
         >>> "body_advance" in code or "body_step" in code
         True
         """
-        if prefix is not None and language not in ("c", "cpp"):
+        language, single = _arrays.text(language, "language"), _arrays.flag(single, "single")
+        if prefix is not None and _arrays.text(prefix, "prefix") and language not in ("c", "cpp"):
             raise InputError("prefix is for language=\"c\" and \"cpp\" alone")
         if (step is not None or single) and language not in ("opencl", "cuda"):
             raise InputError("step and single are for language=\"opencl\" and \"cuda\" alone")
         size = None if step is None else _arrays.real(step, "step", self._facts["time_unit"])
-        return self._core.emit(str(language), prefix, size, bool(single))
+        return self._core.emit(language, prefix, size, single)
 
     # Python's own.
 
@@ -582,7 +584,7 @@ class Laws:
     def __bool__(self) -> bool:
         return all(law.holds for law in self._laws)
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[Law]:
         return iter(self._laws)
 
     def __len__(self) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -78,6 +80,52 @@ def test_settings_that_make_no_sense_are_refused(body: ca.System, settings: dict
     arguments = {"momentum": [1, 0, 0.5], **settings}
     with pytest.raises(InputError, match=message):
         body.simulate(**arguments)
+
+
+def test_values_of_other_kinds_are_refused_in_words(body: ca.System) -> None:
+    before = np.random.default_rng(1).uniform(-1, 1, (40, 3))
+    after = body.ensemble(before, time=0.1, step=0.1)
+    short = dict(step=0.1, degree=2, drift_steps=9)
+    odd = ["a", b"x", {}, object(), 1j, np.nan, -1, 2**70, [[1], [1, 2]], np.array([1, 2]), np.array(0.1), int, {"a": 1}]
+    for call, arguments in [
+        (ca.System, dict(group="SO3", hamiltonian="x^2", coordinates="x y z")),
+        (ca.System.from_text, dict(text=body.text)),
+        (body.simulate, dict(momentum=[1, 2, 3], time=1, step=0.1)),
+        (body.ensemble, dict(states=before, time=1, step=0.1)),
+        (body.step, dict(momentum=[1, 2, 3], step=0.1)),
+        (body.series, {}),
+        (body.emit, {}),
+        (body.verify, dict(run=after, states=before)),
+        (ca.learn, dict(before=before, after=after, **short)),
+        (ca.learn(before, after, **short).simulate, dict(momentum=[0.1, 0.2, 0.3], time=1)),
+    ]:
+        for name in inspect.signature(call).parameters:
+            for value in odd if name not in ("progress", "_momenta_only") else []:
+                if (name, value is odd[7]) == ("drift_steps", True):
+                    continue
+                try:
+                    with warnings.catch_warnings(action="ignore"):
+                        call(**{**arguments, name: value})
+                except ca.Error as error:
+                    assert str(error)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda body: body.simulate([1, 2, 3], time=1, step=0.1, every="a"), "every='a': a whole number"),
+        (lambda body: body.series(5, truncation=3), "k=5 is beyond truncation=3"),
+        (lambda body: body.check(seed=-1), "seed=-1: a whole number, at least 0"),
+        (lambda body: body.simulate([1, 2, 3], time=1, step=0.1, tuned="no"), "tuned='no': True or False"),
+        (lambda body: body.emit(3), "language=3: a text"),
+        (lambda body: ca.System("SO3", "x^2", coordinates=3), "coordinates=3: a list"),
+        (lambda body: ca.System("SO3", "x^2", coordinates="x y z", parameters=3), "parameters=3: a dictionary"),
+    ],
+)
+def test_mistakes_name_the_argument(body: ca.System, call, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        call(body)
+    assert body.step([1, 2, 3], step=np.array(0.1))[0].shape == (3,)
 
 
 def test_a_missing_momentum_is_named(body: ca.System) -> None:

@@ -46,6 +46,16 @@ def test_the_package_is_typed() -> None:
     assert found.returncode == 0, found.stdout + found.stderr
 
 
+def test_types_find_the_mistakes_of_users() -> None:
+    """Exactly the lines that say so are mistakes."""
+    file = Path(__file__).parent / "typed.py"
+    command = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--hide-error-context", str(file)]
+    found = subprocess.run(command, capture_output=True, text=True, cwd=file.parent)
+    lines = {int(line.split(":")[1]) for line in found.stdout.splitlines() if ": error: " in line}
+    expected = {n for n, line in enumerate(file.read_text().splitlines(), 1) if line.endswith("# error")}
+    assert lines == expected and expected, found.stdout + found.stderr
+
+
 def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = "README.md"
     text = (PACKAGE / page).read_text()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pyarrow
 
-from .._arrays import Backend, Floats
+from .._arrays import Backend, Floats, text
 from .._core import Core, __version__
 from ..system import System
 from .errors import InputError, ShardError
@@ -45,7 +45,7 @@ def pin(system: System, asked: dict[str, Any], backend: Backend) -> dict[str, An
         raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
     core = _core(system.text)
     none = np.empty((0, system.dimension))
-    _, _, facts = core.ensemble(none, system._asked(**asked), backend=backend, threads=1, progress=None)
+    _, _, facts = core.ensemble(none, system._asked(**asked), backend=text(backend, "backend"), threads=1, progress=None)
     return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
 
 

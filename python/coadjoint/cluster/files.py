@@ -14,6 +14,8 @@ from typing import IO, Any
 import fsspec
 from fsspec.implementations.local import LocalFileSystem
 
+from .errors import InputError
+
 #: Errors that trying again does not mend.
 LASTING = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.ENOTDIR}
 
@@ -25,6 +27,8 @@ _PIECE = 1 << 20
 
 def absolute(name: str | os.PathLike[str]) -> str:
     """Makes a local path absolute, as workers may stand in another folder; leaves fsspec names alone."""
+    if not isinstance(name, (str, os.PathLike)):
+        raise InputError(f"{name!r}: the name of a file or a folder is needed")
     name = os.fspath(name)
     return name if "://" in name or "::" in name else os.path.abspath(name).replace(os.sep, "/")
 

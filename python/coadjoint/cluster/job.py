@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from .._arrays import Backend, unused
+from .._arrays import Backend, listed, unused
 from ..system import System
 from . import core, manifest, result, shard, states
 from .drive import Engine, drive
@@ -46,12 +46,11 @@ class Job:
         self.keep = self._kept(keep)
         unused("states", [name for name in others if name not in self.keep])
         self.plan = plan(self.states.rows, self.core["steps"], rows_per_shard)
-        self.shards = range(self.plan.shards) if share is None else self.plan.share(*share)
+        self.shards = range(self.plan.shards) if share is None else self.plan.share(*listed(share, "share"))
         self.versions = core.versions()
 
     def _kept(self, keep: Sequence[str]) -> list[str]:
-        if isinstance(keep, str):
-            keep = [keep]
+        keep = [keep] if isinstance(keep, str) else listed(keep, "keep")
         available = self.states.columns
         for name in keep:
             if isinstance(available, int):

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .._arrays import Backend, Real, count
+from .._arrays import Backend, Real, count, flag
 from ..system import System
 from . import local
 from .drive import Engine
@@ -101,6 +101,7 @@ def run(
     asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
     job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options)
     attempts, threads = count(attempts, "attempts", 1), count(threads, "threads", 1)
+    restart, verify = flag(restart, "restart"), flag(verify, "verify")
     if restart and share is not None:
         raise InputError(
             "restart with share: every job would remove what the others have made; remove the folder once, or begin "

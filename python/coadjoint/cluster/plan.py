@@ -32,11 +32,12 @@ class Plan:
         start = shard * self.rows_per_shard
         return start, min(start + self.rows_per_shard, self.rows)
 
-    def share(self, index: int, count: int) -> range:
+    def share(self, *share: int) -> range:
         """The shards of the share ``index`` of ``count``, from 1: consecutive, and together everything."""
-        whole = isinstance(index, int) and isinstance(count, int)
-        if not whole or count < 1 or not 1 <= index <= count:
-            raise InputError(f"there is no share {index!r} of {count!r}: shares are counted from 1, as in (1, 8)")
+        index, count = share if len(share) == 2 and all(isinstance(part, int) for part in share) else (0, 0)
+        if not 1 <= index <= count:
+            said = " of ".join(map(repr, share))
+            raise InputError(f"there is no share {said}: shares are counted from 1, as in (1, 8)")
         return range(self.shards * (index - 1) // count, self.shards * index // count)
 
 

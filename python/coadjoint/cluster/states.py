@@ -14,7 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from .._arrays import Floats
+from .._arrays import Floats, listed
 from .errors import InputError, ShardError
 from .files import absolute, fingerprint, locate
 
@@ -67,12 +67,12 @@ class States:
 
 def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, Any] | None = None) -> States:
     """Looks at files of states: a file, a pattern with ``*``, a folder of ``.parquet`` files, or a list of these."""
-    if isinstance(names, np.ndarray):
+    if isinstance(names, np.ndarray) or hasattr(names, "columns"):
         raise InputError(
-            "states is an array: for an ensemble that fits into memory call system.ensemble(states, ...), "
-            "or write it with numpy.save and give the name of the file"
+            "states is an array or a frame: for an ensemble that fits into memory call system.ensemble(states, ...), "
+            "or write it to a .npy or .parquet file and give the name of that"
         )
-    several = [names] if isinstance(names, (str, os.PathLike)) else list(names)
+    several = [names] if isinstance(names, (str, os.PathLike)) else listed(names, "states")
     found: list[tuple[Any, str, str]] = []
     for name in several:
         found += _expand(absolute(name), options)
