@@ -5,13 +5,12 @@ Matplotlib is needed only when a picture is asked for. Every function returns th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._arrays import Floats, text
-from ._sphere import VIEW, energies, frame, levels as levels_of
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -21,13 +20,15 @@ if TYPE_CHECKING:
     from .results import Run
     from .system import System
 
-__all__ = ["drift", "momentum", "orbit", "run", "work_precision"]
+__all__ = ["drift", "levels", "momentum", "orbit", "run", "work_precision"]
 
 # Okabe and Ito's colours, which colour-blind readers tell apart.
 _COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 # So many coordinates are drawn at most.
 _CURVES = 7
 _EPSILON = 2.0**-53
+# Where the eye is: elevation and azimuth in degrees.
+VIEW = (25.0, 40.0)
 
 
 def _figure(figure: Figure | None, size: tuple[float, float]) -> Figure:
@@ -145,17 +146,7 @@ def orbit(
     if radius == 0 or not np.allclose(norms, radius, rtol=1e-6):
         raise InputError(f"the momenta of {run._name} lie on no sphere about the origin")
     figure = _figure(figure, (5.4, 5.4))
-    axes = figure.subplots()
-    axes.set_aspect("equal")
-    axes.axis("off")
-    seen = frame(view).T
-
-    def project(points: Floats) -> Floats:
-        return points @ seen
-
-    circle = np.linspace(0, 2 * np.pi, 361)
-    axes.fill(radius * np.cos(circle), radius * np.sin(circle), color="#f4f6f8", zorder=0)
-    axes.plot(radius * np.cos(circle), radius * np.sin(circle), color="0.6", linewidth=0.8)
+    axes, project = _sphere(figure, radius, run.coordinates, view)
     if system is not None:
         for curve in _level_curves(system, radius, levels):
             _on_sphere(axes, project(curve), color="0.62", linewidth=0.7)
@@ -163,15 +154,45 @@ def orbit(
     start = project(run.momentum[:1])[0]
     axes.plot(start[0], start[1], "o", color=_COLOURS[1], markersize=6, label="start",
               markerfacecolor=_COLOURS[1] if start[2] >= 0 else "white")
-    for i, name in enumerate(run.coordinates):
-        tip = project(1.22 * radius * np.eye(3)[i : i + 1])[0]
-        foot = project(radius * np.eye(3)[i : i + 1])[0]
-        front = tip[2] >= 0
-        axes.plot([foot[0], tip[0]], [foot[1], tip[1]], color="0.3" if front else "0.75", linewidth=0.9)
-        axes.annotate(name, tip[:2], ha="center", va="center", color="0.1" if front else "0.6", fontsize=11)
     axes.set_title(f"{run._name}: momentum on its sphere, |μ| = {radius:.4g}", fontsize=11)
     axes.legend(loc="lower right", fontsize=9, frameon=False)
     return figure
+
+
+def levels(system: System, *, count: int = 9, figure: Figure | None = None) -> Figure:
+    """The level curves of H on a sphere of momenta, which every motion follows: for SO(3) and SU(2)."""
+    if system.group not in ("SO3", "SU2"):
+        raise InputError(f"the momenta of {system.name} lie on no spheres about the origin")
+    curves = _level_curves(system, 1.0, count)
+    if not curves:
+        raise InputError(f"the Hamiltonian of {system.name} is one number on each sphere")
+    figure = _figure(figure, (5.4, 5.4))
+    axes, project = _sphere(figure, 1.0, system.coordinates, VIEW)
+    for curve in curves:
+        _on_sphere(axes, project(curve), color=_COLOURS[0], linewidth=1)
+    return figure
+
+
+def _sphere(
+    figure: Figure, radius: float, names: Sequence[str], view: tuple[float, float]
+) -> tuple[Axes, Callable[[Floats], Floats]]:
+    """The outline of a sphere and its axes, and what turns points so that the eye sees the first two coordinates."""
+    axes = figure.subplots()
+    axes.set_aspect("equal")
+    axes.axis("off")
+    up, turned = np.radians(view)
+    right = np.array([-np.sin(turned), np.cos(turned), 0.0])
+    eye = np.array([np.cos(up) * np.cos(turned), np.cos(up) * np.sin(turned), np.sin(up)])
+    seen = np.array([right, np.cross(eye, right), eye]).T
+    circle = np.linspace(0, 2 * np.pi, 361)
+    axes.fill(radius * np.cos(circle), radius * np.sin(circle), color="#f4f6f8", zorder=0)
+    axes.plot(radius * np.cos(circle), radius * np.sin(circle), color="0.6", linewidth=0.8)
+    for name, (x, y, depth) in zip(names, radius * seen, strict=True):
+        front = depth >= 0
+        axes.plot([x, 1.22 * x], [y, 1.22 * y], color="0.3" if front else "0.75", linewidth=0.9)
+        place = (1.22 * x, 1.22 * y)
+        axes.annotate(name, place, ha="center", va="center", color="0.1" if front else "0.6", fontsize=11)
+    return axes, lambda points: points @ seen
 
 
 def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
@@ -184,27 +205,22 @@ def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
         axes.plot(shown[:, 0], shown[:, 1], **style, **more)
 
 
-def _level_curves(system: System, radius: float, levels: int) -> list[Floats]:
-    """The curves of equal energy on the sphere, from a grid of longitude and latitude."""
-    import matplotlib.pyplot as plt
+def _level_curves(system: System, radius: float, count: int) -> list[Floats]:
+    """The curves of equal energy on the sphere, from a grid of longitude and latitude; none where H is one number."""
+    from matplotlib.figure import Figure
 
-    longitude, latitude = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(-np.pi / 2, np.pi / 2, 181))
-    values = energies(system, *_place(radius, longitude, latitude))
-    chosen = levels_of(values, levels)
-    if not len(chosen):
+    def place(longitude: Any, latitude: Any) -> Floats:
+        flat = radius * np.cos(latitude)
+        return np.stack([flat * np.cos(longitude), flat * np.sin(longitude), radius * np.sin(latitude)], axis=-1)
+
+    grid = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(-np.pi / 2, np.pi / 2, 181))
+    values = system._core.hamiltonian(place(*grid).reshape(-1, 3))[0].reshape(grid[0].shape)
+    if np.ptp(values) < 1e-12 * np.abs(values).max():
         return []
-    scratch = plt.figure()
-    try:
-        found = scratch.subplots().contour(longitude, latitude, values, chosen)
-        curves = [part for level in found.allsegs for part in level if len(part) > 1]
-    finally:
-        plt.close(scratch)
-    return [np.stack(_place(radius, part[:, 0], part[:, 1]), axis=1) for part in curves]
-
-
-def _place(radius: float, longitude: Any, latitude: Any) -> tuple[Any, Any, Any]:
-    flat = radius * np.cos(latitude)
-    return flat * np.cos(longitude), flat * np.sin(longitude), radius * np.sin(latitude)
+    # As many momenta lie between one curve and the next.
+    chosen = np.unique(np.quantile(values, (np.arange(count) + 0.5) / count))
+    found = Figure().subplots().contour(*grid, values, chosen)
+    return [place(*part.T) for level in found.allsegs for part in level if len(part) > 1]
 
 
 def work_precision(
