@@ -126,7 +126,6 @@ class Job:
         try:
             again = drive(engine, self.tasks(threads, verify), attempts, done)
         finally:
-            counter.close()
             # What workers have left that were killed, here or elsewhere.
             self.folder.sweep(lambda name: shard.number(name) in self.shards)
         complete = result.summarize(self.folder, self.plan)

@@ -7,9 +7,6 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .._progress import _in_notebook as in_notebook
-from .._progress import listener
-
 
 @dataclass(frozen=True)
 class Progress:
@@ -55,8 +52,7 @@ class Counter:
         self._workers = workers
         self._begun = time.monotonic()
         self._done = self._kept = self._rows_done = self._rows_made = self._bad = 0
-        self._bar = listener(True, "rows") if tell is True and in_notebook() else None
-        self._tell = tell if callable(tell) else ((self._widget if self._bar else self._line) if tell else None)
+        self._tell = tell if callable(tell) else self._line if tell else None
         self._told = -self.QUIET if sys.stderr.isatty() else self._begun
 
     def finished(self, rows: int, bad: int, kept: bool) -> None:
@@ -89,15 +85,6 @@ class Counter:
         """Tells, if anybody listens."""
         if self._tell is not None:
             self._tell(self.now())
-
-    def close(self) -> None:
-        """Nothing is told any more."""
-        if self._bar is not None:
-            self._bar.close()
-
-    def _widget(self, progress: Progress) -> None:
-        if self._bar is not None:
-            self._bar(progress.rows_done, progress.rows)
 
     def _line(self, progress: Progress) -> None:
         """One line that is written over on a terminal, a line now and then elsewhere."""

@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import pyarrow.parquet as pq
-
 from . import manifest, parquet, shard
 from .errors import ClusterError, ManifestError
 from .files import Folder, absolute
@@ -131,16 +129,7 @@ def join(
 
     def fill(file: Any) -> None:
         nonlocal rows
-        sink = None
-        for part in parts:
-            with folder.fs.open(folder.at(part), "rb") as source, pq.ParquetFile(source) as opened:
-                sink = sink or parquet.writer(file, opened.schema_arrow)
-                for group in range(opened.num_row_groups):
-                    table = opened.read_row_group(group, use_threads=False)
-                    sink.write_table(table, row_group_size=max(table.num_rows, 1))
-                    rows += table.num_rows
-        if sink is not None:
-            sink.close()
+        rows = parquet.joined(file, (folder.fs.open(folder.at(part), "rb") for part in parts))
 
     Folder(parent or "/", storage_options).write(name, fill, passing_in="")
     return rows

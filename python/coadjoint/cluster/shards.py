@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import IO, Any
 
 import numpy as np
-import pyarrow.parquet as pq
 
 from . import parquet
 from .errors import ClusterError, InputError, ManifestError
@@ -128,12 +127,4 @@ def _npy(file: IO[bytes], paths: list[str]) -> None:
 
 
 def _parquet(file: IO[bytes], paths: list[str]) -> None:
-    sink = None
-    for path in paths:
-        with pq.ParquetFile(path) as source:
-            sink = sink or parquet.writer(file, source.schema_arrow)
-            for group in range(source.num_row_groups):
-                table = source.read_row_group(group)
-                sink.write_table(table, row_group_size=max(table.num_rows, 1))
-    if sink is not None:
-        sink.close()
+    parquet.joined(file, (open(path, "rb") for path in paths))
