@@ -35,7 +35,7 @@ pub struct Arguments {
 pub enum Verb {
     /// Print the exact series S₁ … S_K of the generating function
     Derive(DeriveOptions),
-    /// Write the integrator as a Rust module
+    /// Write the integrator as code: Rust, C, C++, OpenCL or CUDA
     Emit(EmitOptions),
     /// Run the system and report how well momentum, Casimirs and energy are kept
     #[command(
@@ -44,7 +44,7 @@ pub enum Verb {
     Simulate(SimulateOptions),
     /// Advance many states at once, from a file to a file
     Ensemble(EnsembleOptions),
-    /// Try the laws of the method on this system, at random points
+    /// Test on this system, at random momenta, that steps keep what they must and have their order
     Check(CheckOptions),
     /// Judge the output of simulate or ensemble afterwards, step by step in doubled precision
     Verify(VerifyOptions),
@@ -195,19 +195,20 @@ pub struct EmitOptions {
     /// Write to this file instead of the standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Keep the parameters as arguments of the integrator instead of putting in their values
+    /// Keep the parameters as arguments of the integrator instead of putting in their values; in Rust, C and C++
     #[arg(long)]
     pub keep_parameters: bool,
     /// What to write
     #[arg(long, value_enum, default_value_t)]
     pub language: LanguageName,
-    /// What all names in C begin with; from the system's name if not given
+    /// What all names in C and C++ begin with; from the system's name if not given
     #[arg(long, value_name = "NAME")]
     pub prefix: Option<String>,
-    /// The step size h of a kernel for devices, which is for one step alone; instead of the file's
+    /// The step size h of a kernel in OpenCL or CUDA, which is fixed in it; instead of the file's. Other languages take h
+    /// when the integrator is made
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// The numbers of a kernel for devices
+    /// The numbers of a kernel in OpenCL or CUDA
     #[arg(long, value_enum, default_value_t)]
     pub precision: PrecisionName,
 }
@@ -285,7 +286,7 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
     /// The momentum at the start of a learned model, with commas
-    #[arg(long, value_name = "mu", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "mu", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(requires = "model")]
     pub start: Vec<f64>,
     /// Sum the tail of the series for this motion: as fast, and more accurate from K = 5 on
@@ -298,7 +299,8 @@ pub struct SimulateOptions {
     /// Record every n-th step, and the last
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,
-    /// Record these times, with commas between them or in a file: alone, or besides every n-th step
+    /// Record these times, from 0 to the end of the run (negative where it goes backwards), with commas between them or in
+    /// a file: alone, or besides every n-th step
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
     #[arg(requires = "out", conflicts_with = "model")]
     pub at: Option<String>,
@@ -433,13 +435,13 @@ pub struct CheckOptions {
     /// Keep S₁ … S_K, K odd; instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
-    /// The step size h
+    /// The step size h; the file's, or else 0.1, if not given
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// How many random points
+    /// How many random momenta
     #[arg(long, value_name = "n", default_value_t = 3)]
     pub points: usize,
-    /// The seed of the random points
+    /// The seed of the random momenta
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// How to print

@@ -30,6 +30,9 @@ pub enum CliError {
         /// Why.
         message: String,
     },
+    /// Nobody reads the records any more, which is no failure.
+    #[error("nobody reads the records any more")]
+    NobodyReads,
     /// A run that was asked to stop.
     #[error("{0}")]
     Interrupted(String),
@@ -65,6 +68,7 @@ impl CliError {
     /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::NobodyReads => 0,
             Self::Option(_) | Self::Read { .. } => 2,
             Self::Run(error) if error.is_input() => 2,
             Self::Run(_)
@@ -79,6 +83,9 @@ impl CliError {
 
     /// The message for the terminal, with its line end.
     pub fn text(&self) -> String {
+        if matches!(self, Self::NobodyReads) {
+            return String::new();
+        }
         // Rendered mistakes begin with their own places.
         if let Self::Run(error) = self
             && let RunError::Input(text) = &**error

@@ -49,9 +49,9 @@ pub struct GeometrizeOptions {
     /// How many pairs to make
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "system")]
     samples: usize,
-    /// The interval momenta are drawn from
-    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', allow_negative_numbers = true)]
-    #[arg(num_args = 1..=2, default_values_t = [-2.5, 2.5], requires = "system")]
+    /// The interval from which each coordinate of the momenta is drawn
+    #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(num_args = 1, default_value = "-2.5,2.5", requires = "system")]
     within: Vec<f64>,
     /// Pairs to test the map on
     #[arg(long, value_name = "DATA")]

@@ -63,7 +63,7 @@ pub struct Fit {
     #[arg(long, value_name = "N", default_value_t = 1000)]
     steps: usize,
     /// The momentum the drifts are measured from, with commas; the first sample if not given
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
     /// How to print
     #[arg(long, value_enum, default_value_t)]

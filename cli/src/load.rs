@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_run::{meet_tolerance as meet, read_with};
 
@@ -12,7 +13,7 @@ use crate::error::CliError;
 
 /// The text of the file at `path`.
 pub fn text(path: &Path) -> Result<String, CliError> {
-    std::fs::read_to_string(path).map_err(|source| CliError::Read { path: path.into(), source })
+    read_text(path).map_err(|source| CliError::Read { path: path.into(), source })
 }
 
 /// Reads the file at `path`.

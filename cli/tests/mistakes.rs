@@ -139,23 +139,83 @@ fn a_problem_too_large_says_so() {
 fn a_closed_pipe_is_no_failure_and_a_full_disk_is_one() {
     use std::process::{Command, Stdio};
 
-    let emit = |output: Stdio| {
+    let start = |arguments: &[&str], output: Stdio| {
         Command::new(env!("CARGO_BIN_EXE_coadjoint"))
-            .args(["emit", "examples/rigid_body.toml"])
+            .args(arguments)
             .current_dir(support::root())
             .stdout(output)
             .stderr(Stdio::piped())
             .spawn()
             .unwrap()
     };
-    let mut child = emit(Stdio::piped());
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    let emit = |output| start(&["emit", "examples/rigid_body.toml"], output);
+    let records = ["simulate", "examples/rigid_body.toml", "--time", "1e7", "--out", "-"];
+    for mut child in [emit(Stdio::piped()), start(&records, Stdio::piped())] {
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    }
 
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let output = emit(full.into()).wait_with_output().unwrap();
     let message = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(message.starts_with("error: standard output cannot be written"), "{message}");
+}
+
+/// Bytes that are no UTF-8 are told with their place, other encodings and separators by their names.
+#[test]
+fn files_that_are_not_the_text_they_should_be_are_refused_with_the_reason() {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = directory.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let utf16 = |text: &str| -> Vec<u8> {
+        "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect()
+    };
+    let rows = "mu_1;mu_2;mu_3\n1;2,5;3\n";
+    let out = directory.path().join("out.csv");
+    let ensemble = |states: &str| {
+        let (body, out) = ("examples/rigid_body.toml", out.to_str().unwrap());
+        run(&["ensemble", body, "--initial", states, "--out", out, "--time", "1"])
+    };
+    let learn = |data: &str| run(&["learn", data, "--dt", "0.1"]);
+    let verify = |data: &str| run(&["verify", "examples/rigid_body.toml", data]);
+    let derive = |path: &str| run(&["derive", path]);
+    let latin = write("latin.toml", b"group = \"SO3\"\nname = \"Li\xc3\xa9 \xe9\"");
+    let wide = write("wide.toml", &utf16("group = \"SO3\""));
+    let wide_rows = write("wide.csv", &utf16(rows));
+    let latin_rows = write("latin.csv", b"# a\nmu_1,\xb5_2,mu_3\n1,2,3\n");
+    let (semicolons, tabs) =
+        (write("a.csv", rows.as_bytes()), write("b.csv", b"mu_1\tmu_2\n1\t2\n"));
+    let place = "byte 0xb5 at line 2, column 6 is not UTF-8; save the file as UTF-8";
+    for (outcome, said) in [
+        (derive(&latin), "byte 0xe9 at line 2, column 13 is not UTF-8; save the file as UTF-8"),
+        (derive(&wide), "it is UTF-16, by its first two bytes; save the file as UTF-8"),
+        (ensemble(&wide_rows), "UTF-16"),
+        (learn(&wide_rows), "UTF-16"),
+        (verify(&wide_rows), "UTF-16"),
+        (ensemble(&latin_rows), place),
+        (learn(&latin_rows), place),
+        (verify(&latin_rows), place),
+        (ensemble(&semicolons), "semicolons stand between the names of columns; write commas"),
+        (learn(&semicolons), "semicolons"),
+        (verify(&semicolons), "semicolons"),
+        (ensemble(&tabs), "tabs stand between the names of columns"),
+    ] {
+        let (code, _, error) = outcome;
+        assert!(code == 2 && error.contains(said), "{code} {said}: {error}");
+    }
+}
+
+/// A list with commas that begins with a minus is no option.
+#[test]
+fn lists_may_begin_with_a_minus() {
+    let pairs =
+        ["geometrize", "--system", "examples/rigid_body.toml", "--dt", "0.1", "--samples", "40"];
+    let more = ["--steps", "10", "--degree", "2", "--within", "-2,2", "--start", "-1,0.5,1"];
+    let (code, _, error) = run(&[&pairs[..], &more[..]].concat());
+    assert_eq!(code, 0, "{error}");
 }

@@ -298,3 +298,51 @@ fn every_example_has_its_picture() {
     }
     assert!(seen >= 21, "{seen}");
 }
+
+/// Names and units of any kind are texts in pictures and in heads of tables, and end neither.
+#[test]
+fn hostile_names_stay_texts() {
+    let directory = tempfile::tempdir().unwrap();
+    let names = [
+        "</title><script>alert('1')</script>",
+        "]]> --> <!-- & &amp; \" '",
+        "line\nbreak\r# complete: 9 records\u{2028}",
+        "=cmd|' /C calc'!A0",
+        "\u{202e}reversed\u{2066} \u{0} \u{1b}[2J",
+        &"long ".repeat(2000),
+    ];
+    for name in names {
+        let quoted = serde_json::Value::from(name);
+        let unit: String = name.chars().filter(|c| !c.is_control()).take(40).collect();
+        let unit = serde_json::Value::from(unit.trim());
+        let text = format!(
+            "name = {quoted}\nhamiltonian = \"a^2/2 + b^2/4 + c^2/6\"\n[algebra]\nname = {quoted}\n\
+             generators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = c\", \"[b, c] = a\", \"[c, a] = b\"]\n\
+             [units]\ntime = {unit}\nmomentum = {unit}\n[integrator]\ntruncation = 3\nstep = 0.1\n\
+             [initial]\nmomentum = [1, 0.2, 0.1]\n[run]\ntime = 1"
+        );
+        let system = file(&directory, &text);
+        let [table, svg] = ["run.csv", "run.svg"].map(|name| directory.path().join(name));
+        let [out, plot] = [&table, &svg].map(|path| path.to_str().unwrap());
+        let backend = ["--backend", "interpreter"];
+        let options = ["simulate", &system, "--out", out, "--plot", plot];
+        let (code, _, error) = run(&[&options[..], &backend[..]].concat());
+        assert_eq!(code, 0, "{error}");
+        let svg = std::fs::read_to_string(svg).unwrap();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let known =
+            ["svg", "title", "desc", "rect", "g", "text", "line", "polyline", "polygon", "path"];
+        for node in document.descendants().filter(roxmltree::Node::is_element) {
+            assert!(known.contains(&node.tag_name().name()), "{}", node.tag_name().name());
+        }
+        assert!(!svg.contains(['\u{202e}', '\u{2066}', '\0', '\u{1b}']));
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&table).unwrap();
+        assert_eq!(
+            reader.headers().unwrap().iter().take(4).collect::<Vec<_>>(),
+            ["time", "a", "b", "c"]
+        );
+        assert_eq!(reader.records().filter(Result::is_ok).count(), 11);
+        let text = std::fs::read_to_string(&table).unwrap();
+        assert_eq!(text.lines().filter(|line| line.starts_with("# complete")).count(), 1);
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::diagnostic::read_text;
 use crate::emit;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick};
@@ -138,7 +139,7 @@ impl Build {
             let path = path.to_owned();
             move |source| BuildError::Io { path, source }
         };
-        let text = std::fs::read_to_string(&self.input).map_err(io(&self.input))?;
+        let text = read_text(&self.input).map_err(io(&self.input))?;
         let file = self.input.display().to_string();
         let system = system::read(&text, self.options)
             .map_err(|mistakes| BuildError::System(mistakes.render(&file, &text)))?;

@@ -200,8 +200,7 @@ impl<'a> Keeper<'a> {
         if let Some(sink) = &mut self.sink {
             sink.tick()?;
             if sink.closed() && !self.settings.sampled {
-                let what = "nobody reads the records any more".to_owned();
-                return Err(RunError::Run { time: schedule.time(n), step: n, what }.into());
+                return Err(CliError::NobodyReads);
             }
         }
         if end {

@@ -137,8 +137,7 @@ fn system_of(
             output.display()
         ))
     })?;
-    let text = std::fs::read_to_string(&system)
-        .map_err(|source| CliError::Read { path: system.clone(), source })?;
+    let text = crate::load::text(&system)?;
     match table.value("system_sha256") {
         Some(hash) if hash != text_hash(&text) => Err(CliError::Option(format!(
             "{}: {} is not the system file of this run: its text has another hash",

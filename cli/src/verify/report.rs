@@ -13,8 +13,7 @@ use crate::error::CliError;
 /// # Errors
 /// Where it cannot be read or holds no such report.
 pub fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|source| CliError::Read { path: path.into(), source })?;
+    let text = crate::load::text(path)?;
     let mut reports = Vec::new();
     for value in Deserializer::from_str(&text).into_iter::<Value>() {
         match value.map_err(|error| damaged(path, &format!("no JSON: {error}")))? {

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use coadjoint_codegen::diagnostic::check_table;
 use coadjoint_run::verify::Rows;
 use serde_json::Value;
 
@@ -75,6 +76,7 @@ impl Table {
 
     /// Lines `# name: value`, then the names of the columns.
     fn text(path: &Path) -> Result<Self, CliError> {
+        check_table(path).map_err(unread(path))?;
         let file = File::open(path).map_err(unread(path))?;
         let (path, head) = (path.to_owned(), BTreeMap::new());
         let source = Source::Text(BufReader::new(file), 0);

@@ -2,12 +2,14 @@
 //!
 //! Every front end collects into one [`Diagnostics`], so that all mistakes are reported at once.
 
+mod encoding;
 mod mistake;
 mod nearest;
 mod quote;
 mod render;
 mod span;
 
+pub use encoding::{check_table, read_text};
 pub use mistake::Mistake;
 pub use nearest::{distance, nearest};
 pub use quote::unclosed_quote;

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::diagnostic::check_table;
+
 use super::columns::Columns;
 use crate::error::LearnError;
 
@@ -12,6 +14,7 @@ pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
         format: "CSV",
         reason: e.to_string(),
     };
+    check_table(path).map_err(|source| LearnError::File { path: path.into(), source })?;
     let mut reader =
         ::csv::ReaderBuilder::new().trim(::csv::Trim::All).comment(Some(b'#')).from_reader(
             std::fs::File::open(path)

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::diagnostic::read_text;
 use sha2::{Digest, Sha256};
 
 use super::schedule::Schedule;
@@ -62,7 +63,7 @@ impl Times {
 }
 
 fn file(path: &Path) -> Result<Vec<f64>, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let text = read_text(path).map_err(|error| {
         format!("neither numbers with commas between them nor a file that can be read ({error})")
     })?;
     let mut times = Vec::new();

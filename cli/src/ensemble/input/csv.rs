@@ -5,6 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
+use coadjoint_codegen::diagnostic::check_table;
 
 use super::{Input, damaged, unread};
 use crate::ensemble::table::{Piece, Table};
@@ -28,6 +29,7 @@ pub struct CsvInput {
 impl CsvInput {
     /// Reads the header and counts the rows.
     pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Self, CliError> {
+        check_table(path).map_err(unread(path))?;
         let mut reader = reader(path)?;
         let header = reader.headers().map_err(|error| damaged(path, error))?;
         let header: Vec<String> = header.iter().map(|name| name.trim().into()).collect();
