@@ -325,7 +325,10 @@ impl Core {
     ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>)> {
         let shape = self.shape();
         let found = match names {
-            Some(names) => Layout::find(shape, &Known::of(&self.system), &names),
+            Some(names) => {
+                let known = Known::of(&self.system.problem, &self.system.parameters);
+                Layout::find(shape, &known, &names)
+            }
             None => Layout::of_width(shape, width).map(|layout| Found {
                 layout,
                 places: (0..width).map(Some).collect(),

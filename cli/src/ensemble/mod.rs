@@ -38,7 +38,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
     let run = system.run.clone();
-    let known = Known::of(&system);
+    let known = Known::of(&system.problem, &system.parameters);
     let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     if same_file(&options.initial, &options.out) {

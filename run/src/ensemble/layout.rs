@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
-use coadjoint_codegen::system::System;
+use coadjoint_codegen::problem::Problem;
 
 use crate::error::RunError;
 
@@ -42,13 +42,12 @@ pub struct Known {
 }
 
 impl Known {
-    /// By this system.
-    pub fn of(system: &System) -> Self {
-        let algebra = &system.problem.algebra;
+    /// By this problem, and the names of its parameters.
+    pub fn of(problem: &Problem, parameters: &[String]) -> Self {
         Self {
-            coordinates: system.problem.coordinates.clone(),
-            parameters: system.parameters.clone(),
-            blocks: algebra.factors().iter().map(matrix_size).collect(),
+            coordinates: problem.coordinates.clone(),
+            parameters: parameters.to_vec(),
+            blocks: problem.algebra.factors().iter().map(matrix_size).collect(),
         }
     }
 
