@@ -6,8 +6,10 @@ import copy
 import pickle
 import warnings
 
+import astropy.units
 import numpy as np
 import pandas
+import pint
 import pyarrow
 import pytest
 import sympy
@@ -95,16 +97,8 @@ def test_frames_of_runs_are_read_by_all_calls(group: str, count: int) -> None:
         )
 
 
-def quantities(library: str):
-    """A function from numbers and a unit to a quantity."""
-    if library == "astropy":
-        return pytest.importorskip("astropy.units").Quantity
-    return pytest.importorskip("pint").UnitRegistry().Quantity
-
-
-@pytest.mark.parametrize("library", ["astropy", "pint"])
-def test_quantities_are_converted_or_refused(library: str) -> None:
-    quantity = quantities(library)
+@pytest.mark.parametrize("quantity", [astropy.units.Quantity, pint.UnitRegistry().Quantity], ids=["astropy", "pint"])
+def test_quantities_are_converted_or_refused(quantity) -> None:
     energy = dict(group="SO3", hamiltonian="x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
     body = ca.System(**energy, units={"time": "s", "momentum": "1e-3 N m s"})
     minute, second = quantity(1, "min"), quantity(100, "ms")
@@ -136,7 +130,7 @@ def test_quantities_are_converted_or_refused(library: str) -> None:
 
 
 def test_coordinates_may_have_units_of_their_own() -> None:
-    quantity = quantities("pint")
+    quantity = pint.UnitRegistry().Quantity
     units = {"momentum": "kg m^2/s", "u": "m", "v": "m", "w": "m"}
     body = ca.System("SE3", "x^2 + y^2/2 + u^2", coordinates="x y z u v w", units=units)
     start = [quantity(1000, "g m^2/s"), 2, 3, quantity(100, "cm"), 1, 2]
