@@ -63,9 +63,6 @@ pub enum RunError {
         /// What was given.
         given: Setting,
     },
-    /// The integrator comes without the code that fits its coefficients.
-    #[error("its coefficients are not fitted")]
-    NotFitted,
     /// An implicit equation was not solved, or an adaptive step became too small.
     #[error("no convergence; take a smaller step")]
     NotConverged,

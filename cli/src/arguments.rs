@@ -3,7 +3,8 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::error::{ContextKind, ErrorKind};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
@@ -28,6 +29,26 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
+}
+
+/// Options of earlier versions.
+const REMOVED: [&str; 2] = ["--tuned", "--fitted"];
+
+/// The arguments of this process; ends it with a message where they make no sense.
+pub fn parse() -> Arguments {
+    Arguments::try_parse().unwrap_or_else(|error| {
+        let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+        match REMOVED.iter().find(|name| unknown.as_deref() == Some(name)) {
+            Some(name) => {
+                let message = format!(
+                    "{name} was removed: for a smaller error at the same step give a larger --truncation, or write \
+                     frame = \"comoving\" under [integrator] in the system file"
+                );
+                Arguments::command().error(ErrorKind::UnknownArgument, message).exit()
+            }
+            None => error.exit(),
+        }
+    })
 }
 
 /// What to do.
@@ -289,13 +310,6 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "mu", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(requires = "model")]
     pub start: Vec<f64>,
-    /// Sum the tail of the series for this motion: as fast, and more accurate from K = 5 on
-    #[arg(long, conflicts_with = "model")]
-    pub tuned: bool,
-    /// Fit the coefficients of S to this motion, followed for so long (a period, say): as fast, and
-    /// more accurate by many orders
-    #[arg(long, value_name = "DURATION", conflicts_with_all = ["model", "tuned"])]
-    pub fitted: Option<f64>,
     /// Record every n-th step, and the last
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,

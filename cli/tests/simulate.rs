@@ -48,44 +48,16 @@ fn the_rigid_body_of_the_paper_ends_where_it_should() {
     }
 }
 
-/// The tail of the series summed: the same step, ten times closer.
+/// Options of earlier versions name what takes their place.
 #[test]
-fn a_tuned_run_ends_closer() {
-    let command = ["simulate", "examples/rigid_body.toml", "--truncation", "9"];
-    let options = ["--step", "0.5", "--format", "json"];
-    let plain = json(&[command, options].concat());
-    let tuned = json(&[&command[..], &["--tuned"], &options].concat());
-    let (plain_error, tuned_error) = (error(&plain), error(&tuned));
-    assert!(tuned_error < plain_error / 5.0, "{plain_error:e} {tuned_error:e}");
-    assert!(tuned["drift"]["casimirs"].as_f64().unwrap() <= 1e-13);
-    assert_eq!(tuned["method"], "K = 9, exp, tuned");
-
-    // Kicks leave the flow's motion.
-    let refused = run(&["simulate", "examples/satellite.toml", "--tuned"]);
-    assert_eq!(refused.0, 2);
-    assert!(refused.2.contains("--tuned"), "{}", refused.2);
-}
-
-/// Fitted to the motion, K = 5 is closer than K = 9 is.
-#[test]
-fn a_fitted_run_ends_closer_by_orders() {
-    let command = ["simulate", "examples/rigid_body.toml", "--truncation", "5"];
-    let options = ["--step", "0.5", "--format", "json"];
-    let plain = json(&[command, options].concat());
-    let fitted = json(&[&command[..], &["--fitted", "12"], &options].concat());
-    let (plain_error, fitted_error) = (error(&plain), error(&fitted));
-    assert!(fitted_error < plain_error / 1e4, "{plain_error:e} {fitted_error:e}");
-    assert!(fitted["drift"]["casimirs"].as_f64().unwrap() <= 1e-13);
-    assert_eq!(fitted["method"], "K = 5, exp, fitted");
-
-    for (mistake, said) in [
-        (vec!["examples/satellite.toml", "--fitted", "12"], "kicks of a potential"),
-        (vec!["examples/rigid_body.toml", "--fitted", "0"], "duration 0 is not usable"),
-        (vec!["examples/rigid_body.toml", "--fitted", "12", "--tuned"], "--tuned"),
-    ] {
-        let refused = run(&[&["simulate"], &mistake[..]].concat());
-        assert_eq!(refused.0, 2, "{mistake:?}");
-        assert!(refused.2.contains(said), "{}", refused.2);
+fn removed_options_say_what_to_use() {
+    for (option, system) in [("--tuned", "rigid_body"), ("--fitted=12", "satellite")] {
+        let (code, _, error) = run(&["simulate", &format!("examples/{system}.toml"), option]);
+        assert_eq!(code, 2, "{error}");
+        let name = option.split('=').next().unwrap();
+        for said in [name, "--truncation", "frame = \"comoving\""] {
+            assert!(error.contains(said), "{error}");
+        }
     }
 }
 

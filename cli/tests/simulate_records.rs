@@ -70,7 +70,7 @@ fn a_run_that_fails_leaves_its_records() {
 fn files_say_what_they_are() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("t.csv");
-    let comoving = ["--step", "0.3", "--chart", "exp", "--solver", "newton", "--tuned"];
+    let comoving = ["--step", "0.3", "--chart", "exp", "--solver", "newton"];
     let name = out.to_str().unwrap();
     simulate(&[&[BODY, "--time", "1", "--truncation", "9", "--out", name], &comoving[..]].concat());
     let text = std::fs::read_to_string(&out).unwrap();
@@ -88,7 +88,6 @@ fn files_say_what_they_are() {
         "# steps: 4",
         "# time: 1",
         "# initial_momentum: 2,0.5,1",
-        "# tuned: true",
         "# complete: 5 records",
     ] {
         assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
@@ -157,13 +156,6 @@ fn times_between_steps_change_no_bit() {
         both.iter().filter(|row| !["0.37", "1.25"].contains(&row[0].as_str())).cloned().collect();
     assert_eq!(both.len(), plain.len() + 2);
     assert_eq!(grid, plain);
-    // Fitted coefficients are good for one step size only; records between are no worse for it.
-    let fitted = ["--truncation", "5", "--step", "0.5", "--fitted", "12", "--time", "4"];
-    let rows = table(&simulate(&[&[BODY, "--at", "1.25", "--out", "-"], &fitted[..]].concat()));
-    for i in 1..4 {
-        let difference = rows[1][i].parse::<f64>().unwrap() - at[4][i].parse::<f64>().unwrap();
-        assert!(difference.abs() < 1e-9, "{difference:e}");
-    }
 
     for (times, said) in [
         ("5", "5 is not between 0 and the end, 4"),

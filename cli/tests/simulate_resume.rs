@@ -139,7 +139,6 @@ fn another_run_is_refused_by_name() {
     refused(&["--step", "0.05"], "another `step`: 0.1 then, 0.05 now");
     refused(&["--truncation", "5"], "another `truncation`");
     refused(&["--chart", "cayley"], "another `chart`");
-    refused(&["--tuned"], "another `tuned`");
     let output = place.run("other.csv", &KEEP);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("another `out`"));

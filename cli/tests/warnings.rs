@@ -1,10 +1,10 @@
-//! What a run says of itself: a series that hardly converges, adjusted series that are none, steps that would work.
+//! What a run says of itself: a series that hardly converges, steps that would work.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod support;
 
 use serde_json::Value;
-use support::{file, run};
+use support::run;
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
@@ -125,34 +125,4 @@ fn a_refused_step_names_one_that_works() {
     let steps: Vec<f64> = list.lines().skip(1).map(|line| usable(line).parse().unwrap()).collect();
     assert!(steps.len() == 2 && steps[1] < steps[0] && steps[0] < 0.5, "{list}");
     assert!(list.contains("\n2,1,\"") && list.contains("\n3,1,\""), "{list}");
-}
-
-/// Where the tail cannot be summed, or the fit does not hold, the plain series is used, and that is said.
-#[test]
-fn a_series_that_could_not_be_adjusted_is_plain_and_says_so() {
-    let directory = TempDir::new().unwrap();
-    let end = |found: &Value| found["momentum"].clone();
-    let short = ["simulate", BODY, "--time", "20"];
-    for (options, expected) in [
-        // K = 3 has no tail to tell from; a body that does not move has none either.
-        (&["--truncation", "3", "--tuned"][..], 1),
-        (&["--truncation", "9", "--step", "0.5", "--tuned"], 0),
-        (&["--truncation", "5", "--step", "0.5", "--fitted", "12"], 0),
-    ] {
-        let (found, error) = report(&[&short[..], options].concat());
-        assert_eq!(kinds(&found), vec!["plain_series"; expected], "{options:?}: {error}");
-        assert_eq!(error.matches("the plain series was used").count(), expected, "{error}");
-        if expected == 1 {
-            let (plain, _) = report(&[&short[..], &["--truncation", "3"]].concat());
-            assert_eq!(end(&found), end(&plain));
-        }
-    }
-    let still = file(
-        &directory,
-        "group = \"SO3\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 7\n\
-         step = 0.5\n[initial]\nmomentum = [0, 0, 1]\n[run]\ntime = 10\n",
-    );
-    let (found, error) = report(&["simulate", &still, "--fitted", "5"]);
-    assert_eq!(kinds(&found), ["plain_series"], "{error}");
-    assert_eq!(found["warnings"][0]["option"], "--fitted");
 }

@@ -115,14 +115,6 @@ pub fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
                     loop {}
                 }
 
-                pub fn tuned<M>(
-                    step: T,
-                    #(_: #types,)*
-                    momenta: M,
-                ) -> #result<Self, #krate::StepError> {
-                    loop {}
-                }
-
                 pub fn step(&self) -> T {
                     loop {}
                 }

@@ -194,7 +194,7 @@ pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
         (parts[number], order, coefficients.monomials()[base].as_slice())
     });
     let radius = coadjoint::plumbing::radius_of(truncation, last);
-    step.slots(&coefficients.slots_of_parts(&parts, &|_| 1.0), radius)
+    step.slots(&coefficients.slots_of_parts(&parts), radius)
 }
 
 /// The factors of a group as the programs of its steps have them.

@@ -23,8 +23,6 @@ class Core:
         group_element: NDArray[np.float64] | None,
         every: int | None,
         at: NDArray[np.float64] | None,
-        tuned: bool,
-        fitted: float | None,
         backend: str,
         record: bool,
         progress: _Progress | None,

@@ -233,8 +233,8 @@ class System:
         truncation: int | None = None,
         every: int | None = None,
         at: Numbers | None = None,
-        tuned: bool = False,
-        fitted: float | None = None,
+        tuned: None = None,
+        fitted: None = None,
         backend: Backend = "auto",
         progress: bool | Progress | None = None,
     ) -> Run:
@@ -243,8 +243,7 @@ class System:
         The run ends at ``time`` exactly; steps are of size ``step`` or a little less. ``tolerance`` picks the step (and
         the truncation, unless it is given) for this error at the end, along the run or for momenta up to the norm
         ``region``. Every ``every``-th step is recorded, or the times ``at`` (alone, if ``every`` is not given).
-        ``tuned`` sums the tail of the series for this motion, ``fitted`` fits the coefficients to the motion over this
-        duration. ``backend`` is ``"auto"``, ``"jit"``, ``"c"`` or ``"interpreter"``: the numbers have the same bits.
+        ``backend`` is ``"auto"``, ``"jit"``, ``"c"`` or ``"interpreter"``: the numbers have the same bits.
         ``progress`` is True, False, or a function of (done, total); if not given, a bar where somebody looks on.
 
         Raises :class:`InputError` for what makes no sense and :class:`RunError` where the run stops.
@@ -255,6 +254,12 @@ class System:
         >>> run.time
         array([ 5., 10., 20.])
         """
+        for name, value in (("tuned", tuned), ("fitted", fitted)):
+            if value is not None:
+                raise InputError(
+                    f"{name} was removed: for a smaller error at the same step give a larger truncation, or the system "
+                    'frame="comoving"'
+                )
         start, element = self._state(momentum, group_element)
         times = None if at is None else np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
         if times is not None and (times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any()):
@@ -267,8 +272,6 @@ class System:
                 group_element=element,
                 every=None if every is None else _arrays.count(every, "every", 1),
                 at=times,
-                tuned=_arrays.flag(tuned, "tuned"),
-                fitted=None if fitted is None else _arrays.real(fitted, "fitted"),
                 backend=_arrays.text(backend, "backend"),
                 record=True,
                 progress=told,
@@ -276,7 +279,6 @@ class System:
         finally:
             if told is not None:
                 told.close()
-        found["follows"] = bool(tuned) or fitted is not None
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         return Run(found, self)
@@ -455,10 +457,6 @@ class System:
         else:
             if not isinstance(run, Run) or run.truncation is None:
                 raise InputError("only runs and ensembles of systems are judged")
-            if run._found["follows"]:
-                raise InputError(
-                    "a run that was tuned or fitted is not judged: its generating function is not the exact series"
-                )
             starts, steps, truncation, refused = None, 0, run.truncation, []
             rows, names = run._table(), run._found["columns"]
         found = self._core.verify(

@@ -132,7 +132,7 @@ impl Core {
     }
 
     /// One trajectory; a dictionary of arrays and facts.
-    #[pyo3(signature = (asked, *, momentum, group_element, every, at, tuned, fitted, backend, record, progress))]
+    #[pyo3(signature = (asked, *, momentum, group_element, every, at, backend, record, progress))]
     #[allow(clippy::too_many_arguments)]
     fn simulate<'py>(
         &self,
@@ -142,8 +142,6 @@ impl Core {
         group_element: Option<PyReadonlyArray2<'py, f64>>,
         every: Option<u64>,
         at: Option<PyReadonlyArray1<'py, f64>>,
-        tuned: bool,
-        fitted: Option<f64>,
         backend: &str,
         record: bool,
         progress: Option<Bound<'py, PyAny>>,
@@ -189,8 +187,6 @@ impl Core {
                 recording: record,
                 every,
                 at,
-                tuned,
-                fitted,
                 backend,
                 group_element,
                 ..Setup::new(schedule, momentum)
@@ -208,7 +204,7 @@ impl Core {
             let coordinates = &derived.integrator.problem.coordinates;
             let mut keeper = Keeper { table: Table::default(), control, coordinates, energy: true };
             let outcome = run(&derived, &setup, &mut keeper)?;
-            Ok((keeper.table, outcome, schedule, truncation, choice, derived.label(&setup)))
+            Ok((keeper.table, outcome, schedule, truncation, choice, derived.label()))
         })?;
         let (table, outcome, schedule, truncation, choice, label) =
             result.map_err(|error: RunError| raised(py, &error))?;

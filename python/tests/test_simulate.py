@@ -77,15 +77,6 @@ def test_steps_end_at_the_time(body: ca.System) -> None:
     assert np.abs(backwards.final_group_element - np.eye(3)).max() < 1e-12
 
 
-def test_tuned_and_fitted_are_more_accurate(body: ca.System) -> None:
-    exact = reference(50)
-    plain, tuned, fitted = (
-        np.abs(body.simulate(START, time=50, step=0.5, **more).final_momentum - exact).max()
-        for more in [{}, {"tuned": True}, {"fitted": 10.0}]
-    )
-    assert tuned < 0.3 * plain and fitted < 0.1 * plain
-
-
 def test_files_say_what_arguments_leave_out() -> None:
     path = Path(__file__).parents[2] / "examples" / "rigid_body.toml"
     system = ca.System.from_file(path)

@@ -9,7 +9,6 @@
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
-pub use crate::group::compensated::CompensatedGroup;
 pub use crate::group::element_error::ElementError;
 pub use crate::group::heisenberg::Heisenberg;
 #[cfg(feature = "alloc")]

@@ -71,7 +71,6 @@ pub mod steps;
 #[cfg(all(feature = "systems", not(test)))]
 pub mod systems;
 mod table;
-pub mod tune;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.
 ///
@@ -119,8 +118,8 @@ pub mod tune;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `tuned(step, parameters…, momenta)` (see [`tune::Tail`]), `advance`, `advance_by`,
-/// `poisson_map`, `energy`, `step`, and the implementations of [`GeneratingFunction`] and [`lanes::Lanes`].
+/// parameters…)`, `advance`, `advance_by`, `poisson_map`, `energy`, `step`, and the implementations of
+/// [`GeneratingFunction`] and [`lanes::Lanes`].
 /// Every mistake in the function is reported at its place.
 #[cfg(feature = "macros")]
 pub use coadjoint_macros::lie_poisson;
@@ -179,7 +178,6 @@ pub use group::su2::SU2;
 pub use linear::coordinates::Coordinates;
 pub use number::scalar::Scalar;
 pub use solve::Integrator;
-pub use step::compensated::{CompensatedPhase, advance_compensated};
 pub use step::kicked::Kicked;
 pub use step::monitor::Monitor;
 pub use step::phase::Phase;

@@ -2,7 +2,6 @@
 
 use crate::error::StepError;
 use crate::generating::ScalarOf;
-use crate::generating::{Term, TermOf};
 pub use crate::number::lift::Lift;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
@@ -30,8 +29,6 @@ pub struct Table {
     pub slots: &'static [(u32, u32)],
     /// The monomials of the series S₁ + … + S_K, S_k having the power k of h; its bases are the first.
     pub monomials: &'static [Monomial],
-    /// The terms of the first guess that are even in h: base (ascending), coordinate, monomial.
-    pub guess: &'static [(u32, u32, Monomial)],
 }
 
 /// The parts for one step size and parameter set. No power of h reaches `POWERS`, no
@@ -88,29 +85,18 @@ fn powers<T: Scalar, const POWERS: usize>(x: T) -> [T; POWERS] {
     })
 }
 
-/// The slots, S_k being multiplied by `factor(k)`.
+/// The slots, given the parts.
 // Inlined, as large arrays that are returned get copied.
 #[inline(always)]
-pub fn slots<
-    T: Scalar,
-    const POWERS: usize,
-    const PARTS: usize,
-    const BASES: usize,
-    const SLOTS: usize,
->(
+pub fn slots<T: Scalar, const PARTS: usize, const BASES: usize, const SLOTS: usize>(
     table: &Table,
     parts: &[T; PARTS],
-    factor: &dyn Fn(usize) -> T,
 ) -> [T; SLOTS] {
-    let factors: [T; POWERS] = core::array::from_fn(factor);
     let mut bases = [T::of(0.0); BASES];
     let mut start = 0;
-    for (number, (base, &end)) in bases.iter_mut().zip(table.bases).enumerate() {
-        let range = start..end as usize;
-        let powers = table.parts.get(range.clone()).unwrap_or(&[]);
-        for (&(step_power, _), &part) in powers.iter().zip(parts.get(range).unwrap_or(&[])) {
-            let factor = factors[usize::from(step_power).min(POWERS - 1)];
-            *base += if number < table.monomials.len() { part * factor } else { part };
+    for (base, &end) in bases.iter_mut().zip(table.bases) {
+        for &part in parts.get(start..end as usize).unwrap_or(&[]) {
+            *base += part;
         }
         start = end as usize;
     }
@@ -120,46 +106,6 @@ pub fn slots<
         *slot = bases[(base as usize).min(BASES.saturating_sub(1))] * T::of(f64::from(scale));
     }
     slots
-}
-
-/// How many adjustable terms there are.
-#[must_use]
-pub fn terms(table: &Table) -> usize {
-    table.monomials.len() + table.guess.len()
-}
-
-/// The adjustable term with this number; a constant beyond the last one.
-#[must_use]
-pub fn term(table: &Table, number: usize) -> Term<'static> {
-    let Some(&monomial) = table.monomials.get(number) else {
-        let guess = number.checked_sub(table.monomials.len()).and_then(|n| table.guess.get(n));
-        let &(base, coordinate, monomial) = guess.unwrap_or(&(u32::MAX, 0, &[]));
-        let of = TermOf::Guess(coordinate as usize);
-        return Term { of, monomial, order: order(table, base as usize) };
-    };
-    Term { of: TermOf::Series, monomial, order: order(table, number) }
-}
-
-/// The highest power of h in a base.
-fn order(table: &Table, base: usize) -> usize {
-    let parts = table.bases.get(base).and_then(|&end| table.parts.get(..end as usize));
-    parts.and_then(|parts| parts.last()).map_or(0, |&(power, _)| usize::from(power))
-}
-
-/// Adds to the slots what a correction of each adjustable term brings.
-pub fn adjust<T: Scalar>(table: &Table, slots: &mut [T], corrections: &[T]) {
-    let series = table.monomials.len();
-    for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
-        let number = if (base as usize) < series {
-            Some(base as usize)
-        } else {
-            let guess = table.guess.binary_search_by_key(&base, |&(of, ..)| of);
-            guess.ok().map(|place| series + place)
-        };
-        if let Some(&correction) = number.and_then(|number| corrections.get(number)) {
-            *slot += correction * T::of(f64::from(scale));
-        }
-    }
 }
 
 /// Σ weight·|slot|, sorted by degree: the coefficients of a bound as a polynomial in the size of

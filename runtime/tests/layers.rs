@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders and files of `src`, the lowest first: each may use those before it, and itself.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 16] = [
     "number",
     "error",
     "linear",
@@ -16,7 +16,6 @@ const LAYERS: [&str; 17] = [
     "generating",
     "solve",
     "step",
-    "tune",
     "lanes",
     "laws",
     "groups",

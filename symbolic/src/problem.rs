@@ -83,7 +83,7 @@ pub enum Solver {
     /// Newton's method, or a variant of it, with the Hessian of S: the default up to
     /// [`Solver::NEWTON_DIMENSIONS`].
     Newton,
-    /// The fixed point with Anderson's acceleration, which needs the gradient of S alone: the default beyond.
+    /// The fixed point, which needs the gradient of S alone: the default beyond.
     FixedPoint,
 }
 

@@ -61,42 +61,36 @@ const _: () = {
             Self::of_symbols(step, &[])
         }
 
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            step: T,
-            momenta: impl ::core::iter::IntoIterator<
-                Item = impl ::core::convert::Into<Vector<T>>,
-            >,
-        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let symbols = [];
-            let parts = Self::parts(step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = ::coadjoint::tune::Tail::along(
-                Self::TRUNCATION,
-                momenta,
-                &series,
-            )?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
-        }
-
         fn of_symbols(
             step: T,
             symbols: &[T; 0],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(
-                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
-            )
+            let coefficients = ::coadjoint::plumbing::slots::<
+                T,
+                142,
+                139,
+                258,
+            >(Self::table(), &parts);
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                142,
+                18,
+            >(Self::table(), &parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -124,51 +118,6 @@ const _: () = {
                 1,
                 142,
             >(Self::table(), &[], step, symbols)
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; 0],
-            parts: &[T; 142],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = ::coadjoint::plumbing::slots::<
-                T,
-                5,
-                142,
-                139,
-                258,
-            >(Self::table(), parts, factor);
-            let last = ::coadjoint::plumbing::last_terms::<
-                T,
-                142,
-                18,
-            >(Self::table(), parts, Self::TRUNCATION);
-            let radius = ::coadjoint::plumbing::radius(
-                Self::table(),
-                &last,
-                Self::TRUNCATION,
-            );
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; 0],
-            coefficients: [T; 258],
-            last: [T; 18],
-            radius: T,
-        ) -> Self {
-            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self {
-                step,
-                symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            }
         }
 
         /// The step size h.
@@ -681,27 +630,6 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for CayleyBody<T> {
-        fn truncation(&self) -> usize {
-            Self::TRUNCATION
-        }
-
-        fn terms(&self) -> usize {
-            ::coadjoint::plumbing::terms(Self::table())
-        }
-
-        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
-            ::coadjoint::plumbing::term(Self::table(), number)
-        }
-
-        fn adjusted(&self, corrections: &[T]) -> Self {
-            let mut coefficients = self.coefficients;
-            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            let last = [T::of(0.0); 18];
-            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-        }
-    }
-
     impl ::coadjoint::lanes::Lanes for CayleyBody<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
@@ -840,43 +768,6 @@ const _: () = {
             &[(0, 1), (1, 2), (2, 2)], &[(0, 2)], &[(0, 2), (2, 2)], &[(0, 2), (1, 2)], &[(0, 3)],
             &[(0, 3), (2, 2)], &[(0, 3), (1, 2)], &[(0, 4)], &[(0, 4), (2, 2)], &[(0, 4), (1, 2)],
             &[(0, 5)], &[(0, 6)], &[(0, 7)],
-        ],
-        /// The terms of the first guess that are even in h: base, coordinate, monomial.
-        guess: &[
-            (24, 0, &[(1, 2), (2, 4)]), (26, 0, &[(1, 4), (2, 2)]), (27, 0, &[(0, 1)]),
-            (28, 0, &[(0, 1), (2, 2)]), (29, 0, &[(0, 1), (2, 4)]), (31, 0, &[(0, 1), (1, 2)]),
-            (32, 0, &[(0, 1), (1, 2), (2, 2)]), (34, 0, &[(0, 1), (1, 4)]),
-            (35, 0, &[(0, 2), (2, 2)]), (36, 0, &[(0, 2), (2, 4)]), (38, 0, &[(0, 2), (1, 2)]),
-            (39, 0, &[(0, 2), (1, 2), (2, 2)]), (40, 0, &[(0, 2), (1, 4)]), (41, 0, &[(0, 3)]),
-            (42, 0, &[(0, 3), (2, 2)]), (43, 0, &[(0, 3), (2, 4)]), (45, 0, &[(0, 3), (1, 2)]),
-            (46, 0, &[(0, 3), (1, 2), (2, 2)]), (47, 0, &[(0, 3), (1, 4)]), (48, 0, &[(0, 4)]),
-            (49, 0, &[(0, 4), (2, 2)]), (51, 0, &[(0, 4), (1, 2)]), (52, 0, &[(0, 5)]),
-            (53, 0, &[(0, 5), (2, 2)]), (54, 0, &[(0, 5), (1, 2)]), (55, 0, &[(0, 6)]),
-            (56, 0, &[(0, 6), (2, 2)]), (57, 0, &[(0, 6), (1, 2)]), (58, 0, &[(0, 7)]),
-            (59, 0, &[(0, 8)]), (60, 0, &[(0, 9)]), (61, 1, &[(1, 1)]), (62, 1, &[(1, 1), (2, 2)]),
-            (63, 1, &[(1, 1), (2, 4)]), (65, 1, &[(1, 3)]), (66, 1, &[(1, 3), (2, 2)]),
-            (67, 1, &[(1, 5)]), (70, 1, &[(0, 1), (1, 1), (2, 2)]),
-            (71, 1, &[(0, 1), (1, 1), (2, 4)]), (73, 1, &[(0, 1), (1, 3), (2, 2)]),
-            (76, 1, &[(0, 2), (1, 1)]), (77, 1, &[(0, 2), (1, 1), (2, 2)]),
-            (78, 1, &[(0, 2), (1, 1), (2, 4)]), (80, 1, &[(0, 2), (1, 3)]),
-            (81, 1, &[(0, 2), (1, 3), (2, 2)]), (84, 1, &[(0, 3), (1, 1)]),
-            (85, 1, &[(0, 3), (1, 1), (2, 2)]), (87, 1, &[(0, 3), (1, 3)]),
-            (89, 1, &[(0, 4), (1, 1)]), (90, 1, &[(0, 4), (1, 1), (2, 2)]),
-            (91, 1, &[(0, 4), (1, 3)]), (93, 1, &[(0, 5), (1, 1)]),
-            (94, 1, &[(0, 5), (1, 1), (2, 2)]), (95, 1, &[(0, 5), (1, 3)]),
-            (97, 1, &[(0, 6), (1, 1)]), (98, 1, &[(0, 7), (1, 1)]), (99, 1, &[(0, 8), (1, 1)]),
-            (100, 2, &[(2, 1)]), (101, 2, &[(2, 3)]), (102, 2, &[(2, 5)]),
-            (103, 2, &[(1, 2), (2, 1)]), (104, 2, &[(1, 2), (2, 3)]), (106, 2, &[(1, 4), (2, 1)]),
-            (109, 2, &[(0, 1), (1, 2), (2, 1)]), (110, 2, &[(0, 1), (1, 2), (2, 3)]),
-            (112, 2, &[(0, 1), (1, 4), (2, 1)]), (113, 2, &[(0, 2), (2, 1)]),
-            (114, 2, &[(0, 2), (2, 3)]), (117, 2, &[(0, 2), (1, 2), (2, 1)]),
-            (118, 2, &[(0, 2), (1, 2), (2, 3)]), (120, 2, &[(0, 2), (1, 4), (2, 1)]),
-            (121, 2, &[(0, 3), (2, 1)]), (122, 2, &[(0, 3), (2, 3)]),
-            (125, 2, &[(0, 3), (1, 2), (2, 1)]), (127, 2, &[(0, 4), (2, 1)]),
-            (128, 2, &[(0, 4), (2, 3)]), (130, 2, &[(0, 4), (1, 2), (2, 1)]),
-            (131, 2, &[(0, 5), (2, 1)]), (132, 2, &[(0, 5), (2, 3)]),
-            (134, 2, &[(0, 5), (1, 2), (2, 1)]), (135, 2, &[(0, 6), (2, 1)]),
-            (137, 2, &[(0, 7), (2, 1)]), (138, 2, &[(0, 8), (2, 1)]),
         ],
     };
 };

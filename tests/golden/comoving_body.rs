@@ -76,50 +76,36 @@ const _: () = {
             )
         }
 
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            step: T,
-            inertia: [T; 2],
-            mass: [T; 2],
-            momenta: impl ::core::iter::IntoIterator<
-                Item = impl ::core::convert::Into<Vector<T>>,
-            >,
-        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let symbols = [
-                (T::of(1.0) / inertia[0]),
-                (T::of(1.0) / inertia[1]),
-                (T::of(1.0) / mass[0]),
-                (T::of(1.0) / mass[1]),
-                ((T::of(1.0) / mass[0]) - (T::of(1.0) / mass[1])),
-            ];
-            let parts = Self::parts(step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = ::coadjoint::tune::Tail::along(
-                Self::TRUNCATION,
-                momenta,
-                &series,
-            )?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
-        }
-
         fn of_symbols(
             step: T,
             symbols: &[T; 5],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(
-                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
-            )
+            let coefficients = ::coadjoint::plumbing::slots::<
+                T,
+                57,
+                57,
+                73,
+            >(Self::table(), &parts);
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                57,
+                12,
+            >(Self::table(), &parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -158,51 +144,6 @@ const _: () = {
                 step,
                 symbols,
             )
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; 5],
-            parts: &[T; 57],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = ::coadjoint::plumbing::slots::<
-                T,
-                4,
-                57,
-                57,
-                73,
-            >(Self::table(), parts, factor);
-            let last = ::coadjoint::plumbing::last_terms::<
-                T,
-                57,
-                12,
-            >(Self::table(), parts, Self::TRUNCATION);
-            let radius = ::coadjoint::plumbing::radius(
-                Self::table(),
-                &last,
-                Self::TRUNCATION,
-            );
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; 5],
-            coefficients: [T; 73],
-            last: [T; 12],
-            radius: T,
-        ) -> Self {
-            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self {
-                step,
-                symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            }
         }
 
         /// The step size h.
@@ -708,28 +649,6 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable
-    for ComovingBody<T> {
-        fn truncation(&self) -> usize {
-            Self::TRUNCATION
-        }
-
-        fn terms(&self) -> usize {
-            ::coadjoint::plumbing::terms(Self::table())
-        }
-
-        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
-            ::coadjoint::plumbing::term(Self::table(), number)
-        }
-
-        fn adjusted(&self, corrections: &[T]) -> Self {
-            let mut coefficients = self.coefficients;
-            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            let last = [T::of(0.0); 12];
-            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-        }
-    }
-
     impl ::coadjoint::lanes::Lanes for ComovingBody<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
@@ -810,8 +729,6 @@ const _: () = {
             &[(1, 1), (2, 1), (4, 1), (5, 1)], &[(1, 2)], &[(1, 2), (5, 2)], &[(1, 2), (2, 2)],
             &[(0, 1), (2, 1), (3, 1), (5, 1)], &[(0, 2)], &[(0, 2), (5, 2)], &[(0, 2), (2, 2)],
         ],
-        /// The terms of the first guess that are even in h: base, coordinate, monomial.
-        guess: &[],
     };
 };
 

@@ -61,42 +61,36 @@ const _: () = {
             Self::of_symbols(step, &[])
         }
 
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            step: T,
-            momenta: impl ::core::iter::IntoIterator<
-                Item = impl ::core::convert::Into<Vector<T>>,
-            >,
-        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let symbols = [];
-            let parts = Self::parts(step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = ::coadjoint::tune::Tail::along(
-                Self::TRUNCATION,
-                momenta,
-                &series,
-            )?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
-        }
-
         fn of_symbols(
             step: T,
             symbols: &[T; 0],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(
-                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
-            )
+            let coefficients = ::coadjoint::plumbing::slots::<
+                T,
+                520,
+                427,
+                460,
+            >(Self::table(), &parts);
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                520,
+                0,
+            >(Self::table(), &parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -124,51 +118,6 @@ const _: () = {
                 1,
                 520,
             >(Self::table(), &[], step, symbols)
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; 0],
-            parts: &[T; 520],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = ::coadjoint::plumbing::slots::<
-                T,
-                3,
-                520,
-                427,
-                460,
-            >(Self::table(), parts, factor);
-            let last = ::coadjoint::plumbing::last_terms::<
-                T,
-                520,
-                0,
-            >(Self::table(), parts, Self::TRUNCATION);
-            let radius = ::coadjoint::plumbing::radius(
-                Self::table(),
-                &last,
-                Self::TRUNCATION,
-            );
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; 0],
-            coefficients: [T; 460],
-            last: [T; 0],
-            radius: T,
-        ) -> Self {
-            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self {
-                step,
-                symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            }
         }
 
         /// The step size h.
@@ -875,27 +824,6 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for Learned<T> {
-        fn truncation(&self) -> usize {
-            Self::TRUNCATION
-        }
-
-        fn terms(&self) -> usize {
-            ::coadjoint::plumbing::terms(Self::table())
-        }
-
-        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
-            ::coadjoint::plumbing::term(Self::table(), number)
-        }
-
-        fn adjusted(&self, corrections: &[T]) -> Self {
-            let mut coefficients = self.coefficients;
-            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            let last = [T::of(0.0); 0];
-            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-        }
-    }
-
     impl ::coadjoint::lanes::Lanes for Learned<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
@@ -1355,8 +1283,6 @@ const _: () = {
             &[(0, 2), (1, 1), (2, 1)], &[(0, 2), (1, 2)], &[(0, 3)], &[(0, 3), (2, 1)],
             &[(0, 3), (1, 1)], &[(0, 4)],
         ],
-        /// The terms of the first guess that are even in h: base, coordinate, monomial.
-        guess: &[],
     };
 };
 

@@ -61,42 +61,52 @@ const _: () = {
             Self::of_symbols(step, &[])
         }
 
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            step: T,
-            momenta: impl ::core::iter::IntoIterator<
-                Item = impl ::core::convert::Into<Vector<T>>,
-            >,
-        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let symbols = [];
-            let parts = Self::parts(step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = ::coadjoint::tune::Tail::along(
-                Self::TRUNCATION,
-                momenta,
-                &series,
-            )?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
-        }
-
         fn of_symbols(
             step: T,
             symbols: &[T; 0],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(
-                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
-            )
+            let coefficients = ::coadjoint::plumbing::slots::<
+                T,
+                199,
+                199,
+                438,
+            >(Self::table(), &parts);
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                199,
+                30,
+            >(Self::table(), &parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            let defect = ::coadjoint::plumbing::bound::<
+                T,
+                9,
+            >(
+                &coefficients,
+                &[
+                    (146, 9.451143358184197, 8), (147, 3.5769946345638064, 8),
+                    (148, 3.5769946345638064, 8), (149, 9.451143358184197, 8),
+                    (150, 9.451143358184197, 8), (151, 1.1238480402831414, 8),
+                    (152, 0.5608172632095823, 8), (153, 1.1238480402831414, 8),
+                    (154, 9.451143358184197, 8), (155, 3.5769946345638064, 8),
+                    (156, 0.5608172632095823, 8), (157, 0.5608172632095823, 8),
+                    (158, 3.5769946345638064, 8), (159, 3.5769946345638064, 8),
+                    (160, 1.1238480402831414, 8), (161, 3.5769946345638064, 8),
+                    (162, 9.451143358184197, 8), (163, 9.451143358184197, 8),
+                ],
+            );
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -124,67 +134,6 @@ const _: () = {
                 1,
                 199,
             >(Self::table(), &[], step, symbols)
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; 0],
-            parts: &[T; 199],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = ::coadjoint::plumbing::slots::<
-                T,
-                10,
-                199,
-                199,
-                438,
-            >(Self::table(), parts, factor);
-            let last = ::coadjoint::plumbing::last_terms::<
-                T,
-                199,
-                30,
-            >(Self::table(), parts, Self::TRUNCATION);
-            let radius = ::coadjoint::plumbing::radius(
-                Self::table(),
-                &last,
-                Self::TRUNCATION,
-            );
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; 0],
-            coefficients: [T; 438],
-            last: [T; 30],
-            radius: T,
-        ) -> Self {
-            let defect = ::coadjoint::plumbing::bound::<
-                T,
-                9,
-            >(
-                &coefficients,
-                &[
-                    (146, 9.451143358184197, 8), (147, 3.5769946345638064, 8),
-                    (148, 3.5769946345638064, 8), (149, 9.451143358184197, 8),
-                    (150, 9.451143358184197, 8), (151, 1.1238480402831414, 8),
-                    (152, 0.5608172632095823, 8), (153, 1.1238480402831414, 8),
-                    (154, 9.451143358184197, 8), (155, 3.5769946345638064, 8),
-                    (156, 0.5608172632095823, 8), (157, 0.5608172632095823, 8),
-                    (158, 3.5769946345638064, 8), (159, 3.5769946345638064, 8),
-                    (160, 1.1238480402831414, 8), (161, 3.5769946345638064, 8),
-                    (162, 9.451143358184197, 8), (163, 9.451143358184197, 8),
-                ],
-            );
-            Self {
-                step,
-                symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            }
         }
 
         /// The step size h.
@@ -1143,27 +1092,6 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for RigidBody<T> {
-        fn truncation(&self) -> usize {
-            Self::TRUNCATION
-        }
-
-        fn terms(&self) -> usize {
-            ::coadjoint::plumbing::terms(Self::table())
-        }
-
-        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
-            ::coadjoint::plumbing::term(Self::table(), number)
-        }
-
-        fn adjusted(&self, corrections: &[T]) -> Self {
-            let mut coefficients = self.coefficients;
-            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            let last = [T::of(0.0); 30];
-            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-        }
-    }
-
     impl ::coadjoint::lanes::Lanes for RigidBody<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
@@ -1399,49 +1327,6 @@ const _: () = {
             &[(0, 4), (1, 2), (2, 4)], &[(0, 4), (1, 4)], &[(0, 4), (1, 4), (2, 2)],
             &[(0, 4), (1, 6)], &[(0, 6), (2, 2)], &[(0, 6), (2, 4)], &[(0, 6), (1, 2)],
             &[(0, 6), (1, 2), (2, 2)], &[(0, 6), (1, 4)], &[(0, 8), (2, 2)], &[(0, 8), (1, 2)],
-        ],
-        /// The terms of the first guess that are even in h: base, coordinate, monomial.
-        guess: &[
-            (56, 0, &[(0, 1)]), (57, 0, &[(0, 1), (2, 2)]), (58, 0, &[(0, 1), (2, 4)]),
-            (59, 0, &[(0, 1), (2, 6)]), (60, 0, &[(0, 1), (2, 8)]), (61, 0, &[(0, 1), (1, 2)]),
-            (62, 0, &[(0, 1), (1, 2), (2, 2)]), (63, 0, &[(0, 1), (1, 2), (2, 4)]),
-            (64, 0, &[(0, 1), (1, 2), (2, 6)]), (65, 0, &[(0, 1), (1, 4)]),
-            (66, 0, &[(0, 1), (1, 4), (2, 2)]), (67, 0, &[(0, 1), (1, 4), (2, 4)]),
-            (68, 0, &[(0, 1), (1, 6)]), (69, 0, &[(0, 1), (1, 6), (2, 2)]),
-            (70, 0, &[(0, 1), (1, 8)]), (77, 0, &[(0, 3), (2, 2)]), (78, 0, &[(0, 3), (2, 4)]),
-            (79, 0, &[(0, 3), (2, 6)]), (80, 0, &[(0, 3), (1, 2)]),
-            (81, 0, &[(0, 3), (1, 2), (2, 2)]), (82, 0, &[(0, 3), (1, 2), (2, 4)]),
-            (83, 0, &[(0, 3), (1, 4)]), (84, 0, &[(0, 3), (1, 4), (2, 2)]),
-            (85, 0, &[(0, 3), (1, 6)]), (89, 0, &[(0, 5), (2, 2)]), (90, 0, &[(0, 5), (2, 4)]),
-            (91, 0, &[(0, 5), (1, 2)]), (92, 0, &[(0, 5), (1, 2), (2, 2)]),
-            (93, 0, &[(0, 5), (1, 4)]), (95, 0, &[(0, 7), (2, 2)]), (96, 0, &[(0, 7), (1, 2)]),
-            (97, 1, &[(1, 1)]), (98, 1, &[(1, 1), (2, 2)]), (99, 1, &[(1, 1), (2, 4)]),
-            (100, 1, &[(1, 1), (2, 6)]), (101, 1, &[(1, 1), (2, 8)]), (102, 1, &[(1, 3), (2, 2)]),
-            (103, 1, &[(1, 3), (2, 4)]), (104, 1, &[(1, 3), (2, 6)]), (105, 1, &[(1, 5), (2, 2)]),
-            (106, 1, &[(1, 5), (2, 4)]), (107, 1, &[(1, 7), (2, 2)]), (118, 1, &[(0, 2), (1, 1)]),
-            (119, 1, &[(0, 2), (1, 1), (2, 2)]), (120, 1, &[(0, 2), (1, 1), (2, 4)]),
-            (121, 1, &[(0, 2), (1, 1), (2, 6)]), (122, 1, &[(0, 2), (1, 3)]),
-            (123, 1, &[(0, 2), (1, 3), (2, 2)]), (124, 1, &[(0, 2), (1, 3), (2, 4)]),
-            (125, 1, &[(0, 2), (1, 5)]), (126, 1, &[(0, 2), (1, 5), (2, 2)]),
-            (127, 1, &[(0, 2), (1, 7)]), (134, 1, &[(0, 4), (1, 1)]),
-            (135, 1, &[(0, 4), (1, 1), (2, 2)]), (136, 1, &[(0, 4), (1, 1), (2, 4)]),
-            (137, 1, &[(0, 4), (1, 3)]), (138, 1, &[(0, 4), (1, 3), (2, 2)]),
-            (139, 1, &[(0, 4), (1, 5)]), (143, 1, &[(0, 6), (1, 1)]),
-            (144, 1, &[(0, 6), (1, 1), (2, 2)]), (145, 1, &[(0, 6), (1, 3)]),
-            (147, 1, &[(0, 8), (1, 1)]), (148, 2, &[(2, 1)]), (149, 2, &[(1, 2), (2, 1)]),
-            (150, 2, &[(1, 2), (2, 3)]), (151, 2, &[(1, 2), (2, 5)]), (152, 2, &[(1, 2), (2, 7)]),
-            (153, 2, &[(1, 4), (2, 1)]), (154, 2, &[(1, 4), (2, 3)]), (155, 2, &[(1, 4), (2, 5)]),
-            (156, 2, &[(1, 6), (2, 1)]), (157, 2, &[(1, 6), (2, 3)]), (158, 2, &[(1, 8), (2, 1)]),
-            (169, 2, &[(0, 2), (2, 1)]), (170, 2, &[(0, 2), (2, 3)]), (171, 2, &[(0, 2), (2, 5)]),
-            (172, 2, &[(0, 2), (2, 7)]), (173, 2, &[(0, 2), (1, 2), (2, 1)]),
-            (174, 2, &[(0, 2), (1, 2), (2, 3)]), (175, 2, &[(0, 2), (1, 2), (2, 5)]),
-            (176, 2, &[(0, 2), (1, 4), (2, 1)]), (177, 2, &[(0, 2), (1, 4), (2, 3)]),
-            (178, 2, &[(0, 2), (1, 6), (2, 1)]), (185, 2, &[(0, 4), (2, 1)]),
-            (186, 2, &[(0, 4), (2, 3)]), (187, 2, &[(0, 4), (2, 5)]),
-            (188, 2, &[(0, 4), (1, 2), (2, 1)]), (189, 2, &[(0, 4), (1, 2), (2, 3)]),
-            (190, 2, &[(0, 4), (1, 4), (2, 1)]), (194, 2, &[(0, 6), (2, 1)]),
-            (195, 2, &[(0, 6), (2, 3)]), (196, 2, &[(0, 6), (1, 2), (2, 1)]),
-            (198, 2, &[(0, 8), (2, 1)]),
         ],
     };
 };

@@ -64,43 +64,36 @@ const _: () = {
             Self::of_symbols(step, &[s])
         }
 
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            step: T,
-            s: T,
-            momenta: impl ::core::iter::IntoIterator<
-                Item = impl ::core::convert::Into<Vector<T>>,
-            >,
-        ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
-            let symbols = [s];
-            let parts = Self::parts(step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = ::coadjoint::tune::Tail::along(
-                Self::TRUNCATION,
-                momenta,
-                &series,
-            )?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
-        }
-
         fn of_symbols(
             step: T,
             symbols: &[T; 1],
         ) -> ::core::result::Result<Self, ::coadjoint::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(
-                Self::fold(step, symbols, &parts, &|_| T::of(1.0)),
-            )
+            let coefficients = ::coadjoint::plumbing::slots::<
+                T,
+                36,
+                36,
+                63,
+            >(Self::table(), &parts);
+            let last = ::coadjoint::plumbing::last_terms::<
+                T,
+                36,
+                3,
+            >(Self::table(), &parts, Self::TRUNCATION);
+            let radius = ::coadjoint::plumbing::radius(
+                Self::table(),
+                &last,
+                Self::TRUNCATION,
+            );
+            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -128,51 +121,6 @@ const _: () = {
                 7,
                 36,
             >(Self::table(), &["s"], step, symbols)
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; 1],
-            parts: &[T; 36],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = ::coadjoint::plumbing::slots::<
-                T,
-                7,
-                36,
-                36,
-                63,
-            >(Self::table(), parts, factor);
-            let last = ::coadjoint::plumbing::last_terms::<
-                T,
-                36,
-                3,
-            >(Self::table(), parts, Self::TRUNCATION);
-            let radius = ::coadjoint::plumbing::radius(
-                Self::table(),
-                &last,
-                Self::TRUNCATION,
-            );
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; 1],
-            coefficients: [T; 63],
-            last: [T; 3],
-            radius: T,
-        ) -> Self {
-            let defect = ::coadjoint::plumbing::bound::<T, 0>(&coefficients, &[]);
-            Self {
-                step,
-                symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            }
         }
 
         /// The step size h.
@@ -491,27 +439,6 @@ const _: () = {
         }
     }
 
-    impl<T: ::coadjoint::Scalar> ::coadjoint::generating::Adjustable for ThreeWave<T> {
-        fn truncation(&self) -> usize {
-            Self::TRUNCATION
-        }
-
-        fn terms(&self) -> usize {
-            ::coadjoint::plumbing::terms(Self::table())
-        }
-
-        fn term(&self, number: usize) -> ::coadjoint::generating::Term<'_> {
-            ::coadjoint::plumbing::term(Self::table(), number)
-        }
-
-        fn adjusted(&self, corrections: &[T]) -> Self {
-            let mut coefficients = self.coefficients;
-            ::coadjoint::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-            let last = [T::of(0.0); 3];
-            Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-        }
-    }
-
     impl ::coadjoint::lanes::Lanes for ThreeWave<f64> {
         type Over<
             L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
@@ -611,18 +538,6 @@ const _: () = {
         monomials: &[
             &[(1, 1), (2, 1)], &[(0, 2)], &[(0, 2), (1, 1), (2, 1)], &[(0, 2), (1, 2), (2, 2)],
             &[(0, 4), (1, 1), (2, 1)],
-        ],
-        /// The terms of the first guess that are even in h: base, coordinate, monomial.
-        guess: &[
-            (7, 0, &[(0, 1)]), (8, 0, &[(0, 1), (1, 1), (2, 1)]), (9, 0, &[(0, 1), (1, 2), (2, 2)]),
-            (10, 0, &[(0, 1), (1, 3), (2, 3)]), (11, 0, &[(0, 3), (1, 1), (2, 1)]),
-            (12, 0, &[(0, 3), (1, 2), (2, 2)]), (13, 0, &[(0, 5), (1, 1), (2, 1)]),
-            (14, 1, &[(1, 1)]), (16, 1, &[(0, 2), (1, 1)]), (17, 1, &[(0, 2), (1, 2), (2, 1)]),
-            (18, 1, &[(0, 2), (1, 3), (2, 2)]), (21, 1, &[(0, 4), (1, 1)]),
-            (22, 1, &[(0, 4), (1, 2), (2, 1)]), (24, 1, &[(0, 6), (1, 1)]), (25, 2, &[(2, 1)]),
-            (27, 2, &[(0, 2), (2, 1)]), (28, 2, &[(0, 2), (1, 1), (2, 2)]),
-            (29, 2, &[(0, 2), (1, 2), (2, 3)]), (32, 2, &[(0, 4), (2, 1)]),
-            (33, 2, &[(0, 4), (1, 1), (2, 2)]), (35, 2, &[(0, 6), (2, 1)]),
         ],
     };
 };

@@ -6,7 +6,6 @@ pub mod bridge;
 pub mod catalogue;
 pub mod elliptic;
 pub mod erased;
-pub mod global_error;
 pub mod golden;
 pub mod kernels;
 pub mod moments;
@@ -52,7 +51,6 @@ pages! {
     Hamiltonian: "../../docs/book/src/hamiltonian.md";
     ChartAndStep: "../../docs/book/src/chart-and-step.md";
     Gyrostat: "../../docs/book/src/gyrostat.md";
-    Faster: "../../docs/book/src/faster.md";
     Forces: "../../docs/book/src/forces.md";
     Ensembles: "../../docs/book/src/ensembles.md";
     Learning: "../../docs/book/src/learning.md";

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use coadjoint::nalgebra::Vector3;
 use coadjoint::systems::FreeBody;
-use coadjoint::{CompensatedPhase, LieGroup, Phase, SO3, StepError, advance_compensated};
+use coadjoint::{LieGroup, Phase, SO3, StepError};
 
 use crate::elliptic::{complete_first, complete_third, jacobi};
 
@@ -186,8 +186,7 @@ pub struct LightCurve {
 }
 
 /// Integrates from the state whose momentum is the closed form's at t = 0; a sample every
-/// `stride` steps of `step` days. Over millions of steps rounding alone would add up to 1e-12, so
-/// the steps are compensated.
+/// `stride` steps of `step` days.
 ///
 /// # Errors
 /// As a step.
@@ -199,24 +198,24 @@ pub fn light_curve(
 ) -> Result<LightCurve, StepError> {
     let integrator = FreeBody::new(step, INERTIA)?;
     let start = mode.closed_form().momentum(0.0);
-    let mut body = CompensatedPhase::new(&SO3::new(), Phase::<SO3>::at_identity(start));
+    let mut body = Phase::<SO3>::at_identity(start);
     // The rotation about y that takes the angular momentum, in the plane y = 0, to z.
     let tilt = Vector3::new(0.0, -start.x.atan2(start.z), 0.0);
     let to_frame = Phase::<SO3>::new(SO3::new().exp(&tilt), start);
     let mut curve = Vec::with_capacity(samples);
     let (mut drift, mut casimir_drift) = (0.0_f64, 0.0_f64);
     for _ in 0..samples {
-        curve.push(geometry.brightness(body.phase(), &to_frame));
+        curve.push(geometry.brightness(&body, &to_frame));
         for _ in 0..stride {
-            advance_compensated(&integrator, &mut body)?;
+            integrator.advance(&mut body)?;
         }
-        let spatial = body.phase().spatial_momentum(&SO3::new());
+        let spatial = body.spatial_momentum(&SO3::new());
         drift = drift.max((spatial - start).amax() / start.norm());
-        let squared = body.phase().momentum.norm_squared();
+        let squared = body.momentum.norm_squared();
         casimir_drift = casimir_drift.max((squared / start.norm_squared() - 1.0).abs());
     }
     let interval = step * stride as f64;
-    Ok(LightCurve { samples: curve, interval, end: body.into_phase(), drift, casimir_drift })
+    Ok(LightCurve { samples: curve, interval, end: body, drift, casimir_drift })
 }
 
 /// A line of a spectrum.

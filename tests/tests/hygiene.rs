@@ -37,7 +37,7 @@ mod hostile {
     }
     constants! {
         step steps input c p1 p2 p3 v1 mu mu1 t1 t2 t3 g x h i j k p part phase group size last factor
-        momenta parts series tail coefficients corrections number symbols direction found pieces
+        parts series coefficients number symbols direction found pieces
         twice_even fine shared later gradient hessian TABLE Vector_ T_ table
     }
     pub struct Option;
@@ -83,16 +83,16 @@ mod parameters {
         mu: [f64; 3],
         parts: f64,
         parts_: f64,
-        momenta: f64,
-        momenta_: f64,
+        coefficients: f64,
+        coefficients_: f64,
         step_: f64,
         c: f64,
         input: f64,
         series: [f64; 2],
         factor: f64,
     ) -> f64 {
-        let squares =
-            mu[0] * mu[0] * (parts + parts_) + mu[1] * mu[1] * (momenta * momenta_ + step_);
+        let squares = mu[0] * mu[0] * (parts + parts_)
+            + mu[1] * mu[1] * (coefficients * coefficients_ + step_);
         squares + mu[2] * mu[2] * (c + input + series[0] + series[1] + factor)
     }
 
@@ -134,9 +134,8 @@ fn surroundings_do_not_change_a_step() -> Result<(), StepError> {
     let start = [0.3, 0.1, 0.5, 1.0, -0.2, 0.4];
     let mut here = Phase::<SE3>::at_identity(start);
     let mut there = here.clone();
-    let momenta = [start];
-    without_prelude::Submerged::tuned(0.1, [1.5, 2.0], momenta)?.advance_by(&mut here, 20)?;
-    hostile::Submerged::tuned(0.1, [1.5, 2.0], momenta)?.advance_by(&mut there, 20)?;
+    without_prelude::Submerged::new(0.1, [1.5, 2.0])?.advance_by(&mut here, 20)?;
+    hostile::Submerged::new(0.1, [1.5, 2.0])?.advance_by(&mut there, 20)?;
     assert_eq!(here.momentum, there.momentum);
 
     let affine = without_prelude::Affine::new(0.1, 2.0)?;

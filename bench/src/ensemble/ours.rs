@@ -14,9 +14,6 @@ use crate::{
     state::State,
 };
 
-/// Bodies from whose motion the tail of the series is summed, of each class.
-const SAMPLE: usize = 16;
-
 /// Classes of bodies by the size of their momenta: slow bodies get longer steps, as a method with
 /// chosen steps gives them.
 const CLASSES: usize = 8;
@@ -24,9 +21,9 @@ const CLASSES: usize = 8;
 /// The ends of bodies that start at the identity: body, momenta, end time, step of the fastest.
 type Run = fn(&FreeBody, &[Vector], f64, f64) -> Result<Vec<State>, RunError>;
 
-/// The ends by the steps that `tuned` makes for a step size and some of the momenta.
+/// The ends by the steps that `make` makes for a step size.
 fn ends<S>(
-    tuned: impl Fn(f64, &[Vector]) -> Result<S, StepError>,
+    make: impl Fn(f64) -> Result<S, StepError>,
     momenta: &[Vector],
     end: f64,
     step: f64,
@@ -43,8 +40,7 @@ where
     for class in order.chunks(momenta.len().div_ceil(CLASSES).max(1)) {
         let own = class.last().map_or(fastest, |&last| size(last));
         let (count, h) = Setting::steps(step * fastest / own, end);
-        let sample = class.iter().step_by(class.len().div_ceil(SAMPLE)).map(|&i| momenta[i]);
-        let step = tuned(h, &sample.collect::<Vec<_>>()).map_err(|_| RunError::NotConverged)?;
+        let step = make(h).map_err(|_| RunError::NotConverged)?;
         let start = |&index: &usize| Phase::<SO3>::at_identity(momenta[index]);
         let mut states: Vec<Phase<SO3>> = class.iter().map(start).collect();
         if !advance_all(&step, &mut states, count as u64).is_empty() {
@@ -61,10 +57,7 @@ where
 macro_rules! run {
     ($module:ident) => {
         |body, momenta, end, step| {
-            let tuned = |h, sample: &[Vector]| {
-                $module::RigidBody::tuned(h, body.inertia, sample.iter().copied())
-            };
-            ends(tuned, momenta, end, step)
+            ends(|h| $module::RigidBody::new(h, body.inertia), momenta, end, step)
         }
     };
 }
@@ -103,7 +96,7 @@ impl EnsembleMethod for Ours {
     }
 }
 
-/// Every truncation, tuned to some of the bodies.
+/// Every truncation.
 #[must_use]
 pub fn ours() -> Vec<Box<dyn EnsembleMethod>> {
     let runs: [(&str, f64, Run); 8] = [
@@ -117,7 +110,7 @@ pub fn ours() -> Vec<Box<dyn EnsembleMethod>> {
         ("comoving, K = 15", 2.0, run!(comoving_fifteen)),
     ];
     let row = |(series, longest, run)| {
-        let name = format!("coadjoint, {series}, tuned, 8 lanes");
+        let name = format!("coadjoint, {series}, 8 lanes");
         Box::new(Ours { name, longest, run }) as Box<dyn EnsembleMethod>
     };
     runs.into_iter().map(row).collect()

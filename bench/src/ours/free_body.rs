@@ -2,16 +2,16 @@
 
 use coadjoint::{Phase, SO3, lie_poisson};
 
-use super::{Coefficients, rows};
+use super::rows;
 use crate::{
     method::{Method, RunError, Setting},
     problem::{FreeBody, Problem, System},
     state::{Rotation, State},
 };
 
-/// Writes the Hamiltonian at one truncation in one frame and its run over an interval, `fitted` or `plain`.
+/// Writes the Hamiltonian at one truncation in one frame and its run over an interval.
 macro_rules! truncated {
-    ($module:ident, $truncation:literal, $frame:ident, $fits:ident) => {
+    ($module:ident, $truncation:literal, $frame:ident) => {
         pub(crate) mod $module {
             use super::*;
 
@@ -28,10 +28,9 @@ macro_rules! truncated {
                 momentum: [f64; 3],
                 end: f64,
                 step: f64,
-                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, end);
-                let step = integrator!($fits, RigidBody(h, body.inertia), coefficients, momentum);
+                let step = RigidBody::new(h, body.inertia).map_err(|_| RunError::NotConverged)?;
                 let mut phase = Phase::<SO3>::at_identity(momentum);
                 let made = step.advance_by(&mut phase, count as u64);
                 made.map_err(|_| RunError::NotConverged)?;
@@ -41,19 +40,19 @@ macro_rules! truncated {
     };
 }
 
-truncated!(five, 5, fixed, fitted);
-truncated!(seven, 7, fixed, fitted);
-truncated!(nine, 9, fixed, fitted);
-truncated!(eleven, 11, fixed, fitted);
-truncated!(thirteen, 13, fixed, plain);
-truncated!(fifteen, 15, fixed, plain);
-truncated!(seventeen, 17, fixed, plain);
-truncated!(comoving_five, 5, comoving, fitted);
-truncated!(comoving_seven, 7, comoving, fitted);
-truncated!(comoving_nine, 9, comoving, fitted);
-truncated!(comoving_eleven, 11, comoving, plain);
-truncated!(comoving_thirteen, 13, comoving, plain);
-truncated!(comoving_fifteen, 15, comoving, plain);
+truncated!(five, 5, fixed);
+truncated!(seven, 7, fixed);
+truncated!(nine, 9, fixed);
+truncated!(eleven, 11, fixed);
+truncated!(thirteen, 13, fixed);
+truncated!(fifteen, 15, fixed);
+truncated!(seventeen, 17, fixed);
+truncated!(comoving_five, 5, comoving);
+truncated!(comoving_seven, 7, comoving);
+truncated!(comoving_nine, 9, comoving);
+truncated!(comoving_eleven, 11, comoving);
+truncated!(comoving_thirteen, 13, comoving);
+truncated!(comoving_fifteen, 15, comoving);
 
 /// A phase point as the comparison has it.
 pub(crate) fn state(phase: &Phase<SO3>) -> State {
@@ -61,7 +60,7 @@ pub(crate) fn state(phase: &Phase<SO3>) -> State {
     FreeBody::state([m[0], m[1], m[2]], Rotation::Quaternion([q.w, q.i, q.j, q.k]))
 }
 
-type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64, Coefficients) -> Result<State, RunError>;
+type FreeBodyRun = fn(&FreeBody, [f64; 3], f64, f64) -> Result<State, RunError>;
 
 /// One truncation in one frame.
 #[derive(Clone, Copy)]
@@ -80,16 +79,11 @@ impl super::Run for Runs {
         self.pace
     }
 
-    fn run(
-        &self,
-        problem: &Problem,
-        step: f64,
-        coefficients: Coefficients,
-    ) -> Option<Result<State, RunError>> {
+    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
         let System::FreeBody(body) = &problem.system else {
             return None;
         };
-        Some((self.run)(body, problem.initial.momentum, problem.end, step, coefficients))
+        Some((self.run)(body, problem.initial.momentum, problem.end, step))
     }
 }
 

@@ -3,7 +3,7 @@
 use coadjoint::{Phase, SE3, lie_poisson};
 use nalgebra::Vector6;
 
-use super::{Coefficients, rows};
+use super::rows;
 use crate::{
     method::{Method, RunError, Setting},
     problem::{Gravity, Mass, MovingBody, Problem, System},
@@ -12,10 +12,10 @@ use crate::{
 
 /// Runs a generated integrator from the problem's initial state to its end.
 macro_rules! run {
-    ($fits:ident, $body:ident($h:expr, $($argument:expr),*), $coefficients:expr, $problem:expr, $count:expr) => {{
+    ($body:ident($h:expr, $($argument:expr),*), $problem:expr, $count:expr) => {{
         let (m, f) = ($problem.initial.momentum, $problem.initial.force);
         let momentum = Vector6::new(m[0], m[1], m[2], f[0], f[1], f[2]);
-        let step = integrator!($fits, $body($h, $($argument),*), $coefficients, momentum);
+        let step = $body::new($h, $($argument),*).map_err(|_| RunError::NotConverged)?;
         let mut phase = Phase::<SE3>::at_identity(momentum);
         let made = step.advance_by(&mut phase, $count as u64);
         made.map_err(|_| RunError::NotConverged)?;
@@ -25,7 +25,7 @@ macro_rules! run {
 
 /// Writes a top with its centre of mass on one principal axis, at one truncation.
 macro_rules! top {
-    ($module:ident, $truncation:literal, $axis:literal, $fits:ident) => {
+    ($module:ident, $truncation:literal, $axis:literal) => {
         mod $module {
             use super::*;
 
@@ -42,11 +42,10 @@ macro_rules! top {
                 body: &MovingBody<Gravity<$axis>>,
                 problem: &Problem,
                 step: f64,
-                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let weight = body.translation.weight;
-                run!($fits, HeavyTop(h, body.inverse_inertia, weight), coefficients, problem, count)
+                run!(HeavyTop(h, body.inverse_inertia, weight), problem, count)
             }
         }
     };
@@ -69,12 +68,11 @@ macro_rules! symmetric_top {
                 body: &MovingBody<Gravity<1>>,
                 problem: &Problem,
                 step: f64,
-                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let [transverse, axial, _] = body.inverse_inertia;
                 let weight = body.translation.weight;
-                run!(plain, LagrangeTop(h, transverse, axial, weight), coefficients, problem, count)
+                run!(LagrangeTop(h, transverse, axial, weight), problem, count)
             }
         }
     };
@@ -82,7 +80,7 @@ macro_rules! symmetric_top {
 
 /// Writes Kirchhoff's body at one truncation in one frame.
 macro_rules! kirchhoff {
-    ($module:ident, $truncation:literal, $frame:ident, $fits:ident) => {
+    ($module:ident, $truncation:literal, $frame:ident) => {
         mod $module {
             use super::*;
 
@@ -101,33 +99,32 @@ macro_rules! kirchhoff {
                 body: &MovingBody<Mass>,
                 problem: &Problem,
                 step: f64,
-                coefficients: Coefficients,
             ) -> Result<State, RunError> {
                 let (count, h) = Setting::steps(step, problem.end);
                 let (inertia, mass) = (body.inverse_inertia, body.translation.inverse);
-                run!($fits, Kirchhoff(h, inertia, mass), coefficients, problem, count)
+                run!(Kirchhoff(h, inertia, mass), problem, count)
             }
         }
     };
 }
 
-top!(first_axis_five, 5, 0, fitted);
-top!(first_axis_seven, 7, 0, fitted);
-top!(first_axis_nine, 9, 0, plain);
-top!(first_axis_eleven, 11, 0, plain);
-top!(second_axis_five, 5, 1, fitted);
-top!(second_axis_seven, 7, 1, fitted);
-top!(second_axis_nine, 9, 1, plain);
+top!(first_axis_five, 5, 0);
+top!(first_axis_seven, 7, 0);
+top!(first_axis_nine, 9, 0);
+top!(first_axis_eleven, 11, 0);
+top!(second_axis_five, 5, 1);
+top!(second_axis_seven, 7, 1);
+top!(second_axis_nine, 9, 1);
 symmetric_top!(symmetric_five, 5);
 symmetric_top!(symmetric_seven, 7);
 symmetric_top!(symmetric_nine, 9);
-kirchhoff!(kirchhoff_five, 5, fixed, fitted);
-kirchhoff!(kirchhoff_seven, 7, fixed, fitted);
-kirchhoff!(comoving_kirchhoff_five, 5, comoving, plain);
-kirchhoff!(comoving_kirchhoff_seven, 7, comoving, plain);
-kirchhoff!(comoving_kirchhoff_nine, 9, comoving, plain);
+kirchhoff!(kirchhoff_five, 5, fixed);
+kirchhoff!(kirchhoff_seven, 7, fixed);
+kirchhoff!(comoving_kirchhoff_five, 5, comoving);
+kirchhoff!(comoving_kirchhoff_seven, 7, comoving);
+kirchhoff!(comoving_kirchhoff_nine, 9, comoving);
 
-type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64, Coefficients) -> Result<State, RunError>;
+type BodyRun<T> = fn(&MovingBody<T>, &Problem, f64) -> Result<State, RunError>;
 
 /// One truncation over the three kinds of systems on se(3)\*.
 #[derive(Clone, Copy)]
@@ -148,23 +145,12 @@ impl super::Run for Runs {
         }
     }
 
-    fn run(
-        &self,
-        problem: &Problem,
-        step: f64,
-        coefficients: Coefficients,
-    ) -> Option<Result<State, RunError>> {
+    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
         match &problem.system {
             System::FreeBody(_) => None,
-            System::HeavyTop(body) => {
-                self.second_axis.map(|run| run(body, problem, step, coefficients))
-            }
-            System::Kovalevskaya(body) => {
-                Some((self.first_axis)(body, problem, step, coefficients))
-            }
-            System::Kirchhoff(body) => {
-                self.kirchhoff.map(|run| run(body, problem, step, coefficients))
-            }
+            System::HeavyTop(body) => self.second_axis.map(|run| run(body, problem, step)),
+            System::Kovalevskaya(body) => Some((self.first_axis)(body, problem, step)),
+            System::Kirchhoff(body) => self.kirchhoff.map(|run| run(body, problem, step)),
         }
     }
 }
@@ -190,16 +176,11 @@ impl super::Run for Comoving {
         if matches!(system, System::HeavyTop(_)) { 16.0 } else { 1.0 }
     }
 
-    fn run(
-        &self,
-        problem: &Problem,
-        step: f64,
-        coefficients: Coefficients,
-    ) -> Option<Result<State, RunError>> {
+    fn run(&self, problem: &Problem, step: f64) -> Option<Result<State, RunError>> {
         match &problem.system {
             _ if !self.applies(&problem.system) => None,
-            System::HeavyTop(body) => Some((self.symmetric_top)(body, problem, step, coefficients)),
-            System::Kirchhoff(body) => Some((self.kirchhoff)(body, problem, step, coefficients)),
+            System::HeavyTop(body) => Some((self.symmetric_top)(body, problem, step)),
+            System::Kirchhoff(body) => Some((self.kirchhoff)(body, problem, step)),
             System::FreeBody(_) | System::Kovalevskaya(_) => None,
         }
     }

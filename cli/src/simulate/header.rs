@@ -47,12 +47,6 @@ impl Header {
         if let Some(splitting) = splitting {
             list.push(("splitting", json!(splitting.name())));
         }
-        if setup.tuned {
-            list.push(("tuned", json!(true)));
-        }
-        if let Some(duration) = setup.fitted {
-            list.push(("fitted", json!(duration)));
-        }
         if let Some(every) = setup.every {
             list.push(("every", json!(every)));
         }

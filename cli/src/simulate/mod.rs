@@ -100,7 +100,7 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
         let problem = &system.integrator.problem;
         let splitting = system.forces.as_ref().map(|forces| forces.splitting);
         let header = Header::new(&settings, problem, splitting);
-        let (label, coordinates) = (system.label(setup), &problem.coordinates);
+        let (label, coordinates) = (system.label(), &problem.coordinates);
         let keeper = Keeper::new(&settings, label, header.clone(), coordinates, true);
         let drive = |outlet: &mut dyn Outlet| coadjoint_run::simulate::run(&system, setup, outlet);
         let trajectory =

@@ -13,20 +13,17 @@ use super::table::Sizes;
 use crate::integrator::{Integrator, Products};
 use crate::problem::{Parameter, Shape};
 
-/// The constructors `new(step, parameters…)` and `tuned(step, parameters…, momenta)`.
+/// The constructor `new(step, parameters…)`.
 #[must_use]
 pub fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
     group: &TokenStream,
-    vector: &TokenStream,
 ) -> TokenStream {
     let problem = &integrator.problem;
     let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
     let step = format_ident!("{}", fresh("step", &names));
-    let momenta = format_ident!("{}", fresh("momenta", &names));
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
-    let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
     let all = Products::of(&integrator.coefficients);
@@ -50,30 +47,7 @@ pub fn constructor(
             #step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            Self::of_symbols(#step, &#symbols)
-        }
-
-        /// As `new`, with the tail of the series summed for motions that start with `momenta`
-        /// (`coadjoint::tune::Tail`): as fast, as geometric, of the same order, and more accurate.
-        ///
-        /// # Errors
-        /// As `new`, and where a step from one of the momenta fails.
-        pub fn tuned(
-            #step: T,
-            #(#arguments,)*
-            #momenta: impl ::core::iter::IntoIterator<Item = impl ::core::convert::Into<#vector>>,
-        ) -> ::core::result::Result<Self, #krate::StepError> {
-            let symbols = #symbols;
-            let parts = Self::parts(#step, &symbols)?;
-            let series = |factor: &dyn ::core::ops::Fn(usize) -> T| {
-                Self::fold(#step, &symbols, &parts, factor)
-            };
-            let momenta = ::core::iter::Iterator::map(
-                ::core::iter::IntoIterator::into_iter(#momenta),
-                ::core::convert::Into::into,
-            );
-            let tail = #krate::tune::Tail::along(Self::TRUNCATION, momenta, &series)?;
-            ::core::result::Result::Ok(series(&|k| tail.factor(k)))
+            Self::of_symbols(#step, &[#(#symbols),*])
         }
 
         fn of_symbols(
@@ -81,7 +55,25 @@ pub fn constructor(
             symbols: &[T; #count],
         ) -> ::core::result::Result<Self, #krate::StepError> {
             let parts = Self::parts(step, symbols)?;
-            ::core::result::Result::Ok(Self::fold(step, symbols, &parts, &|_| T::of(1.0)))
+            let coefficients = #krate::plumbing::slots::<T, #parts, #bases, #slots>(
+                Self::table(),
+                &parts,
+            );
+            let last = #krate::plumbing::last_terms::<T, #parts, #last>(
+                Self::table(),
+                &parts,
+                Self::TRUNCATION,
+            );
+            let radius = #krate::plumbing::radius(Self::table(), &last, Self::TRUNCATION);
+            let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
+            ::core::result::Result::Ok(Self {
+                step,
+                symbols: *symbols,
+                coefficients,
+                defect,
+                last,
+                radius,
+            })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -106,38 +98,6 @@ pub fn constructor(
                 step,
                 symbols,
             )
-        }
-
-        /// The coefficients of Σ factor(k) S_k.
-        fn fold(
-            step: T,
-            symbols: &[T; #count],
-            parts: &[T; #parts],
-            factor: &dyn ::core::ops::Fn(usize) -> T,
-        ) -> Self {
-            let coefficients = #krate::plumbing::slots::<T, #powers, #parts, #bases, #slots>(
-                Self::table(),
-                parts,
-                factor,
-            );
-            let last = #krate::plumbing::last_terms::<T, #parts, #last>(
-                Self::table(),
-                parts,
-                Self::TRUNCATION,
-            );
-            let radius = #krate::plumbing::radius(Self::table(), &last, Self::TRUNCATION);
-            Self::with(step, *symbols, coefficients, last, radius)
-        }
-
-        fn with(
-            step: T,
-            symbols: [T; #count],
-            coefficients: [T; #slots],
-            last: [T; #last],
-            radius: T,
-        ) -> Self {
-            let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
-            Self { step, symbols, coefficients, defect, last, radius }
         }
     }
 }

@@ -22,7 +22,7 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
     let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
     let defects = Literal::usize_unsuffixed(integrator.defect_len());
-    let constructor = constructor(integrator, krate, group, vector);
+    let constructor = constructor(integrator, krate, group);
     let scope = Scope {
         krate: krate.clone(),
         input: vector.clone(),
@@ -35,7 +35,6 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let last = integrator.coefficients.last_terms(integrator.problem.truncation);
     let last = Literal::usize_unsuffixed(last);
-    let adjustable = adjustable(krate, name, &last);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, &scope.of(Meaning::Energy));
     let table =
@@ -134,8 +133,6 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
 
             #generating
 
-            #adjustable
-
             #lanes
 
             impl<T> #name<T> {
@@ -148,33 +145,6 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         };
 
         #tables
-    }
-}
-
-/// `impl Adjustable`.
-fn adjustable(krate: &TokenStream, name: &Ident, last: &Literal) -> TokenStream {
-    quote! {
-        impl<T: #krate::Scalar> #krate::generating::Adjustable for #name<T> {
-            fn truncation(&self) -> usize {
-                Self::TRUNCATION
-            }
-
-            fn terms(&self) -> usize {
-                #krate::plumbing::terms(Self::table())
-            }
-
-            fn term(&self, number: usize) -> #krate::generating::Term<'_> {
-                #krate::plumbing::term(Self::table(), number)
-            }
-
-            fn adjusted(&self, corrections: &[T]) -> Self {
-                let mut coefficients = self.coefficients;
-                #krate::plumbing::adjust(Self::table(), &mut coefficients, corrections);
-                // Whoever adjusts the series judges it where it is used.
-                let last = [T::of(0.0); #last];
-                Self::with(self.step, self.symbols, coefficients, last, T::of(f64::MAX))
-            }
-        }
     }
 }
 

@@ -95,10 +95,9 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                         T::of(1.0),
                         &symbols,
                     )?;
-                    let coefficients = #krate::plumbing::slots::<T, #powers, #parts, #bases, #slots>(
+                    let coefficients = #krate::plumbing::slots::<T, #parts, #bases, #slots>(
                         &TABLE,
                         &parts,
-                        &|_| T::of(1.0),
                     );
                     ::core::result::Result::Ok(Self { coefficients })
                 }

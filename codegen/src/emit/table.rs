@@ -68,12 +68,6 @@ pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Produc
         quote!((#base, #scale))
     });
     let monomials = coefficients.monomials().iter().map(|factors| monomial(factors));
-    let guess = coefficients.guess().iter().map(|term| {
-        let base = Literal::usize_unsuffixed(term.base);
-        let coordinate = Literal::usize_unsuffixed(term.coordinate);
-        let monomial = monomial(&term.factors);
-        quote!((#base, #coordinate, #monomial))
-    });
     quote! {
         /// All coefficients as data. A base is Σ h^power Σ factor · product, a slot `c[i]` a base
         /// times an integer.
@@ -91,8 +85,6 @@ pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Produc
             /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
             /// first bases.
             monomials: &[#(#monomials),*],
-            /// The terms of the first guess that are even in h: base, coordinate, monomial.
-            guess: &[#(#guess),*],
         };
     }
 }

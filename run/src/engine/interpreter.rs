@@ -2,15 +2,12 @@
 
 use std::marker::PhantomData;
 
-use coadjoint::generating::{
-    Adjustable, MatrixOf, ScalarOf, Term, TermOf, VectorOf, hessian_by_differences,
-};
+use coadjoint::generating::{MatrixOf, ScalarOf, VectorOf, hessian_by_differences};
 use coadjoint::plumbing;
 use coadjoint::solve::{
     CandidateOf, FixedPoint, LaggedModel, LaggedNewton, Method, Newton, NewtonModel, Predict,
     Settings,
 };
-use coadjoint::tune::Tail;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
@@ -73,53 +70,19 @@ pub struct Interpreter<'a, G, C> {
 impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
-        Ok(Self::fold(integrator, group, &fold_parts(integrator, step)?, &|_| 1.0))
-    }
-
-    /// Folds the coefficients for the step size, with the tail of the series summed for motions
-    /// that start with this momentum; and that tail, which is plain where nothing better was found.
-    pub fn tuned(
-        integrator: &'a Integrator,
-        group: G,
-        step: f64,
-        momentum: &G::Vector,
-    ) -> Result<(Self, Tail<f64>), StepError>
-    where
-        G: LieGroup<Scalar = f64> + Clone,
-    {
         let parts = fold_parts(integrator, step)?;
-        let series =
-            |factor: &dyn Fn(usize) -> f64| Self::fold(integrator, group.clone(), &parts, factor);
-        let truncation = integrator.problem.truncation;
-        let tail = Tail::along(truncation, [momentum.clone()], series)?;
-        Ok((series(&|k| tail.factor(k)), tail))
-    }
-
-    /// The coefficients of Σ factor(k) S_k.
-    fn fold(
-        integrator: &'a Integrator,
-        group: G,
-        parts: &[f64],
-        factor: &dyn Fn(usize) -> f64,
-    ) -> Self {
         let coefficients = &integrator.coefficients;
         let truncation = integrator.problem.truncation;
         let orders = coefficients.last_orders(truncation);
         let last: Vec<f64> = orders.map(|(number, ..)| parts[number]).collect();
         let radius = plumbing::radius_of(truncation, of_last(integrator, &last));
-        let slots = coefficients.slots_of_parts(parts, factor);
-        Self { last, radius, ..Self::of_slots(integrator, group, slots) }
-    }
-
-    /// With these slots, of a series that is not judged by the ratio of its terms.
-    fn of_slots(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
+        let slots = coefficients.slots_of_parts(&parts);
         let mut defect = vec![0.0; integrator.defect_len()];
         for term in &integrator.defect {
             defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
         }
         let quadratic = integrator.problem.is_quadratic();
-        let (last, radius) = (Vec::new(), f64::MAX);
-        Self { integrator, group, slots, defect, quadratic, last, radius, chart: PhantomData }
+        Ok(Self { integrator, group, slots, defect, quadratic, last, radius, chart: PhantomData })
     }
 
     /// Evaluates a program and hands its outputs to `read`.
@@ -349,26 +312,5 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G,
                 FixedPoint::propose_scaled(generating, mu, scale, guess, settings)
             }
         }
-    }
-}
-
-impl<G: LieGroup<Scalar = f64>, C: Chart<G>> Adjustable for Interpreter<'_, G, C> {
-    fn truncation(&self) -> usize {
-        self.integrator.problem.truncation
-    }
-
-    fn terms(&self) -> usize {
-        self.integrator.coefficients.series()
-    }
-
-    fn term(&self, number: usize) -> Term<'_> {
-        let coefficients = &self.integrator.coefficients;
-        let monomial = coefficients.monomials().get(number).map_or(&[][..], Vec::as_slice);
-        Term { of: TermOf::Series, monomial, order: coefficients.order(number) }
-    }
-
-    fn adjusted(&self, corrections: &[f64]) -> Self {
-        let slots = self.integrator.coefficients.adjusted(&self.slots, corrections);
-        Self::of_slots(self.integrator, self.group.clone(), slots)
     }
 }

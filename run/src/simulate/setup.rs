@@ -21,10 +21,6 @@ pub struct Setup {
     pub every: Option<u64>,
     /// Times recorded besides.
     pub at: Option<Times>,
-    /// Whether the tail of the series is summed for the motion from the initial momentum.
-    pub tuned: bool,
-    /// How long the motion is followed to which the coefficients are fitted, if they are.
-    pub fitted: Option<f64>,
     /// What evaluates the programs of a step.
     pub backend: Backend,
     /// μ at the start.
@@ -41,8 +37,6 @@ impl Setup {
             recording: false,
             every: Some(1),
             at: None,
-            tuned: false,
-            fitted: None,
             backend: Backend::Auto,
             momentum: DVector::from_vec(momentum),
             group_element: None,

@@ -3,7 +3,7 @@
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint::{
     Cayley, Chart, Exponential, GeneratingFunction, Phase, StepError, solve::Solution,
-    solve::solve, steps::reconstruct, tune::fit,
+    solve::solve, steps::reconstruct,
 };
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
@@ -15,7 +15,6 @@ use super::outlet::Outlet;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::subject::Subject;
-use super::warning::Warning;
 use crate::engine::{
     Compiled, Forces, Interpreter, Restore, Steepness, advise, cayley_group, product_group,
     whole_group,
@@ -24,24 +23,12 @@ use crate::error::RunError;
 use crate::load::Derived;
 use crate::number::largest;
 
-/// A step between grid points is made in so many where S was adjusted to the step of the grid: the plain
-/// series is then no less accurate.
-const SIDE_STEPS: u32 = 8;
-
 /// Runs a system from the start to the end.
 ///
 /// # Errors
 /// Settings that make no sense, and why the run stopped.
 pub fn run(system: &Derived, setup: &Setup, outlet: &mut dyn Outlet) -> Result<Outcome, RunError> {
     let problem = &system.integrator.problem;
-    let follows = [("--tuned", setup.tuned), ("--fitted", setup.fitted.is_some())];
-    if let Some((option, _)) = follows.iter().find(|(_, given)| *given)
-        && system.forces.is_some()
-    {
-        let what =
-            format!("{option} follows the flow, which kicks of a potential leave: leave it out");
-        return Err(RunError::Option(what));
-    }
     if setup.momentum.len() != problem.algebra.dim() {
         return Err(RunError::Option("the momentum does not fit the group".to_owned()));
     }
@@ -78,17 +65,11 @@ impl Derived {
     }
 
     /// What makes a run, in a few words.
-    pub fn label(&self, setup: &Setup) -> String {
+    pub fn label(&self) -> String {
         let problem = &self.integrator.problem;
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
         if problem.comoving.is_some() {
             label.push_str(", comoving");
-        }
-        if setup.tuned {
-            label.push_str(", tuned");
-        }
-        if setup.fitted.is_some() {
-            label.push_str(", fitted");
         }
         if let Some(forces) = &self.forces {
             label = format!("{label}, {}", forces.splitting.name());
@@ -106,10 +87,9 @@ struct Task<'a> {
 
 impl<'a> Task<'a> {
     /// The run as its driver knows it.
-    fn subject(&self, warnings: Vec<Warning>, outlet: &mut dyn Outlet) -> Subject<'a> {
-        warnings.iter().for_each(|warning| outlet.warn(&warning.text()));
+    fn subject(&self) -> Subject<'a> {
         let Self { system, setup } = *self;
-        Subject { file: &system.file, setup, watched: system.watched(), warnings }
+        Subject { file: &system.file, setup, watched: system.watched(), warnings: Vec::new() }
     }
 
     /// Advances from the initial state to the end.
@@ -139,7 +119,7 @@ impl<'a> Task<'a> {
         let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest);
         let flow = flow.map_err(at_start)?;
         let steepness = Steepness::new(&flow);
-        let subject = self.subject(Vec::new(), outlet);
+        let subject = self.subject();
         let mut mover = OneByOne::new(group, &self.setup.schedule, |time, phase: &mut _| {
             step(phase, time).map_err(|error| {
                 let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
@@ -161,47 +141,19 @@ impl<'a> Task<'a> {
         outlet: &mut dyn Outlet,
     ) -> Result<Outcome, RunError> {
         let integrator = &self.system.integrator;
-        let Setup { schedule, tuned, fitted, momentum, .. } = self.setup;
+        let schedule = &self.setup.schedule;
         let h = schedule.step;
         let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
-        let mut warnings = Vec::new();
-        let step = match fitted {
-            Some(duration) => {
-                outlet.phase(Some("fitting the coefficients to the motion"));
-                let fit = fit(h, series, [momentum.clone()], *duration);
-                outlet.phase(None);
-                let fit = fit.map_err(|error| RunError::Option(format!("--fitted: {error}")))?;
-                // What is no number is not better either.
-                if !fit.unseen.lt(&fit.before) {
-                    warnings.push(Warning::FellBack { option: "--fitted" });
-                }
-                fit.integrator
-            }
-            None if *tuned => {
-                outlet.phase(Some("summing the tail of the series"));
-                let tuned = Interpreter::tuned(integrator, group.clone(), h, momentum);
-                outlet.phase(None);
-                let (step, tail) = tuned.map_err(at_start)?;
-                if tail.is_plain() {
-                    warnings.push(Warning::FellBack { option: "--tuned" });
-                }
-                step
-            }
-            None => series(h).map_err(at_start)?,
-        };
-        let count = if *tuned || fitted.is_some() { SIDE_STEPS } else { 1 };
+        let step = series(h).map_err(at_start)?;
         let steepness = Steepness::new(&step);
-        let subject = self.subject(warnings, outlet);
+        let subject = self.subject();
         let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
             let solution = solve(step, &phase.momentum)?;
             let residual = residual(step, &phase.momentum, &solution);
             reconstruct(step, phase, &solution.x)?;
             Ok((solution.iterations, residual))
         };
-        let side = |_: f64, part: f64, phase: &mut Phase<G>| {
-            let step = series(part / f64::from(count))?;
-            (0..count).try_for_each(|_| one(&step, phase).map(drop))
-        };
+        let side = |_: f64, part: f64, phase: &mut Phase<G>| one(&series(part)?, phase).map(drop);
         let advised = |error, phase: &Phase<G>| {
             advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
         };

@@ -21,11 +21,6 @@ pub struct Steep {
 pub enum Warning {
     /// The series hardly converges.
     Steep(Steep),
-    /// The plain series was used in place of an adjusted one.
-    FellBack {
-        /// The option that asked for the adjusted one.
-        option: &'static str,
-    },
     /// A map learned from momenta alone moves no attitude.
     NoAttitude,
 }
@@ -38,10 +33,6 @@ impl Warning {
                 "the series hardly converges: from step {step}, at time {}, its last two terms have the ratio \
                  {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step",
                 shortest(*time)
-            ),
-            Self::FellBack { option } => format!(
-                "{option}: nothing better than the plain series was found, by steps that were held back; the plain \
-                 series was used"
             ),
             Self::NoAttitude => {
                 "learned from momenta alone: the attitude is not known and not written, since the \
@@ -59,11 +50,6 @@ impl Warning {
                 "step": step,
                 "time": time,
                 "ratio": ratio,
-                "text": self.text(),
-            }),
-            Self::FellBack { option } => json!({
-                "kind": "plain_series",
-                "option": option,
                 "text": self.text(),
             }),
             Self::NoAttitude => json!({ "kind": "no_attitude", "text": self.text() }),

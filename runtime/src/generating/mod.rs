@@ -1,12 +1,10 @@
 //! The one interface everything meets at: a generating function S(p) on 𝔤\*.
 
-pub(crate) mod adjustable;
 #[cfg(feature = "alloc")]
 mod polynomial;
 mod reversed;
 pub(crate) mod series;
 
-pub use adjustable::{Adjustable, Term, TermOf};
 #[cfg(feature = "alloc")]
 pub use polynomial::PolynomialFunction;
 pub use reversed::Reversed;

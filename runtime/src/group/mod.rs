@@ -1,6 +1,5 @@
 //! What a Lie group must offer: one trait, implemented once per group.
 
-pub(crate) mod compensated;
 pub(crate) mod element_error;
 pub(crate) mod heisenberg;
 pub(crate) mod product;

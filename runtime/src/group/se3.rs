@@ -4,9 +4,8 @@ mod cayley;
 
 use core::marker::PhantomData;
 
-use nalgebra::{Isometry3, Matrix3, Matrix6, Quaternion, Translation3, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, Vector3, Vector6};
 
-use crate::group::compensated::{CompensatedGroup, kahan};
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::so3::{
     SO3, cross, dexp_with_derivative, difference, dot, kernel, plus, quaternion, rotate_back,
@@ -314,38 +313,5 @@ impl<T: Scalar> LieGroup for SE3<T> {
         }
         let t = V::from_fn(|row, _| entry(row, 3));
         Ok(isometry(rotation_from(entry)?, t))
-    }
-}
-
-impl<T: Scalar> CompensatedGroup for SE3<T> {
-    /// Of the quaternion and of the translation.
-    type Remainder = (Quaternion<T>, Vector3<T>);
-
-    #[inline(always)]
-    fn no_remainder(&self) -> Self::Remainder {
-        (SO3::new().no_remainder(), V::repeat(T::of(0.0)))
-    }
-
-    /// Γ moves as a momentum of SO(3), and Π″ − Π = Rᵀ(Π − t×Γ) − Π.
-    #[inline(always)]
-    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let (pi, gamma) = split(mu);
-        let lifted = unrotate(k, &cross(&k.translation.vector, &gamma));
-        let turned = SO3::new().momentum_change(&k.rotation, &pi);
-        join(&(turned - lifted), &SO3::new().momentum_change(&k.rotation, &gamma))
-    }
-
-    #[inline(always)]
-    fn compose_compensated(
-        &self,
-        g: &mut Self::Element,
-        remainder: &mut Self::Remainder,
-        k: &Self::Element,
-    ) {
-        let change = rotate(g, &k.translation.vector);
-        for i in 0..3 {
-            kahan(&mut g.translation.vector[i], &mut remainder.1[i], change[i]);
-        }
-        SO3::new().compose_compensated(&mut g.rotation, &mut remainder.0, &k.rotation);
     }
 }

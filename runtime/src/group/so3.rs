@@ -6,7 +6,6 @@ use core::marker::PhantomData;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
-use crate::group::compensated::{CompensatedGroup, kahan};
 use crate::group::element_error::{ElementError, finite, within};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
@@ -351,47 +350,5 @@ impl<T: Scalar> CayleyGroup for SO3<T> {
     #[inline(always)]
     fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
         p + cross(x, p) * T::of(0.5) + x * (dot(x, p) * T::of(0.25))
-    }
-}
-
-impl<T: Scalar> CompensatedGroup for SO3<T> {
-    type Remainder = Quaternion<T>;
-
-    #[inline(always)]
-    fn no_remainder(&self) -> Quaternion<T> {
-        Quaternion::from_vector(nalgebra::Vector4::repeat(T::of(0.0)))
-    }
-
-    #[inline(always)]
-    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let q = k.as_ref();
-        let u = V::new(q.i, q.j, q.k);
-        let twice = cross(mu, &u) * T::of(2.0);
-        twice * q.w + cross(&twice, &u)
-    }
-
-    #[inline(always)]
-    fn compose_compensated(
-        &self,
-        g: &mut Self::Element,
-        remainder: &mut Quaternion<T>,
-        k: &Self::Element,
-    ) {
-        // g·k − g = g·(k − 1), where w − 1 = −|u|²/(1 + w) without cancellation for w near one.
-        let small = k.as_ref();
-        let u = V::new(small.i, small.j, small.k);
-        let one = T::of(1.0);
-        let near = small.w.simd_gt(T::of(0.0));
-        let below_one = (-dot(&u, &u) / (one + small.w)).select(near, small.w - one);
-        let q = *g.as_ref();
-        let change = q * Quaternion::new(below_one, u.x, u.y, u.z);
-        // Half of what is missing to norm one, along q: the rounding of many products.
-        let excess = q.coords.dot(&q.coords) - T::of(1.0);
-        let change = change.coords - q.coords * (T::of(0.5) * excess);
-        let mut coords = q.coords;
-        for i in 0..4 {
-            kahan(&mut coords[i], &mut remainder.coords[i], change[i]);
-        }
-        *g = UnitQuaternion::new_unchecked(Quaternion::from_vector(coords));
     }
 }

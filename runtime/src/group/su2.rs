@@ -2,9 +2,8 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::{Matrix3, Quaternion, SimdBool, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, SimdBool, UnitQuaternion, Vector3};
 
-use crate::group::compensated::CompensatedGroup;
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
@@ -188,30 +187,6 @@ fn turned<T: Scalar>(a: &V<T>, mu: &V<T>) -> (T, V<T>) {
     let one = T::of(1.0);
     let n = dot(a, a);
     (one + n, mu * (one - n) + (a * dot(a, mu) + cross(mu, a)) * T::of(2.0))
-}
-
-impl<T: Scalar> CompensatedGroup for SU2<T> {
-    type Remainder = Quaternion<T>;
-
-    #[inline(always)]
-    fn no_remainder(&self) -> Quaternion<T> {
-        SO3::new().no_remainder()
-    }
-
-    #[inline(always)]
-    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        SO3::new().momentum_change(k, mu)
-    }
-
-    #[inline(always)]
-    fn compose_compensated(
-        &self,
-        g: &mut Self::Element,
-        remainder: &mut Quaternion<T>,
-        k: &Self::Element,
-    ) {
-        SO3::new().compose_compensated(g, remainder, k);
-    }
 }
 
 impl<T: Scalar> CayleyGroup for SU2<T> {

@@ -2,5 +2,4 @@
 
 mod block_elimination;
 pub(crate) mod coordinates;
-pub(crate) mod normal_equations;
 pub(crate) mod response;

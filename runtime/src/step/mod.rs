@@ -1,6 +1,5 @@
 //! From a generating function to maps: Poisson on 𝔤\*, symplectic on T\*G.
 
-pub(crate) mod compensated;
 mod frame;
 pub(crate) mod kicked;
 mod march;

@@ -1,4 +1,4 @@
-//! What a step moves: a phase point, a compensated one, or a momentum alone.
+//! What a step moves: a phase point, or a momentum alone.
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 

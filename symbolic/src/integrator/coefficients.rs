@@ -31,19 +31,6 @@ pub struct Coefficients {
     /// The monomials of the series S₁ + … + S_K, S_k having the power k of h; its bases are the
     /// first.
     monomials: Vec<Vec<(u32, u32)>>,
-    /// The terms of the first guess that are even in h.
-    guess: Vec<GuessTerm>,
-}
-
-/// A term of a coordinate of the first guess.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct GuessTerm {
-    /// The number of its base coefficient.
-    pub base: usize,
-    /// The coordinate of p.
-    pub coordinate: usize,
-    /// Its monomial, as (coordinate of μ, exponent), ascending.
-    pub factors: Vec<(u32, u32)>,
 }
 
 impl Coefficients {
@@ -69,20 +56,6 @@ impl Coefficients {
     #[must_use]
     pub fn monomials(&self) -> &[Vec<(u32, u32)>] {
         &self.monomials
-    }
-
-    /// Declares a term to be one of a coordinate of the first guess; bases must ascend.
-    pub fn add_guess(&mut self, coordinate: usize, term: &BaseTerm) {
-        if self.is_even(term.base) == Some(true) {
-            let factors = term.factors.clone();
-            self.guess.push(GuessTerm { base: term.base, coordinate, factors });
-        }
-    }
-
-    /// The terms of the first guess that are even in h.
-    #[must_use]
-    pub fn guess(&self) -> &[GuessTerm] {
-        &self.guess
     }
 
     /// The slot that holds `scale` times base number `base`.
@@ -116,7 +89,7 @@ impl Coefficients {
     /// operations as emitted code.
     #[must_use]
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
-        self.slots_of_parts(&self.fold_parts(step, symbols), &|_| 1.0)
+        self.slots_of_parts(&self.fold_parts(step, symbols))
     }
 
     /// Whether a base has even powers of h only, or odd ones only; `None` where it has both.
@@ -132,16 +105,6 @@ impl Coefficients {
     pub fn order(&self, base: usize) -> usize {
         let terms = self.bases.get(base).and_then(|terms| terms.last());
         terms.map_or(0, |term| term.step_power as usize)
-    }
-
-    /// The slots of S + Σ correctionᵢ · monomialᵢ, given those of S.
-    #[must_use]
-    pub fn adjusted(&self, slots: &[f64], corrections: &[f64]) -> Vec<f64> {
-        let series = corrections.get(..self.series()).unwrap_or(corrections);
-        let adjust = |(&slot, &(base, scale)): (&f64, &(usize, u32))| {
-            slot + series.get(base).map_or(0.0, |correction| correction * f64::from(scale))
-        };
-        slots.iter().zip(&self.slots).map(adjust).collect()
     }
 
     /// How many parts of the series have the order K or K − 2: the coefficients of its last two terms. None for
@@ -177,16 +140,13 @@ impl Coefficients {
         self.parts().flatten().map(|part| evaluate(part, step, symbols)).collect()
     }
 
-    /// The value of every slot from those of the parts, S_k being multiplied by `factor(k)`.
+    /// The value of every slot from those of the parts.
     #[must_use]
-    pub fn slots_of_parts(&self, parts: &[f64], factor: &dyn Fn(usize) -> f64) -> Vec<f64> {
+    pub fn slots_of_parts(&self, parts: &[f64]) -> Vec<f64> {
         let mut values = parts.iter();
         let mut bases = Vec::with_capacity(self.bases.len());
-        for (number, parts) in self.parts().enumerate() {
-            bases.push(parts.zip(values.by_ref()).fold(0.0, |sum, (part, value)| {
-                let power = part.first().map_or(0, |summand| summand.step_power as usize);
-                sum + if number < self.series() { value * factor(power) } else { *value }
-            }));
+        for parts in self.parts() {
+            bases.push(parts.zip(values.by_ref()).fold(0.0, |sum, (_, value)| sum + value));
         }
         self.slots.iter().map(|&(base, scale)| bases[base] * f64::from(scale)).collect()
     }

@@ -9,7 +9,7 @@ mod products;
 mod runge_kutta;
 mod terms;
 
-pub use coefficients::{Coefficients, Contribution, GuessTerm};
+pub use coefficients::{Coefficients, Contribution};
 pub use kick::Kick;
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
@@ -175,11 +175,6 @@ impl Integrator {
                     })
                     .collect();
                 continuation = lower::even_program(table, dim, &components);
-                if continuation.is_some() {
-                    for (coordinate, terms) in components.iter().enumerate() {
-                        terms.iter().for_each(|term| table.add_guess(coordinate, term));
-                    }
-                }
                 lower::vector_program(table, dim, &components)
             }
         };

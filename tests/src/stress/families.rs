@@ -49,7 +49,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 weight: 256,
                 ..base()
             },
-            known!(SO3::<f64>::new(), Exponential, compensated) as Maker,
+            known!(SO3::<f64>::new(), Exponential) as Maker,
         ),
         (
             Recipe {
@@ -79,22 +79,12 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         ),
         (
             Recipe {
-                name: "so3-exp-tuned",
-                energy: body,
-                truncations: &[5, 7, 9],
-                tuned: true,
-                ..base()
-            },
-            known!(SO3::<f64>::new(), Exponential),
-        ),
-        (
-            Recipe {
                 name: "so3-exp-tensor",
                 energy: Energy::Tensor,
                 truncations: &[5, 7],
                 ..base()
             },
-            known!(SO3::<f64>::new(), Exponential, compensated),
+            known!(SO3::<f64>::new(), Exponential),
         ),
         (
             Recipe { name: "so3-exp-fixed-point", energy: body, truncations: &[3, 7], ..base() },
@@ -104,7 +94,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         ),
         (
             Recipe { name: "so3-cayley", energy: body, truncations: &[1, 3, 5, 7], ..cayley() },
-            known!(SO3::<f64>::new(), Cayley, compensated),
+            known!(SO3::<f64>::new(), Cayley),
         ),
         (
             Recipe {
@@ -143,7 +133,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
         ),
         (
             Recipe { name: "su2-exp", group: "SU2", energy: body, truncations: &[3, 7], ..base() },
-            known!(SU2::<f64>::new(), Exponential, compensated),
+            known!(SU2::<f64>::new(), Exponential),
         ),
         (
             Recipe {
@@ -173,7 +163,7 @@ fn closed_forms() -> Vec<(Recipe<'static>, Maker)> {
                 decades: 1.0,
                 ..base()
             },
-            known!(SE3::<f64>::new(), Exponential, compensated),
+            known!(SE3::<f64>::new(), Exponential),
         ),
         (
             Recipe { name: "se3-exp-fluid", weight: 32, group: "SE3", ..base() },

@@ -9,7 +9,7 @@ use coadjoint_codegen::number::ratio;
 use coadjoint_codegen::poly::Polynomial;
 
 use super::random::Random;
-use super::runtime::{Steps, Terms, tuned_terms};
+use super::runtime::{Steps, Terms};
 use crate::bridge::double;
 
 /// A Hamiltonian, up to its parameters, with its exact series and its judge.
@@ -179,8 +179,6 @@ pub struct Recipe<'a> {
     pub must_accept: bool,
     /// Whether only such are made.
     pub promise: bool,
-    /// Whether the last terms are multiplied by factors that sum the tail of the series.
-    pub tuned: bool,
     /// See [`Family::weight`].
     pub weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
@@ -199,7 +197,6 @@ impl Default for Recipe<'_> {
             single: false,
             must_accept: false,
             promise: false,
-            tuned: false,
             weight: 128,
             decades: 30.0,
         }
@@ -252,23 +249,16 @@ impl Recipe<'_> {
         let judge = Judge::new(algebra, &series).expect("a judge");
         let orders: Arc<Vec<_>> =
             Arc::new((1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect());
-        let (algebra, single, tuned, chart) =
-            (algebra.clone(), self.single, self.tuned, self.chart);
+        let (algebra, single) = (algebra.clone(), self.single);
         let text = format!("K = {truncation}, H = {h:?}");
         let velocity = h.gradient(algebra.dim());
         let homogeneous = h.factors().all(|(f, _)| f.iter().map(|f| f.1).sum::<u32>() == 2);
         let promised = least.filter(|_| self.must_accept && truncation >= 5);
         let draw = move |_: &mut Random| {
             let (orders, algebra, make) = (Arc::clone(&orders), algebra.clone(), make.clone());
-            let steps = move |step: f64, random: &mut Random| {
+            let steps = move |step: f64, _: &mut Random| {
                 let terms = folded(&orders, step, single)?;
-                if !tuned {
-                    return Some(Made { steps: make(&algebra, terms), judge: None });
-                }
-                let terms = tuned_terms(&terms, truncation, random)?;
-                let all = terms.iter().map(|(k, c, f)| (*k as u32, *c, f.clone()));
-                let judge = Judge::from_terms(&algebra, chart, all).ok()?;
-                Some(Made { steps: make(&algebra, terms), judge: Some(judge) })
+                Some(Made { steps: make(&algebra, terms), judge: None })
             };
             System {
                 text: text.clone(),

@@ -213,19 +213,18 @@ fn judge_step(
             }
         }
     }
-    let way = match random.below(8) {
+    let way = match random.below(6) {
         0 | 1 => Way::One,
         2 => Way::Many(1),
         3 => Way::Many(2 + random.below(4) as u64),
         // Several blocks of what is solved at once.
         4 if random.one_in(4) => Way::Many(6 + random.below(12) as u64),
-        5 | 6 => Way::Compensated(1 + random.below(3) as u64),
         _ => return,
     };
     let at: Vec<f64> = (0..mu.len()).map(|_| random.between(-1.0, 1.0)).collect();
     if let Some(outcome) = case.steps.go(way, &at, mu) {
         let steps = match way {
-            Way::Many(steps) | Way::Compensated(steps) => steps,
+            Way::Many(steps) => steps,
             Way::One => 1,
         };
         if outcome.error.is_none() {

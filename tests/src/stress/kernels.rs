@@ -95,7 +95,6 @@ impl Steps for Runner {
         let steps = match way {
             Way::One => 1,
             Way::Many(steps) => steps,
-            Way::Compensated(_) => return None,
         };
         let (mut g, mut mu) = (self.element(at), mu.to_vec());
         let before = self.state(&g, &mu);

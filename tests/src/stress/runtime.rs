@@ -1,13 +1,10 @@
 //! The only place where the stress program touches the runtime: steps of any type behind one trait.
 
 use coadjoint::{
-    Chart, CompensatedPhase, Coordinates, GeneratingFunction, Integrator, LieGroup, Phase, Scalar,
-    StepError, advance, advance_by, advance_compensated, generating::PolynomialFunction,
-    generating::ScalarOf, generating::VectorOf, groups::CompensatedGroup, lanes::Lanes,
-    lanes::ensemble, solve::solve, tune::Tail,
+    Chart, Coordinates, GeneratingFunction, Integrator, LieGroup, Phase, Scalar, advance,
+    advance_by, generating::PolynomialFunction, generating::ScalarOf, generating::VectorOf,
+    lanes::Lanes, lanes::ensemble, solve::solve,
 };
-
-use super::random::Random;
 
 pub use coadjoint::{
     Cayley, Exponential, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::Power, groups::SU3,
@@ -21,8 +18,6 @@ pub enum Way {
     One,
     /// `advance_by`, this many steps.
     Many(u64),
-    /// `advance_compensated`, so many times.
-    Compensated(u64),
 }
 
 /// A state as numbers: the group element's matrix, row by row, and the momentum.
@@ -80,35 +75,18 @@ pub trait Steps {
 }
 
 type PhaseOf<S> = Phase<<S as GeneratingFunction>::Group>;
-type Compensated<S> = fn(&S, PhaseOf<S>, u64) -> (PhaseOf<S>, Result<(), StepError>);
 type Together<S> = fn(&S, &mut [PhaseOf<S>], u64) -> Vec<(usize, String)>;
 
 /// A generating function with what its group can do.
 pub struct Runner<S: Integrator> {
     steps: S,
-    compensated: Option<Compensated<S>>,
     together: Option<Together<S>>,
 }
 
 impl<S: Integrator> Runner<S> {
     /// With `advance` and `advance_by`.
     pub fn new(steps: S) -> Self {
-        Self { steps, compensated: None, together: None }
-    }
-
-    /// And with `advance_compensated`.
-    #[must_use]
-    pub fn compensated(mut self) -> Self
-    where
-        S::Group: CompensatedGroup,
-    {
-        self.compensated = Some(|steps, phase, count| {
-            let mut state = CompensatedPhase::new(steps.group(), phase);
-            let mut advance = |_| advance_compensated(steps, &mut state).map(drop);
-            let result = (0..count).try_for_each(&mut advance);
-            (state.into_phase(), result)
-        });
-        self
+        Self { steps, together: None }
     }
 
     /// And with `ensemble::advance_all`.
@@ -168,11 +146,6 @@ impl<S: Integrator> Steps for Runner<S> {
             Way::Many(steps) => advance_by(&self.steps, &mut phase, steps)
                 .map(drop)
                 .map_err(|stopped| stopped.error),
-            Way::Compensated(count) => {
-                let (after, result) = (self.compensated?)(&self.steps, phase, count);
-                phase = after;
-                result
-            }
         };
         let error = result.err().map(|error| error.to_string());
         Some(Outcome { before, after: self.state(&phase), error })
@@ -217,25 +190,4 @@ pub fn polynomial<G: LieGroup, C: Chart<G>>(
     terms: Terms,
 ) -> PolynomialFunction<G, C> {
     PolynomialFunction::of_series(group, chart, terms).expect("terms of the group's dimension")
-}
-
-/// The terms with the factors of [`Tail`] for motions from one or two momenta; `None` where steps from there fail.
-pub fn tuned_terms(terms: &Terms, truncation: usize, random: &mut Random) -> Option<Terms> {
-    let scaled = |factor: &dyn Fn(usize) -> f64| -> Terms {
-        terms.iter().map(|(k, c, f)| (*k, c * factor(*k), f.clone())).collect()
-    };
-    // S₁ = h H: where h|Ω| is about one.
-    let size = terms.iter().filter(|t| t.0 == 1).map(|t| t.1.abs()).fold(0.0, f64::max);
-    let momenta: Vec<_> = (0..1 + random.below(2))
-        .map(|_| {
-            let length = random.between(0.1, 0.6) / size;
-            let direction = random.direction(3);
-            nalgebra::Vector3::from_fn(|i, _| length * direction[i])
-        })
-        .collect();
-    let tail = Tail::along(truncation, momenta, |factor: &dyn Fn(usize) -> f64| {
-        polynomial(SO3::<f64>::new(), Exponential, scaled(factor))
-    });
-    let tail = tail.ok()?;
-    Some(scaled(&|k| tail.factor(k)))
 }

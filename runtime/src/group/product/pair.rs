@@ -6,7 +6,6 @@ use core::marker::PhantomData;
 use nalgebra::{SMatrix, SVector};
 
 use super::{part, place, place_block};
-use crate::group::compensated::CompensatedGroup;
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
@@ -284,36 +283,5 @@ where
 
     fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
         by_factor!(x, p, dcay_inverse_transpose)
-    }
-}
-
-impl<T, A, B, const N: usize> CompensatedGroup for Product<A, B, N>
-where
-    T: Scalar,
-    A: CompensatedGroup<Scalar = T> + Default,
-    B: CompensatedGroup<Scalar = T> + Default,
-{
-    type Remainder = (A::Remainder, B::Remainder);
-
-    fn no_remainder(&self) -> Self::Remainder {
-        (A::default().no_remainder(), B::default().no_remainder())
-    }
-
-    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let mut change = SVector::repeat(T::of(0.0));
-        place(&A::default().momentum_change(&k.0, &part(mu, 0, n)), 0, &mut change);
-        place(&B::default().momentum_change(&k.1, &part(mu, n, m)), n, &mut change);
-        change
-    }
-
-    fn compose_compensated(
-        &self,
-        g: &mut Self::Element,
-        remainder: &mut Self::Remainder,
-        k: &Self::Element,
-    ) {
-        A::default().compose_compensated(&mut g.0, &mut remainder.0, &k.0);
-        B::default().compose_compensated(&mut g.1, &mut remainder.1, &k.1);
     }
 }

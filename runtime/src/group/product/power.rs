@@ -6,7 +6,6 @@ use core::marker::PhantomData;
 use nalgebra::{SMatrix, SVector};
 
 use super::{part, place, place_block};
-use crate::group::compensated::CompensatedGroup;
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
@@ -299,38 +298,5 @@ where
 
     fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
         by_copy!(x, p, dcay_inverse_transpose)
-    }
-}
-
-impl<T, G, const COPIES: usize, const N: usize> CompensatedGroup for Power<G, COPIES, N>
-where
-    T: Scalar,
-    G: CompensatedGroup<Scalar = T> + Default,
-{
-    type Remainder = [G::Remainder; COPIES];
-
-    fn no_remainder(&self) -> Self::Remainder {
-        core::array::from_fn(|_| G::default().no_remainder())
-    }
-
-    fn momentum_change(&self, k: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let n = G::default().dim();
-        let mut change = SVector::repeat(T::of(0.0));
-        for (copy, k) in k.iter().enumerate() {
-            let own = G::default().momentum_change(k, &part(mu, copy * n, n));
-            place(&own, copy * n, &mut change);
-        }
-        change
-    }
-
-    fn compose_compensated(
-        &self,
-        g: &mut Self::Element,
-        remainder: &mut Self::Remainder,
-        k: &Self::Element,
-    ) {
-        for ((g, remainder), k) in g.iter_mut().zip(remainder).zip(k) {
-            G::default().compose_compensated(g, remainder, k);
-        }
     }
 }
