@@ -249,12 +249,12 @@ impl Mistake {
                  see docs/book/src/forces.md; a constant torque is a potential that is linear on R1"
             }
             Self::Inverse(_) => {
-                "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: inv(J)[0][1]; \
-                 kept as parameters, matrices have at most 3 rows"
+                "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \
+                 inv(J)[0][1]"
             }
             Self::Index(..) => {
                 "an index is made of integers, indices of sums and parameters that are integers, with + - * % and \
-                 parentheses; such parameters cannot be kept"
+                 parentheses"
             }
             Self::UnknownFunction(..) => "known functions: sqrt, sin, cos, tan, exp, ln, abs",
             Self::FunctionWithoutArgument(name) => {

@@ -15,15 +15,13 @@ pub enum Name {
     Parameter(usize),
     /// A number.
     Number(Rational),
-    /// An expression of other names.
-    Formula(String),
 }
 
 impl Name {
     fn describe(&self) -> &'static str {
         match self {
             Self::Coordinate(_) => "a coordinate of the momentum",
-            Self::Parameter(_) | Self::Number(_) | Self::Formula(_) => "a parameter",
+            Self::Parameter(_) | Self::Number(_) => "a parameter",
         }
     }
 }

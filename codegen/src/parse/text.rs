@@ -228,11 +228,6 @@ impl Parser<'_> {
             Ok(Name::Coordinate(i)) => Node::Coordinate(i),
             Ok(Name::Parameter(i)) => Node::Parameter(i),
             Ok(Name::Number(value)) => Node::Number(value),
-            Ok(Name::Formula(text)) => {
-                let scope = Scope { names: self.scope.names, indices: Vec::new() };
-                let root = parse_in(&text, 0, &scope, self.arena, self.diagnostics);
-                return self.operands.push((root, span));
-            }
             Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }

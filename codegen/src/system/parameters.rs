@@ -14,9 +14,6 @@ use crate::number::Rational;
 use crate::parse::{Name, Names, words};
 use crate::problem::{Parameter, Shape};
 
-/// The most rows of a matrix whose inverse is written out in its entries.
-const MOST_ROWS_KEPT: usize = 3;
-
 /// The parameters of a file, in its order.
 #[derive(Debug)]
 pub(super) struct Parameters {
@@ -31,13 +28,13 @@ struct Given {
     parameter: Parameter,
     place: Span,
     kept: bool,
-    /// The rows and entries of the inverse, where there is one and the file asks for some.
-    inverse: Option<(usize, Vec<Rational>)>,
+    /// The inverse, where there is one and the file asks for some.
+    inverse: Option<RationalMatrix>,
 }
 
 impl Parameters {
-    /// Reads the table: values may use other parameters. A parameter that `[algebra]` uses is never kept,
-    /// since structure constants are numbers.
+    /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices and in `inv(…)` are
+    /// numbers and never kept.
     pub(super) fn read(
         root: &DeTable<'_>,
         file: &str,
@@ -48,10 +45,15 @@ impl Parameters {
         let root = Table::root(root, &nothing);
         let mut result = Self { list: Vec::new(), constants: Names::none() };
         let Some(table) = root.table("parameters", diagnostics) else { return result };
-        let structural = match root.get("algebra").map(Spanned::get_ref) {
-            Some(algebra) => words_of(algebra),
-            None => BTreeSet::new(),
-        };
+        let mut numbers =
+            root.get("algebra").map_or(BTreeSet::new(), |table| words_of(table.get_ref()));
+        let energy = |key: &&str| root.get(key)?.get_ref().as_str();
+        for text in ["hamiltonian", "potential"].iter().filter_map(energy) {
+            let after = |open, close| {
+                text.split(open).skip(1).flat_map(move |rest| rest.split(close).next())
+            };
+            numbers.extend(after("inv(", ')').chain(after("[", ']')).flat_map(words));
+        }
         let entries = table.entries();
         let used: Vec<_> = entries.iter().map(|(.., value)| words_of(value.get_ref())).collect();
         // Each after those that it uses, as far as there is no circle.
@@ -69,7 +71,7 @@ impl Parameters {
                 .value(name, value, diagnostics)
                 .unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
             let parameter = Parameter { name: name.to_owned(), shape, default: Some(values) };
-            let kept = options.parameters == Treatment::Kept && !structural.contains(name);
+            let kept = options.parameters == Treatment::Kept && !numbers.contains(name);
             let inverse = if file.contains("inv(") { inverse(&parameter) } else { None };
             let given = Given { parameter, place, kept, inverse };
             given.add_to(&mut result.constants, None, diagnostics);
@@ -116,23 +118,28 @@ impl Parameters {
                 let values: Option<Vec<Rational>> = list.iter().map(number).collect();
                 values.map(|values| (Shape::Array(values.len()), values))
             }
-            DeValue::String(text) => match inverted(text).and_then(|name| self.inverse(name)) {
-                Some((rows, values)) => Some((Shape::Grid(rows, rows), values)),
+            DeValue::String(text) => match self.inverse(text) {
+                Some(inverse) => {
+                    let n = inverse.rows();
+                    let entries = (0..n * n).map(|at| inverse.get(at / n, at % n));
+                    Some((Shape::Grid(n, n), entries.collect()))
+                }
                 None => number(value).map(|x| (Shape::Scalar, vec![x])),
             },
             _ => number(value).map(|x| (Shape::Scalar, vec![x])),
         }
     }
 
-    fn inverse(&self, name: &str) -> Option<(usize, Vec<Rational>)> {
-        let found = self.list.iter().find(|(_, given)| given.parameter.name == name);
-        found?.1.inverse.clone()
+    /// The matrix that `inv(J)` is.
+    fn inverse(&self, text: &str) -> Option<&RationalMatrix> {
+        let name = text.trim().strip_prefix("inv(")?.strip_suffix(')')?.trim();
+        let found = self.list.iter().find(|(_, given)| given.parameter.name == name)?;
+        found.1.inverse.as_ref()
     }
 }
 
 impl Given {
-    /// Adds the names of its scalars: numbers, or parameters counted from `first`. Those of its inverse, if it has one,
-    /// are known too.
+    /// Adds the names of its scalars: numbers, or parameters counted from `first`; and those of its inverse.
     fn add_to(&self, names: &mut Names, first: Option<usize>, diagnostics: &mut Diagnostics) {
         let Parameter { name, default, .. } = &self.parameter;
         let values = default.iter().flatten();
@@ -143,56 +150,20 @@ impl Given {
             };
             names.add(scalar, meaning, self.place, diagnostics);
         }
-        let Some((rows, values)) = &self.inverse else { return };
-        if first.is_some() && *rows > MOST_ROWS_KEPT {
-            return;
-        }
-        for (at, value) in values.iter().enumerate() {
-            let (row, column) = (at / rows, at % rows);
-            let meaning = match first {
-                None => Name::Number(value.clone()),
-                Some(_) => Name::Formula(inverse_entry(name, *rows, row, column)),
-            };
-            names.alias(format!("inv({name})[{row}][{column}]"), meaning);
+        let Some(inverse) = &self.inverse else { return };
+        for at in 0..inverse.rows() * inverse.rows() {
+            let (i, j) = (at / inverse.rows(), at % inverse.rows());
+            names.alias(format!("inv({name})[{i}][{j}]"), Name::Number(inverse.get(i, j)));
         }
     }
 }
 
-/// The number of rows and the entries of the inverse of a square matrix.
-fn inverse(parameter: &Parameter) -> Option<(usize, Vec<Rational>)> {
-    let (Shape::Grid(rows, columns), Some(values)) = (&parameter.shape, &parameter.default) else {
+/// The inverse of a matrix.
+fn inverse(parameter: &Parameter) -> Option<RationalMatrix> {
+    let (Shape::Grid(_, columns), Some(values)) = (&parameter.shape, &parameter.default) else {
         return None;
     };
-    if rows != columns {
-        return None;
-    }
-    let matrix = RationalMatrix::from_rows(values.chunks(*rows).map(<[_]>::to_vec)).inverse()?;
-    let entries = (0..rows * rows).map(|at| matrix.get(at / rows, at % rows));
-    Some((*rows, entries.collect()))
-}
-
-/// `J` of `inv(J)`.
-fn inverted(text: &str) -> Option<&str> {
-    Some(text.trim().strip_prefix("inv(")?.strip_suffix(')')?.trim())
-}
-
-/// An entry of the inverse of a matrix of at most [`MOST_ROWS_KEPT`] rows: a cofactor over the determinant.
-fn inverse_entry(name: &str, rows: usize, row: usize, column: usize) -> String {
-    let minor = |row: usize, column: usize| {
-        let others = |skipped: usize| (0..rows).filter(|&i| i != skipped).collect::<Vec<_>>();
-        let entry = |i: usize, j: usize| format!("{name}[{i}][{j}]");
-        match (&others(row)[..], &others(column)[..]) {
-            (&[a, b], &[c, d]) => {
-                format!("({}*{} - {}*{})", entry(a, c), entry(b, d), entry(a, d), entry(b, c))
-            }
-            (&[a], &[c]) => entry(a, c),
-            _ => "1".to_owned(),
-        }
-    };
-    let sign = |row: usize, column: usize| if (row + column).is_multiple_of(2) { "+" } else { "-" };
-    let term = |j: usize| format!("{}{name}[0][{j}]*{}", sign(0, j), minor(0, j));
-    let determinant: String = (0..rows).map(term).collect();
-    format!("{}{}/({determinant})", sign(row, column), minor(column, row))
+    RationalMatrix::from_rows(values.chunks((*columns).max(1)).map(<[_]>::to_vec)).inverse()
 }
 
 /// The words in the texts of a value.
