@@ -321,11 +321,13 @@ fn hostile_names_stay_texts() {
              [units]\ntime = {unit}\nmomentum = {unit}\n[integrator]\ntruncation = 3\nstep = 0.1\n\
              [initial]\nmomentum = [1, 0.2, 0.1]\n[run]\ntime = 1"
         );
-        let system = file(&directory, &text);
+        let system = directory.path().join("a\n# complete: 9 records\r\u{202e}.toml");
+        std::fs::write(&system, text).unwrap();
+        let system = system.to_str().unwrap();
         let [table, svg] = ["run.csv", "run.svg"].map(|name| directory.path().join(name));
         let [out, plot] = [&table, &svg].map(|path| path.to_str().unwrap());
         let backend = ["--backend", "interpreter"];
-        let options = ["simulate", &system, "--out", out, "--plot", plot];
+        let options = ["simulate", system, "--out", out, "--plot", plot];
         let (code, _, error) = run(&[&options[..], &backend[..]].concat());
         assert_eq!(code, 0, "{error}");
         let svg = std::fs::read_to_string(svg).unwrap();

@@ -132,3 +132,21 @@ fn the_state_at_the_start_is_given_as_people_have_it() {
     assert_eq!((motion[0][3], motion[2][3], motion[3][3]), (3.0, 5.0, 1.0));
     assert!((motion[0][0].powi(2) + motion[1][0].powi(2) - 1.0).abs() < 4e-16);
 }
+
+/// What is read by recursion has an end.
+#[test]
+fn nesting_is_refused_where_it_would_overflow() {
+    let many = 20_000;
+    let index = format!("mu[{}0{}]", "(".repeat(many), ")".repeat(many));
+    let lists = format!("mu[{}0{}]", "P[".repeat(many), "]".repeat(many));
+    let sums: String = (0..many).map(|i| format!("sum(i{i}, 0..1, ")).collect();
+    for (energy, said) in [
+        (index, "is not an integer known here"),
+        (lists, "is not an integer known here"),
+        (format!("{sums}mu[0]{}", ")".repeat(many)), "more than 64 sums are nested"),
+    ] {
+        let text = format!("group = \"SO3\"\nhamiltonian = \"{energy}\"\n[parameters]\nP = [0]");
+        let mistakes = system::read(&text, Options::default()).unwrap_err();
+        assert!(mistakes.render("f", &text).contains(said), "{said}");
+    }
+}

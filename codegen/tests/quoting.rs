@@ -12,7 +12,6 @@ use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::step::{REACH, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, System};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
-use coadjoint_program::quoting::c_comment;
 use tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 
 /// Texts that end comments, strings, elements and lines, that continue lines, or that are words of some language.
@@ -194,14 +193,5 @@ fn kept_parameters_may_have_any_name() {
                 compiler.check(&flags, &source, true);
             }
         }
-    }
-}
-
-#[test]
-fn one_function_quotes_for_c() {
-    for name in hostile() {
-        let text = c_comment(&name);
-        assert!(text.chars().all(|c| c.is_ascii_graphic() || c == ' '), "{text}");
-        assert!(["*/", "/*", "??", "\\"].iter().all(|end| !text.contains(end)), "{text}");
     }
 }

@@ -106,7 +106,7 @@ def _sympy(value: Any, what: str) -> str:
             # The decimals that SymPy shows are the number that was meant.
             return repr(float(part)) if part._prec == 53 else str(part)
         if part is sympy.pi:
-            raise refuse("pi", "is not known to the text: give it as a parameter")
+            return "pi"
         if part.is_Add:
             return " + ".join(
                 f"({walk(term)})" if term.could_extract_minus_sign() else walk(term)

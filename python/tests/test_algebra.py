@@ -34,7 +34,14 @@ def test_sympy_and_text_are_the_same_system() -> None:
 
 @pytest.mark.parametrize(
     "energy",
-    [x / 2 - (y - z) ** 2 * (x + 1), -(x**2) / 3, x**2 * sympy.cos(1), sympy.exp(-2) * x * y, 0.1 * x**2 - 2e-7 * y],
+    [
+        x / 2 - (y - z) ** 2 * (x + 1),
+        -(x**2) / 3,
+        x**2 * sympy.cos(1),
+        sympy.exp(-2) * x * y,
+        0.1 * x**2 - 2e-7 * y,
+        sympy.pi * x**2 / 3,
+    ],
 )
 def test_expressions_come_back(energy: sympy.Expr) -> None:
     found = ca.System("SO3", energy, coordinates="x y z").hamiltonian
@@ -49,7 +56,6 @@ def test_expressions_come_back(energy: sympy.Expr) -> None:
         (sympy.besselj(0, 2) * x, "besselj"),
         (sympy.sin(x), "polynomial|parameter|coordinate"),
         (sympy.I * x, "I"),
-        (sympy.pi * x**2, "pi"),
         (sympy.Integral(x, x), "Integral"),
         (sympy.Symbol("a b") * x, "a b"),
         (sympy.Symbol("q") * x, "q"),

@@ -21,7 +21,12 @@ pub fn read_text(path: &Path) -> Result<String> {
 /// # Errors
 /// Where it cannot be read, is not UTF-8, or has semicolons or tabs in place of commas.
 pub fn check_table(path: &Path) -> Result<()> {
-    let mut reader = BufReader::new(File::open(path)?);
+    let file = File::open(path)?;
+    // Of a pipe the line would be lost.
+    if !file.metadata()?.is_file() {
+        return Ok(());
+    }
+    let mut reader = BufReader::new(file);
     let mut before = Vec::new();
     loop {
         let start = before.len();

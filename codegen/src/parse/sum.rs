@@ -15,6 +15,9 @@ use crate::number::{Rational, integer};
 /// The most terms one sum may have.
 pub(super) const MOST_TERMS: i64 = 10_000;
 
+/// The most sums within sums, and parentheses in an index.
+pub(super) const MOST_NESTED: usize = 64;
+
 /// Names, and the values of the indices of the sums around.
 #[derive(Clone, Debug)]
 pub(super) struct Scope<'a> {
@@ -56,6 +59,10 @@ impl Scope<'_> {
     /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses, in indices of sums and
     /// parameters that are integers; `%` is never negative, so that `(i - 1) % 64` goes round a ring.
     pub fn integer(&self, text: &str) -> Option<i64> {
+        // They are read by recursion.
+        if text.matches(['(', '[']).count() > MOST_NESTED {
+            return None;
+        }
         let mut reader = Reader { scope: self, rest: text.chars().peekable() };
         let value = reader.sum()?;
         reader.skip();

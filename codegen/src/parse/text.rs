@@ -55,7 +55,7 @@ fn parse_in(
     let mut parser =
         Parser { scope, arena, diagnostics, offset, operands: Vec::new(), operators: Vec::new() };
     let mut expects_operand = true;
-    let mut tokens = Tokens::new(text).peekable();
+    let mut tokens = Tokens::new(text, 0).peekable();
     while let Some((token, range)) = tokens.next() {
         if parser.diagnostics.len() > before + MOST_MISTAKES {
             let end = parser.span(text.len()..text.len());
@@ -69,7 +69,7 @@ fn parse_in(
             (call, expects_operand, token == Token::Name("sum".into()))
         {
             let end = parser.sum(text, range.start, open);
-            while tokens.next_if(|(_, range)| range.start < end).is_some() {}
+            tokens = Tokens::new(text, end).peekable();
             expects_operand = false;
             continue;
         }
@@ -276,6 +276,7 @@ impl Parser<'_> {
         let taken = self.scope.get(&form.index).is_ok() || Function::lookup(&form.index).is_some();
         let reason = match bounds {
             _ if !is_word(&form.index) => "its index is no name",
+            _ if self.scope.indices.len() >= sum::MOST_NESTED => "more than 64 sums are nested",
             _ if taken => "the name of its index is already in use",
             None => "its range is none of integers",
             Some((first, last)) if last.saturating_sub(first) > sum::MOST_TERMS => {
