@@ -98,12 +98,8 @@ class Model:
     ) -> Run:
         """The motion from this momentum; ``time`` must be a whole number of the model's steps."""
         start = _momentum(momentum, "momentum", int(self._facts["dimension"]))
-        told = listener(progress, "following")
-        try:
+        with listener(progress, "following") as told:
             found = self._core.simulate(start, real(time, "time"), count(every, "every", 1), told)
-        finally:
-            if told is not None:
-                told.close()
         for said in found["warnings"]:
             warnings.warn(said, CoadjointWarning, stacklevel=2)
         return Run(found, self)
@@ -261,12 +257,8 @@ def learn(
         "evaluations": count(evaluations, "evaluations"),
         "drift_steps": count(drift_steps, "drift_steps"),
     }
-    told = listener(progress, "learning")
-    try:
+    with listener(progress, "learning") as told:
         found_text, summary = _core.learn(data, tested, settings, told)
-    finally:
-        if told is not None:
-            told.close()
     found = Model(found_text, "model", json.loads(summary))
     unused("data", others + found.summary.get("unused", []))
     dropped = found.summary.get("dropped") or []

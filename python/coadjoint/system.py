@@ -8,7 +8,7 @@ import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
 
 import numpy as np
 
@@ -240,6 +240,10 @@ class System:
     ) -> Run:
         """One trajectory from this momentum (n,) and group element (d, d), the identity if none is given.
 
+        The momentum is a list in the order of the coordinates, or a Series or dictionary by their names. The group
+        element is a matrix or, for rotations, a SciPy ``Rotation`` or a quaternion w, x, y, z. Quantities of astropy,
+        pint and unyt are converted to the system's ``units``, or refused.
+
         The run ends at ``time`` exactly; steps are of size ``step`` or a little less. ``tolerance`` picks the step (and
         the truncation, unless it is given) for this error at the end, along the run or for momenta up to the norm
         ``region``. Every ``every``-th step is recorded, or the times ``at`` (alone, if ``every`` is not given).
@@ -264,8 +268,7 @@ class System:
         times = None if at is None else np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
         if times is not None and (times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any()):
             raise InputError("at must be a list of times in the order of the run, each once: sort them")
-        told = listener(progress, "integrating")
-        try:
+        with listener(progress, "integrating") as told:
             found = self._core.simulate(
                 self._asked(time, step, tolerance, region, truncation),
                 momentum=start,
@@ -276,9 +279,6 @@ class System:
                 record=True,
                 progress=told,
             )
-        finally:
-            if told is not None:
-                told.close()
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         return Run(found, self)
@@ -299,7 +299,8 @@ class System:
         """Many trajectories: from states, a row each, to the states at the end.
 
         A row is a momentum, (N, n), or a momentum and the entries of the matrix g row by row, (N, n + d²), or, for
-        SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). The result has the same columns; rows that
+        SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). Data frames, dictionaries and other tables go by
+        the names of :meth:`layouts`, or of the coordinates, in any order. The result has the columns of an array; rows that
         cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. The bits depend
         neither on ``threads`` nor on ``backend``, nor on the other rows.
 
@@ -315,8 +316,7 @@ class System:
                 f"states must be a table with a row for each state; its shape is {rows.shape}: "
                 f"write states[np.newaxis] for a single one"
             )
-        told = listener(progress, "trajectories")
-        try:
+        with listener(progress, "trajectories") as told:
             array, failed, facts = self._core.ensemble(
                 rows,
                 self._asked(time, step, tolerance, region, truncation),
@@ -324,9 +324,6 @@ class System:
                 threads=None if threads is None else _arrays.count(threads, "threads", 1),
                 progress=told,
             )
-        finally:
-            if told is not None:
-                told.close()
         found = States._of(array, failed, facts)
         if failed:
             row, at, reason = failed[0]
@@ -556,16 +553,16 @@ class System:
         return system(self)
 
 
-class Law:
+class Law(NamedTuple):
     """A law of the method, and how well it holds."""
 
-    def __init__(self, name: str, statement: str, value: float, bound: float, holds: bool) -> None:
-        #: Its name, and what it says.
-        self.name, self.statement = name, statement
-        #: What was measured, and what it is compared with.
-        self.value, self.bound = value, bound
-        #: Whether it holds.
-        self.holds = holds
+    #: Its name, and what it says.
+    name: str
+    statement: str
+    #: What was measured, and what it is compared with.
+    value: float
+    bound: float
+    holds: bool
 
     def __repr__(self) -> str:
         verdict = "holds" if self.holds else "FAILS"

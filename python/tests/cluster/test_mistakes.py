@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import coadjoint
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -50,6 +51,7 @@ def test_files_that_hold_no_states(tmp_path):
         ("twice", pa.table([pa.array([1.0])] * 4, [*names, "mu_1"]), "column mu_1 is there twice"),
         ("part", pa.table({name: [1.0] for name in [*names, "q_w"]}), "column q_x is missing"),
         ("both", pa.table({name: [1.0] for name in [*names, "q_w", "g_11"]}), "g_11 and q_w both give the attitude"),
+        ("parameter", pa.table({name: [1.0] for name in [*names, "I1"]}), "column I1 is called as a parameter"),
         ("text", pa.table({"mu_1": ["1"], "mu_2": [1.0], "mu_3": [1.0]}), "column mu_1 is of the type string"),
         ("broken", b"PAR1 and no more", "broken.parquet: "),
         ("wide", four, "the array has 4 columns; this system needs 3 or 12 or 7"),
@@ -73,6 +75,16 @@ def test_files_that_hold_no_states(tmp_path):
         with pytest.raises(cluster.InputError, match=expected):
             run(path, tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_columns_go_by_name_and_unused_ones_are_told(tmp_path):
+    table = pa.table({"z": [1.0], "note": ["first"], "x": [2.0], "y": [0.5]})
+    pq.write_table(table, tmp_path / "own.parquet")
+    with pytest.warns(coadjoint.CoadjointWarning, match="states: nothing is done with the columns note"):
+        run(tmp_path / "own.parquet", tmp_path / "out")
+    end = pq.read_table(tmp_path / "out" / "part-00000.parquet")
+    expected = support.body().ensemble([[2, 0.5, 1]], **support.SCHEDULE)
+    np.testing.assert_array_equal(np.array([end[name].to_numpy() for name in "xyz"]).T, expected)
 
 
 def test_an_input_that_changes_on_the_way(serial, tmp_path):
