@@ -33,6 +33,7 @@ pub mod integrator;
 #[cfg(feature = "judge")]
 pub mod judge;
 pub mod lie;
+pub mod nearest;
 pub mod number;
 pub mod poly;
 pub mod potential;

@@ -4,14 +4,13 @@
 
 mod encoding;
 mod mistake;
-mod nearest;
 mod quote;
 mod render;
 mod span;
 
+pub use coadjoint_symbolic::nearest::nearest;
 pub use encoding::{check_table, read_text};
 pub use mistake::Mistake;
-pub use nearest::{distance, nearest};
 pub use quote::unclosed_quote;
 pub use span::Span;
 

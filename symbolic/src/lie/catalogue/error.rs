@@ -1,5 +1,7 @@
 //! Why a text names no group.
 
+use crate::nearest::nearest;
+
 /// Why a text names no group.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -55,29 +57,8 @@ fn did_you_mean(suggestion: &Option<String>) -> String {
 
 impl CatalogueError {
     pub(super) fn unknown(name: &str) -> Self {
-        let suggestion = super::names()
-            .iter()
-            .map(|known| (distance(&name.to_lowercase(), &known.to_lowercase()), *known))
-            .filter(|(distance, _)| *distance <= 2.min(name.chars().count().saturating_sub(1)))
-            .min()
-            .map(|(_, known)| known.to_owned());
+        let suggestion = nearest(name, super::names().iter().copied()).map(str::to_owned);
         let known = super::names().join(", ");
         Self::Unknown { name: name.to_owned(), suggestion, known }
     }
-}
-
-/// The edit distance (Levenshtein).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
