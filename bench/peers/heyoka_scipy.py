@@ -6,9 +6,9 @@
 
 Equations, initial states and references come from ../reference/end_states.json: y = (momentum, force, quaternion,
 position), the free bodies without force and position. An error is the largest difference of a component of the end
-state, twice that for the quaternion, and momenta and positions of the heavy top in units of 100, as in the Rust program.
+state, twice that for the quaternion (the Rust program compares rotation matrices), and momenta and positions of the heavy top in units of 100.
 Runs are interleaved over the tolerances; the figures are medians. `--ensemble` runs 4096 free bodies in heyoka's batch
-mode with batches of 8 (the states are those of the Rust program `ensemble`) and prints nanoseconds per trajectory and
+mode with batches of 8 and prints nanoseconds per trajectory and
 unit of time. Compile times of heyoka are not counted.
 """
 import argparse
@@ -144,7 +144,7 @@ def row(name, rows):
 
 
 def bodies(count):
-    """The states of the Rust program `ensemble`: SplitMix64 from seed 1, three numbers in [-1, 1) scaled to norm 1.5 to 3."""
+    """SplitMix64 from seed 1: three numbers in [-1, 1) scaled to norm 1.5 to 3."""
     state, mask = 1, (1 << 64) - 1
 
     def uniform():

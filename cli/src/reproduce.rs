@@ -34,7 +34,7 @@ pub struct ReproduceOptions {
     /// The system files of the page's gallery; with `all` those in examples, if there is such a folder
     #[arg(long, value_name = "DIR", requires = "html")]
     gallery: Option<PathBuf>,
-    /// Show what the benchmark wrote to this folder: work-precision --out DIR
+    /// Show what the benchmark wrote to this folder: coadjoint-bench work --out DIR
     #[arg(long, value_name = "DIR", requires = "html")]
     work_precision: Option<PathBuf>,
     /// How to print

@@ -76,7 +76,7 @@ fn what_cannot_be_made_is_refused_before_anything_is_run() {
         (vec![folder.path().to_str().unwrap()], "this is a folder"),
         (vec![&html, "--gallery", folder.path().to_str().unwrap()], "no file NAME.toml"),
         (vec![&html, "--gallery", "missing"], "cannot read missing"),
-        (vec![&html, "--work-precision", folder.path().to_str().unwrap()], "work-precision --out"),
+        (vec![&html, "--work-precision", folder.path().to_str().unwrap()], "work --out"),
     ] {
         let (code, out, said) = run(&[&page[..], &more].concat());
         assert_eq!(code, 2, "{said}");

@@ -1,4 +1,4 @@
-//! What the benchmark `work-precision` measured: its JSON files, read and drawn.
+//! What the benchmark `work` measured: its JSON files, read and drawn.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub enum BenchmarkError {
         source: std::io::Error,
     },
     /// A file that is not the benchmark's.
-    #[error("{}: {source}; the files are written by `work-precision --out DIR`", path.display())]
+    #[error("{}: {source}; the files are written by `coadjoint-bench work --out DIR`", path.display())]
     Format {
         /// Which.
         path: PathBuf,
@@ -28,7 +28,7 @@ pub enum BenchmarkError {
         source: serde_json::Error,
     },
     /// A folder without such files.
-    #[error("{}: no file NAME.json in it; they are written by `work-precision --out DIR`", path.display())]
+    #[error("{}: no file NAME.json in it; they are written by `coadjoint-bench work --out DIR`", path.display())]
     Empty {
         /// The folder.
         path: PathBuf,
@@ -107,7 +107,7 @@ pub fn section(benchmarks: &[Benchmark]) -> Option<Section> {
         title: "Work against precision, timed".to_owned(),
         settings: vec![first.machine.processor.clone(), "one core".to_owned()],
         shows: "Nanoseconds of one core per unit of time for an error at the end, ours beside other methods, as \
-            the program work-precision measured it. Of each family only points that no other of its points beats are drawn; of \
+            the benchmark measured it. Of each family only points that no other of its points beats are drawn; of \
             the families those eight that are cheapest."
             .to_owned(),
         out: "Lower and further left is better; the table has all families.".to_owned(),

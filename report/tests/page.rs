@@ -210,7 +210,7 @@ fn texts_of_panels_do_not_overlap() {
 fn a_folder_without_the_benchmarks_files_is_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let error = read_benchmarks(&folder).unwrap_err().to_string();
-    assert!(error.contains("work-precision --out"), "{error}");
+    assert!(error.contains("work --out"), "{error}");
     let missing = read_benchmarks(&folder.join("none")).unwrap_err().to_string();
     assert!(missing.contains("cannot read"), "{missing}");
 }

@@ -1,0 +1,144 @@
+//! The cheapest time for an error: ours and the peers on problems with converged references.
+
+mod dop853;
+mod exact;
+mod moser_veselov;
+mod ours;
+mod problem;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::timing::{Failure, Machine, figure};
+use problem::{Problem, State};
+use sweep::Measurement;
+
+/// A method for one problem.
+pub struct Method {
+    /// Its name, unique among the methods.
+    pub name: String,
+    /// The name under which its kin are drawn as one curve.
+    pub family: &'static str,
+    /// The order of accuracy, where it has one and takes a fixed step.
+    pub order: Option<u32>,
+    /// Steps, or tolerances, from the cheapest to the most accurate.
+    pub settings: Vec<f64>,
+    run: fn(&Problem, f64) -> Result<State, Failure>,
+}
+
+impl Method {
+    /// A method of fixed steps about a time scale.
+    pub fn stepping(
+        name: String,
+        family: &'static str,
+        order: u32,
+        scale: f64,
+        run: fn(&Problem, f64) -> Result<State, Failure>,
+    ) -> Self {
+        // Finer than the differences that count, or luck would decide them.
+        let step = |k| scale * 2f64.powf(-f64::from(k) / 8.0);
+        let settings = (-16..88).map(step).collect();
+        Self { name, family, order: Some(order), settings, run }
+    }
+
+    /// Runs it from the start to the end of the problem.
+    ///
+    /// # Errors
+    /// Where a step is refused or does not converge.
+    pub fn run(&self, problem: &Problem, setting: f64) -> Result<State, Failure> {
+        (self.run)(problem, setting)
+    }
+}
+
+/// The number of equal steps of about this length over [0, end], and their length.
+pub fn equal_steps(step: f64, end: f64) -> (u64, f64) {
+    let count = (end / step).round().max(1.0);
+    (count as u64, end / count)
+}
+
+/// Every method for a problem.
+pub fn methods(problem: &Problem) -> Vec<Method> {
+    let mut methods = ours::methods(problem);
+    methods.extend(dop853::method());
+    methods.extend(moser_veselov::method(problem));
+    methods.extend(exact::method(problem));
+    methods
+}
+
+/// Everything measured on one problem, as `reproduce --work-precision` reads it.
+#[derive(serde::Serialize)]
+struct Report<'a> {
+    problem: &'a str,
+    title: &'a str,
+    end: f64,
+    machine: Machine,
+    measurements: Vec<Measurement>,
+}
+
+/// Errors that a table has a column for.
+const TARGETS: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+
+/// Measures every problem whose name contains `only` and prints its table; writes them where a folder is given.
+///
+/// # Errors
+/// Where a reference or a folder cannot be had.
+pub fn tables(quick: bool, only: &str, method: &str, out: Option<&Path>) -> Result<(), Failure> {
+    let mut all = String::new();
+    if let Some(folder) = out {
+        std::fs::create_dir_all(folder)?;
+    }
+    for problem in problem::all()?.iter().filter(|problem| problem.name.contains(only)) {
+        let mut methods = methods(problem);
+        methods.retain(|one| one.name.contains(method));
+        let measurements = sweep::measure(problem, &methods, quick);
+        let (title, end) = (problem.title, problem.end);
+        let text = format!("## {title}, T = {end}\n\n{}", table(&measurements));
+        println!("{text}");
+        if let Some(folder) = out {
+            let (problem, machine) = (problem.name.as_str(), Machine::here());
+            let report = Report { problem, title, end, machine, measurements };
+            let json = serde_json::to_string_pretty(&report)?;
+            std::fs::write(folder.join(format!("{problem}.json")), json)?;
+        }
+        all.push_str(&text);
+        all.push('\n');
+    }
+    if let Some(folder) = out {
+        std::fs::write(folder.join("work.md"), all)?;
+    }
+    Ok(())
+}
+
+/// Nanoseconds of one core per unit of time for each method at each error; the cheapest of a column is bold.
+fn table(measurements: &[Measurement]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for one in measurements {
+        if !names.contains(&one.method.as_str()) {
+            names.push(&one.method);
+        }
+    }
+    let cheapest = |name: Option<&str>, target: f64| {
+        let reached = measurements.iter().filter(|m| m.error <= target);
+        let own = reached.filter(|m| name.is_none_or(|name| m.method == name));
+        own.map(|m| m.nanoseconds).min_by(f64::total_cmp)
+    };
+    let heads: Vec<String> = TARGETS.iter().map(|target| format!("{target:.0e}")).collect();
+    let mut text = format!("| error at most | {} |\n|---|", heads.join(" | "));
+    text.push_str(&"---:|".repeat(TARGETS.len()));
+    for name in names {
+        let _ = write!(text, "\n| {name} |");
+        for target in TARGETS {
+            let best = cheapest(None, target);
+            let _ = match cheapest(Some(name), target) {
+                Some(own) if Some(own) == best => write!(text, " **{}** |", figure(own)),
+                Some(own) => write!(text, " {} |", figure(own)),
+                None => write!(text, " – |"),
+            };
+        }
+    }
+    text.push('\n');
+    text
+}
