@@ -1,7 +1,6 @@
 //! The command line itself.
 
-use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
@@ -14,7 +13,6 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::backend::BackendName;
 use crate::ensemble::{PrecisionName, Shard};
-use crate::error::CliError;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::reproduce::ReproduceOptions;
@@ -77,7 +75,7 @@ pub enum Verb {
     Learn(LearnOptions),
     /// Find the Poisson map nearest to a method that is none, or to pairs of momenta made by one
     Geometrize(GeometrizeOptions),
-    /// Run the experiments of the paper and print its figures beside ours
+    /// Name the program that runs the experiments of the paper
     Reproduce(ReproduceOptions),
 }
 
@@ -343,24 +341,6 @@ pub struct SimulateOptions {
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-}
-
-impl SimulateOptions {
-    /// Those of a run as the file says, of which a picture is made.
-    ///
-    /// # Errors
-    /// Where the name of the file cannot be an argument.
-    pub fn drawn(file: &Path) -> Result<Self, CliError> {
-        #[derive(Parser)]
-        struct Whole {
-            #[command(flatten)]
-            options: SimulateOptions,
-        }
-        let words = ["simulate", "--plot", "picture.svg", "--"].map(OsString::from);
-        let words = words.into_iter().chain([file.as_os_str().to_owned()]);
-        let whole = Whole::try_parse_from(words);
-        whole.map(|whole| whole.options).map_err(|error| CliError::Option(error.to_string()))
-    }
 }
 
 /// Options of `ensemble`.

@@ -79,14 +79,13 @@ chapters! {
     chart_and_step: 2;
     gyrostat: 6;
     simulate: 2;
-    faster: 2;
+    faster: 1;
     forces: 1;
     ensembles: 2;
     cluster: 2;
     learning: 5;
     targets: 2;
     guarantee: 3;
-    reproduce: 1;
 }
 
 /// Every block of the manual is run by something. What `text` blocks are is listed here: those that no test of this
@@ -103,7 +102,7 @@ fn every_block_is_run() {
         "cargo install --locked --path cli\n",
         "cargo run --release -p coadjoint-tests --bin stress\n",
         "pip install ./python\n",
-        "coadjoint reproduce all --quick --html report.html ",
+        "cargo run --release -p coadjoint-paper -- all --quick --html report.html ",
         // Needs a cluster, or is a message that a test of the package looks for.
         "sbatch examples/cluster/slurm.sh ",
         "ManifestError: ",

@@ -1,4 +1,4 @@
-//! `learn`, `simulate --model`, `emit --model`, `geometrize` and `reproduce`.
+//! `learn`, `simulate --model`, `emit --model`, `geometrize`, and where `reproduce` has gone.
 #![allow(clippy::unwrap_used)]
 
 use assert_cmd::Command;
@@ -76,20 +76,17 @@ fn bad_data_and_models_exit_with_two() {
     let run = coadjoint().args(relu).assert().code(2);
     let message = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
     assert!(message.contains("piecewise constant"), "{message}");
-    coadjoint().args(["reproduce", "table-3"]).assert().code(2);
 }
 
 #[test]
-fn reproduce_prints_tables_and_writes_curves() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = coadjoint()
-        .args(["reproduce", "reduction-error", "--quick", "--format", "json", "--out"])
-        .arg(folder.path())
-        .assert()
-        .success();
-    let reports: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
-    assert_eq!(reports[0]["name"], "reduction-error");
-    assert!(folder.path().join("reduction-error.csv").exists());
+fn reproduce_names_the_program_that_has_its_place() {
+    for arguments in [&["reproduce"][..], &["reproduce", "all", "--quick", "--html", "report.html"]]
+    {
+        let run = coadjoint().args(arguments).assert().code(2);
+        let message = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        let command = "cargo run --release -p coadjoint-paper -- all --quick --html report.html";
+        assert!(message.contains(command), "{message}");
+    }
 }
 
 /// Forward Euler on a system file, geometrized: the Casimir stays, and the model says it is one of

@@ -41,11 +41,9 @@ pub mod data;
 mod emit;
 mod error;
 mod evaluate;
-pub mod experiment;
 mod function;
 mod gaussian_process;
 mod group;
-mod hamilton_jacobi;
 mod hamiltonian;
 mod hybrid;
 mod least_squares;
@@ -55,11 +53,9 @@ pub mod network;
 mod npy;
 pub mod polynomial;
 mod save;
-mod series;
 mod session;
 mod trivialisation;
 pub mod truth;
-mod type_two;
 
 pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
@@ -69,16 +65,13 @@ pub use gaussian_process::{
     GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
 };
 pub use group::{DataGroup, matrix_of};
-pub use hamilton_jacobi::{CollocationOptions, TimeDependent, solve_hamilton_jacobi};
 pub use hamiltonian::fit_hamiltonian;
 pub use hybrid::{fit_hybrid, fit_hybrid_to_gradients};
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
 pub use npy::{NpyError, NpyHeader, npy_header};
 pub use save::{ModelFile, TrainingRecord};
-pub use series::Monomials;
 pub use session::{
     Kind, NetworkSettings, Request, Summary, learn, learn_columns, learn_momenta,
     remove_checkpoints,
 };
-pub use type_two::{TypeTwo, TypeTwoData, canonical_pairs, type_two_data};

@@ -28,7 +28,7 @@ const LAYERS: [&str; 16] = [
 /// The crates, the lowest first.
 const CRATES: [&str; 12] = [
     "draw", "program", "native", "device", "symbolic", "codegen", "macros", "runtime", "learn",
-    "report", "run", "cli",
+    "run", "cli", "paper",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

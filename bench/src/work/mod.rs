@@ -68,7 +68,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
     methods
 }
 
-/// Everything measured on one problem, as `reproduce --work-precision` reads it.
+/// Everything measured on one problem, as `work --out DIR` writes it.
 #[derive(serde::Serialize)]
 struct Report<'a> {
     problem: &'a str,

@@ -18,7 +18,6 @@ mod trajectory;
 use std::path::Path;
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
-use coadjoint_draw::run::Picture;
 use coadjoint_run::simulate::{Outlet, Schedule};
 use coadjoint_run::{Derived, text_hash};
 
@@ -43,13 +42,6 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     }
     print(&runs, &units, options, out.as_ref());
     Ok(())
-}
-
-/// What is drawn of a system that is run as its file says.
-pub fn pictured(file: &Path) -> Result<Picture, CliError> {
-    let options = SimulateOptions::drawn(file)?;
-    let Runs { runs, heading, .. } = runs(&options, None)?;
-    Ok(plot::picture(&heading, &runs))
 }
 
 /// The runs asked for.

@@ -5,8 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of crates that are published.
-const PUBLISHED: [&str; 8] =
-    ["draw", "codegen", "macros", "runtime", "learn", "report", "run", "cli"];
+const PUBLISHED: [&str; 7] = ["draw", "codegen", "macros", "runtime", "learn", "run", "cli"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

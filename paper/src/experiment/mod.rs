@@ -1,0 +1,108 @@
+//! The experiments by name: each fills in a report.
+
+mod geometrize;
+mod hamilton_jacobi;
+mod hamiltonian;
+mod harder;
+mod learned;
+mod models;
+mod noise;
+mod orders;
+mod reduction_error;
+mod simulation;
+mod table_one;
+mod table_two;
+mod type_two;
+mod work;
+
+use std::path::PathBuf;
+
+use crate::outcome::{Fallible, Report};
+
+/// How to run experiments.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Fewer samples and steps, smaller networks.
+    pub quick: bool,
+    /// The seed everything follows from.
+    pub seed: u64,
+    /// Where outcomes and the state of training are kept.
+    pub out: Option<PathBuf>,
+}
+
+impl Options {
+    /// An empty report.
+    fn report(&self, name: &str) -> Report {
+        Report { name: name.into(), quick: self.quick, seed: self.seed, ..Report::default() }
+    }
+
+    /// A seed of its own for every use.
+    fn seed(&self, number: u64) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(number)
+    }
+
+    /// `full`, or `quick` in the short version.
+    fn pick<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
+    }
+}
+
+type Run = fn(&Options) -> Fallible<Report>;
+
+/// The experiments, in the order in which `all` runs them.
+pub const EXPERIMENTS: [(&str, Run); 12] = [
+    ("simulation", simulation::run),
+    ("orders", orders::run),
+    ("work", work::run),
+    ("table-2", table_two::run),
+    ("hamiltonian", hamiltonian::run),
+    ("geometrize", geometrize::run),
+    ("hamilton-jacobi", hamilton_jacobi::run),
+    ("reduction-error", reduction_error::run),
+    ("learned", learned::run),
+    ("noise", noise::run),
+    ("table-1", table_one::run),
+    ("harder-truths", harder::run),
+];
+
+/// The ending of the state of an unfinished training.
+const CHECKPOINT: &str = "checkpoint";
+
+/// Runs the experiment `name`, or `all` in turn. With a folder to write to, an interrupted run goes on where it stopped:
+/// `all` reads back the experiments that are done, and networks of tables go on from their last checkpoint.
+pub fn run(name: &str, options: &Options) -> Fallible<Vec<Report>> {
+    let chosen: Vec<_> = EXPERIMENTS.iter().filter(|one| name == "all" || one.0 == name).collect();
+    if chosen.is_empty() {
+        let names = EXPERIMENTS.map(|one| one.0).join(", ");
+        return Err(format!("there is no experiment {name}: use one of {names}, or all").into());
+    }
+    if let Some(folder) = &options.out {
+        let failed = |e| format!("cannot make the folder {}: {e}", folder.display());
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    let mut reports = Vec::new();
+    for (number, (own, run)) in chosen.iter().enumerate() {
+        let turn = format!("{} of {}: {own}", number + 1, chosen.len());
+        let folder = options.out.as_deref();
+        let done = folder.filter(|_| name == "all");
+        let done = done.and_then(|folder| Report::read(folder, own, options.quick, options.seed));
+        if let Some(report) = done {
+            eprintln!("{turn}: done already");
+            reports.push(report);
+            continue;
+        }
+        eprintln!("{turn} …");
+        let report = run(options)?;
+        if let Some(folder) = folder {
+            report.write(folder)?;
+            for file in crate::outcome::files(folder, CHECKPOINT)? {
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                if name.strip_prefix(own).is_some_and(|rest| rest.starts_with('.')) {
+                    std::fs::remove_file(&file)?;
+                }
+            }
+        }
+        reports.push(report);
+    }
+    Ok(reports)
+}

@@ -1,0 +1,98 @@
+//! The words of the page, from `figures.toml`: what the paper shows, what came out, and what must hold.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use crate::outcome::{Report, brief, shown};
+use crate::plot::Group;
+
+/// A figure or a table in words. In `settings` and `out` numbers are filled in: see [`fill`].
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Figure {
+    pub id: String,
+    /// The experiment that it shows.
+    pub experiment: String,
+    pub title: String,
+    /// Whether it is ours and not the paper's.
+    pub ours: bool,
+    pub settings: Vec<String>,
+    pub shows: String,
+    /// What the paper leaves open, and what stands in its place.
+    pub silent: String,
+    /// What came out.
+    pub out: String,
+    /// Which of the experiment's tables are shown, from and to; all if not given.
+    pub tables: Option<[usize; 2]>,
+    pub judged: Vec<Judged>,
+    /// What is drawn.
+    pub group: Vec<Group>,
+}
+
+/// A number that judges: what it is, and its bounds.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Judged {
+    pub what: String,
+    pub at_most: Option<f64>,
+    pub at_least: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Texts {
+    notes: std::collections::BTreeMap<String, Vec<String>>,
+    figure: Vec<Figure>,
+}
+
+#[expect(clippy::expect_used, reason = "the file is part of the program; a test reads it")]
+static TEXTS: LazyLock<Texts> =
+    LazyLock::new(|| toml::from_str(include_str!("../figures.toml")).expect("figures.toml"));
+
+/// All figures, in the order of the page.
+pub fn figures() -> &'static [Figure] {
+    &TEXTS.figure
+}
+
+/// The figure of this identifier.
+#[expect(clippy::expect_used, reason = "identifiers are constants of this program")]
+pub fn figure(id: &str) -> &'static Figure {
+    figures().iter().find(|figure| figure.id == id).expect(id)
+}
+
+/// What is to be known of the numbers of an experiment.
+pub fn notes(experiment: &str) -> &'static [String] {
+    TEXTS.notes.get(experiment).map_or(&[], Vec::as_slice)
+}
+
+/// Fills in the numbers of a report: `{row|column}` is a cell of the first table, `{title|row|column}` of the table whose
+/// title begins so (of the first if there is none), `{max curve column}` the largest size in a column of a curve,
+/// `{last curve column}` its last value.
+pub fn fill(text: &str, report: &Report) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        let (key, after) = after.split_once('}').unwrap_or((after, ""));
+        out.push_str(before);
+        out.push_str(&value(key, report).unwrap_or_else(|| "–".into()));
+        rest = after;
+    }
+    out + rest
+}
+
+fn value(key: &str, report: &Report) -> Option<String> {
+    let parts: Vec<&str> = key.split('|').collect();
+    if let [row, column] | [_, row, column] = parts[..] {
+        let wanted = if parts.len() == 3 { parts[0] } else { "" };
+        let table = report.tables.iter().find(|table| table.title.starts_with(wanted));
+        let cell = table.or(report.tables.first())?.cell(row, column.parse().ok()?);
+        return cell.map(shown);
+    }
+    let [what, curve, column] = key.split(' ').collect::<Vec<_>>()[..] else { return None };
+    let values = report.curve(curve).column(column);
+    match what {
+        "max" => Some(brief(values.iter().map(|v| v.abs()).fold(0.0, f64::max))),
+        _ => values.last().map(f64::to_string),
+    }
+}
