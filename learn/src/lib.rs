@@ -31,7 +31,7 @@
 //!
 //! # Features
 //!
-//! `parquet` (reads and writes `.parquet`), `neural` (latent momenta, by the crate burn).
+//! `parquet` (reads and writes `.parquet`).
 //!
 //! Source: M. Vaquero, J. Cortés, D. Martín de Diego, *Symmetry Preservation in Hamiltonian
 //! Systems: Simulation and Learning*, sections 5.2–5.4 and conclusions.

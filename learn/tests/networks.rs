@@ -50,34 +50,6 @@ fn the_same_seed_gives_the_same_bits() {
     assert_ne!(once, fit_network(&train, &other, &mut |_| {}).unwrap());
 }
 
-/// Latent momenta and a network for them learn a Poisson map; the trivial answer is μ″ = μ′.
-#[cfg(feature = "neural")]
-#[test]
-fn latent_momenta_and_a_network_for_them_learn_a_poisson_map() {
-    use coadjoint::Exponential;
-    use coadjoint_learn::evaluate_momenta;
-    use coadjoint_learn::network::{LatentOptions, MomentumModel, fit_latent};
-    use coadjoint_learn::truth::{exact_momentum_flow, momentum_pairs};
-    let group = SO3::new();
-    let flow = |seed, count| {
-        momentum_pairs(&group, MomentumBox::UNIT, count, seed, |mu| {
-            exact_momentum_flow(&group, &Quadratic::paper(), mu, 0.5)
-        })
-    };
-    let (train, test) = (flow(1, 50), flow(2, 50));
-    let trivial = (&test.before - &test.after).norm_squared() / test.before.len() as f64;
-    for momenta in [MomentumModel::Latent, MomentumModel::Network(vec![16])] {
-        let options = LatentOptions {
-            training: TrainingOptions { widths: vec![20, 10], ..small() },
-            momenta,
-        };
-        let fit = fit_latent(&group, &train, &options, &mut |_| {}).unwrap();
-        let map = Generating::<_, Exponential, _>::new(group, &fit.network);
-        let found = evaluate_momenta(&map, &test);
-        assert!(found.mse.momentum.unwrap() < 0.05 * trivial, "{found:?} {trivial:e}");
-    }
-}
-
 /// A training interrupted in the middle of Adam ends with the bits of one that was not. (The same
 /// for a killed process: `cli/tests/resume.rs`.)
 #[test]

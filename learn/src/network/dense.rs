@@ -1,9 +1,9 @@
 //! A dense network as a function of momenta, with exact gradient and Hessian.
 
+use nalgebra::{DMatrix, DMatrixView, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::activation::Activation;
-use super::row::dot;
 use crate::function::MomentumFunction;
 use crate::polynomial::Scaling;
 
@@ -25,29 +25,10 @@ impl Layer {
         self.biases.len()
     }
 
-    fn row(&self, output: usize) -> &[f64] {
-        &self.weights[output * self.inputs..(output + 1) * self.inputs]
+    /// Wᵀ, of which a column is a row of W.
+    fn transpose(&self) -> DMatrixView<'_, f64> {
+        DMatrixView::from_slice(&self.weights, self.inputs, self.outputs())
     }
-
-    /// W a.
-    fn apply(&self, a: &[f64]) -> Vec<f64> {
-        (0..self.outputs()).map(|o| dot(self.row(o), a)).collect()
-    }
-
-    /// Wᵀ b.
-    fn apply_transpose(&self, b: &[f64]) -> Vec<f64> {
-        let mut result = vec![0.0; self.inputs];
-        for (o, factor) in b.iter().enumerate() {
-            for (entry, w) in result.iter_mut().zip(self.row(o)) {
-                *entry += factor * w;
-            }
-        }
-        result
-    }
-}
-
-fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(x, y)| x * y).collect()
 }
 
 /// S(p) = mean·p + scale · N(u), u the normalised momenta, N hidden layers of one activation and
@@ -79,35 +60,36 @@ impl TryFrom<Stored> for DenseNetwork {
     type Error = String;
 
     fn try_from(stored: Stored) -> Result<Self, String> {
-        let dim = stored.scaling.centre.len();
+        let Stored { scaling, mean, scale, hidden, output, .. } = &stored;
+        let dim = scaling.centre.len();
         let mut width = dim;
-        if dim == 0 || stored.scaling.half_width.len() != dim || stored.mean.len() != dim {
+        if dim == 0 || scaling.half_width.len() != dim || mean.len() != dim {
             return Err("centre, half_width and mean must be n > 0 numbers each".into());
         }
-        for (number, layer) in stored.hidden.iter().enumerate() {
+        for (number, layer) in hidden.iter().enumerate() {
             if layer.inputs != width || layer.weights.len() != width * layer.outputs() {
                 return Err(format!("layer {} must take {width} inputs", number + 1));
             }
             width = layer.outputs();
         }
-        if stored.output.len() != width {
+        if output.len() != width {
             return Err(format!("the last layer must have {width} weights"));
         }
-        let numbers = stored
-            .hidden
-            .iter()
-            .flat_map(|l| l.weights.iter().chain(&l.biases))
-            .chain(&stored.output)
-            .chain(&stored.mean)
-            .chain(&stored.scaling.centre)
-            .chain([&stored.scale]);
-        if !numbers.into_iter().all(|v| v.is_finite())
-            || !stored.scaling.half_width.iter().all(|w| w.is_finite() && *w > 0.0)
-        {
+        let layers = hidden.iter().flat_map(|l| l.weights.iter().chain(&l.biases));
+        let numbers = layers.chain(output).chain(mean).chain(&scaling.centre).chain([scale]);
+        let finite = numbers.into_iter().all(|v| v.is_finite());
+        if !finite || !scaling.half_width.iter().all(|w| w.is_finite() && *w > 0.0) {
             return Err("weights and scaling must be finite, half widths positive".into());
         }
         Ok(Self { stored })
     }
+}
+
+/// A layer's a = σ(z), with σ′ and σ″ there.
+struct State {
+    value: DVector<f64>,
+    slope: DVector<f64>,
+    bend: DVector<f64>,
 }
 
 impl DenseNetwork {
@@ -132,37 +114,41 @@ impl DenseNetwork {
         self.stored.hidden.iter().map(Layer::outputs).collect()
     }
 
-    fn normalise(&self, p: &[f64]) -> Vec<f64> {
-        p.iter().enumerate().map(|(i, &v)| self.stored.scaling.normalise(i, v)).collect()
+    fn normalise(&self, p: &[f64]) -> DVector<f64> {
+        DVector::from_fn(p.len(), |i, _| self.stored.scaling.normalise(i, p[i]))
     }
 
-    /// Per hidden layer σ, σ′, σ″ at its inputs.
-    fn forward(&self, u: Vec<f64>) -> Vec<[Vec<f64>; 3]> {
-        let mut layers: Vec<[Vec<f64>; 3]> = Vec::with_capacity(self.stored.hidden.len());
+    fn forward(&self, p: &[f64]) -> Vec<State> {
+        let mut input = self.normalise(p);
+        let mut states = Vec::with_capacity(self.stored.hidden.len());
         for layer in &self.stored.hidden {
-            let input = layers.last().map_or(&u, |[a, _, _]| a);
-            let z = layer.apply(input);
-            let mut state: [Vec<f64>; 3] = Default::default();
-            for (z, b) in z.iter().zip(&layer.biases) {
-                let (a, slope, bend) = self.stored.activation.derivatives(z + b);
-                state[0].push(a);
-                state[1].push(slope);
-                state[2].push(bend);
-            }
-            layers.push(state);
+            let z = layer.transpose().tr_mul(&input) + DVector::from_column_slice(&layer.biases);
+            let value = z.map(|z| self.stored.activation.value(z));
+            let slope = value.map(|a| self.stored.activation.slope(a));
+            let bend = value.map(|a| self.stored.activation.bend(a));
+            input.clone_from(&value);
+            states.push(State { value, slope, bend });
         }
-        layers
+        states
     }
 
     /// ∂N/∂a for the outputs a of every hidden layer, and ∂N/∂u first.
-    fn backward(&self, layers: &[[Vec<f64>; 3]]) -> Vec<Vec<f64>> {
-        let mut slopes = vec![self.stored.output.clone()];
-        for (layer, state) in self.stored.hidden.iter().zip(layers).rev() {
+    fn backward(&self, states: &[State]) -> Vec<DVector<f64>> {
+        let mut slopes = vec![DVector::from_column_slice(&self.stored.output)];
+        for (layer, state) in self.stored.hidden.iter().zip(states).rev() {
             let above = &slopes[slopes.len() - 1];
-            slopes.push(layer.apply_transpose(&times(&state[1], above)));
+            slopes.push(layer.transpose() * above.component_mul(&state.slope));
         }
         slopes.reverse();
         slopes
+    }
+
+    /// Writes ∂S/∂p, from ∂N/∂u.
+    fn scaled(&self, slope: &DVector<f64>, gradient: &mut [f64]) {
+        for (i, entry) in gradient.iter_mut().enumerate() {
+            let factor = self.stored.scale / self.stored.scaling.half_width[i];
+            *entry = self.stored.mean[i] + factor * slope[i];
+        }
     }
 }
 
@@ -172,58 +158,43 @@ impl MomentumFunction for DenseNetwork {
     }
 
     fn value(&self, p: &[f64]) -> f64 {
-        let u = self.normalise(p);
-        let layers = self.forward(u.clone());
-        let last = layers.last().map_or(&u, |[a, _, _]| a);
-        dot(&self.stored.mean, p) + self.stored.scale * dot(&self.stored.output, last)
+        let last = self.forward(p).pop().map_or_else(|| self.normalise(p), |state| state.value);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let Stored { mean, scale, output, .. } = &self.stored;
+        dot(mean, p) + scale * dot(output, last.as_slice())
     }
 
     fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
-        let layers = self.forward(self.normalise(p));
-        let slopes = self.backward(&layers);
-        for (i, entry) in gradient.iter_mut().enumerate() {
-            let factor = self.stored.scale / self.stored.scaling.half_width[i];
-            *entry = self.stored.mean[i] + factor * slopes[0][i];
-        }
+        self.scaled(&self.backward(&self.forward(p))[0], gradient);
     }
 
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         let dim = self.dim();
-        let layers = self.forward(self.normalise(p));
-        let slopes = self.backward(&layers);
+        let states = self.forward(p);
+        let slopes = self.backward(&states);
+        self.scaled(&slopes[0], gradient);
+        let times = |m: DMatrix<f64>, factors: &DVector<f64>| {
+            DMatrix::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)] * factors[i])
+        };
+        // The tangents of the forward pass along every u_j, then of the backward pass.
+        let mut tangent = DMatrix::identity(dim, dim);
+        let mut moved = Vec::with_capacity(states.len());
+        for (layer, state) in self.stored.hidden.iter().zip(&states) {
+            let z = layer.transpose().tr_mul(&tangent);
+            tangent = times(z.clone(), &state.slope);
+            moved.push(z);
+        }
+        let mut change = DMatrix::zeros(self.stored.output.len(), dim);
+        for (k, layer) in self.stored.hidden.iter().enumerate().rev() {
+            let bent = times(moved[k].clone(), &states[k].bend.component_mul(&slopes[k + 1]));
+            change = layer.transpose() * (times(change, &states[k].slope) + bent);
+        }
         let width = &self.stored.scaling.half_width;
-        for (i, entry) in gradient.iter_mut().enumerate() {
-            *entry = self.stored.mean[i] + self.stored.scale / width[i] * slopes[0][i];
-        }
-        for j in 0..dim {
-            // The tangent of the forward pass along u_j, then of the backward pass.
-            let mut tangents: Vec<Vec<f64>> = Vec::with_capacity(layers.len());
-            let mut tangent = vec![0.0; dim];
-            tangent[j] = 1.0;
-            for (layer, state) in self.stored.hidden.iter().zip(&layers) {
-                let moved = layer.apply(&tangent);
-                tangent = times(&state[1], &moved);
-                tangents.push(moved);
-            }
-            let mut change = vec![0.0; self.stored.output.len()];
-            for (k, layer) in self.stored.hidden.iter().enumerate().rev() {
-                let [_, slope, bend] = &layers[k];
-                let above = &slopes[k + 1];
-                let inner: Vec<f64> = (0..layer.outputs())
-                    .map(|o| slope[o] * change[o] + bend[o] * tangents[k][o] * above[o])
-                    .collect();
-                change = layer.apply_transpose(&inner);
-            }
-            for i in 0..dim {
-                hessian[i * dim + j] = self.stored.scale / (width[i] * width[j]) * change[i];
-            }
-        }
-        // Symmetric up to rounding; make it so exactly.
         for i in 0..dim {
-            for j in 0..i {
-                let mean = 0.5 * (hessian[i * dim + j] + hessian[j * dim + i]);
-                hessian[i * dim + j] = mean;
-                hessian[j * dim + i] = mean;
+            for j in 0..dim {
+                // Symmetric up to rounding; made so exactly.
+                let mean = 0.5 * (change[(i, j)] + change[(j, i)]);
+                hessian[i * dim + j] = self.stored.scale / (width[i] * width[j]) * mean;
             }
         }
     }
@@ -270,11 +241,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn relu_is_refused_with_the_reason() {
-        let message = "ReLU".parse::<Activation>().unwrap_err().to_string();
-        assert!(message.contains("piecewise constant"), "{message}");
     }
 }

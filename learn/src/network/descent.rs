@@ -1,0 +1,366 @@
+//! What lowers a loss: Adam with a schedule, then L-BFGS, with checkpoints.
+//!
+//! D. Kingma and J. Ba, *Adam: a method for stochastic optimization* (2015), with its usual
+//! constants; J. Nocedal and S. Wright, *Numerical Optimization*, 2nd edition, algorithms 7.4, 3.5
+//! and 3.6. No threshold is absolute, so losses of any scale are lowered as far as rounding lets
+//! them.
+
+use std::collections::VecDeque;
+
+use nalgebra::DVector;
+
+use super::checkpoint::{Stage, State};
+use super::train::{Progress, TrainingOptions};
+use crate::error::LearnError;
+
+/// Steps of Adam between two looks at the validation data.
+const WATCH: usize = 10;
+/// Steps of Adam between two checkpoints.
+const SAVE: usize = 50;
+/// Evaluations by L-BFGS between two checkpoints, which hold its whole memory: twenty rows of
+/// unknowns.
+const SAVE_MEMORY: usize = 200;
+/// Pairs of differences kept.
+const MEMORY: usize = 10;
+/// The strong Wolfe conditions: sufficient decrease and sufficient flattening.
+const WOLFE: (f64, f64) = (1e-4, 0.9);
+/// The most evaluations of one line search.
+const SEARCH: usize = 20;
+
+/// A loss and its gradient.
+pub(super) type Evaluate<'a> = dyn FnMut(&[f64]) -> Result<(f64, Vec<f64>), LearnError> + 'a;
+/// A loss on data that are watched, not fitted.
+pub(super) type Watch<'a> = dyn Fn(&[f64]) -> f64 + 'a;
+
+/// Where a descent stands: the best weights found with their loss and gradient, the last steps and
+/// changes of the gradient, the latest last, and whether no step could be found that lowers the loss.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Descent {
+    pub(super) weights: DVector<f64>,
+    pub(super) loss: f64,
+    pub(super) gradient: DVector<f64>,
+    pub(super) pairs: VecDeque<[DVector<f64>; 2]>,
+    pub(super) stuck: bool,
+}
+
+/// A point of a line that has been looked at: its step, loss, slope and gradient.
+struct Point {
+    step: f64,
+    loss: f64,
+    slope: f64,
+    gradient: DVector<f64>,
+}
+
+impl Descent {
+    /// Begins at `weights`, by one evaluation.
+    fn begin(weights: Vec<f64>, evaluate: &mut Evaluate<'_>) -> Result<Self, LearnError> {
+        let (loss, gradient) = evaluate(&weights)?;
+        let (weights, gradient) = (DVector::from_vec(weights), DVector::from_vec(gradient));
+        Ok(Self { weights, loss, gradient, pairs: VecDeque::new(), stuck: false })
+    }
+
+    /// Searches along one direction, by at most `left` evaluations.
+    fn advance(&mut self, left: &mut usize, evaluate: &mut Evaluate<'_>) -> Result<(), LearnError> {
+        let mut direction = self.newton_like();
+        let mut slope = direction.dot(&self.gradient);
+        if slope.is_nan() || slope >= 0.0 {
+            self.pairs.clear();
+            direction = -&self.gradient;
+            slope = direction.dot(&self.gradient);
+        }
+        if slope.is_nan() || slope >= 0.0 {
+            // The gradient is zero, or not a number.
+            self.stuck = true;
+            return Ok(());
+        }
+        match self.search(&direction, slope, left, evaluate)? {
+            Some(found) => {
+                let moved = direction * found.step;
+                let change = &found.gradient - &self.gradient;
+                self.weights += &moved;
+                (self.loss, self.gradient) = (found.loss, found.gradient);
+                if moved.dot(&change) > f64::EPSILON * moved.norm() * change.norm() {
+                    self.pairs.push_back([moved, change]);
+                    if self.pairs.len() > MEMORY {
+                        self.pairs.pop_front();
+                    }
+                }
+            }
+            // Once more, from the gradient alone.
+            None if !self.pairs.is_empty() => self.pairs.clear(),
+            None => self.stuck = true,
+        }
+        Ok(())
+    }
+
+    /// −H g by the two loops.
+    fn newton_like(&self) -> DVector<f64> {
+        let mut direction = -&self.gradient;
+        let mut weights = Vec::with_capacity(self.pairs.len());
+        for [moved, change] in self.pairs.iter().rev() {
+            let weight = moved.dot(&direction) / moved.dot(change);
+            direction.axpy(-weight, change, 1.0);
+            weights.push(weight);
+        }
+        if let Some([moved, change]) = self.pairs.back() {
+            direction *= moved.dot(change) / change.norm_squared();
+        }
+        for ([moved, change], weight) in self.pairs.iter().zip(weights.iter().rev()) {
+            direction.axpy(weight - change.dot(&direction) / moved.dot(change), moved, 1.0);
+        }
+        direction
+    }
+
+    /// A point with the strong Wolfe conditions, or the lowest one when the budget ends; `None` if
+    /// none is lower than the start.
+    fn search(
+        &self,
+        direction: &DVector<f64>,
+        slope: f64,
+        left: &mut usize,
+        evaluate: &mut Evaluate<'_>,
+    ) -> Result<Option<Point>, LearnError> {
+        let mut low = Point { step: 0.0, loss: self.loss, slope, gradient: DVector::zeros(0) };
+        let mut high: Option<Point> = None;
+        // Without a past, the step that would lower a linear loss to 0.
+        let mut step = if self.pairs.is_empty() { self.loss.abs() / -slope } else { 1.0 };
+        for _ in 0..SEARCH.min(*left) {
+            *left -= 1;
+            let (loss, gradient) = evaluate((&self.weights + direction * step).as_slice())?;
+            let gradient = DVector::from_vec(gradient);
+            let point = Point { step, loss, slope: gradient.dot(direction), gradient };
+            // Too high for its step, or not a number.
+            let too_high = loss.is_nan() || loss > self.loss + WOLFE.0 * step * slope;
+            if too_high || (low.step > 0.0 && loss >= low.loss) {
+                high = Some(point);
+            } else if point.slope.abs() <= -WOLFE.1 * slope {
+                return Ok(Some(point));
+            } else {
+                let ahead = high.as_ref().map_or(1.0, |high| high.step - low.step);
+                let before = std::mem::replace(&mut low, point);
+                if low.slope * ahead >= 0.0 {
+                    high = Some(before);
+                }
+            }
+            step = high.as_ref().map_or(3.0 * low.step, |high| between(&low, high));
+        }
+        Ok((low.step > 0.0).then_some(low))
+    }
+}
+
+/// The minimum of the cubic through two points with their slopes, kept off the ends.
+fn between(low: &Point, high: &Point) -> f64 {
+    let width = high.step - low.step;
+    let rise = low.slope + high.slope - 3.0 * (high.loss - low.loss) / width;
+    let root = (rise * rise - low.slope * high.slope).sqrt() * width.signum();
+    let fraction = 1.0 - (high.slope + root - rise) / (high.slope - low.slope + 2.0 * root);
+    let fraction = if fraction.is_finite() { fraction.clamp(0.1, 0.9) } else { 0.5 };
+    low.step + fraction * width
+}
+
+/// Makes Adam's step number `step`, from 0, of size `rate`, with the running means of the gradient
+/// and of its squares.
+fn adam(
+    [first, second]: &mut [Vec<f64>; 2],
+    step: usize,
+    rate: f64,
+    weights: &mut [f64],
+    gradient: &[f64],
+) {
+    let count = i32::try_from(step).unwrap_or(i32::MAX - 1) + 1;
+    let (beta, unbias) = ([0.9, 0.999], [0.9_f64, 0.999].map(|beta| 1.0 - beta.powi(count)));
+    for ((w, g), (m, v)) in weights.iter_mut().zip(gradient).zip(first.iter_mut().zip(second)) {
+        *m = beta[0] * *m + (1.0 - beta[0]) * g;
+        *v = beta[1] * *v + (1.0 - beta[1]) * g * g;
+        *w -= rate * (*m / unbias[0]) / ((*v / unbias[1]).sqrt() + 1e-8);
+    }
+}
+
+/// Lowers the loss from `start`; returns the unknowns and the loss of every evaluation. `task` is
+/// the fingerprint of everything the outcome depends on; `watch` is the loss on other data.
+pub(super) fn minimise(
+    start: Vec<f64>,
+    task: u64,
+    options: &TrainingOptions,
+    evaluate: &mut Evaluate<'_>,
+    watch: Option<&Watch<'_>>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Vec<f64>, Vec<f64>), LearnError> {
+    let path = options.checkpoint.as_deref();
+    let kept = path.map_or(Ok(None), |path| State::load(path, task))?;
+    let mut state = kept.unwrap_or_else(|| State::new(start));
+    let save = |state: &State| path.map_or(Ok(()), |path| state.save(path, task));
+    let total = options.adam_steps + options.lbfgs_steps;
+    let mut saved = state.history.len();
+    loop {
+        let step = state.history.len();
+        let mut left = total.saturating_sub(step);
+        let history = &mut state.history;
+        match &mut state.stage {
+            Stage::Adam { weights, moments } if step < options.adam_steps => {
+                let (loss, gradient) = evaluate(weights)?;
+                if !loss.is_finite() && step == 0 {
+                    let reason = "the loss is not finite at the first weights".into();
+                    return Err(LearnError::NotConverged { reason });
+                }
+                let validation = watch.filter(|_| step % WATCH == 0).map(|watch| watch(weights));
+                history.push(loss);
+                progress(Progress { step, total, loss, validation });
+                adam(moments, step, options.rate(step), weights, &gradient);
+                if (step + 1) % SAVE == 0 {
+                    save(&state)?;
+                    saved = step + 1;
+                }
+                continue;
+            }
+            _ => {}
+        }
+        let mut tell = |at: &[f64]| {
+            let found = evaluate(at)?;
+            progress(Progress { step: history.len(), total, loss: found.0, validation: None });
+            history.push(found.0);
+            Ok(found)
+        };
+        match &mut state.stage {
+            Stage::Adam { weights, .. } if left >= 2 => {
+                let weights = std::mem::take(weights);
+                state.stage = Stage::Descent(Descent::begin(weights, &mut tell)?);
+            }
+            Stage::Descent(descent) if left >= 1 && !descent.stuck => {
+                descent.advance(&mut left, &mut tell)?;
+            }
+            _ => break,
+        }
+        if state.history.len() >= saved + SAVE_MEMORY {
+            save(&state)?;
+            saved = state.history.len();
+        }
+    }
+    if let Stage::Descent(descent) = &mut state.stage {
+        // Nothing follows, so nothing need be remembered.
+        descent.pairs.clear();
+    }
+    save(&state)?;
+    let (weights, loss) = match state.stage {
+        Stage::Descent(descent) => (descent.weights.as_slice().to_vec(), descent.loss),
+        Stage::Adam { weights, .. } => {
+            let loss = evaluate(&weights)?.0;
+            (weights, loss)
+        }
+    };
+    state.history.push(loss);
+    Ok((weights, state.history))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use std::path::PathBuf;
+
+    use super::*;
+
+    /// By hand: after bias correction the first step is −rate·sign(g), and a constant gradient
+    /// keeps it so.
+    #[test]
+    fn the_first_steps_of_adam_go_against_the_sign() {
+        let (mut moments, mut weights) = ([vec![0.0; 2], vec![0.0; 2]], [1.0, 1.0]);
+        (0..3).for_each(|step| adam(&mut moments, step, 0.1, &mut weights, &[2.0, -0.5]));
+        assert!((weights[0] - 0.7).abs() < 1e-7 && (weights[1] - 1.3).abs() < 1e-7, "{weights:?}");
+    }
+
+    /// The chained Rosenbrock function in ten variables: minimum 0 at (1, …, 1).
+    fn rosenbrock(x: &[f64]) -> (f64, Vec<f64>) {
+        let (mut sum, mut gradient) = (0.0, vec![0.0; x.len()]);
+        for i in 0..x.len() - 1 {
+            let (a, b) = (x[i + 1] - x[i] * x[i], 1.0 - x[i]);
+            sum += 100.0 * a * a + b * b;
+            gradient[i] -= 400.0 * a * x[i] + 2.0 * b;
+            gradient[i + 1] += 200.0 * a;
+        }
+        (sum, gradient)
+    }
+
+    /// From −½ by at most `budget` evaluations of `scale` times the function; also their number.
+    fn descend(scale: f64, budget: usize) -> (Descent, usize) {
+        let mut count = 0;
+        let mut evaluate = |x: &[f64]| {
+            count += 1;
+            let (f, g) = rosenbrock(x);
+            Ok((scale * f, g.iter().map(|v| scale * v).collect()))
+        };
+        let mut descent = Descent::begin(vec![-0.5; 10], &mut evaluate).unwrap();
+        let mut left = budget - 1;
+        while left > 0 && !descent.stuck {
+            descent.advance(&mut left, &mut evaluate).unwrap();
+        }
+        (descent, count)
+    }
+
+    #[test]
+    fn finds_the_minimum_to_rounding_whatever_the_scale_of_the_loss() {
+        for scale in [1e-20, 1.0, 1e20] {
+            let (found, count) = descend(scale, 500);
+            let largest = found.weights.iter().map(|w| (w - 1.0).abs()).fold(0.0, f64::max);
+            assert!(largest < 1e-7, "{largest:e} after {count}");
+        }
+    }
+
+    #[test]
+    fn keeps_the_budget_and_never_gets_worse() {
+        for budget in [1, 2, 3, 7, 20, 50] {
+            let (found, count) = descend(1.0, budget);
+            assert!(count <= budget);
+            let (loss, gradient) = rosenbrock(found.weights.as_slice());
+            assert_eq!((loss, gradient.as_slice()), (found.loss, found.gradient.as_slice()));
+            assert!(found.loss <= rosenbrock(&[-0.5; 10]).0);
+        }
+    }
+
+    /// A rippled quartic bowl in six variables.
+    fn bowl(x: &[f64]) -> (f64, Vec<f64>) {
+        let pull = |i: usize, v: f64| v - 0.1 * i as f64;
+        let value = x.iter().enumerate().map(|(i, &v)| pull(i, v).powi(4) + pull(i, v).powi(2));
+        let slope = |(i, &v): (usize, &f64)| 4.0 * pull(i, v).powi(3) + 2.0 * pull(i, v);
+        let mut gradient: Vec<f64> = x.iter().enumerate().map(slope).collect();
+        gradient[0] += 0.05 * (100.0 * x[0]).sin();
+        (value.sum::<f64>() + 1e-3 * (50.0 * x[0]).sin().powi(2), gradient)
+    }
+
+    /// Runs until the evaluation `killed_at` fails, as a kill would.
+    fn run(
+        checkpoint: Option<PathBuf>,
+        killed_at: usize,
+    ) -> Result<(Vec<f64>, Vec<f64>), LearnError> {
+        let (adam_steps, lbfgs_steps, rate) = (120, 600, 1e-2);
+        let options =
+            TrainingOptions { adam_steps, lbfgs_steps, rate, checkpoint, ..Default::default() };
+        let mut count = 0;
+        let mut evaluate = |x: &[f64]| {
+            count += 1;
+            if count == killed_at {
+                return Err(LearnError::NotConverged { reason: "killed".into() });
+            }
+            Ok(bowl(x))
+        };
+        minimise(vec![1.0; 6], 7, &options, &mut evaluate, None, &mut |_| {})
+    }
+
+    #[test]
+    fn a_killed_run_ends_with_the_bits_of_one_that_was_not() {
+        let whole = run(None, usize::MAX).unwrap();
+        // In Adam before and after a checkpoint, at its end, in the first and a later round.
+        for killed_at in [1, 30, 77, 120, 150, 300] {
+            let name = format!("coadjoint-kill-{}-{killed_at}", std::process::id());
+            let path = std::env::temp_dir().join(name);
+            if run(Some(path.clone()), killed_at).is_ok() {
+                // The run was shorter than that.
+                assert!(whole.1.len() < killed_at, "{} {killed_at}", whole.1.len());
+            }
+            assert_eq!(run(Some(path.clone()), usize::MAX).unwrap(), whole, "{killed_at}");
+            // Once more: it is finished, and nothing is computed but the last loss.
+            assert_eq!(run(Some(path.clone()), 2).unwrap(), whole);
+            std::fs::remove_file(path).unwrap();
+        }
+    }
+}
