@@ -139,64 +139,55 @@ def _momentum(value: Any, what: str, length: int | None = None) -> Floats:
     return vector([value[name] for name in wanted], what)
 
 
-def _named(what: str, value: Any, after: bool) -> tuple[dict[str, Floats], list[str]]:
-    """Columns of momenta and attitudes by their names, those of the state after a step by the names of files; the others."""
-    found = names(value) or []
-    ours = {name: re.sub(r"^(mu|g|q)_", r"\1_next_", name) if after else name for name in found}
-    ours = {name: file for name, file in ours.items() if re.match(r"(mu|g|q)_", name)}
-    twice = [name for name in ours if found.count(name) > 1]
-    if twice:
-        raise InputError(f"{what}: column {twice[0]} is there twice: keep one")
-    columns = {file: floats(value[name], f"{what}, {name}", finite=False) for name, file in ours.items()}
-    if wrong := [name for name, column in columns.items() if column.ndim != 1]:
-        raise InputError(f"{what}, {wrong[0]}: a list of numbers is needed")
-    return columns, [name for name in found if name not in ours]
-
-
-def _columns(what: str, value: Any, names: tuple[str, str]) -> dict[str, Floats]:
-    """Columns of an array (N, n), or (N, d, d) for attitudes, or (N, 4) quaternions, by the names of files."""
-    if hasattr(value, "as_matrix"):
-        value = value.as_matrix()
-    array = floats(value, what, finite=False)
-    momentum, element = names
+def _columns(what: str, value: Any, after: bool, attitude: bool) -> tuple[dict[str, Floats], list[str]]:
+    """Columns by the names of files, and the names of those that nobody uses: of tables by their names, of arrays of
+    momenta (N, n), matrices (N, d, d) or quaternions (N, 4) by their places."""
+    following = "_next" if after else ""
+    found = names(value)
+    if found is not None:
+        files = {name: re.sub(r"^(mu|g|q)_(?!next_)", rf"\1{following}_", name) for name in found}
+        files = {name: file for name, file in files.items() if re.match(r"(mu|g|q)_", name)}
+        if twice := [name for name in files if found.count(name) > 1]:
+            raise InputError(f"{what}: column {twice[0]} is there twice: keep one")
+        columns = {file: floats(value[name], f"{what}, {name}", finite=False) for name, file in files.items()}
+        if wrong := [name for name, column in columns.items() if column.ndim != 1]:
+            raise InputError(f"{what}, {wrong[0]}: a list of numbers is needed")
+        return columns, [name for name in found if name not in files]
+    array = floats(value.as_matrix() if hasattr(value, "as_matrix") else value, what, finite=False)
     size = array.shape[-1] if array.ndim else 0
-    if array.ndim == 2 and momentum:
-        found = [f"{momentum}_{i + 1}" for i in range(size)]
-    elif array.ndim == 2 and size == 4 and not momentum:
-        found = [f"{element.replace('g', 'q', 1)}_{x}" for x in "wxyz"]
-    elif array.ndim == 3 and not momentum and array.shape[1] == size:
+    if array.ndim == 2 and not attitude:
+        labels = [f"mu{following}_{i + 1}" for i in range(size)]
+    elif array.ndim == 2 and size == 4 and attitude:
+        labels = [f"q{following}_{x}" for x in "wxyz"]
+    elif array.ndim == 3 and array.shape[1] == size and attitude:
         separator = "_" if size > 9 else ""
-        found = [f"{element}_{i + 1}{separator}{j + 1}" for i in range(size) for j in range(size)]
+        labels = [f"g{following}_{i + 1}{separator}{j + 1}" for i in range(size) for j in range(size)]
     else:
-        form = "(N, n)" if momentum else "(N, d, d), or (N, 4) for quaternions"
+        form = "(N, d, d), or (N, 4) for quaternions" if attitude else "(N, n)"
         raise InputError(f"{what} must have the shape {form}; it is {array.shape}")
     flat = array.reshape(len(array), -1)
-    return {name: np.ascontiguousarray(flat[:, i]) for i, name in enumerate(found)}
+    return {name: np.ascontiguousarray(flat[:, i]) for i, name in enumerate(labels)}, []
 
 
 def _data(
     before: Any, after: Any, attitudes: tuple[Any, Any] | None, what: str
 ) -> tuple[list[tuple[str, Floats]], list[str]]:
-    """All columns of pairs of states: arrays, or data frames or dictionaries by their names; those nobody uses."""
-    others: list[str] = []
-    if names(before) is not None:
-        columns, others = _named(what if after is None else "before", before, False)
-        if after is not None:
-            more, ignored = _named("after", after, True)
-            columns |= more
-            others += [name for name in ignored if name not in others]
-    elif after is None:
+    """All columns of pairs of states, and the names of those that nobody uses."""
+    if after is None and names(before) is None:
         raise InputError(
             f"{what}: give the states before and after a step, or a data frame with the columns mu_1 …, mu_next_1 …"
         )
-    else:
-        columns = _columns("before", before, ("mu", ""))
-        columns |= _columns("after", after, ("mu_next", ""))
-    if attitudes is not None:
-        if not isinstance(attitudes, tuple) or len(attitudes) != 2:
-            raise InputError("attitudes must be a pair: those before and those after the step")
-        columns |= _columns("attitudes before", attitudes[0], ("", "g"))
-        columns |= _columns("attitudes after", attitudes[1], ("", "g_next"))
+    if not isinstance(attitudes, (tuple, type(None))) or len(attitudes or (0, 0)) != 2:
+        raise InputError("attitudes must be a pair: those before and those after the step")
+    sides = [("before" if after is not None else what, before, False, False), ("after", after, True, False)]
+    sides += [(f"attitudes {side[0]}", value, side[2], True) for side, value in zip(sides, attitudes or ())]
+    columns: dict[str, Floats] = {}
+    others: list[str] = []
+    for side in sides:
+        if side[1] is not None:
+            found, unknown = _columns(*side)
+            columns |= found
+            others += [name for name in unknown if name not in others]
     return list(columns.items()), others
 
 

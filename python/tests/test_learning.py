@@ -46,6 +46,9 @@ def test_frames_and_dictionaries_are_read_by_their_names(body: ca.System) -> Non
     by_arrays = ca.geometrize(before, after, step=STEP, degree=4)
     by_dictionary = ca.geometrize({name: frame[name].to_numpy() for name in names}, step=STEP, degree=4)
     assert by_frame == by_arrays == by_dictionary and not by_frame.attitude
+    ends = frame[names[5:2:-1]]
+    for after in [after, ends, ends.rename(columns=lambda name: name.replace("next_", ""))]:
+        assert ca.geometrize(frame[names[2::-1]], after, step=STEP, degree=4) == by_frame
 
 
 def test_a_poisson_map_is_found_beside_euler(body: ca.System) -> None:
