@@ -6,8 +6,12 @@
 
 mod support;
 
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
 use serde_json::Value;
-use support::{json, run};
+use support::{json, root, run};
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
@@ -105,13 +109,22 @@ fn single_precision_is_as_good_as_its_rounding() {
         let drift = |key: &str| report["drift"][key].as_f64().unwrap();
         assert!(drift("spatial_momentum") > 1e-9 && drift("spatial_momentum") < 1e-3, "{report}");
     }
-    // A run in another precision is another run. One whose output cannot take its name leaves its journal.
-    let initial = states(&directory, 3, 5);
-    let out = at(&directory, "folder.csv");
-    std::fs::create_dir_all(std::path::Path::new(&out).join("full")).unwrap();
-    let words = ["ensemble", BODY, "--initial", &initial, "--out", &out, "--time", "5"];
+    // A run in another precision is another run. One that is killed leaves its journal.
+    let initial = states(&directory, 3, 60_000);
+    let out = at(&directory, "killed.csv");
+    let words = ["ensemble", BODY, "--initial", &initial, "--out", &out, "--time", "500"];
     let single = ["--device", "opencl", "--precision", "single"];
-    assert_eq!(run(&[&words[..], &single].concat()).0, 1);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_coadjoint"))
+        .current_dir(root())
+        .args([&words[..], &single].concat())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    while !Path::new(&format!("{out}.journal")).exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
     let journal = std::fs::read_to_string(format!("{out}.journal")).unwrap();
     let journal: Value = serde_json::from_str(&journal).unwrap();
     let by = journal["made_by"][0].as_str().unwrap();
