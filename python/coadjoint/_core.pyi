@@ -5,7 +5,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Core", "ModelCore", "Stepper", "__version__", "learn"]
+__all__ = ["Core", "ModelCore", "Stepper", "__version__", "learn", "read_text", "write_text"]
 
 __version__: str
 

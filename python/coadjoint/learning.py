@@ -251,7 +251,9 @@ def learn(
     found = Model(found_text, "model", json.loads(summary))
     unused("data", others + found.summary.get("unused", []))
     for message in found.summary.get("warnings") or []:
-        warnings.warn(message, CoadjointWarning, stacklevel=2)
+        # To mend Casimirs is what a map is geometrized for; the summary says by how much they differ.
+        if not (_momenta_only and message.startswith("Casimirs differ")):
+            warnings.warn(message, CoadjointWarning, stacklevel=2)
     dropped = found.summary.get("dropped") or []
     if dropped:
         row, reason = dropped[0]
@@ -276,6 +278,7 @@ def geometrize(
     progress: bool | Progress | None = None,
 ) -> Model:
     """The Poisson map nearest to a method that is none: from momenta before and after a step of it, (N, n) each.
+    ``summary["warnings"]`` says by how much the method changes the Casimirs.
 
     >>> import coadjoint as ca, numpy as np
     >>> inertia = np.array([1.5, 2, 2.5])
