@@ -894,30 +894,19 @@ static inline void toutatis_internal_spatial(const double *TOUTATIS_RESTRICT c, 
     spatial[2] = t37;
 }
 
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void toutatis_internal_solve(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT mu,
-    double *TOUTATIS_RESTRICT x, double *TOUTATIS_RESTRICT left, double *TOUTATIS_RESTRICT way)
+/* Internal: copies a list. */
+static inline void toutatis_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[TOUTATIS_DIMENSION];
-    double p_next[TOUTATIS_DIMENSION];
-    double k[2];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    toutatis_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < 12u)) {
-        toutatis_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < TOUTATIS_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool toutatis_internal_open(double left, double way)
+{
+    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
@@ -951,53 +940,68 @@ static inline toutatis_status toutatis_internal_reason(const double *c, const do
 static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis_state *state, uint32_t steps,
     uint32_t *made)
 {
-    toutatis_state now;
-    toutatis_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[TOUTATIS_ELEMENT];
+    double mu[TOUTATIS_DIMENSION];
     toutatis_status status = map->status;
-    double x[TOUTATIS_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
+    toutatis_internal_copy(g, state->g, TOUTATIS_ELEMENT);
+    toutatis_internal_copy(mu, state->mu, TOUTATIS_DIMENSION);
+    double x[TOUTATIS_DIMENSION] = {0};
     uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < TOUTATIS_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
     while ((status == TOUTATIS_OK) && (done < steps)) {
-        uint32_t length = steps - done;
         uint32_t count = 0u;
-        toutatis_state begun;
-        if (length > TOUTATIS_BLOCK) {
-            length = TOUTATIS_BLOCK;
-        }
-        begun = now;
-        while ((status == TOUTATIS_OK) && (count < length)) {
-            toutatis_internal_solve(map->c, now.mu, x, &left, &way);
-            toutatis_internal_accept(map->c, now.mu, x, left, way, &right);
+        double g_start[TOUTATIS_ELEMENT];
+        double mu_start[TOUTATIS_DIMENSION];
+        toutatis_internal_copy(g_start, g, TOUTATIS_ELEMENT);
+        toutatis_internal_copy(mu_start, mu, TOUTATIS_DIMENSION);
+        while ((status == TOUTATIS_OK) && (done < steps) && (count < 256u)) {
+            double p[TOUTATIS_DIMENSION];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            uint32_t tried = 0u;
+            toutatis_internal_guess(c, mu, p, k);
+            while ((tried < 12u) && (toutatis_internal_open(left, way))) {
+                double moved = 0.0;
+                double p_next[TOUTATIS_DIMENSION];
+                toutatis_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                toutatis_internal_copy(p, p_next, TOUTATIS_DIMENSION);
+                way = way + moved;
+                tried++;
+            }
+            toutatis_internal_accept(c, mu, x, left, way, &right);
+            if (!(right > 0.5)) {
+                status = toutatis_internal_reason(c, mu, left, way);
+            }
             if (right > 0.5) {
-                toutatis_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
+                double g_next[TOUTATIS_ELEMENT];
+                double mu_next[TOUTATIS_DIMENSION];
+                toutatis_internal_transport(c, g, mu, x, g_next, mu_next);
+                toutatis_internal_copy(g, g_next, TOUTATIS_ELEMENT);
+                toutatis_internal_copy(mu, mu_next, TOUTATIS_DIMENSION);
+                done++;
                 count++;
-            } else {
-                status = toutatis_internal_reason(map->c, now.mu, left, way);
             }
         }
-        if (count > 0u) {
-            toutatis_internal_sound(map->c, now.g, now.mu, &right);
+        if (count >= 1u) {
+            double right = 0.0;
+            toutatis_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = TOUTATIS_OFF_GROUP;
-                if ((!toutatis_internal_finite(now.g, TOUTATIS_ELEMENT)) || (!toutatis_internal_finite(now.mu, TOUTATIS_DIMENSION))) {
+                if ((!toutatis_internal_finite(g, TOUTATIS_ELEMENT)) || (!toutatis_internal_finite(mu, TOUTATIS_DIMENSION))) {
                     status = TOUTATIS_NOT_FINITE;
                 }
-                now = begun;
-                count = 0u;
+                toutatis_internal_copy(g, g_start, TOUTATIS_ELEMENT);
+                toutatis_internal_copy(mu, mu_start, TOUTATIS_DIMENSION);
+                done -= count;
             }
         }
-        done = done + count;
     }
-    *state = now;
+    toutatis_internal_copy(state->g, g, TOUTATIS_ELEMENT);
+    toutatis_internal_copy(state->mu, mu, TOUTATIS_DIMENSION);
     *made = done;
     return status;
 }

@@ -31,6 +31,8 @@ pub enum ProgramError {
         /// Inputs and outputs it has.
         found: (usize, usize),
     },
+    /// The tolerance of a step is not below 1, or the distance from its guess is negative: no guess would be corrected.
+    Limits,
 }
 
 impl fmt::Display for ProgramError {
@@ -45,6 +47,9 @@ impl fmt::Display for ProgramError {
                 f,
                 "the program '{program}' has {} inputs and {} outputs, where the step has {} and {}",
                 found.0, found.1, expected.0, expected.1
+            ),
+            Self::Limits => f.write_str(
+                "the tolerance of a step has to be below 1, and the distance from its guess at least 0",
             ),
         }
     }

@@ -66,7 +66,8 @@ impl Kernel {
     /// `tolerance`; it is given up after so many corrections, or where it is farther than `near` from its guess.
     ///
     /// # Errors
-    /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for.
+    /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for,
+    /// [`ProgramError::Limits`] where `tolerance` is not below 1 or `near` is negative.
     pub fn new(
         dim: usize,
         element: usize,
@@ -96,6 +97,10 @@ impl Kernel {
                 return Err(ProgramError::Shape { program: name, expected, found });
             }
             slots = slots.max(program.slots());
+        }
+        // Loops begin with 1 for what is left of the equation, and 0 for the way.
+        if !(tolerance < 1.0 && near >= 0.0) {
+            return Err(ProgramError::Limits);
         }
         let precision = Precision::Double;
         Ok(Self {
@@ -170,5 +175,37 @@ impl Kernel {
     #[must_use]
     pub fn programs(&self) -> &Programs {
         &self.programs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::node::Graph;
+
+    #[test]
+    fn limits_under_which_no_guess_is_corrected_are_refused() {
+        let program = |inputs, outputs| {
+            let mut graph = Graph::new();
+            let zero = graph.zero();
+            graph.finish(inputs, &alloc::vec![zero; outputs])
+        };
+        let kernel = |tolerance, near| {
+            let programs = Programs {
+                guess: program(1, 1),
+                correct: program(2, 4),
+                accept: program(4, 1),
+                transport: program(3, 2),
+                frame: None,
+                sound: program(2, 1),
+                watch: program(2, 1),
+                matrix: program(1, 1),
+            };
+            Kernel::new(1, 1, tolerance, near, 3, programs).err()
+        };
+        assert_eq!(kernel(0.5, 0.0), None);
+        for (tolerance, near) in [(1.0, 0.5), (f64::NAN, 0.5), (0.5, -0.1), (0.5, f64::NAN)] {
+            assert_eq!(kernel(tolerance, near), Some(ProgramError::Limits));
+        }
     }
 }

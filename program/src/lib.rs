@@ -28,6 +28,7 @@ mod precision;
 pub mod print;
 mod program;
 pub mod quoting;
+pub mod schedule;
 mod stepper;
 
 pub use drive::Scratch;

@@ -740,30 +740,19 @@ static inline void cayley_body_internal_spatial(const double *CAYLEY_BODY_RESTRI
     spatial[2] = t37;
 }
 
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void cayley_body_internal_solve(const double *CAYLEY_BODY_RESTRICT c, const double *CAYLEY_BODY_RESTRICT mu,
-    double *CAYLEY_BODY_RESTRICT x, double *CAYLEY_BODY_RESTRICT left, double *CAYLEY_BODY_RESTRICT way)
+/* Internal: copies a list. */
+static inline void cayley_body_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[CAYLEY_BODY_DIMENSION];
-    double p_next[CAYLEY_BODY_DIMENSION];
-    double k[2];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    cayley_body_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < 12u)) {
-        cayley_body_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < CAYLEY_BODY_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool cayley_body_internal_open(double left, double way)
+{
+    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
@@ -797,53 +786,68 @@ static inline cayley_body_status cayley_body_internal_reason(const double *c, co
 static inline cayley_body_status cayley_body_advance(const cayley_body_map *map, cayley_body_state *state, uint32_t steps,
     uint32_t *made)
 {
-    cayley_body_state now;
-    cayley_body_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[CAYLEY_BODY_ELEMENT];
+    double mu[CAYLEY_BODY_DIMENSION];
     cayley_body_status status = map->status;
-    double x[CAYLEY_BODY_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
+    cayley_body_internal_copy(g, state->g, CAYLEY_BODY_ELEMENT);
+    cayley_body_internal_copy(mu, state->mu, CAYLEY_BODY_DIMENSION);
+    double x[CAYLEY_BODY_DIMENSION] = {0};
     uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < CAYLEY_BODY_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
     while ((status == CAYLEY_BODY_OK) && (done < steps)) {
-        uint32_t length = steps - done;
         uint32_t count = 0u;
-        cayley_body_state begun;
-        if (length > CAYLEY_BODY_BLOCK) {
-            length = CAYLEY_BODY_BLOCK;
-        }
-        begun = now;
-        while ((status == CAYLEY_BODY_OK) && (count < length)) {
-            cayley_body_internal_solve(map->c, now.mu, x, &left, &way);
-            cayley_body_internal_accept(map->c, now.mu, x, left, way, &right);
+        double g_start[CAYLEY_BODY_ELEMENT];
+        double mu_start[CAYLEY_BODY_DIMENSION];
+        cayley_body_internal_copy(g_start, g, CAYLEY_BODY_ELEMENT);
+        cayley_body_internal_copy(mu_start, mu, CAYLEY_BODY_DIMENSION);
+        while ((status == CAYLEY_BODY_OK) && (done < steps) && (count < 256u)) {
+            double p[CAYLEY_BODY_DIMENSION];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            uint32_t tried = 0u;
+            cayley_body_internal_guess(c, mu, p, k);
+            while ((tried < 12u) && (cayley_body_internal_open(left, way))) {
+                double moved = 0.0;
+                double p_next[CAYLEY_BODY_DIMENSION];
+                cayley_body_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                cayley_body_internal_copy(p, p_next, CAYLEY_BODY_DIMENSION);
+                way = way + moved;
+                tried++;
+            }
+            cayley_body_internal_accept(c, mu, x, left, way, &right);
+            if (!(right > 0.5)) {
+                status = cayley_body_internal_reason(c, mu, left, way);
+            }
             if (right > 0.5) {
-                cayley_body_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
+                double g_next[CAYLEY_BODY_ELEMENT];
+                double mu_next[CAYLEY_BODY_DIMENSION];
+                cayley_body_internal_transport(c, g, mu, x, g_next, mu_next);
+                cayley_body_internal_copy(g, g_next, CAYLEY_BODY_ELEMENT);
+                cayley_body_internal_copy(mu, mu_next, CAYLEY_BODY_DIMENSION);
+                done++;
                 count++;
-            } else {
-                status = cayley_body_internal_reason(map->c, now.mu, left, way);
             }
         }
-        if (count > 0u) {
-            cayley_body_internal_sound(map->c, now.g, now.mu, &right);
+        if (count >= 1u) {
+            double right = 0.0;
+            cayley_body_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = CAYLEY_BODY_OFF_GROUP;
-                if ((!cayley_body_internal_finite(now.g, CAYLEY_BODY_ELEMENT)) || (!cayley_body_internal_finite(now.mu, CAYLEY_BODY_DIMENSION))) {
+                if ((!cayley_body_internal_finite(g, CAYLEY_BODY_ELEMENT)) || (!cayley_body_internal_finite(mu, CAYLEY_BODY_DIMENSION))) {
                     status = CAYLEY_BODY_NOT_FINITE;
                 }
-                now = begun;
-                count = 0u;
+                cayley_body_internal_copy(g, g_start, CAYLEY_BODY_ELEMENT);
+                cayley_body_internal_copy(mu, mu_start, CAYLEY_BODY_DIMENSION);
+                done -= count;
             }
         }
-        done = done + count;
     }
-    *state = now;
+    cayley_body_internal_copy(state->g, g, CAYLEY_BODY_ELEMENT);
+    cayley_body_internal_copy(state->mu, mu, CAYLEY_BODY_DIMENSION);
     *made = done;
     return status;
 }

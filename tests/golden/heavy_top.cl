@@ -20,18 +20,13 @@
 #define COUNT ulong
 #define ROW get_global_id(0)
 #define NUMBER double
-#define PLUS(a, b) ((a) + (b))
-#define ZERO 0.0
 #define ONE 1.0
 #define DIM 6
 #define ELEMENT 7
 #define DIM_ARRAY 6
 #define ELEMENT_ARRAY 7
-#define CONSTANT_ARRAY 2
 #define TOLERANCE 0x1p-50
 #define NEAR 0x1.999999999999ap-5
-#define CORRECTIONS 12u
-#define BLOCK 256
 
 __constant NUMBER coadjoint_slots[238] = {
     0x1.1111111111111p-5,
@@ -273,6 +268,13 @@ __constant NUMBER coadjoint_slots[238] = {
     0x1.617ec8bff60dep-27,
     INFINITY,
 };
+
+INLINE void coadjoint_copy(NUMBER *RESTRICT to, const NUMBER *RESTRICT from, const int length)
+{
+    for (int i = 0; i < length; i++) {
+        to[i] = from[i];
+    }
+}
 
 INLINE void coadjoint_guess(const double *RESTRICT mu, double *RESTRICT p, double *RESTRICT k)
 {
@@ -1516,73 +1518,78 @@ INLINE void coadjoint_sound(const double *RESTRICT g, const double *RESTRICT mu,
 }
 
 KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *RESTRICT mu_state,
-    GLOBAL COUNT *RESTRICT done, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
+    GLOBAL COUNT *RESTRICT done_state, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
     const COUNT target)
 {
     const COUNT row = ROW;
-    NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY], g_next[ELEMENT_ARRAY], mu_next[DIM_ARRAY];
-    NUMBER right;
-    COUNT total;
+    NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY];
+    COUNT steps;
     unsigned int why = 0u;
-    if (row >= rows) {
+    if (row >= rows || done_state[row] >= target) {
         return;
     }
-    total = done[row];
-    if (total >= target) {
-        return;
-    }
+    steps = target - done_state[row];
     for (int i = 0; i < ELEMENT; i++) {
         g[i] = g_state[i * rows + row];
     }
     for (int i = 0; i < DIM; i++) {
         mu[i] = mu_state[i * rows + row];
     }
-    while (total < target && why == 0u) {
-        const COUNT most = target - total < BLOCK ? target - total : BLOCK;
-        COUNT made = 0;
-        while (made < most) {
-            NUMBER p[DIM_ARRAY], p_next[DIM_ARRAY], x[DIM_ARRAY], k[CONSTANT_ARRAY];
-            NUMBER left = ONE, way = ZERO, moved;
+    double x[DIM] = {0};
+    COUNT done = 0u;
+    while ((why == 0u) && (done < steps)) {
+        COUNT count = 0u;
+        double g_start[ELEMENT];
+        double mu_start[DIM];
+        coadjoint_copy(g_start, g, ELEMENT);
+        coadjoint_copy(mu_start, mu, DIM);
+        while ((why == 0u) && (done < steps) && (count < 256u)) {
+            double p[DIM];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            COUNT tried = 0u;
             coadjoint_guess(mu, p, k);
-            for (unsigned int correction = 1u; correction <= CORRECTIONS; correction++) {
+            while ((tried < 12u) && (!(left <= TOLERANCE) && way <= NEAR)) {
+                double moved = 0.0;
+                double p_next[DIM];
                 coadjoint_correct(p, mu, k, p_next, x, &left, &moved);
-                for (int i = 0; i < DIM; i++) {
-                    p[i] = p_next[i];
-                }
-                way = PLUS(way, moved);
-                if (left <= TOLERANCE || !(way <= NEAR)) {
-                    break;
-                }
+                coadjoint_copy(p, p_next, DIM);
+                way = way + moved;
+                tried++;
             }
             coadjoint_accept(mu, x, left, way, &right);
             if (!(right == ONE)) {
                 why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;
-                break;
             }
-            coadjoint_transport(g, mu, x, g_next, mu_next);
-            for (int i = 0; i < ELEMENT; i++) {
-                g[i] = g_next[i];
+            if (right == ONE) {
+                double g_next[ELEMENT];
+                double mu_next[DIM];
+                coadjoint_transport(g, mu, x, g_next, mu_next);
+                coadjoint_copy(g, g_next, ELEMENT);
+                coadjoint_copy(mu, mu_next, DIM);
+                done++;
+                count++;
             }
-            for (int i = 0; i < DIM; i++) {
-                mu[i] = mu_next[i];
-            }
-            made++;
         }
-        if (made > 0) {
+        if (count >= 1u) {
+            double right = 0.0;
             coadjoint_sound(g, mu, &right);
             if (!(right == ONE)) {
                 why = 4u;
-                break;
+                coadjoint_copy(g, g_start, ELEMENT);
+                coadjoint_copy(mu, mu_start, DIM);
+                done -= count;
             }
-            for (int i = 0; i < ELEMENT; i++) {
-                g_state[i * rows + row] = g[i];
-            }
-            for (int i = 0; i < DIM; i++) {
-                mu_state[i * rows + row] = mu[i];
-            }
-            total += made;
         }
     }
-    done[row] = total;
+    for (int i = 0; i < ELEMENT; i++) {
+        g_state[i * rows + row] = g[i];
+    }
+    for (int i = 0; i < DIM; i++) {
+        mu_state[i * rows + row] = mu[i];
+    }
+    done_state[row] += done;
     status[row] = why;
 }

@@ -1577,30 +1577,19 @@ static inline void heavy_top_internal_spatial(const double *HEAVY_TOP_RESTRICT c
     spatial[5] = t70;
 }
 
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void heavy_top_internal_solve(const double *HEAVY_TOP_RESTRICT c, const double *HEAVY_TOP_RESTRICT mu,
-    double *HEAVY_TOP_RESTRICT x, double *HEAVY_TOP_RESTRICT left, double *HEAVY_TOP_RESTRICT way)
+/* Internal: copies a list. */
+static inline void heavy_top_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[HEAVY_TOP_DIMENSION];
-    double p_next[HEAVY_TOP_DIMENSION];
-    double k[2];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    heavy_top_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < 12u)) {
-        heavy_top_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < HEAVY_TOP_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool heavy_top_internal_open(double left, double way)
+{
+    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
@@ -1634,53 +1623,68 @@ static inline heavy_top_status heavy_top_internal_reason(const double *c, const 
 static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy_top_state *state, uint32_t steps,
     uint32_t *made)
 {
-    heavy_top_state now;
-    heavy_top_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[HEAVY_TOP_ELEMENT];
+    double mu[HEAVY_TOP_DIMENSION];
     heavy_top_status status = map->status;
-    double x[HEAVY_TOP_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
+    heavy_top_internal_copy(g, state->g, HEAVY_TOP_ELEMENT);
+    heavy_top_internal_copy(mu, state->mu, HEAVY_TOP_DIMENSION);
+    double x[HEAVY_TOP_DIMENSION] = {0};
     uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < HEAVY_TOP_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
     while ((status == HEAVY_TOP_OK) && (done < steps)) {
-        uint32_t length = steps - done;
         uint32_t count = 0u;
-        heavy_top_state begun;
-        if (length > HEAVY_TOP_BLOCK) {
-            length = HEAVY_TOP_BLOCK;
-        }
-        begun = now;
-        while ((status == HEAVY_TOP_OK) && (count < length)) {
-            heavy_top_internal_solve(map->c, now.mu, x, &left, &way);
-            heavy_top_internal_accept(map->c, now.mu, x, left, way, &right);
+        double g_start[HEAVY_TOP_ELEMENT];
+        double mu_start[HEAVY_TOP_DIMENSION];
+        heavy_top_internal_copy(g_start, g, HEAVY_TOP_ELEMENT);
+        heavy_top_internal_copy(mu_start, mu, HEAVY_TOP_DIMENSION);
+        while ((status == HEAVY_TOP_OK) && (done < steps) && (count < 256u)) {
+            double p[HEAVY_TOP_DIMENSION];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            uint32_t tried = 0u;
+            heavy_top_internal_guess(c, mu, p, k);
+            while ((tried < 12u) && (heavy_top_internal_open(left, way))) {
+                double moved = 0.0;
+                double p_next[HEAVY_TOP_DIMENSION];
+                heavy_top_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                heavy_top_internal_copy(p, p_next, HEAVY_TOP_DIMENSION);
+                way = way + moved;
+                tried++;
+            }
+            heavy_top_internal_accept(c, mu, x, left, way, &right);
+            if (!(right > 0.5)) {
+                status = heavy_top_internal_reason(c, mu, left, way);
+            }
             if (right > 0.5) {
-                heavy_top_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
+                double g_next[HEAVY_TOP_ELEMENT];
+                double mu_next[HEAVY_TOP_DIMENSION];
+                heavy_top_internal_transport(c, g, mu, x, g_next, mu_next);
+                heavy_top_internal_copy(g, g_next, HEAVY_TOP_ELEMENT);
+                heavy_top_internal_copy(mu, mu_next, HEAVY_TOP_DIMENSION);
+                done++;
                 count++;
-            } else {
-                status = heavy_top_internal_reason(map->c, now.mu, left, way);
             }
         }
-        if (count > 0u) {
-            heavy_top_internal_sound(map->c, now.g, now.mu, &right);
+        if (count >= 1u) {
+            double right = 0.0;
+            heavy_top_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = HEAVY_TOP_OFF_GROUP;
-                if ((!heavy_top_internal_finite(now.g, HEAVY_TOP_ELEMENT)) || (!heavy_top_internal_finite(now.mu, HEAVY_TOP_DIMENSION))) {
+                if ((!heavy_top_internal_finite(g, HEAVY_TOP_ELEMENT)) || (!heavy_top_internal_finite(mu, HEAVY_TOP_DIMENSION))) {
                     status = HEAVY_TOP_NOT_FINITE;
                 }
-                now = begun;
-                count = 0u;
+                heavy_top_internal_copy(g, g_start, HEAVY_TOP_ELEMENT);
+                heavy_top_internal_copy(mu, mu_start, HEAVY_TOP_DIMENSION);
+                done -= count;
             }
         }
-        done = done + count;
     }
-    *state = now;
+    heavy_top_internal_copy(state->g, g, HEAVY_TOP_ELEMENT);
+    heavy_top_internal_copy(state->mu, mu, HEAVY_TOP_DIMENSION);
     *made = done;
     return status;
 }

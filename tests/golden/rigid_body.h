@@ -894,30 +894,19 @@ static inline void rigid_body_internal_spatial(const double *RIGID_BODY_RESTRICT
     spatial[2] = t37;
 }
 
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void rigid_body_internal_solve(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT mu,
-    double *RIGID_BODY_RESTRICT x, double *RIGID_BODY_RESTRICT left, double *RIGID_BODY_RESTRICT way)
+/* Internal: copies a list. */
+static inline void rigid_body_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[RIGID_BODY_DIMENSION];
-    double p_next[RIGID_BODY_DIMENSION];
-    double k[2];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    rigid_body_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < 12u)) {
-        rigid_body_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < RIGID_BODY_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool rigid_body_internal_open(double left, double way)
+{
+    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
@@ -951,53 +940,68 @@ static inline rigid_body_status rigid_body_internal_reason(const double *c, cons
 static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, rigid_body_state *state, uint32_t steps,
     uint32_t *made)
 {
-    rigid_body_state now;
-    rigid_body_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[RIGID_BODY_ELEMENT];
+    double mu[RIGID_BODY_DIMENSION];
     rigid_body_status status = map->status;
-    double x[RIGID_BODY_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
+    rigid_body_internal_copy(g, state->g, RIGID_BODY_ELEMENT);
+    rigid_body_internal_copy(mu, state->mu, RIGID_BODY_DIMENSION);
+    double x[RIGID_BODY_DIMENSION] = {0};
     uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < RIGID_BODY_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
     while ((status == RIGID_BODY_OK) && (done < steps)) {
-        uint32_t length = steps - done;
         uint32_t count = 0u;
-        rigid_body_state begun;
-        if (length > RIGID_BODY_BLOCK) {
-            length = RIGID_BODY_BLOCK;
-        }
-        begun = now;
-        while ((status == RIGID_BODY_OK) && (count < length)) {
-            rigid_body_internal_solve(map->c, now.mu, x, &left, &way);
-            rigid_body_internal_accept(map->c, now.mu, x, left, way, &right);
+        double g_start[RIGID_BODY_ELEMENT];
+        double mu_start[RIGID_BODY_DIMENSION];
+        rigid_body_internal_copy(g_start, g, RIGID_BODY_ELEMENT);
+        rigid_body_internal_copy(mu_start, mu, RIGID_BODY_DIMENSION);
+        while ((status == RIGID_BODY_OK) && (done < steps) && (count < 256u)) {
+            double p[RIGID_BODY_DIMENSION];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            uint32_t tried = 0u;
+            rigid_body_internal_guess(c, mu, p, k);
+            while ((tried < 12u) && (rigid_body_internal_open(left, way))) {
+                double moved = 0.0;
+                double p_next[RIGID_BODY_DIMENSION];
+                rigid_body_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                rigid_body_internal_copy(p, p_next, RIGID_BODY_DIMENSION);
+                way = way + moved;
+                tried++;
+            }
+            rigid_body_internal_accept(c, mu, x, left, way, &right);
+            if (!(right > 0.5)) {
+                status = rigid_body_internal_reason(c, mu, left, way);
+            }
             if (right > 0.5) {
-                rigid_body_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
+                double g_next[RIGID_BODY_ELEMENT];
+                double mu_next[RIGID_BODY_DIMENSION];
+                rigid_body_internal_transport(c, g, mu, x, g_next, mu_next);
+                rigid_body_internal_copy(g, g_next, RIGID_BODY_ELEMENT);
+                rigid_body_internal_copy(mu, mu_next, RIGID_BODY_DIMENSION);
+                done++;
                 count++;
-            } else {
-                status = rigid_body_internal_reason(map->c, now.mu, left, way);
             }
         }
-        if (count > 0u) {
-            rigid_body_internal_sound(map->c, now.g, now.mu, &right);
+        if (count >= 1u) {
+            double right = 0.0;
+            rigid_body_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = RIGID_BODY_OFF_GROUP;
-                if ((!rigid_body_internal_finite(now.g, RIGID_BODY_ELEMENT)) || (!rigid_body_internal_finite(now.mu, RIGID_BODY_DIMENSION))) {
+                if ((!rigid_body_internal_finite(g, RIGID_BODY_ELEMENT)) || (!rigid_body_internal_finite(mu, RIGID_BODY_DIMENSION))) {
                     status = RIGID_BODY_NOT_FINITE;
                 }
-                now = begun;
-                count = 0u;
+                rigid_body_internal_copy(g, g_start, RIGID_BODY_ELEMENT);
+                rigid_body_internal_copy(mu, mu_start, RIGID_BODY_DIMENSION);
+                done -= count;
             }
         }
-        done = done + count;
     }
-    *state = now;
+    rigid_body_internal_copy(state->g, g, RIGID_BODY_ELEMENT);
+    rigid_body_internal_copy(state->mu, mu, RIGID_BODY_DIMENSION);
     *made = done;
     return status;
 }

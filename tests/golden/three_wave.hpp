@@ -2072,30 +2072,19 @@ static inline void three_wave_internal_spatial(const double *THREE_WAVE_RESTRICT
     spatial[2] = t28;
 }
 
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void three_wave_internal_solve(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT mu,
-    double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT left, double *THREE_WAVE_RESTRICT way)
+/* Internal: copies a list. */
+static inline void three_wave_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[THREE_WAVE_DIMENSION];
-    double p_next[THREE_WAVE_DIMENSION];
-    double k[2];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    three_wave_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < 12u)) {
-        three_wave_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < THREE_WAVE_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= 8.881784197001252e-16)) && (*way <= 0.05);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool three_wave_internal_open(double left, double way)
+{
+    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
@@ -2129,53 +2118,68 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
 static inline three_wave_status three_wave_advance(const three_wave_map *map, three_wave_state *state, uint32_t steps,
     uint32_t *made)
 {
-    three_wave_state now;
-    three_wave_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[THREE_WAVE_ELEMENT];
+    double mu[THREE_WAVE_DIMENSION];
     three_wave_status status = map->status;
-    double x[THREE_WAVE_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
+    three_wave_internal_copy(g, state->g, THREE_WAVE_ELEMENT);
+    three_wave_internal_copy(mu, state->mu, THREE_WAVE_DIMENSION);
+    double x[THREE_WAVE_DIMENSION] = {0};
     uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < THREE_WAVE_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
     while ((status == THREE_WAVE_OK) && (done < steps)) {
-        uint32_t length = steps - done;
         uint32_t count = 0u;
-        three_wave_state begun;
-        if (length > THREE_WAVE_BLOCK) {
-            length = THREE_WAVE_BLOCK;
-        }
-        begun = now;
-        while ((status == THREE_WAVE_OK) && (count < length)) {
-            three_wave_internal_solve(map->c, now.mu, x, &left, &way);
-            three_wave_internal_accept(map->c, now.mu, x, left, way, &right);
+        double g_start[THREE_WAVE_ELEMENT];
+        double mu_start[THREE_WAVE_DIMENSION];
+        three_wave_internal_copy(g_start, g, THREE_WAVE_ELEMENT);
+        three_wave_internal_copy(mu_start, mu, THREE_WAVE_DIMENSION);
+        while ((status == THREE_WAVE_OK) && (done < steps) && (count < 256u)) {
+            double p[THREE_WAVE_DIMENSION];
+            double k[2];
+            double left = 1.0;
+            double way = 0.0;
+            double right = 0.0;
+            uint32_t tried = 0u;
+            three_wave_internal_guess(c, mu, p, k);
+            while ((tried < 12u) && (three_wave_internal_open(left, way))) {
+                double moved = 0.0;
+                double p_next[THREE_WAVE_DIMENSION];
+                three_wave_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                three_wave_internal_copy(p, p_next, THREE_WAVE_DIMENSION);
+                way = way + moved;
+                tried++;
+            }
+            three_wave_internal_accept(c, mu, x, left, way, &right);
+            if (!(right > 0.5)) {
+                status = three_wave_internal_reason(c, mu, left, way);
+            }
             if (right > 0.5) {
-                three_wave_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
+                double g_next[THREE_WAVE_ELEMENT];
+                double mu_next[THREE_WAVE_DIMENSION];
+                three_wave_internal_transport(c, g, mu, x, g_next, mu_next);
+                three_wave_internal_copy(g, g_next, THREE_WAVE_ELEMENT);
+                three_wave_internal_copy(mu, mu_next, THREE_WAVE_DIMENSION);
+                done++;
                 count++;
-            } else {
-                status = three_wave_internal_reason(map->c, now.mu, left, way);
             }
         }
-        if (count > 0u) {
-            three_wave_internal_sound(map->c, now.g, now.mu, &right);
+        if (count >= 1u) {
+            double right = 0.0;
+            three_wave_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = THREE_WAVE_OFF_GROUP;
-                if ((!three_wave_internal_finite(now.g, THREE_WAVE_ELEMENT)) || (!three_wave_internal_finite(now.mu, THREE_WAVE_DIMENSION))) {
+                if ((!three_wave_internal_finite(g, THREE_WAVE_ELEMENT)) || (!three_wave_internal_finite(mu, THREE_WAVE_DIMENSION))) {
                     status = THREE_WAVE_NOT_FINITE;
                 }
-                now = begun;
-                count = 0u;
+                three_wave_internal_copy(g, g_start, THREE_WAVE_ELEMENT);
+                three_wave_internal_copy(mu, mu_start, THREE_WAVE_DIMENSION);
+                done -= count;
             }
         }
-        done = done + count;
     }
-    *state = now;
+    three_wave_internal_copy(state->g, g, THREE_WAVE_ELEMENT);
+    three_wave_internal_copy(state->mu, mu, THREE_WAVE_DIMENSION);
     *made = done;
     return status;
 }

@@ -49,11 +49,11 @@ pub(super) fn load(
     let advance = advance.map(|assembled| define(module, "advance", assembled)).transpose()?;
     let lanes = lanes.map(|assembled| define(module, "lanes", assembled)).transpose()?;
     module.finalize_definitions().map_err(failed)?;
-    // SAFETY: code built by `scalar::build` has this signature and the system's calling convention.
+    // SAFETY: code that `function::build` makes for one trajectory has this signature and the system's calling convention.
     let advance = advance.map(|id| unsafe {
         std::mem::transmute::<*const u8, AdvanceFunction>(module.get_finalized_function(id))
     });
-    // SAFETY: so has code built by `lanes::build`.
+    // SAFETY: so has the code that it makes for pairs.
     let lanes = lanes.map(|id| unsafe {
         std::mem::transmute::<*const u8, LanesFunction>(module.get_finalized_function(id))
     });

@@ -1,17 +1,19 @@
 //! Programs as Cranelift's instructions, on numbers or on pairs of lanes.
 
 use coadjoint_program::Node;
+use coadjoint_program::schedule::{Part, Variable};
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::immediates::Ieee64;
-use cranelift_codegen::ir::types::{F64, F64X2, I64, I64X2};
+use cranelift_codegen::ir::types::{F64, F64X2, I64};
 use cranelift_codegen::ir::{
-    ConstantData, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Type, Value,
+    Block, ConstantData, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Type,
+    Value,
 };
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::FunctionBuilder;
 
 use super::JitError;
-use super::frame::{Frame, Part};
+use super::frame::Frame;
 
 /// How a number of the program is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,17 +101,10 @@ impl<'f> Coder<'f> {
         self.builder.ins().store(sound(), value, self.base, offset);
     }
 
-    pub(super) fn copy(&mut self, from: usize, to: usize, count: usize) {
-        for i in 0..count {
-            let value = self.load(from + i);
-            self.store(to + i, value);
-        }
-    }
-
     /// The same number everywhere.
     pub(super) fn number(&mut self, value: f64) -> Value {
         match self.form {
-            Form::Number => self.builder.ins().f64const(Ieee64::with_bits(value.to_bits())),
+            Form::Number => self.float(value),
             Form::Pair => {
                 let bytes = [value.to_bits().to_le_bytes(); 2].concat();
                 let constant =
@@ -117,6 +112,11 @@ impl<'f> Coder<'f> {
                 self.builder.ins().vconst(F64X2, constant)
             }
         }
+    }
+
+    /// A number by itself.
+    pub(super) fn float(&mut self, value: f64) -> Value {
+        self.builder.ins().f64const(Ieee64::with_bits(value.to_bits()))
     }
 
     fn slot(&mut self, i: usize) -> Value {
@@ -129,7 +129,7 @@ impl<'f> Coder<'f> {
     }
 
     /// `then` where the mask is set, else `otherwise`.
-    pub(super) fn choose(&mut self, mask: Value, then: Value, otherwise: Value) -> Value {
+    fn choose(&mut self, mask: Value, then: Value, otherwise: Value) -> Value {
         let mask = self.builder.ins().bitcast(F64X2, MemFlagsData::new(), mask);
         self.builder.ins().bitselect(mask, then, otherwise)
     }
@@ -152,32 +152,60 @@ impl<'f> Coder<'f> {
         }
     }
 
-    /// Stores a value in the lanes of the mask; what is then there.
-    pub(super) fn update(&mut self, mask: Value, place: usize, new: Value) -> Value {
-        let old = self.load(place);
-        let value = self.choose(mask, new, old);
+    /// Stores a value, in the lanes of a mask if there is one.
+    pub(super) fn assign(&mut self, mask: Option<Value>, place: usize, new: Value) {
+        let value = match mask {
+            Some(mask) => {
+                let old = self.load(place);
+                self.choose(mask, new, old)
+            }
+            None => new,
+        };
         self.store(place, value);
-        value
     }
 
-    /// The mask of the lanes in which a comparison holds.
-    pub(super) fn compare(&mut self, code: FloatCC, a: Value, b: Value) -> Value {
-        self.builder.ins().fcmp(code, a, b)
+    pub(super) fn integer(&mut self, value: u64) -> Value {
+        self.builder.ins().iconst(I64, value as i64)
     }
 
-    /// 1 in the lanes of the mask, 0 elsewhere.
-    pub(super) fn ones(&mut self, mask: Value) -> Value {
-        let one = self.number(1.0);
-        let bits = self.builder.ins().bitcast(I64X2, MemFlagsData::new(), one);
-        let kept = self.builder.ins().band(mask, bits);
-        self.builder.ins().bitcast(F64X2, MemFlagsData::new(), kept)
+    pub(super) fn blocks<const N: usize>(&mut self) -> [Block; N] {
+        std::array::from_fn(|_| self.builder.create_block())
+    }
+
+    pub(super) fn at(&mut self, block: Block) {
+        self.builder.switch_to_block(block);
+    }
+
+    pub(super) fn jump(&mut self, block: Block) {
+        self.builder.ins().jump(block, &[]);
+    }
+
+    /// Copies g and μ from the caller's memory to the frame (`inwards`) or back; numbers there are so many apart.
+    pub(super) fn exchange(&mut self, lists: [Value; 2], apart: usize, inwards: bool) {
+        // The caller's numbers are aligned each by itself.
+        let flags = MemFlagsData::new().with_notrap();
+        for (list, variable) in lists.into_iter().zip([Variable::Element, Variable::Momentum]) {
+            for (at, place) in self.frame.places(variable).enumerate() {
+                let offset = (at * apart * 8) as i32;
+                if inwards {
+                    let value = self.builder.ins().load(self.form.kind(), flags, list, offset);
+                    self.store(place, value);
+                } else {
+                    let value = self.load(place);
+                    self.builder.ins().store(flags, value, list, offset);
+                }
+            }
+        }
     }
 
     /// A leaf of the program, read anew.
     pub(super) fn leaf(&mut self, part: Part, node: Node) -> Value {
         match node {
             Node::Slot(i) => self.slot(i as usize),
-            Node::Input(i) => self.load(self.frame.input(part, i as usize)),
+            Node::Input(i) => match self.frame.find(part.variables().0, i as usize) {
+                Some((_, place)) => self.load(place),
+                None => self.number(0.0),
+            },
             Node::Constant(bits) => self.number(f64::from_bits(bits)),
             _ => self.number(0.0),
         }

@@ -5,11 +5,11 @@
 //! is farther away than those of the others (Belady's rule); then it waits in the frame, and whoever uses it reads it
 //! there, as a rule in the same instruction. What Cranelift sees fits its registers.
 
+use coadjoint_program::schedule::Part;
 use coadjoint_program::{Id, Kernel, Node, Program};
 use cranelift_codegen::ir::Value;
 
 use super::coder::Coder;
-use super::frame::Part;
 
 /// Registers given to values; the processor has sixteen or more.
 const REGISTERS: usize = 13;

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use coadjoint_program::{Kernel, Program};
+use coadjoint_program::Kernel;
+use coadjoint_program::schedule::{Kind, Variable};
 
 use super::JitError;
 
@@ -12,58 +13,35 @@ const MOST: usize = 1 << 18;
 /// Places of a frame, counted in numbers (or groups of lanes).
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
-    /// n and m of the kernel.
-    pub(super) dim: usize,
-    pub(super) element: usize,
-    /// g (m), then μ (n).
-    pub(super) state: usize,
-    /// The same at the start of the block.
+    /// Where the numbers of each variable are; g and μ come first.
+    variables: Vec<Range<usize>>,
+    /// g, then μ, at the start of the block.
     pub(super) start: usize,
-    /// p (n).
-    pub(super) p: usize,
-    /// The constants of the solve (k).
-    pub(super) constants: Range<usize>,
-    /// x (n).
-    pub(super) x: usize,
-    /// What is left of the equation.
-    pub(super) left: usize,
-    /// The way from the guess.
-    pub(super) way: usize,
-    /// Steps made in the block.
-    pub(super) times: usize,
     /// All of them.
-    places: usize,
+    size: usize,
     /// Where programs keep values that have no register, one program after the other.
     scratch: usize,
 }
 
 impl Frame {
     pub(super) fn of(kernel: &Kernel) -> Self {
-        let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
-        let start = m + n;
-        let p = start + m + n;
-        let constants = p + n..p + n + k;
-        let x = constants.end;
-        let left = x + n;
-        Self {
-            dim: n,
-            element: m,
-            state: 0,
-            start,
-            p,
-            constants,
-            x,
-            left,
-            way: left + 1,
-            times: left + 2,
-            places: left + 3,
-            scratch: left + 3,
-        }
+        let mut start = 0;
+        let place = |(variable, _): (Variable, _)| {
+            let begin = start;
+            start += match variable.kind(kernel) {
+                Kind::Array(len) => len,
+                Kind::Number | Kind::Count => 1,
+            };
+            begin..start
+        };
+        let variables = Variable::ALL.map(place).to_vec();
+        let size = start + kernel.element() + kernel.dim();
+        Self { variables, start, size, scratch: size }
     }
 
     /// The bytes it takes, numbers being of so many each.
     pub(super) fn bytes(&self, each: usize) -> Result<u32, JitError> {
-        let bytes = self.places.saturating_mul(each);
+        let bytes = self.size.saturating_mul(each);
         match u32::try_from(bytes) {
             Ok(fits) if bytes <= MOST => Ok(fits),
             _ => Err(JitError::Large { bytes, most: MOST }),
@@ -73,61 +51,33 @@ impl Frame {
     /// One more place for a value that has no register.
     pub(super) fn scratch(&mut self) -> usize {
         self.scratch += 1;
-        self.places = self.places.max(self.scratch);
+        self.size = self.size.max(self.scratch);
         self.scratch - 1
     }
 
     /// Forgets the values that have no register.
     pub(super) fn clear(&mut self) {
-        self.scratch = self.times + 1;
+        self.scratch = self.start + self.state().len();
     }
 
-    fn mu(&self) -> usize {
-        self.state + self.element
+    /// Where a variable's numbers are; those of a count, where programs read it.
+    pub(super) fn places(&self, variable: Variable) -> Range<usize> {
+        self.variables[variable as usize].clone()
     }
 
-    /// Where input number i of a program is.
-    pub(super) fn input(&self, part: Part, i: usize) -> usize {
-        let (n, m) = (self.dim, self.element);
-        match part {
-            Part::Guess => self.mu() + i,
-            Part::Correct if i < n => self.p + i,
-            Part::Correct if i < 2 * n => self.mu() + i - n,
-            Part::Correct => self.constants.start + i - 2 * n,
-            // x is followed by what is left, then by the way.
-            Part::Accept if i < n => self.mu() + i,
-            Part::Accept => self.x + i - n,
-            Part::Transport if i < m + n => self.state + i,
-            Part::Transport => self.x + i - m - n,
-            Part::Frame if i < m + n => self.state + i,
-            Part::Frame => self.times,
-            Part::Sound => self.state + i,
-        }
+    /// Where g and μ are.
+    pub(super) fn state(&self) -> Range<usize> {
+        self.places(Variable::Element).start..self.places(Variable::Momentum).end
     }
-}
 
-/// The programs of a step that run in its loop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
-    Guess,
-    Correct,
-    Accept,
-    Transport,
-    Frame,
-    Sound,
-}
-
-impl Part {
-    /// Its program in this kernel.
-    pub(super) fn program(self, kernel: &Kernel) -> Option<&Program> {
-        let programs = kernel.programs();
-        match self {
-            Self::Guess => Some(&programs.guess),
-            Self::Correct => Some(&programs.correct),
-            Self::Accept => Some(&programs.accept),
-            Self::Transport => Some(&programs.transport),
-            Self::Frame => programs.frame.as_ref(),
-            Self::Sound => Some(&programs.sound),
-        }
+    /// The variable of number i of a list, and where that number is.
+    pub(super) fn find(&self, list: &[Variable], i: usize) -> Option<(Variable, usize)> {
+        let mut before = 0;
+        list.iter().find_map(|&variable| {
+            let places = self.places(variable);
+            let at = places.start + i - before;
+            before += places.len();
+            (i < before).then_some((variable, at))
+        })
     }
 }

@@ -6,16 +6,16 @@
 
 mod code;
 mod coder;
-mod control;
 mod evaluate;
 mod frame;
+mod function;
 mod host;
-mod lanes;
-mod scalar;
+mod steps;
 
 use coadjoint_program::{Kernel, Trajectories};
 
 use crate::Entry;
+use coder::Form;
 
 /// Why there is no machine code of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -49,8 +49,8 @@ pub enum JitError {
 pub fn compile(kernel: &Kernel, trajectories: Trajectories) -> Result<Entry, JitError> {
     let isa = host::isa()?;
     let config = isa.frontend_config();
-    let one = || host::assemble(&isa, scalar::build(kernel, config)?);
-    let pairs = || host::assemble(&isa, lanes::build(kernel, config)?);
+    let one = || host::assemble(&isa, function::build(kernel, Form::Number, config)?);
+    let pairs = || host::assemble(&isa, function::build(kernel, Form::Pair, config)?);
     let (advance, lanes) = match trajectories {
         Trajectories::One => (Some(one()?), None),
         Trajectories::Lanes => (None, Some(pairs()?)),

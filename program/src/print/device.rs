@@ -5,10 +5,10 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::c::C;
-use super::device_loop::{FRAME, HEAD_CUDA, HEAD_OPENCL, LOOP};
 use super::dialect::Dialect;
 use super::pieces::pieces;
 use super::signature::{Signature, signatures};
+use super::steps::{LoopStyle, steps};
 use crate::kernel::{BLOCK, Kernel};
 use crate::node::Node;
 use crate::precision::Precision;
@@ -76,20 +76,21 @@ pub fn device_unit(
     });
     text.push_str(&device.sizes(kernel));
     text.push_str(&device.coefficients(slots, precision));
-    for signature in driven(kernel) {
+    text.push_str(COPY);
+    for signature in signatures(kernel, PREFIX) {
         text.push('\n');
         text.push_str(&pieces(&device, &device.called(), &signature, device.longest));
     }
-    let frame = if kernel.programs().frame.is_some() { FRAME } else { "" };
-    text.push_str(&LOOP.replace("/*FRAME*/", frame));
-    text
-}
-
-/// The signatures of the programs that the loop calls.
-fn driven(kernel: &Kernel) -> impl Iterator<Item = Signature<'_>> {
-    const CALLED: [&str; 6] = ["guess", "correct", "accept", "transport", "frame", "sound"];
-    let called = |name: &str| name.strip_prefix(PREFIX).is_some_and(|name| CALLED.contains(&name));
-    signatures(kernel, PREFIX).into_iter().filter(move |one| called(&one.name))
+    let style = LoopStyle {
+        prefix: PREFIX.into(),
+        count: "COUNT".into(),
+        copy: "coadjoint_copy".into(),
+        live: "why == 0u".into(),
+        right: "right == ONE".into(),
+        refuse: [REFUSED_STEP, "why = 4u;"].map(String::from),
+        ..LoopStyle::default()
+    };
+    text + &FUNCTION.replace("/*STEPS*/", &steps(kernel, &device, &device.c, &style, 4))
 }
 
 fn comment(kernel: &Kernel, about: &str) -> String {
@@ -131,7 +132,7 @@ struct Device {
 impl Device {
     fn new(kernel: &Kernel, language: DeviceLanguage) -> Self {
         let precision = kernel.precision();
-        let total: usize = driven(kernel).map(|one| one.program.cost().total()).sum();
+        let total: usize = signatures(kernel, PREFIX).map(|one| one.program.cost().total()).sum();
         let inlined = total <= INLINED;
         let (number, suffix) = match precision {
             Precision::Double => ("double", ""),
@@ -146,7 +147,7 @@ impl Device {
             ..C::default()
         };
         let mut places = BTreeMap::new();
-        for signature in driven(kernel) {
+        for signature in signatures(kernel, PREFIX) {
             for node in signature.program.nodes() {
                 if let Node::Slot(index) = *node {
                     places.insert(index as usize, 0);
@@ -171,28 +172,20 @@ impl Device {
 
     /// What the loop needs to know, as macros; arrays have one number at least.
     fn sizes(&self, kernel: &Kernel) -> String {
-        let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
+        let (n, m) = (kernel.dim(), kernel.element());
         let literal = |value| self.literal(value);
         let array = |length: usize| length.max(1);
-        let plus = match (self.language, self.precision) {
-            (DeviceLanguage::OpenCl, _) => "((a) + (b))",
-            (DeviceLanguage::Cuda, Precision::Double) => "__dadd_rn(a, b)",
-            (DeviceLanguage::Cuda, Precision::Single) => "__fadd_rn(a, b)",
-        };
         format!(
-            "#define NUMBER {}\n#define PLUS(a, b) {plus}\n#define ZERO {}\n#define ONE {}\n\
+            "#define NUMBER {}\n#define ONE {}\n\
              #define DIM {n}\n#define ELEMENT {m}\n\
-             #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n#define CONSTANT_ARRAY {}\n\
-             #define TOLERANCE {}\n#define NEAR {}\n#define CORRECTIONS {}u\n#define BLOCK {BLOCK}\n",
+             #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n\
+             #define TOLERANCE {}\n#define NEAR {}\n",
             self.c.number,
-            literal(0.0),
             literal(1.0),
             array(n),
             array(m),
-            array(k),
             literal(kernel.tolerance()),
             literal(kernel.near()),
-            kernel.corrections(),
         )
     }
 
@@ -271,3 +264,72 @@ impl Dialect for Device {
         }
     }
 }
+
+const HEAD_OPENCL: &str = r"
+#pragma OPENCL FP_CONTRACT OFF
+#define KERNEL __kernel
+#define INLINE static
+#define CALLED static
+#define GLOBAL __global
+#define RESTRICT restrict
+#define COUNT ulong
+#define ROW get_global_id(0)
+";
+
+const HEAD_CUDA: &str = r#"
+#define KERNEL extern "C" __global__
+#define INLINE static __device__ __forceinline__
+#define CALLED static __device__ __noinline__
+#define GLOBAL
+#define RESTRICT __restrict__
+#define COUNT unsigned long long
+#define ROW ((COUNT)blockIdx.x * blockDim.x + threadIdx.x)
+#ifndef NAN
+#define NAN (0.0f / 0.0f)
+#endif
+#ifndef INFINITY
+#define INFINITY (1.0f / 0.0f)
+#endif
+"#;
+
+const COPY: &str = r"
+INLINE void coadjoint_copy(NUMBER *RESTRICT to, const NUMBER *RESTRICT from, const int length)
+{
+    for (int i = 0; i < length; i++) {
+        to[i] = from[i];
+    }
+}
+";
+
+/// Decisions are those of [`Stepper::advance`](crate::Stepper::advance).
+const FUNCTION: &str = r"
+KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *RESTRICT mu_state,
+    GLOBAL COUNT *RESTRICT done_state, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
+    const COUNT target)
+{
+    const COUNT row = ROW;
+    NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY];
+    COUNT steps;
+    unsigned int why = 0u;
+    if (row >= rows || done_state[row] >= target) {
+        return;
+    }
+    steps = target - done_state[row];
+    for (int i = 0; i < ELEMENT; i++) {
+        g[i] = g_state[i * rows + row];
+    }
+    for (int i = 0; i < DIM; i++) {
+        mu[i] = mu_state[i * rows + row];
+    }
+/*STEPS*/    for (int i = 0; i < ELEMENT; i++) {
+        g_state[i * rows + row] = g[i];
+    }
+    for (int i = 0; i < DIM; i++) {
+        mu_state[i * rows + row] = mu[i];
+    }
+    done_state[row] += done;
+    status[row] = why;
+}
+";
+
+const REFUSED_STEP: &str = "why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;";

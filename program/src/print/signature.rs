@@ -1,12 +1,12 @@
 //! What the programs of a kernel read and write, by name.
 
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
 use alloc::{borrow::ToOwned, format};
 
 use crate::kernel::Kernel;
 use crate::program::Program;
+use crate::schedule::{Kind, Part, Variable};
 
 /// A part of a program's inputs or outputs: an array or a single number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,54 +70,26 @@ impl Signature<'_> {
     }
 }
 
-/// The signatures of guess, correct, accept, transport, frame (where there is one), sound, watch and matrix; names of
-/// functions begin with `prefix`.
-#[must_use]
-pub fn signatures<'a>(kernel: &'a Kernel, prefix: &str) -> Vec<Signature<'a>> {
-    let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
-    let programs = kernel.programs();
-    let array = Field::array;
-    let number = Field::number;
-    let state = || vec![array("g", m), array("mu", n)];
-    let moved = || vec![array("g_next", m), array("mu_next", n)];
-    let with = |mut fields: Vec<Field>, last: Field| {
-        fields.push(last);
-        fields
-    };
-    let make = |name: &str, program, inputs, outputs| Signature {
-        name: format!("{prefix}{name}"),
-        program,
-        inputs,
-        outputs,
-    };
-    let mut list = vec![
-        make("guess", &programs.guess, vec![array("mu", n)], vec![array("p", n), array("k", k)]),
-        make(
-            "correct",
-            &programs.correct,
-            vec![array("p", n), array("mu", n), array("k", k)],
-            vec![array("p_next", n), array("x", n), number("left"), number("moved")],
-        ),
-        make(
-            "accept",
-            &programs.accept,
-            vec![array("mu", n), array("x", n), number("left"), number("way")],
-            vec![number("right")],
-        ),
-        make("transport", &programs.transport, with(state(), array("x", n)), moved()),
-    ];
-    if let Some(frame) = &programs.frame {
-        list.push(make("frame", frame, with(state(), number("times")), moved()));
-    }
-    list.push(make("sound", &programs.sound, state(), vec![number("right")]));
-    let watched = programs.watch.outputs().len();
-    list.push(make("watch", &programs.watch, state(), vec![array("watched", watched)]));
-    let entries = programs.matrix.outputs().len();
-    list.push(make(
-        "matrix",
-        &programs.matrix,
-        vec![array("g", m)],
-        vec![array("matrix", entries)],
-    ));
-    list
+/// The signatures of the programs that the loop of a kernel calls; names of functions begin with `prefix`. An output that
+/// is an input as well has a name of its own.
+pub fn signatures<'a>(kernel: &'a Kernel, prefix: &str) -> impl Iterator<Item = Signature<'a>> {
+    Part::ALL.into_iter().filter_map(move |(part, name)| {
+        let (inputs, outputs) = part.variables();
+        let field = |variable: Variable, end: &str| {
+            let len = match variable.kind(kernel) {
+                Kind::Array(len) => Some(len),
+                Kind::Number | Kind::Count => None,
+            };
+            Field { name: format!("{}{end}", variable.name()), len }
+        };
+        let output = |&variable: &Variable| {
+            field(variable, if inputs.contains(&variable) { "_next" } else { "" })
+        };
+        Some(Signature {
+            name: format!("{prefix}{name}"),
+            program: part.program(kernel)?,
+            inputs: inputs.iter().map(|&variable| field(variable, "")).collect(),
+            outputs: outputs.iter().map(output).collect(),
+        })
+    })
 }

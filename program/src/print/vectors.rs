@@ -114,6 +114,18 @@ INLINE V size(V a)
     return (V)((M)a & 0x7fffffffffffffffLL);
 }
 
+INLINE M counts(long long a)
+{
+    return (M){0} + a;
+}
+
+INLINE void copy(double *to, const double *from, int length)
+{
+    for (int i = 0; i < length; i++) {
+        to[i] = from[i];
+    }
+}
+
 INLINE int any(M mask)
 {
 #if W == 4 && HAS(__builtin_ia32_movmskpd256)
@@ -125,6 +137,14 @@ INLINE int any(M mask)
     }
     return found != 0;
 #endif
+}
+
+/* Copies in the lanes of a mask. */
+INLINE void update(M mask, V *to, const V *from, int length)
+{
+    for (int i = 0; i < length; i++) {
+        to[i] = pick(mask, from[i], to[i]);
+    }
 }
 
 INLINE V load(const double *from)

@@ -1,48 +1,56 @@
 //! The loop of steps, that of [`coadjoint_program::Stepper::advance`].
 
-use super::dialect::decimal;
+use coadjoint_program::print::{LoopStyle, steps};
+
+use super::dialect::{Portable, decimal};
+use super::fold::Fold;
 use super::names::Names;
 use crate::step::Step;
 
 /// The functions that make steps.
-pub fn functions(step: &Step, names: &Names) -> String {
+pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
     let kernel = step.kernel();
-    let frame = if kernel.programs().frame.is_some() { FRAME } else { "" };
+    let style = LoopStyle {
+        prefix: "@p@_internal_".into(),
+        count: "uint32_t".into(),
+        sizes: ["@P@_ELEMENT", "@P@_DIMENSION"].map(String::from),
+        copy: "@p@_internal_copy".into(),
+        live: "status == @P@_OK".into(),
+        open: "@p@_internal_open(left, way)".into(),
+        right: "right > 0.5".into(),
+        refuse: [REFUSED_STEP, REFUSED_STATE].map(String::from),
+        ..LoopStyle::default()
+    };
+    let dialect = Portable::new(names, fold.places.clone());
     let text = DRIVE
-        .replace("/*FRAME*/", frame)
-        .replace("/*CONSTANTS*/", &kernel.constants().max(1).to_string())
-        .replace("/*CORRECTIONS*/", &format!("{}u", kernel.corrections()))
+        .replace("/*STEPS*/", &steps(kernel, &dialect, &dialect.c, &style, 4))
         .replace("/*TOLERANCE*/", &decimal(kernel.tolerance()))
         .replace("/*NEAR*/", &decimal(kernel.near()));
     names.fill(&text)
 }
 
+const REFUSED_STEP: &str = "status = @p@_internal_reason(c, mu, left, way);";
+
+const REFUSED_STATE: &str = "status = @P@_OFF_GROUP;
+if ((!@p@_internal_finite(g, @P@_ELEMENT)) || (!@p@_internal_finite(mu, @P@_DIMENSION))) {
+    status = @P@_NOT_FINITE;
+}";
+
 /// The loop of steps.
 const DRIVE: &str = "
-/* Internal: solves the equation of a step by Newton's method: x, a bound on what is left of the equation, and the way
- * from the first guess, both relative to the largest coordinate of the momentum. */
-static inline void @p@_internal_solve(const double *@P@_RESTRICT c, const double *@P@_RESTRICT mu,
-    double *@P@_RESTRICT x, double *@P@_RESTRICT left, double *@P@_RESTRICT way)
+/* Internal: copies a list. */
+static inline void @p@_internal_copy(double *to, const double *from, uint32_t length)
 {
-    double p[@P@_DIMENSION];
-    double p_next[@P@_DIMENSION];
-    double k[/*CONSTANTS*/];
-    double moved = 0.0;
-    uint32_t correction = 0u;
     uint32_t i;
-    bool open = true;
-    @p@_internal_guess(c, mu, p, k);
-    *left = 1.0;
-    *way = 0.0;
-    while (open && (correction < /*CORRECTIONS*/)) {
-        @p@_internal_correct(c, p, mu, k, p_next, x, left, &moved);
-        for (i = 0u; i < @P@_DIMENSION; i++) {
-            p[i] = p_next[i];
-        }
-        *way = *way + moved;
-        correction++;
-        open = (!(*left <= /*TOLERANCE*/)) && (*way <= /*NEAR*/);
+    for (i = 0u; i < length; i++) {
+        to[i] = from[i];
     }
+}
+
+/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+static inline bool @p@_internal_open(double left, double way)
+{
+    return (!(left <= /*TOLERANCE*/)) && (way <= /*NEAR*/);
 }
 
 /* Internal: why a step was not accepted. */
@@ -76,53 +84,16 @@ static inline @p@_status @p@_internal_reason(const double *c, const double *mu, 
 static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state, uint32_t steps,
     uint32_t *made)
 {
-    @p@_state now;
-    @p@_state next;
+    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    const double *c = map->c;
+    double g[@P@_ELEMENT];
+    double mu[@P@_DIMENSION];
     @p@_status status = map->status;
-    double x[@P@_DIMENSION];
-    double left = 1.0;
-    double way = 0.0;
-    double right = 0.0;
-    uint32_t done = 0u;
-    uint32_t i;
-    for (i = 0u; i < @P@_DIMENSION; i++) {
-        x[i] = 0.0;
-    }
-    now = *state;
-    next = *state;
-    while ((status == @P@_OK) && (done < steps)) {
-        uint32_t length = steps - done;
-        uint32_t count = 0u;
-        @p@_state begun;
-        if (length > @P@_BLOCK) {
-            length = @P@_BLOCK;
-        }
-        begun = now;
-        while ((status == @P@_OK) && (count < length)) {
-            @p@_internal_solve(map->c, now.mu, x, &left, &way);
-            @p@_internal_accept(map->c, now.mu, x, left, way, &right);
-            if (right > 0.5) {
-                @p@_internal_transport(map->c, now.g, now.mu, x, next.g, next.mu);
-                now = next;
-                count++;
-            } else {
-                status = @p@_internal_reason(map->c, now.mu, left, way);
-            }
-        }
-        if (count > 0u) {
-/*FRAME*/            @p@_internal_sound(map->c, now.g, now.mu, &right);
-            if (!(right > 0.5)) {
-                status = @P@_OFF_GROUP;
-                if ((!@p@_internal_finite(now.g, @P@_ELEMENT)) || (!@p@_internal_finite(now.mu, @P@_DIMENSION))) {
-                    status = @P@_NOT_FINITE;
-                }
-                now = begun;
-                count = 0u;
-            }
-        }
-        done = done + count;
-    }
-    *state = now;
+    @p@_internal_copy(g, state->g, @P@_ELEMENT);
+    @p@_internal_copy(mu, state->mu, @P@_DIMENSION);
+/*STEPS*/    @p@_internal_copy(state->g, g, @P@_ELEMENT);
+    @p@_internal_copy(state->mu, mu, @P@_DIMENSION);
     *made = done;
     return status;
 }
@@ -135,10 +106,4 @@ static inline @p@_status @p@_step(const @p@_map *map, @p@_state *state)
     uint32_t made = 0u;
     return @p@_advance(map, state, 1u, &made);
 }
-";
-
-/// The motion of a comoving frame, after each block.
-const FRAME: &str =
-    "            @p@_internal_frame(map->c, now.g, now.mu, (double)count, next.g, next.mu);
-            now = next;
 ";

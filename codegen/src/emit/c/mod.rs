@@ -107,7 +107,7 @@ pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String
         reference::types(integrator, &step, &fold, &names, options),
         names.fill(template::HELPERS),
         programs::functions(&step, &fold, &names),
-        drive::functions(&step, &names),
+        drive::functions(&step, &fold, &names),
         fold.init(integrator, &names, options),
         reference::functions(integrator, &step, &names),
         names.fill(template::END_OF_C),

@@ -50,16 +50,18 @@ pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
             "accept" => "1 where a step is right",
             "transport" => "the state moved by the increment x",
             "frame" => "the state moved on by the comoving frame",
-            "sound" => "1 where a state is finite and on the group",
-            "matrix" => "the matrix of a group element",
-            _ => continue,
+            _ => "1 where a state is finite and on the group",
         };
         print(about, &signature);
     }
     let array = Field::array;
+    let program = &kernel.programs().matrix;
+    let (inputs, outputs) = (vec![array("g", m)], vec![array("matrix", program.outputs().len())]);
+    let name = |name: &str| format!("{prefix}{name}");
+    let signature = Signature { name: name("matrix"), program, inputs, outputs };
+    print("the matrix of a group element", &signature);
     let (energy, count) = (watched(step, 0..1), casimirs(step));
     let mu = || vec![array("mu", n)];
-    let name = |name: &str| format!("{prefix}{name}");
     let outputs = vec![Field::number("energy")];
     print(
         "the energy",

@@ -1,0 +1,262 @@
+//! The loop of a kernel: its statements as Cranelift's instructions, for one trajectory or for a pair under masks.
+
+use coadjoint_program::Kernel;
+use coadjoint_program::schedule::{Block, Kind, Part, Statement, Test, Variable, schedule};
+use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
+use cranelift_codegen::ir::types::{F64, I8, I64, I64X2};
+use cranelift_codegen::ir::{InstBuilder, Value};
+use cranelift_frontend::Variable as Register;
+
+use super::coder::{Coder, Form};
+
+/// Writes the loop.
+pub(super) struct Loop<'f, 'k> {
+    pub(super) coder: Coder<'f>,
+    kernel: &'k Kernel,
+    /// Registers of the counts.
+    counts: Vec<Register>,
+    /// Whether trajectories move on, and how many steps are asked for.
+    live: Register,
+    steps: Register,
+    /// The report of one trajectory: the largest number of corrections, the largest residual.
+    report: [Register; 2],
+}
+
+impl<'f, 'k> Loop<'f, 'k> {
+    pub(super) fn new(mut coder: Coder<'f>, kernel: &'k Kernel) -> Self {
+        let (count, flag) = match coder.form {
+            Form::Number => (I64, I8),
+            Form::Pair => (I64X2, I64X2),
+        };
+        let builder = &mut coder.builder;
+        let counts = Variable::ALL.iter().map(|_| builder.declare_var(count)).collect();
+        let [live, steps] = [flag, count].map(|kind| builder.declare_var(kind));
+        let report = [I64, F64].map(|kind| builder.declare_var(kind));
+        Self { coder, kernel, counts, live, steps, report }
+    }
+
+    pub(super) fn get(&mut self, count: Variable) -> Value {
+        self.coder.builder.use_var(self.counts[count as usize])
+    }
+
+    fn set(&mut self, count: Variable, value: Value) {
+        self.coder.builder.def_var(self.counts[count as usize], value);
+    }
+
+    /// A count in all lanes.
+    fn spread(&mut self, value: Value) -> Value {
+        match self.coder.form {
+            Form::Number => value,
+            Form::Pair => self.coder.builder.ins().splat(I64X2, value),
+        }
+    }
+
+    /// The same count in all lanes.
+    fn whole(&mut self, value: u32) -> Value {
+        let value = self.coder.integer(u64::from(value));
+        self.spread(value)
+    }
+
+    /// Runs the loop for so many steps of the trajectories that are live.
+    pub(super) fn run(&mut self, steps: Value, live: Value) {
+        self.coder.builder.def_var(self.live, live);
+        // Counts are compared as signed numbers.
+        let most = self.coder.integer(u64::MAX >> 1);
+        let steps = self.coder.builder.ins().umin(steps, most);
+        let steps = self.spread(steps);
+        self.coder.builder.def_var(self.steps, steps);
+        let zeros = [self.coder.integer(0), self.coder.float(0.0)];
+        for (register, zero) in self.report.into_iter().zip(zeros) {
+            self.coder.builder.def_var(register, zero);
+        }
+        self.block(&schedule(self.kernel), None);
+    }
+
+    /// The largest number of corrections, as a number, and the largest residual.
+    pub(super) fn report(&mut self) -> [Value; 2] {
+        let [corrections, residual] = self.report.map(|of| self.coder.builder.use_var(of));
+        [self.coder.builder.ins().fcvt_from_uint(F64, corrections), residual]
+    }
+
+    fn block(&mut self, block: &Block, mask: Option<Value>) {
+        for &(variable, initial) in &block.variables {
+            match (variable.kind(self.kernel), initial) {
+                (Kind::Count, initial) => {
+                    let value = self.whole(initial.unwrap_or(0));
+                    self.set(variable, value);
+                }
+                (_, Some(initial)) => {
+                    let value = self.coder.number(f64::from(initial));
+                    for place in self.coder.frame.places(variable) {
+                        self.coder.store(place, value);
+                    }
+                }
+                (_, None) => {}
+            }
+        }
+        for statement in &block.body {
+            self.statement(statement, block, mask);
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement, within: &Block, mask: Option<Value>) {
+        match statement {
+            Statement::Call(part) => self.call(*part, within, mask),
+            Statement::Lengthen => {
+                let [way, moved] = [Variable::Way, Variable::Moved].map(|of| self.load(of));
+                let sum = self.coder.builder.ins().fadd(way, moved);
+                let place = self.coder.frame.places(Variable::Way).start;
+                self.coder.assign(mask, place, sum);
+            }
+            Statement::Next(variable) => {
+                let before = self.get(*variable);
+                // A mask is −1 where it is set.
+                let less = mask.unwrap_or_else(|| self.coder.integer(u64::MAX));
+                let sum = self.coder.builder.ins().isub(before, less);
+                self.set(*variable, sum);
+            }
+            Statement::Keep => self.copy_state(None, false),
+            Statement::Restore => {
+                self.copy_state(mask, true);
+                let [done, mut count] = [Variable::Done, Variable::Count].map(|of| self.get(of));
+                if let Some(mask) = mask {
+                    count = self.coder.builder.ins().band(count, mask);
+                }
+                let done = self.coder.builder.ins().isub(done, count);
+                self.set(Variable::Done, done);
+            }
+            Statement::Note if self.coder.form == Form::Number => self.note(),
+            Statement::Note => {}
+            Statement::RefuseStep | Statement::RefuseState => {
+                let live = self.coder.builder.use_var(self.live);
+                let refused = mask.unwrap_or(live);
+                let live = self.coder.builder.ins().band_not(live, refused);
+                self.coder.builder.def_var(self.live, live);
+            }
+            Statement::While(condition, block) | Statement::If(condition, block) => {
+                let repeats = matches!(statement, Statement::While(..));
+                let [test, body, out] = self.coder.blocks();
+                self.coder.jump(test);
+                self.coder.at(test);
+                // It does not change where it does not hold: nothing assigns there what it reads.
+                let condition = self.condition(condition);
+                let mut any = condition;
+                let mut lanes = None;
+                if self.coder.form == Form::Pair {
+                    let within = mask.map(|of| self.coder.builder.ins().band(of, condition));
+                    let within = within.unwrap_or(condition);
+                    any = self.coder.builder.ins().vany_true(within);
+                    lanes = Some(within);
+                }
+                self.coder.builder.ins().brif(any, body, &[], out, &[]);
+                self.coder.at(body);
+                self.block(block, lanes);
+                self.coder.jump(if repeats { test } else { out });
+                self.coder.at(out);
+            }
+        }
+    }
+
+    fn call(&mut self, part: Part, within: &Block, mask: Option<Value>) {
+        let (inputs, outputs) = part.variables();
+        for &input in inputs {
+            if input.kind(self.kernel) == Kind::Count {
+                let count = self.get(input);
+                let number = self.number_of(count);
+                self.coder.store(self.coder.frame.places(input).start, number);
+            }
+        }
+        self.coder.evaluate(self.kernel, part, |coder, i, value| {
+            if let Some((variable, place)) = coder.frame.find(outputs, i) {
+                coder.assign(mask.filter(|_| !within.owns(variable)), place, value);
+            }
+        });
+    }
+
+    /// Counts as numbers.
+    fn number_of(&mut self, counts: Value) -> Value {
+        let ins = |this: &mut Self, count| this.coder.builder.ins().fcvt_from_uint(F64, count);
+        match self.coder.form {
+            Form::Number => ins(self, counts),
+            Form::Pair => {
+                let [first, second] = [0, 1].map(|lane| {
+                    let count = self.coder.builder.ins().extractlane(counts, lane);
+                    ins(self, count)
+                });
+                let pair = self.coder.builder.ins().splat(self.coder.form.kind(), first);
+                self.coder.builder.ins().insertlane(pair, second, 1)
+            }
+        }
+    }
+
+    /// Copies g and μ to where they are kept, or back.
+    fn copy_state(&mut self, mask: Option<Value>, back: bool) {
+        let (state, start) = (self.coder.frame.state(), self.coder.frame.start);
+        for (now, kept) in state.zip(start..) {
+            let (from, to) = if back { (kept, now) } else { (now, kept) };
+            let value = self.coder.load(from);
+            self.coder.assign(mask, to, value);
+        }
+    }
+
+    /// Takes a correction into the report.
+    fn note(&mut self) {
+        let [corrections, residual] = self.report;
+        let [most, largest] = self.report.map(|of| self.coder.builder.use_var(of));
+        let tried = self.get(Variable::Tried);
+        let most = self.coder.builder.ins().umax(most, tried);
+        self.coder.builder.def_var(corrections, most);
+        let left = self.load(Variable::Left);
+        let solved =
+            self.compare(Variable::Left, FloatCC::LessThanOrEqual, self.kernel.tolerance());
+        let larger = self.coder.builder.ins().fcmp(FloatCC::LessThan, largest, left);
+        let counts = self.coder.builder.ins().band(solved, larger);
+        let largest = self.coder.builder.ins().select(counts, left, largest);
+        self.coder.builder.def_var(residual, largest);
+    }
+
+    fn load(&mut self, number: Variable) -> Value {
+        self.coder.load(self.coder.frame.places(number).start)
+    }
+
+    fn compare(&mut self, number: Variable, code: FloatCC, with: f64) -> Value {
+        let (number, with) = (self.load(number), self.coder.number(with));
+        self.coder.builder.ins().fcmp(code, number, with)
+    }
+
+    fn not(&mut self, condition: Value) -> Value {
+        match self.coder.form {
+            Form::Number => self.coder.builder.ins().icmp_imm_u(IntCC::Equal, condition, 0),
+            Form::Pair => self.coder.builder.ins().bnot(condition),
+        }
+    }
+
+    /// Where a condition holds: 1 for one trajectory, a mask for pairs.
+    fn condition(&mut self, condition: &[(bool, Test)]) -> Value {
+        let mut all = None;
+        for &(holds, test) in condition {
+            let mut found = self.test(test);
+            if !holds {
+                found = self.not(found);
+            }
+            all = Some(all.map_or(found, |all| self.coder.builder.ins().band(all, found)));
+        }
+        all.unwrap_or_else(|| self.coder.builder.use_var(self.live))
+    }
+
+    fn test(&mut self, test: Test) -> Value {
+        let (a, b) = match test {
+            Test::Live => return self.coder.builder.use_var(self.live),
+            Test::Remaining => (self.get(Variable::Done), self.coder.builder.use_var(self.steps)),
+            Test::Below(a, most) => (self.get(a), self.whole(most)),
+            Test::Right => return self.compare(Variable::Right, FloatCC::Equal, 1.0),
+            Test::Open => {
+                let (most, far) = (self.kernel.tolerance(), self.kernel.near());
+                let solved = self.compare(Variable::Left, FloatCC::LessThanOrEqual, most);
+                let near = self.compare(Variable::Way, FloatCC::LessThanOrEqual, far);
+                return self.coder.builder.ins().band_not(near, solved);
+            }
+        };
+        self.coder.builder.ins().icmp(IntCC::SignedLessThan, a, b)
+    }
+}

@@ -1,0 +1,239 @@
+//! The loop of a kernel as one small tree of statements, which every target prints or compiles.
+//!
+//! The tree is written for one trajectory. A target that makes several side by side runs it under masks: the block of a
+//! `while` or an `if` runs as long as its condition holds in any lane, and assigns in the lanes where it holds. A block's
+//! own variables are assigned in all lanes, since nothing reads them in the others.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::kernel::{BLOCK, Kernel};
+use crate::program::Program;
+
+/// The variables of the loop. The function around it has g, μ, the number of steps asked for, and whether a trajectory
+/// moves on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// g (m).
+    Element,
+    /// μ (n).
+    Momentum,
+    /// p (n).
+    Guess,
+    /// The constants of the solve (k).
+    Constants,
+    /// x (n).
+    Increment,
+    /// A bound on what is left of the equation.
+    Left,
+    /// The way from the first guess.
+    Way,
+    /// The length of a correction.
+    Moved,
+    /// Whether a step or a state is right: 1 if it is.
+    Right,
+    /// How many steps were made.
+    Done,
+    /// How many of them in the block.
+    Count,
+    /// How many corrections were made in the step.
+    Tried,
+}
+
+/// What a variable holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// So many numbers.
+    Array(usize),
+    /// A number.
+    Number,
+    /// A whole number that is not negative. Programs read it as a number.
+    Count,
+}
+
+impl Variable {
+    /// All of them in order, with their names in texts.
+    pub const ALL: [(Self, &'static str); 12] = [
+        (Self::Element, "g"),
+        (Self::Momentum, "mu"),
+        (Self::Guess, "p"),
+        (Self::Constants, "k"),
+        (Self::Increment, "x"),
+        (Self::Left, "left"),
+        (Self::Way, "way"),
+        (Self::Moved, "moved"),
+        (Self::Right, "right"),
+        (Self::Done, "done"),
+        (Self::Count, "count"),
+        (Self::Tried, "tried"),
+    ];
+
+    /// Its name in texts.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::ALL[self as usize].1
+    }
+
+    /// What it holds.
+    #[must_use]
+    pub fn kind(self, kernel: &Kernel) -> Kind {
+        match self {
+            Self::Element => Kind::Array(kernel.element()),
+            Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim()),
+            Self::Constants => Kind::Array(kernel.constants()),
+            Self::Left | Self::Way | Self::Moved | Self::Right => Kind::Number,
+            Self::Done | Self::Count | Self::Tried => Kind::Count,
+        }
+    }
+}
+
+/// The programs that the loop calls, those of [`Programs`](crate::Programs).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Part {
+    Guess,
+    Correct,
+    Accept,
+    Transport,
+    Frame,
+    Sound,
+}
+
+impl Part {
+    /// All of them in order, with their names in texts.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Guess, "guess"),
+        (Self::Correct, "correct"),
+        (Self::Accept, "accept"),
+        (Self::Transport, "transport"),
+        (Self::Frame, "frame"),
+        (Self::Sound, "sound"),
+    ];
+
+    /// The program in this kernel, if there is one.
+    #[must_use]
+    pub fn program(self, kernel: &Kernel) -> Option<&Program> {
+        let programs = kernel.programs();
+        match self {
+            Self::Guess => Some(&programs.guess),
+            Self::Correct => Some(&programs.correct),
+            Self::Accept => Some(&programs.accept),
+            Self::Transport => Some(&programs.transport),
+            Self::Frame => programs.frame.as_ref(),
+            Self::Sound => Some(&programs.sound),
+        }
+    }
+
+    /// What it reads and what it assigns, in order. All is read before anything is assigned.
+    #[must_use]
+    pub fn variables(self) -> (&'static [Variable], &'static [Variable]) {
+        use Variable::*;
+        match self {
+            Self::Guess => (&[Momentum], &[Guess, Constants]),
+            Self::Correct => (&[Guess, Momentum, Constants], &[Guess, Increment, Left, Moved]),
+            Self::Accept => (&[Momentum, Increment, Left, Way], &[Right]),
+            Self::Transport => (&[Element, Momentum, Increment], &[Element, Momentum]),
+            Self::Frame => (&[Element, Momentum, Count], &[Element, Momentum]),
+            Self::Sound => (&[Element, Momentum], &[Right]),
+        }
+    }
+}
+
+/// What a condition says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Test {
+    /// The trajectory moves on.
+    Live,
+    /// Fewer steps are made than are asked for.
+    Remaining,
+    /// A count is less than this number.
+    Below(Variable, u32),
+    /// What is left is more than the tolerance, and the way is at most as long as it may be.
+    Open,
+    /// [`Variable::Right`] is 1.
+    Right,
+}
+
+/// Tests that hold all (`true`) or fail all (`false`) as is said beside each.
+pub type Condition = Vec<(bool, Test)>;
+
+/// Statements, and the variables that only they know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// The variables and what they, or all their numbers, begin with; nothing, if they are assigned before they are read.
+    pub variables: Vec<(Variable, Option<u32>)>,
+    /// The statements.
+    pub body: Vec<Statement>,
+}
+
+impl Block {
+    /// Whether a variable is one of its own.
+    #[must_use]
+    pub fn owns(&self, variable: Variable) -> bool {
+        self.variables.iter().any(|&(own, _)| own == variable)
+    }
+}
+
+/// A statement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// Evaluates a program and assigns its results.
+    Call(Part),
+    /// Adds the length of a correction to the way.
+    Lengthen,
+    /// Adds 1 to a count.
+    Next(Variable),
+    /// Keeps the state as that at the start of a block.
+    Keep,
+    /// Takes it back from there, and counts the steps of the block no more.
+    Restore,
+    /// Tells of a correction, where a target reports them.
+    Note,
+    /// Stops the trajectory because its step is not right.
+    RefuseStep,
+    /// Stops the trajectory because its state is not right.
+    RefuseState,
+    /// Runs the block as long as the condition holds.
+    While(Condition, Block),
+    /// Runs the block if the condition holds.
+    If(Condition, Block),
+}
+
+/// The loop of a kernel, the same as that of its interpreter.
+#[must_use]
+pub fn schedule(kernel: &Kernel) -> Block {
+    use Statement::{
+        Call, If, Keep, Lengthen, Next, Note, RefuseState, RefuseStep, Restore, While,
+    };
+    use Test::{Below, Live, Open, Remaining, Right as IsRight};
+    use Variable::*;
+    let block = |variables: &[_], body| Block { variables: variables.to_vec(), body };
+    let correction = vec![Call(Part::Correct), Lengthen, Next(Tried), Note];
+    let corrections = vec![(true, Below(Tried, kernel.corrections())), (true, Open)];
+    let moved = vec![Call(Part::Transport), Next(Done), Next(Count)];
+    let step = vec![
+        Call(Part::Guess),
+        While(corrections, block(&[(Moved, Some(0))], correction)),
+        Call(Part::Accept),
+        If(vec![(false, IsRight)], block(&[], vec![RefuseStep])),
+        If(vec![(true, IsRight)], block(&[], moved)),
+    ];
+    let numbers = [(Left, Some(1)), (Way, Some(0)), (Right, Some(0)), (Tried, Some(0))];
+    let step = block(&[&[(Guess, None), (Constants, None)], &numbers[..]].concat(), step);
+    let mut check = vec![Call(Part::Sound)];
+    if kernel.programs().frame.is_some() {
+        check.insert(0, Call(Part::Frame));
+    }
+    let broken = block(&[], vec![RefuseState, Restore]);
+    check.push(If(vec![(false, IsRight)], broken));
+    let check = block(&[(Right, Some(0))], check);
+    let most = Below(Count, BLOCK as u32);
+    let steps = vec![
+        Keep,
+        While(vec![(true, Live), (true, Remaining), (true, most)], step),
+        If(vec![(false, Below(Count, 1))], check),
+    ];
+    let steps = block(&[(Count, Some(0))], steps);
+    let run = While(vec![(true, Live), (true, Remaining)], steps);
+    block(&[(Increment, Some(0)), (Done, Some(0))], vec![run])
+}
