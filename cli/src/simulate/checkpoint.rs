@@ -26,8 +26,11 @@ pub struct Checkpoint {
     /// The numbers that make g where steps are programs, which are other than its matrix.
     #[serde(default)]
     pub own: Option<Vec<u64>>,
-    /// The largest drifts of the spatial momentum, the Casimirs and the energy.
+    /// The largest drifts of the spatial momentum, the Casimirs and the energy; NaN for those that are not known.
     pub drift: [u64; 3],
+    /// From these times on they cannot be measured.
+    #[serde(default)]
+    pub unmeasured: [Option<u64>; 3],
     /// The most iterations of a step.
     pub iterations: u64,
     /// The largest residual.
@@ -91,9 +94,9 @@ impl Checkpoint {
 
     /// The maxima and sums.
     pub fn tally(&self) -> Tally {
-        let [spatial_momentum, casimirs, energy] = self.drift.map(f64::from_bits);
         Tally {
-            drift: Drift { spatial_momentum, casimirs, energy },
+            drift: Drift::of_numbers(self.drift.map(f64::from_bits)),
+            unmeasured: self.unmeasured.map(|time| time.map(f64::from_bits)),
             iterations: self.iterations,
             residual: self.residual.map(f64::from_bits),
             steep: self.steep.map(|[step, time, ratio]| Steep {
@@ -106,8 +109,8 @@ impl Checkpoint {
 
     /// Takes over the maxima and sums.
     pub fn set_tally(&mut self, tally: &Tally) {
-        let Drift { spatial_momentum, casimirs, energy } = tally.drift;
-        self.drift = [spatial_momentum, casimirs, energy].map(f64::to_bits);
+        self.drift = tally.drift.numbers().map(f64::to_bits);
+        self.unmeasured = tally.unmeasured.map(|time| time.map(f64::to_bits));
         self.iterations = tally.iterations;
         self.residual = tally.residual.map(f64::to_bits);
         self.steep = tally.steep.map(|s| [s.step, s.time.to_bits(), s.ratio.to_bits()]);

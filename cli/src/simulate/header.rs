@@ -8,6 +8,7 @@ use coadjoint_codegen::system::Splitting;
 use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::Scales;
 use serde_json::{Map, Value, json};
 
 use super::setup::Settings;
@@ -84,6 +85,17 @@ impl Header {
     /// With another entry at the end.
     pub fn with(mut self, name: &'static str, value: Value) -> Self {
         self.0.push((name, value));
+        self
+    }
+
+    /// With the scales of the drifts that there are.
+    pub fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
+        let list = [
+            ("spatial_momentum_scale", json!(scales.spatial_momentum)),
+            ("casimir_scales", json!(scales.casimirs)),
+            ("energy_scale", json!(scales.energy)),
+        ];
+        self.0.extend(list.into_iter().zip(known).filter_map(|(scale, known)| known.then_some(scale)));
         self
     }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{
-    Block, Halt, Moment, Outcome, Outlet, Record, Resume, Standing, columns,
+    Begun, Block, Halt, Moment, Outcome, Outlet, Record, Resume, Standing, columns,
 };
 use indicatif::ProgressBar;
 
@@ -27,8 +27,8 @@ pub struct Keeper<'a> {
     label: String,
     header: Header,
     coordinates: &'a [String],
-    /// Whether records have an energy.
-    energy: bool,
+    /// Which drifts records have.
+    known: [bool; 3],
     sink: Option<Sink>,
     /// The moments kept for pictures, if any are.
     samples: Option<Samples>,
@@ -51,7 +51,6 @@ impl<'a> Keeper<'a> {
         label: String,
         header: Header,
         coordinates: &'a [String],
-        energy: bool,
     ) -> Self {
         let now = Instant::now();
         Self {
@@ -59,7 +58,7 @@ impl<'a> Keeper<'a> {
             label,
             header,
             coordinates,
-            energy,
+            known: [false; 3],
             sink: None,
             samples: settings.sampled.then(|| Samples::new(coordinates.len())),
             found: None,
@@ -158,9 +157,10 @@ impl<'a> Keeper<'a> {
     }
 
     /// Opens the file of records.
-    fn open(&mut self, recorded: &[Block]) -> Result<(), CliError> {
-        let names = || columns(self.coordinates, recorded, self.energy);
-        let header = || self.header.clone();
+    fn open(&mut self, begun: &Begun<'_>) -> Result<(), CliError> {
+        self.known = begun.known;
+        let names = || columns(self.coordinates, begun);
+        let header = || self.header.clone().with_scales(begun.known, begun.scales);
         let target = self.settings.out.as_ref();
         let Some(found) = &self.found else {
             let begin = |target| Sink::begin(target, header(), names());
@@ -278,8 +278,8 @@ impl Outlet for Keeper<'_> {
         self.note(found)
     }
 
-    fn begin(&mut self, recorded: &[Block]) -> Result<(), Halt> {
-        let opened = self.open(recorded);
+    fn begin(&mut self, begun: &Begun<'_>) -> Result<(), Halt> {
+        let opened = self.open(begun);
         self.note(opened)?;
         if self.found.as_ref().is_none_or(|found| !found.complete) {
             self.guard = Some(Guard::new());
@@ -291,10 +291,9 @@ impl Outlet for Keeper<'_> {
 
     fn record(&mut self, record: &Record<'_>) -> Result<(), Halt> {
         let Some(sink) = &mut self.sink else { return Ok(()) };
-        let drift = record.drift;
-        let after = record.energy.map(|_| drift.energy);
-        let drifts = [drift.spatial_momentum, drift.casimirs];
-        let last = record.energy.into_iter().chain(drifts).chain(after);
+        let drifts = record.drift.numbers().into_iter().zip(self.known);
+        let drifts = drifts.filter_map(|(drift, known)| known.then_some(drift));
+        let last = record.energy.into_iter().chain(drifts);
         let state = record.momentum.iter().copied().chain((record.element)());
         let written = sink.row(std::iter::once(record.time).chain(state).chain(last));
         self.note(written)

@@ -53,7 +53,7 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
     let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
     let label = format!("learned {}, {}", model.model.name(), model.chart);
     let header = Header::of_model(&settings, &model);
-    let keeper = Keeper::new(&settings, label, header, &coordinates, false);
+    let keeper = Keeper::new(&settings, label, header, &coordinates);
     let drive = |outlet: &mut dyn Outlet| run_model(path, &model, &settings.setup, outlet);
     let trajectory = keeper.follow(drive)?;
     super::print(&[trajectory], &Units::default(), options, settings.out.as_ref());

@@ -93,7 +93,7 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
         let splitting = system.forces.as_ref().map(|forces| forces.splitting);
         let header = Header::new(&settings, problem, splitting);
         let (label, coordinates) = (system.label(), &problem.coordinates);
-        let keeper = Keeper::new(&settings, label, header.clone(), coordinates, true);
+        let keeper = Keeper::new(&settings, label, header.clone(), coordinates);
         let drive = |outlet: &mut dyn Outlet| coadjoint_run::simulate::run(&system, setup, outlet);
         let trajectory =
             Trajectory { truncation: Some(problem.truncation), ..keeper.follow(drive)? };

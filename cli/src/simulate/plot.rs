@@ -5,7 +5,7 @@ use std::path::Path;
 use coadjoint_codegen::system::{System, Units};
 use coadjoint_draw::run::{Picture, Run, Series, render};
 
-use super::trajectory::{Drift, Trajectory};
+use super::trajectory::Trajectory;
 use crate::error::CliError;
 
 /// Writes the picture.
@@ -92,13 +92,17 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
         unit: units.coordinate(i).map(str::to_owned),
         values: run.records.iter().map(|record| record.momentum[i]).collect(),
     };
-    let drift = |name: &str, of: fn(&Drift) -> f64| Series {
+    let drift = |name: &str, which: usize| Series {
         name: name.to_owned(),
         unit: None,
-        values: run.records.iter().map(|record| of(&record.drift)).collect(),
+        values: run.records.iter().map(|record| record.drift.numbers()[which]).collect(),
     };
-    let mut drifts = vec![drift("energy", |drift| drift.energy)];
-    if run.momenta > 0 {
+    let [spatial, casimirs, energy] = run.unknown.known();
+    let mut drifts = Vec::new();
+    if energy {
+        drifts.push(drift("energy", 2));
+    }
+    if spatial {
         let name = match (run.potential, run.momenta) {
             (false, _) => "spatial momentum".to_owned(),
             (true, 1) => "spatial momentum, the one component that is conserved".to_owned(),
@@ -106,10 +110,10 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
                 format!("spatial momentum, the {count} components that are conserved")
             }
         };
-        drifts.push(drift(&name, |drift| drift.spatial_momentum));
+        drifts.push(drift(&name, 0));
     }
-    if run.casimirs > 0 {
-        drifts.push(drift("Casimirs", |drift| drift.casimirs));
+    if casimirs {
+        drifts.push(drift("Casimirs", 1));
     }
     Run {
         label: run.label.clone(),

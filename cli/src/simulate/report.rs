@@ -30,17 +30,17 @@ pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
 
 /// What there is no number for has no key: no value is null.
 fn object(run: &Trajectory, units: &Units) -> Value {
-    let mut drift = json!({});
-    if run.energy.is_some() {
-        drift["energy"] = json!(run.drift.energy);
-    }
-    // What is not conserved has no drift.
-    if run.momenta > 0 {
-        drift["spatial_momentum"] = json!(run.drift.spatial_momentum);
-    }
-    if run.casimirs > 0 || !run.potential {
-        drift["casimirs"] = json!(run.drift.casimirs);
-    }
+    let names = ["spatial_momentum", "casimirs", "energy"];
+    let [spatial, casimirs, energy] = run.unknown.known();
+    let drifts = [run.drift.spatial_momentum, run.drift.casimirs, run.drift.energy];
+    let drifts = names.iter().zip(drifts).filter_map(|(name, drift)| Some((*name, json!(drift?))));
+    let scales = [
+        (spatial, json!(run.scales.spatial_momentum)),
+        (casimirs, json!(run.scales.casimirs)),
+        (energy, json!(run.scales.energy)),
+    ];
+    let scales = names.iter().zip(scales);
+    let scales = scales.filter_map(|(name, (known, scale))| known.then_some((*name, scale)));
     let mut object = json!({
         "method": run.label,
         "run": run.header.object(),
@@ -49,11 +49,17 @@ fn object(run: &Trajectory, units: &Units) -> Value {
         "coordinates": run.coordinates,
         "momentum": run.momentum,
         "group_element_blocks": blocks(run),
-        "drift": drift,
+        "drift": object_of(drifts),
+        "drift_scale": object_of(scales),
         "conserved_momenta": run.momenta,
         "conserved_casimirs": run.casimirs,
         "warnings": run.warnings.iter().map(Warning::object).collect::<Vec<_>>(),
     });
+    if run.unmeasured.iter().any(Option::is_some) {
+        let times = names.iter().zip(run.unmeasured);
+        let times = times.filter_map(|(name, time)| Some((*name, json!(time?))));
+        object["drift_not_measurable_after"] = object_of(times);
+    }
     if let Some([start, end]) = run.energy {
         object["energy"] = json!({ "start": start, "end": end });
     }
@@ -89,6 +95,10 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     object
 }
 
+fn object_of<'a>(list: impl Iterator<Item = (&'a str, Value)>) -> Value {
+    Value::Object(list.map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
 /// The blocks of the group element with the number, from 0, of the first row and column of each.
 fn blocks(run: &Trajectory) -> Value {
     let block = |(block, entries): (&Block, &[f64])| {
@@ -117,6 +127,23 @@ fn with_unit(number: &str, unit: Option<&str>) -> String {
     unit.map_or_else(|| number.to_owned(), |unit| format!("{number} {unit}"))
 }
 
+/// What a reader of the drift with this number should know.
+fn remark(run: &Trajectory, number: usize) -> String {
+    let mut remark = match number {
+        0 if run.potential => {
+            let count = run.momenta;
+            format!(" ({count} of its components; the potential breaks the other symmetries)")
+        }
+        2 => format!(" (of {:.3e})", run.scales.energy),
+        _ => String::new(),
+    };
+    if let Some(time) = run.unmeasured[number] {
+        let time = shortest(time);
+        remark.push_str(&format!(", not measurable after t = {time}: rounding of large numbers hides it"));
+    }
+    remark
+}
+
 fn text(run: &Trajectory, units: &Units) -> String {
     let mut out = String::new();
     // Writing into a string cannot fail.
@@ -138,27 +165,21 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some([_, energy]) = run.energy {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
     }
-    let drift = run.drift;
     let _ = writeln!(out, "  largest relative drift");
-    let _ = match (run.potential, run.momenta) {
-        (false, _) => writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum),
-        (true, 0) => {
-            writeln!(out, "    spatial momentum not conserved: the potential breaks the symmetry")
-        }
-        (true, count) => writeln!(
-            out,
-            "    spatial momentum {:>10.1e} ({count} of its components; the potential breaks the \
-             other symmetries)",
-            drift.spatial_momentum
-        ),
+    let casimirs = match run.casimirs {
+        0 => "Casimirs".to_owned(),
+        count => format!("Casimirs ({count})"),
     };
-    let _ = match (run.potential, run.casimirs) {
-        (false, 0) => writeln!(out, "    Casimirs         none known"),
-        (true, 0) => writeln!(out, "    Casimirs         none that the kicks keep"),
-        (_, count) => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
-    };
-    if run.energy.is_some() {
-        let _ = writeln!(out, "    energy           {:>10.1e}", drift.energy);
+    let drifts = [run.drift.spatial_momentum, run.drift.casimirs, run.drift.energy];
+    let names = ["spatial momentum", &casimirs, "energy"];
+    for (i, (name, drift)) in names.iter().zip(drifts).enumerate() {
+        let _ = match (run.unknown.0[i], drift) {
+            (Some(why), _) => writeln!(out, "    {name:<16} {why}"),
+            (None, None) => writeln!(out, "    {name:<16} not measurable"),
+            (None, Some(drift)) => {
+                writeln!(out, "    {name:<16} {drift:>10.1e}{}", remark(run, i))
+            }
+        };
     }
     if let Some(solver) = run.solver {
         let _ = writeln!(

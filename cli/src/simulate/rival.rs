@@ -66,7 +66,7 @@ pub fn rk45(
     let mut recorder = Recorder::new(group, system.watched(), &start, &seen);
     let mut samples = Samples::new(n);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
-    let moment = recorder.visit(&seen).map_err(|what| failed(0.0, what))?;
+    let moment = recorder.visit(0.0, &seen).map_err(|what| failed(0.0, what))?;
     samples.offer(0.0, start.momentum.as_slice(), moment.energy.unwrap_or(0.0), moment.drift);
     let mut watch = Watch { group, recorder, samples, last: start, moment, size, failure: None };
     let _phase = progress::phase("integrating with RK45");
@@ -149,7 +149,7 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         // What has left the group is measured as it is, not put back on it.
         let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
         self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
-        match self.recorder.visit(&At { group: self.group, phase: &self.last }) {
+        match self.recorder.visit(time, &At { group: self.group, phase: &self.last }) {
             Ok(moment) => {
                 let energy = moment.energy.unwrap_or(0.0);
                 self.samples.offer(time, self.last.momentum.as_slice(), energy, moment.drift);

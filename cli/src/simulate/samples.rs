@@ -81,8 +81,7 @@ impl Samples {
     pub fn to_bits(&self) -> Vec<Vec<u64>> {
         let row = |record: &Record| {
             let Record { time, momentum, energy, drift } = record;
-            let drift = [drift.spatial_momentum, drift.casimirs, drift.energy];
-            let numbers = [*time, *energy].into_iter().chain(drift).chain(momentum.iter().copied());
+            let numbers = [*time, *energy].into_iter().chain(drift.numbers()).chain(momentum.iter().copied());
             numbers.map(f64::to_bits).collect()
         };
         let pending = self.pending.iter().map(row);
@@ -99,7 +98,7 @@ impl Samples {
             let numbers: Vec<f64> = row.iter().copied().map(f64::from_bits).collect();
             let (&[time, energy, spatial_momentum, casimirs, lost], momentum) =
                 numbers.split_first_chunk::<5>()?;
-            let drift = Drift { spatial_momentum, casimirs, energy: lost };
+            let drift = Drift::of_numbers([spatial_momentum, casimirs, lost]);
             let fits = momentum.len() == dim;
             fits.then(|| Record { time, momentum: momentum.to_vec(), energy, drift })
         };
@@ -119,7 +118,8 @@ mod tests {
         let mut samples = Samples::new(3);
         let last = 1_000_003;
         for n in 0..=last {
-            let drift = Drift { energy: if n == 777_777 { 1.0 } else { 0.1 }, ..Drift::default() };
+            let energy = Some(if n == 777_777 { 1.0 } else { 0.1 });
+            let drift = Drift { energy, ..Drift::default() };
             samples.offer(n as f64, &[1.0, 2.0, 3.0], 0.5, drift);
             assert!(samples.records.len() <= HEAD + MOST);
         }
@@ -129,6 +129,6 @@ mod tests {
         assert!(records.windows(2).all(|pair| pair[0].time < pair[1].time));
         assert_eq!(records.last().unwrap().time, last as f64);
         assert!(records.len() > HEAD + MOST / 2);
-        assert_eq!(records.iter().filter(|record| record.drift.energy == 1.0).count(), 1);
+        assert_eq!(records.iter().filter(|record| record.drift.energy == Some(1.0)).count(), 1);
     }
 }

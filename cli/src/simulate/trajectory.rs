@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use coadjoint_run::Used;
 pub use coadjoint_run::simulate::Drift;
-use coadjoint_run::simulate::{Block, Outcome, Solver, Warning};
+use coadjoint_run::simulate::{Block, Outcome, Scales, Solver, Unknown, Warning};
 
 use super::header::Header;
 
@@ -55,6 +55,12 @@ pub struct Trajectory {
     pub energy: Option<[f64; 2]>,
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
+    /// The sizes that drifts are relative to.
+    pub scales: Scales,
+    /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
+    pub unmeasured: [Option<f64>; 3],
+    /// Why a drift is not there.
+    pub unknown: Unknown,
     /// How many Casimirs were watched.
     pub casimirs: usize,
     /// Whether a potential breaks the symmetry.
@@ -72,6 +78,7 @@ impl Trajectory {
     pub fn of(outcome: Outcome, label: String, header: Header, coordinates: &[String]) -> Self {
         let Outcome { steps, time, warnings, backend, momentum, blocks, .. } = outcome;
         let Outcome { element, energy, drift, casimirs, potential, momenta, solver, .. } = outcome;
+        let Outcome { scales, unmeasured, unknown, .. } = outcome;
         Self {
             label,
             header,
@@ -88,6 +95,9 @@ impl Trajectory {
             element,
             energy,
             drift,
+            scales,
+            unmeasured,
+            unknown,
             casimirs,
             potential,
             momenta,

@@ -105,9 +105,9 @@ impl<'a, G: Restore> March<'a, G> {
         let mut recorder = Recorder::new(group, subject.watched, &start, mover);
         let found = outlet.resume(recorder.blocks()).map_err(|_| self.halted(0))?;
         let Some(found) = found else {
-            let moment = recorder.visit(mover).map_err(|what| self.stuck(0, what))?;
+            let moment = recorder.visit(0.0, mover).map_err(|what| self.stuck(0, what))?;
             outlet.look(0.0, start.momentum.as_slice(), &moment);
-            outlet.begin(recorder.recorded()).map_err(|_| self.halted(0))?;
+            outlet.begin(&recorder.begun()).map_err(|_| self.halted(0))?;
             return Ok(State { n: 0, mover, moment, recorder, times: 0 });
         };
         let Resume { step, momentum, element, own, times, tally } = found;
@@ -124,9 +124,9 @@ impl<'a, G: Restore> March<'a, G> {
         }
         let element = group.restore(&|i, j| g[(i, j)]);
         mover.place(Phase::<G>::new(element, DVector::from_vec(momentum)), own);
-        let moment = recorder.measure(mover).map_err(|what| self.stuck(step, what))?;
-        outlet.begin(recorder.recorded()).map_err(|_| self.halted(step))?;
         recorder.tally = tally;
+        let moment = recorder.measure(mover).map_err(|what| self.stuck(step, what))?;
+        outlet.begin(&recorder.begun()).map_err(|_| self.halted(step))?;
         Ok(State { n: step, mover, moment, recorder, times })
     }
 
@@ -183,7 +183,8 @@ impl<'a, G: Restore> March<'a, G> {
         let warning = state.recorder.steep(first + 1, schedule.time(first), ratio);
         // Times of `--at` change no report of the drift.
         if self.watched(n) {
-            let moment = state.recorder.visit(&*state.mover).map_err(|what| self.stuck(n, what))?;
+            let seen = state.recorder.visit(schedule.time(n), &*state.mover);
+            let moment = seen.map_err(|what| self.stuck(n, what))?;
             state.moment = moment;
         } else if n == next {
             let moment =

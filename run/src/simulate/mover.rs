@@ -7,7 +7,7 @@ use coadjoint_codegen::step::Scratch;
 use nalgebra::DVector;
 
 use super::schedule::Schedule;
-use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, entries_of};
+use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, entries_of, phase_of};
 use crate::number::maximum;
 
 /// A state as it is watched.
@@ -18,6 +18,10 @@ pub trait Seen {
     /// Ad\*_g μ.
     fn spatial_momentum(&self) -> DVector<f64>;
 
+    /// What is seen of the state each of whose numbers is off by [`NUDGE`], relatively, up or down: μ, Ad\*_g μ, and the
+    /// energy if it is known.
+    fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>);
+
     /// The energy.
     fn energy(&self, energy: &Energy) -> f64;
 
@@ -25,21 +29,42 @@ pub trait Seen {
     fn flaw(&self) -> Option<f64>;
 }
 
+/// Far above rounding, and so small that what is conserved changes in proportion to it.
+pub const NUDGE: f64 = 1e-9;
+
+/// Moves each number by [`NUDGE`], relatively, up or down without a pattern.
+fn nudge(numbers: &mut [f64]) {
+    for (place, number) in numbers.iter_mut().enumerate() {
+        let up = (place as u32 + 1).wrapping_mul(0x9e37_79b9).count_ones().is_multiple_of(2);
+        *number *= if up { 1.0 + NUDGE } else { 1.0 - NUDGE };
+    }
+}
+
 /// A state as its group has it.
-pub struct At<'a, G: Group> {
+pub struct At<'a, G: Restore> {
     /// The group.
     pub group: &'a G,
     /// The state.
     pub phase: &'a Phase<G>,
 }
 
-impl<G: Group> Seen for At<'_, G> {
+impl<G: Restore> Seen for At<'_, G> {
     fn momentum(&self) -> &DVector<f64> {
         &self.phase.momentum
     }
 
     fn spatial_momentum(&self) -> DVector<f64> {
         self.phase.spatial_momentum(self.group)
+    }
+
+    fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>) {
+        let mut matrix = entries_of(self.group, &self.phase.group_element);
+        let mut momentum = self.phase.momentum.clone();
+        nudge(&mut matrix);
+        nudge(momentum.as_mut_slice());
+        let phase = phase_of(self.group, &matrix, momentum.as_slice());
+        let beside = At { group: self.group, phase: &phase };
+        (momentum, beside.spatial_momentum(), energy.map(|energy| beside.energy(energy)))
     }
 
     fn energy(&self, energy: &Energy) -> f64 {
@@ -89,7 +114,7 @@ pub trait Mover<G: Group>: Seen {
 }
 
 /// Steps made one by one, by what makes a single one from the time given.
-pub struct OneByOne<'a, G: Group, F> {
+pub struct OneByOne<'a, G: Restore, F> {
     group: &'a G,
     phase: Phase<G>,
     schedule: &'a Schedule,
@@ -98,7 +123,7 @@ pub struct OneByOne<'a, G: Group, F> {
 
 impl<'a, G, F> OneByOne<'a, G, F>
 where
-    G: Group,
+    G: Restore,
     F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
 {
     /// By these steps.
@@ -112,7 +137,7 @@ where
     }
 }
 
-impl<G: Group, F> Seen for OneByOne<'_, G, F>
+impl<G: Restore, F> Seen for OneByOne<'_, G, F>
 where
     F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
 {
@@ -124,6 +149,10 @@ where
         self.seen().spatial_momentum()
     }
 
+    fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>) {
+        self.seen().nudged(energy)
+    }
+
     fn energy(&self, energy: &Energy) -> f64 {
         self.seen().energy(energy)
     }
@@ -133,7 +162,7 @@ where
     }
 }
 
-impl<G: Group, F> Mover<G> for OneByOne<'_, G, F>
+impl<G: Restore, F> Mover<G> for OneByOne<'_, G, F>
 where
     F: Fn(f64, &mut Phase<G>) -> Result<Made, StepError>,
 {
@@ -191,6 +220,13 @@ impl<'a, 's, G: Restore, C: Chart<G>> ByPrograms<'a, 's, G, C> {
             scratch: RefCell::default(),
         }
     }
+
+    fn spatial_momentum_of(&self, state: &Numbers) -> DVector<f64> {
+        let mut momentum = DVector::zeros(self.mu.len());
+        let scratch = &mut self.scratch.borrow_mut();
+        self.compiled.spatial_momentum(state, scratch, momentum.as_mut_slice());
+        momentum
+    }
 }
 
 impl<G: Restore, C: Chart<G>> Seen for ByPrograms<'_, '_, G, C> {
@@ -199,10 +235,16 @@ impl<G: Restore, C: Chart<G>> Seen for ByPrograms<'_, '_, G, C> {
     }
 
     fn spatial_momentum(&self) -> DVector<f64> {
-        let mut momentum = DVector::zeros(self.mu.len());
-        let scratch = &mut self.scratch.borrow_mut();
-        self.compiled.spatial_momentum(&self.state, scratch, momentum.as_mut_slice());
-        momentum
+        self.spatial_momentum_of(&self.state)
+    }
+
+    fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>) {
+        let mut state = self.state.clone();
+        nudge(&mut state.g);
+        nudge(&mut state.mu);
+        let spatial = self.spatial_momentum_of(&state);
+        let energy = energy.map(|energy| energy.kinetic(&state.mu));
+        (DVector::from_vec(state.mu), spatial, energy)
     }
 
     fn energy(&self, energy: &Energy) -> f64 {

@@ -1,17 +1,17 @@
 //! The names of the columns of records.
 
-use super::blocks::Block;
+use super::outlet::Begun;
 
-/// What a record ends with.
-const LAST: [&str; 4] = ["energy", "spatial_momentum_drift", "casimir_drift", "energy_drift"];
-/// The same where no energy is known.
-const LAST_WITHOUT_ENERGY: [&str; 2] = ["spatial_momentum_drift", "casimir_drift"];
+/// The drifts of a record, in the order of [`Drift`](super::Drift).
+const DRIFTS: [&str; 3] = ["spatial_momentum_drift", "casimir_drift", "energy_drift"];
 
-/// `time`, the coordinates of the momentum as the system file names them (`mu_1`, … where it names none),
-/// the entries of the blocks of g, row by row, as `g_11`, … by their places in the whole matrix
-/// (`g_1_12` in matrices of more than nine rows), the energy and the three drifts; without energy the other two.
-pub fn columns(coordinates: &[String], blocks: &[Block], energy: bool) -> Vec<String> {
-    let last: &[&str] = if energy { &LAST } else { &LAST_WITHOUT_ENERGY };
+/// `time`, the coordinates of the momentum as the system file names them (`mu_1`, … where it names none), the entries of
+/// the blocks of g, row by row, as `g_11`, … by their places in the whole matrix (`g_1_12` in matrices of more than nine
+/// rows), the energy and the drifts that there are.
+pub fn columns(coordinates: &[String], begun: &Begun<'_>) -> Vec<String> {
+    let Begun { blocks, known, energy, .. } = *begun;
+    let drifts = DRIFTS.iter().zip(known).filter_map(|(name, known)| known.then_some(*name));
+    let last: Vec<&str> = energy.then_some("energy").into_iter().chain(drifts).collect();
     let size = blocks.last().map_or(0, |block| block.range.end);
     let separator = if size > 9 { "_" } else { "" };
     let elements: Vec<String> = blocks
@@ -36,13 +36,14 @@ pub fn columns(coordinates: &[String], blocks: &[Block], energy: bool) -> Vec<St
     let mut names = vec!["time".to_owned()];
     names.extend(momentum);
     names.extend(elements.iter().cloned());
-    names.extend(last.iter().map(|&name| name.to_owned()));
+    names.extend(last.into_iter().map(str::to_owned));
     names
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::blocks::Kind;
+    use super::super::blocks::{Block, Kind};
+    use super::super::recorder::Scales;
     use super::*;
 
     #[test]
@@ -50,10 +51,13 @@ mod tests {
         let blocks =
             [Block { range: 0..1, kind: Kind::Real }, Block { range: 1..2, kind: Kind::Real }];
         let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
-        let found = columns(&names(&["mu[0]", "energy", "x"]), &blocks, true);
+        let scales = Scales::default();
+        let whole = Begun { blocks: &blocks, known: [true; 3], energy: true, scales: &scales };
+        let found = columns(&names(&["mu[0]", "energy", "x"]), &whole);
         assert_eq!(found[..6], names(&["time", "mu_1", "momentum_energy", "x", "g_11", "g_22"]));
-        assert_eq!(found[6..], names(&LAST));
-        let found = columns(&names(&["energy"]), &[], false);
-        assert_eq!(found, names(&["time", "energy", "spatial_momentum_drift", "casimir_drift"]));
+        assert_eq!(found[6], "energy");
+        assert_eq!(found[7..], names(&DRIFTS));
+        let part = Begun { blocks: &[], known: [false, true, false], energy: false, ..whole };
+        assert_eq!(columns(&names(&["energy"]), &part), names(&["time", "energy", "casimir_drift"]));
     }
 }

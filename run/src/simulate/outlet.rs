@@ -1,11 +1,24 @@
 //! What a run hands out on its way.
 
 use super::blocks::Block;
-use super::recorder::{Drift, Moment, Tally};
+use super::recorder::{Drift, Moment, Scales, Tally};
 
 /// An outlet wants the run to end here; it knows why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Halt;
+
+/// What is known of a run before its first step.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun<'a> {
+    /// The blocks of the group's matrices that records hold.
+    pub blocks: &'a [Block],
+    /// Whether there are drifts of the spatial momentum, the Casimirs and the energy.
+    pub known: [bool; 3],
+    /// Whether there is an energy.
+    pub energy: bool,
+    /// The sizes that drifts are relative to.
+    pub scales: &'a Scales,
+}
 
 /// A state of a run that is to be kept.
 pub struct Record<'a> {
@@ -59,11 +72,11 @@ pub trait Outlet {
         Ok(None)
     }
 
-    /// The first state has been measured; records hold these blocks.
+    /// The first state has been measured.
     ///
     /// # Errors
     /// To end the run.
-    fn begin(&mut self, _recorded: &[Block]) -> Result<(), Halt> {
+    fn begin(&mut self, _begun: &Begun<'_>) -> Result<(), Halt> {
         Ok(())
     }
 

@@ -2,35 +2,21 @@
 
 use coadjoint::Phase;
 use coadjoint_codegen::lie::LieAlgebra;
+pub use coadjoint_codegen::step::{Conserved, Drift, Scales};
+use coadjoint_codegen::step::{Start, casimir_scale, energy_scale};
 use nalgebra::DVector;
 
 use super::blocks::{Block, blocks};
-use super::mover::Seen;
+use super::mover::{NUDGE, Seen};
+use super::outlet::Begun;
 use super::warning::{Steep, Warning};
 use crate::backend::Used;
 use crate::engine::{Energy, Group, STEEP};
 use crate::number::{largest, maximum};
 
-/// The largest differences from the start so far, each relative to the largest value at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drift {
-    /// Of the spatial momentum J_L, or of the components that a potential leaves conserved,
-    /// relative to its largest coordinate.
-    pub spatial_momentum: f64,
-    /// Of all Casimirs watched, each relative to the size of its terms.
-    pub casimirs: f64,
-    /// Of the energy, relative to the size of its terms.
-    pub energy: f64,
-}
-
-impl Drift {
-    /// Takes the larger of each; NaN where one is NaN.
-    pub fn raise(&mut self, other: Self) {
-        self.spatial_momentum = maximum(self.spatial_momentum, other.spatial_momentum);
-        self.casimirs = maximum(self.casimirs, other.casimirs);
-        self.energy = maximum(self.energy, other.energy);
-    }
-}
+/// Where rounding of a state alone may move a conserved quantity by more than this, relative to the scale of its drift, the
+/// drift is not measured: the numbers have grown too large, as they do in groups that are not compact.
+const MEASURABLE: f64 = 1e-11;
 
 /// What is measured at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +57,12 @@ pub struct Outcome {
     pub energy: Option<[f64; 2]>,
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
+    /// The sizes that drifts are relative to.
+    pub scales: Scales,
+    /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
+    pub unmeasured: [Option<f64>; 3],
+    /// Why a drift is `None`.
+    pub unknown: Unknown,
     /// How many Casimirs were watched.
     pub casimirs: usize,
     /// Whether a potential breaks the symmetry.
@@ -79,6 +71,17 @@ pub struct Outcome {
     pub momenta: usize,
     /// How the solves went, where they are ours and one a step.
     pub solver: Option<Solver>,
+}
+
+/// Why a drift is `None`: in the order spatial momentum, Casimirs, energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unknown(pub [Option<&'static str>; 3]);
+
+impl Unknown {
+    /// Of these a drift is known at the start.
+    pub fn known(&self) -> [bool; 3] {
+        self.0.map(|why| why.is_none())
+    }
 }
 
 /// What is watched of a run.
@@ -96,11 +99,41 @@ pub struct Watched<'a> {
     pub symmetries: Option<&'a [DVector<f64>]>,
 }
 
+impl Watched<'_> {
+    /// The drifts that there are not, with so many Casimirs.
+    fn unknown(&self, casimirs: usize) -> Unknown {
+        let potential = self.symmetries.is_some();
+        let spatial = match self.symmetries {
+            _ if !self.attitude => Some("not known: the data leave the attitude open"),
+            Some([]) => Some("not conserved: the potential breaks the symmetry"),
+            _ => None,
+        };
+        let casimirs = match (casimirs, potential) {
+            (0, false) => Some("none known"),
+            (0, true) => Some("none that the kicks keep"),
+            _ => None,
+        };
+        let energy = self.energy.is_none().then_some("not known: a learned map has no Hamiltonian");
+        Unknown([spatial, casimirs, energy])
+    }
+
+    /// The components of a spatial momentum that are conserved, each relative to the largest component of its ξ.
+    fn conserved(&self, spatial: &DVector<f64>) -> Vec<f64> {
+        match self.symmetries {
+            _ if !self.attitude => Vec::new(),
+            None => spatial.as_slice().to_vec(),
+            Some(list) => list.iter().map(|xi| xi.dot(spatial) / xi.amax()).collect(),
+        }
+    }
+}
+
 /// The maxima and sums so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     /// The largest drifts.
     pub drift: Drift,
+    /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
+    pub unmeasured: [Option<f64>; 3],
     /// The most iterations of a step.
     pub iterations: u64,
     /// The largest residual, where residuals were measured.
@@ -114,55 +147,46 @@ pub struct Recorder<'a, G: Group> {
     group: &'a G,
     watched: Watched<'a>,
     blocks: Vec<Block>,
-    start: Invariants,
-    /// What the energy's drift is measured against.
-    energy_scale: f64,
-    /// The size of the spatial momentum.
-    momentum_scale: f64,
-    /// What each Casimir's drift is measured against.
-    casimir_scales: Vec<f64>,
+    start: Start,
+    unknown: Unknown,
     /// The maxima so far.
     pub tally: Tally,
 }
 
-struct Invariants {
-    momenta: DVector<f64>,
-    casimirs: Vec<f64>,
+/// The conserved quantities of a state with this momentum, spatial momentum and energy.
+fn conserved<G: Group>(
+    group: &G,
+    watched: &Watched<'_>,
+    momentum: &DVector<f64>,
+    spatial: &DVector<f64>,
     energy: Option<f64>,
-}
-
-impl Invariants {
-    fn of<G: Group>(group: &G, watched: &Watched<'_>, state: &dyn Seen) -> Self {
-        let spatial = state.spatial_momentum();
-        let momenta = match watched.symmetries {
-            None => spatial,
-            // Each relative to the largest component of its ξ.
-            Some(list) => {
-                let along = list.iter().map(|xi| xi.dot(&spatial) / xi.amax());
-                DVector::from_iterator(list.len(), along)
-            }
-        };
-        let casimir = |index| group.casimir(index, state.momentum());
-        Self {
-            momenta,
-            casimirs: (0..group.casimir_count()).map(casimir).collect(),
-            energy: watched.energy.map(|energy| state.energy(energy)),
-        }
-    }
+) -> Conserved {
+    let casimir = |index| group.casimir(index, momentum);
+    let casimirs = (0..group.casimir_count()).map(casimir).collect();
+    Conserved { momenta: watched.conserved(spatial), casimirs, energy }
 }
 
 impl<'a, G: Group> Recorder<'a, G> {
     /// Measures drifts against `phase`, which is `seen` as all that come after it are.
     pub fn new(group: &'a G, watched: Watched<'a>, phase: &Phase<G>, seen: &dyn Seen) -> Self {
-        let algebra = watched.algebra;
+        let (spatial, energy) = (seen.spatial_momentum(), watched.energy.map(|e| seen.energy(e)));
+        let conserved = conserved(group, &watched, seen.momentum(), &spatial, energy);
+        let casimir = |index| {
+            let value = |mu: &[f64]| group.casimir(index, &DVector::from_column_slice(mu));
+            casimir_scale(value, phase.momentum.as_slice())
+        };
+        let magnitude = watched.energy.map_or(0.0, |energy| energy.magnitude(group, phase));
+        let scales = Scales {
+            spatial_momentum: largest(spatial.iter().copied()),
+            casimirs: (0..group.casimir_count()).map(casimir).collect(),
+            energy: energy_scale(conserved.energy.unwrap_or(0.0), magnitude),
+        };
         Self {
             group,
             watched,
-            blocks: blocks(algebra, group.blocks()),
-            start: Invariants::of(group, &watched, seen),
-            energy_scale: watched.energy.map_or(0.0, |energy| energy.magnitude(group, phase)),
-            momentum_scale: largest(seen.spatial_momentum().iter().copied()),
-            casimir_scales: casimir_scales(group, &phase.momentum),
+            blocks: blocks(watched.algebra, group.blocks()),
+            start: Start { conserved, scales },
+            unknown: watched.unknown(group.casimir_count()),
             tally: Tally::default(),
         }
     }
@@ -175,6 +199,16 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// The blocks that records hold: all, or none where attitudes mean nothing.
     pub fn recorded(&self) -> &[Block] {
         if self.watched.attitude { &self.blocks } else { &[] }
+    }
+
+    /// What a run is begun with.
+    pub fn begun(&self) -> Begun<'_> {
+        Begun {
+            blocks: self.recorded(),
+            known: self.unknown.known(),
+            energy: self.watched.energy.is_some(),
+            scales: &self.start.scales,
+        }
     }
 
     /// Takes note of how the solves of so many steps went: the most iterations of one, and the largest residual.
@@ -199,17 +233,25 @@ impl<'a, G: Group> Recorder<'a, G> {
         Some(Warning::Steep(steep))
     }
 
-    /// Measures this moment, and takes its drift into account.
+    /// Measures the moment of this time, and takes its drift into account.
     ///
     /// # Errors
     /// What is not finite.
-    pub fn visit(&mut self, state: &dyn Seen) -> Result<Moment, String> {
+    pub fn visit(&mut self, time: f64, state: &dyn Seen) -> Result<Moment, String> {
         let moment = self.measure(state)?;
+        let drifts = moment.drift.numbers();
+        for ((since, drift), known) in
+            self.tally.unmeasured.iter_mut().zip(drifts).zip(self.unknown.known())
+        {
+            if known && drift.is_nan() {
+                since.get_or_insert(time);
+            }
+        }
         self.tally.drift.raise(moment.drift);
         Ok(moment)
     }
 
-    /// Measures this moment.
+    /// Measures this moment. A quantity has a drift until rounding of the state hides it.
     ///
     /// # Errors
     /// What is not finite.
@@ -220,26 +262,26 @@ impl<'a, G: Group> Recorder<'a, G> {
         if let Some(bad) = state.flaw() {
             finite("an entry of the group element", bad)?;
         }
-        let now = Invariants::of(self.group, &self.watched, state);
-        finite("the energy", now.energy.unwrap_or(0.0))?;
+        let energy = self.watched.energy.map(|energy| state.energy(energy));
+        finite("the energy", energy.unwrap_or(0.0))?;
+        let of = |momentum: &_, spatial: &_, energy| {
+            conserved(self.group, &self.watched, momentum, spatial, energy)
+        };
+        let now = of(state.momentum(), &state.spatial_momentum(), energy);
         for (number, casimir) in now.casimirs.iter().enumerate() {
             finite(&format_args!("Casimir {}", number + 1), *casimir)?;
         }
-        let start = &self.start;
-        let casimirs = start.casimirs.iter().zip(&now.casimirs).zip(&self.casimir_scales);
-        let momenta = now.momenta.iter().zip(start.momenta.iter()).map(|(a, b)| a - b);
-        let drift = Drift {
-            spatial_momentum: relative(largest(momenta), self.momentum_scale),
-            casimirs: largest(casimirs.map(|((c, d), scale)| relative(c - d, *scale))),
-            energy: match (now.energy, start.energy) {
-                (Some(now), Some(start)) => relative(now - start, self.energy_scale),
-                _ => 0.0,
-            },
-        };
-        finite("the drift of the spatial momentum", drift.spatial_momentum)?;
-        finite("the drift of the Casimirs", drift.casimirs)?;
-        finite("the drift of the energy", drift.energy)?;
-        Ok(Moment { energy: now.energy, drift })
+        let (momentum, spatial, other) = state.nudged(self.watched.energy);
+        let beside = Start { conserved: of(&momentum, &spatial, other), ..self.start.clone() };
+        let moved = beside.drift(&now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
+        let mut drift = self.start.drift(&now).numbers();
+        for (i, drift) in drift.iter_mut().enumerate() {
+            // What is no number is not measured either.
+            if self.tally.unmeasured[i].is_some() || !(moved[i] <= MEASURABLE && drift.is_finite()) {
+                *drift = f64::NAN;
+            }
+        }
+        Ok(Moment { energy: now.energy, drift: Drift::of_numbers(drift) })
     }
 
     /// The entries of the blocks of g, row by row.
@@ -255,7 +297,7 @@ impl<'a, G: Group> Recorder<'a, G> {
 
     /// The run, which ended at `phase`.
     pub fn finish(self, (steps, time): (u64, f64), phase: &Phase<G>, moment: &Moment) -> Outcome {
-        let Tally { drift, iterations, residual, steep } = self.tally;
+        let Tally { drift, unmeasured, iterations, residual, steep } = self.tally;
         Outcome {
             steps,
             time,
@@ -263,11 +305,14 @@ impl<'a, G: Group> Recorder<'a, G> {
             warnings: steep.map(Warning::Steep).into_iter().collect(),
             momentum: phase.momentum.iter().copied().collect(),
             element: if self.watched.attitude { self.entries(phase).collect() } else { Vec::new() },
-            energy: self.start.energy.zip(moment.energy).map(|(start, end)| [start, end]),
+            energy: self.start.conserved.energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
+            unmeasured,
+            unknown: self.unknown,
             casimirs: self.group.casimir_count(),
             potential: self.watched.symmetries.is_some(),
-            momenta: self.start.momenta.len(),
+            momenta: self.start.conserved.momenta.len(),
+            scales: self.start.scales,
             solver: residual
                 .map(|max_residual| Solver { most_iterations: iterations, max_residual }),
             blocks: if self.watched.attitude { self.blocks } else { Vec::new() },
@@ -280,37 +325,13 @@ fn finite(what: &(impl std::fmt::Display + ?Sized), value: f64) -> Result<(), St
     if value.is_finite() { Ok(()) } else { Err(format!("{what} is {value}")) }
 }
 
-/// The largest value each Casimir takes at ±|μ₁|, … with at most one sign changed: one that starts
-/// at zero, such as Π·Γ for a top, is measured against the size of its terms, not against rounding.
-fn casimir_scales<G: Group>(group: &G, momentum: &DVector<f64>) -> Vec<f64> {
-    let scale = |index: usize| {
-        let mut point = momentum.abs();
-        let value = |point: &DVector<f64>| group.casimir(index, point).abs();
-        let mut largest = maximum(value(momentum), value(&point));
-        for i in 0..point.len() {
-            point[i] = -point[i];
-            largest = maximum(largest, value(&point));
-            point[i] = -point[i];
-        }
-        largest
-    };
-    (0..group.casimir_count()).map(scale).collect()
-}
-
-fn relative(difference: f64, size: f64) -> f64 {
-    if size == 0.0 { difference.abs() } else { (difference / size).abs() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn drifts_keep_nan_and_name_what_is_not_finite() {
-        let mut drift = Drift { energy: f64::NAN, ..Drift::default() };
-        drift.raise(Drift { energy: 1.0, spatial_momentum: f64::NAN, casimirs: 2.0 });
-        assert!(drift.energy.is_nan() && drift.spatial_momentum.is_nan() && drift.casimirs == 2.0);
+    fn what_is_not_finite_is_named() {
         assert_eq!(finite("the energy", f64::NAN), Err("the energy is NaN".to_owned()));
-        assert!(relative(f64::NAN, 0.0).is_nan() && relative(f64::NAN, 1.0).is_nan());
+        assert_eq!(finite("the energy", 1.0), Ok(()));
     }
 }

@@ -6,6 +6,7 @@
 //! sufficient conditions in place of eigenvalues: what the programs refuse may still be a right step, which whoever drives
 //! them finds by other means.
 
+mod drift;
 mod entire;
 mod motion;
 mod part;
@@ -27,6 +28,7 @@ use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::problem::Solver;
+pub use drift::{Conserved, Drift, Scales, Start, casimir_scale, energy_scale};
 use motion::Motion;
 use part::Part;
 use plane::Plane;

@@ -1,0 +1,148 @@
+//! How far conserved quantities have moved since the start of a run: the one definition of a drift.
+
+/// The largest differences from the start, each relative to its [scale](Scales). `None` where a quantity is not known, is
+/// not conserved, or cannot be measured: an unknown drift is never 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Of the coordinates of the spatial momentum J_L, or of its components that a potential leaves conserved.
+    pub spatial_momentum: Option<f64>,
+    /// Of the Casimirs.
+    pub casimirs: Option<f64>,
+    /// Of the energy.
+    pub energy: Option<f64>,
+}
+
+impl Drift {
+    /// Takes the larger of each; NaN where one is NaN, and the other where one is `None`.
+    pub fn raise(&mut self, other: Self) {
+        let larger = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => Some(maximum(a, b)),
+            (a, b) => a.or(b),
+        };
+        self.spatial_momentum = larger(self.spatial_momentum, other.spatial_momentum);
+        self.casimirs = larger(self.casimirs, other.casimirs);
+        self.energy = larger(self.energy, other.energy);
+    }
+
+    /// Spatial momentum, Casimirs, energy; NaN for `None`.
+    #[must_use]
+    pub fn numbers(self) -> [f64; 3] {
+        [self.spatial_momentum, self.casimirs, self.energy].map(|drift| drift.unwrap_or(f64::NAN))
+    }
+
+    /// The inverse of [`Self::numbers`].
+    #[must_use]
+    pub fn of_numbers(numbers: [f64; 3]) -> Self {
+        let [spatial_momentum, casimirs, energy] = numbers.map(|x| (!x.is_nan()).then_some(x));
+        Self { spatial_momentum, casimirs, energy }
+    }
+}
+
+/// What is conserved, at one state; empty or `None` where nothing is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conserved {
+    /// The spatial momentum, or its components that are conserved.
+    pub momenta: Vec<f64>,
+    /// The Casimirs.
+    pub casimirs: Vec<f64>,
+    /// The energy.
+    pub energy: Option<f64>,
+}
+
+/// The sizes that drifts are relative to; a drift whose scale is 0 is absolute.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scales {
+    /// The largest coordinate of the spatial momentum at the start.
+    pub spatial_momentum: f64,
+    /// The [size](casimir_scale) of each Casimir at the start.
+    pub casimirs: Vec<f64>,
+    /// |E₀|, or what [`energy_scale`] takes where that is rounding.
+    pub energy: f64,
+}
+
+/// The start of a run, from which drifts are measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Start {
+    /// The conserved quantities there.
+    pub conserved: Conserved,
+    /// The sizes that drifts are relative to.
+    pub scales: Scales,
+}
+
+impl Start {
+    /// The drift of a state with these conserved quantities.
+    #[must_use]
+    pub fn drift(&self, now: &Conserved) -> Drift {
+        let Self { conserved: then, scales } = self;
+        let momenta = now.momenta.iter().zip(&then.momenta);
+        let momenta = momenta.map(|(now, then)| relative(now - then, scales.spatial_momentum));
+        let casimirs = now.casimirs.iter().zip(&then.casimirs).zip(&scales.casimirs);
+        let casimirs = casimirs.map(|((now, then), scale)| relative(now - then, *scale));
+        let energy = now.energy.zip(then.energy);
+        Drift {
+            spatial_momentum: momenta.reduce(maximum),
+            casimirs: casimirs.reduce(maximum),
+            energy: energy.map(|(now, then)| relative(now - then, scales.energy)),
+        }
+    }
+}
+
+/// |E₀|; where E₀ is 0 up to rounding, the sum of the absolute values of its terms (`magnitude`).
+#[must_use]
+pub fn energy_scale(energy: f64, magnitude: f64) -> f64 {
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+    if energy.abs() > ROUNDING * magnitude { energy.abs() } else { magnitude }
+}
+
+/// The largest |C| at μ, at (|μ₁|, …, |μₙ|), and there with one sign changed: a Casimir that starts at 0, such as Π·Γ of
+/// a top, is measured against the size of its terms.
+#[must_use]
+pub fn casimir_scale(mut casimir: impl FnMut(&[f64]) -> f64, momentum: &[f64]) -> f64 {
+    let mut point: Vec<f64> = momentum.iter().map(|entry| entry.abs()).collect();
+    let mut scale = maximum(casimir(momentum).abs(), casimir(&point).abs());
+    for i in 0..point.len() {
+        point[i] = -point[i];
+        scale = maximum(scale, casimir(&point).abs());
+        point[i] = -point[i];
+    }
+    scale
+}
+
+fn relative(difference: f64, scale: f64) -> f64 {
+    if scale == 0.0 { difference.abs() } else { (difference / scale).abs() }
+}
+
+/// The larger of two numbers; NaN where one of them is, unlike `f64::max`.
+fn maximum(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_unknown_has_no_drift_and_nan_stays() {
+        let start = Start {
+            conserved: Conserved { momenta: vec![3.0, -4.0], ..Conserved::default() },
+            scales: Scales { spatial_momentum: 4.0, ..Scales::default() },
+        };
+        let now = Conserved { momenta: vec![3.0, -4.5], casimirs: vec![1.0], energy: Some(2.0) };
+        let mut drift = start.drift(&now);
+        assert_eq!(drift, Drift { spatial_momentum: Some(0.125), ..Drift::default() });
+        assert_eq!(Drift::of_numbers(drift.numbers()), drift);
+        drift.raise(Drift { spatial_momentum: None, casimirs: Some(1.0), energy: Some(f64::NAN) });
+        assert_eq!((drift.spatial_momentum, drift.casimirs), (Some(0.125), Some(1.0)));
+        drift.raise(Drift { energy: Some(1.0), ..Drift::default() });
+        assert!(drift.energy.is_some_and(f64::is_nan));
+    }
+
+    #[test]
+    fn scales_are_those_of_the_start_unless_it_is_zero_to_rounding() {
+        assert_eq!(energy_scale(-0.0475, 1.4525), 0.0475);
+        assert_eq!(energy_scale(1e-17, 1.5), 1.5);
+        assert_eq!(energy_scale(0.0, 0.0), 0.0);
+        let product = |x: &[f64]| x[0] * x[2] + x[1] * x[3];
+        assert_eq!(casimir_scale(product, &[1.0, 1.0, 2.0, -2.0]), 4.0);
+    }
+}
