@@ -9,7 +9,12 @@ use crate::load;
 
 /// Prints S₁ … S_K.
 pub fn run(options: &DeriveOptions) -> Result<(), CliError> {
-    let system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
+    let (system, _) = match options.truncation {
+        Some(_) => {
+            (load::source(&options.source, options.truncation, Parameters::Substituted)?, None)
+        }
+        None => load::settled(&options.source, None, None, Parameters::Substituted)?,
+    };
     let series = Series::derive(&options.source.file, system.problem)?;
     match options.format {
         SeriesFormat::Text => out!("{}", text(&series)),

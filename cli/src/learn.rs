@@ -205,6 +205,7 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
 }
 
 fn print(summary: &Summary) {
+    summary.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     outln!("{}", summary.choice);
     let show = |name: &str, figures: &Figures| {
         let line = |what: &str, errors: &Errors| {

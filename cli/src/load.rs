@@ -4,6 +4,7 @@ use std::path::Path;
 
 use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
+use coadjoint_codegen::tolerance::Choice;
 use coadjoint_run::{meet_tolerance as meet, read_with};
 
 pub use coadjoint_run::integrator;
@@ -45,4 +46,48 @@ pub fn meet_tolerance(
         eprintln!("{choice}");
     }
     Ok(())
+}
+
+/// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
+/// for, as a run of the file has them; what was chosen is said on the error stream. `truncation` and `step` are what the
+/// command line gives.
+pub fn settled(
+    given: &Source,
+    truncation: Option<usize>,
+    step: Option<f64>,
+    parameters: Parameters,
+) -> Result<(System, Option<Choice>), CliError> {
+    let mut system = source(given, truncation, Parameters::Substituted)?;
+    let run = &system.run;
+    let asked = run.tolerance.is_some() && step.is_none();
+    let missing = if run.time.is_none() {
+        Some("`[run] time`")
+    } else if run.momentum.is_none() && run.region.is_none() {
+        Some("`[initial] momentum` or `[integrator] region`")
+    } else {
+        None
+    };
+    let choice = match missing {
+        Some(key) if asked && truncation.is_none() => {
+            return Err(CliError::Option(format!(
+                "{}: `tolerance` picks the truncation, which needs {key}: add it, or give --truncation",
+                given.file.display()
+            )));
+        }
+        // Without a run there is no error at its end, by which a step could be picked.
+        Some(_) => None,
+        None => {
+            let asked = coadjoint_run::Accuracy { step, truncation, ..Default::default() };
+            meet(&given.file, &mut system, &asked)?
+        }
+    };
+    if let Some(choice) = &choice {
+        eprintln!("{choice}");
+    }
+    if parameters == Parameters::Substituted {
+        return Ok((system, choice));
+    }
+    let mut kept = source(given, Some(system.problem.truncation), parameters)?;
+    kept.run.step = system.run.step;
+    Ok((kept, choice))
 }

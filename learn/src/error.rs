@@ -188,6 +188,12 @@ pub enum RowProblem {
         /// The largest difference of a coordinate, relative to the largest coordinate.
         relative: f64,
     },
+    /// A Casimir differs between the momenta before and after: no motion on the dual of this group's algebra leads from one
+    /// to the other.
+    CasimirMismatch {
+        /// The largest difference, relative to the size of the Casimir.
+        relative: f64,
+    },
     /// The increment g′⁻¹g″ has no coordinate in the chart.
     OutOfChart,
     /// By the samples around it, the increment lies beyond the fold of the canonical momentum.
@@ -211,6 +217,9 @@ impl fmt::Display for RowProblem {
             }
             Self::MomentumMismatch { relative } => {
                 write!(f, "the spatial momentum differs by {relative:.1e} across the pair")
+            }
+            Self::CasimirMismatch { relative } => {
+                write!(f, "a Casimir of the group differs by {relative:.1e} across the pair")
             }
             Self::OutOfChart => write!(f, "the increment g'^-1 g'' has no coordinate in the chart"),
             Self::Folded { determinant } => write!(
@@ -276,6 +285,13 @@ impl fmt::Display for BadRows {
                 f,
                 "\nnoisy data can be used by raising the tolerances (--tolerance inf); they are then \
                  projected onto the group, and p is taken from the momentum after the step"
+            )?;
+        }
+        if has(|p| matches!(p, RowProblem::CasimirMismatch { .. })) {
+            write!(
+                f,
+                "\neither the group is not that of the data, or they are noisy (--tolerance inf), or made by a method that \
+                 does not keep the Casimirs: `geometrize` finds the Poisson map nearest to such a method"
             )?;
         }
         write!(f, "\nor drop these rows and go on (--drop-bad-rows)")

@@ -1,6 +1,8 @@
 //! A run: our steps and the rival's side by side, and how far each has drifted.
 
-use coadjoint_codegen::step::{Scratch, Spatial};
+use coadjoint_codegen::step::{
+    Conserved, Scales, Scratch, Spatial, Start, casimir_scale, energy_scale,
+};
 use coadjoint_program::{Program, Stepper};
 
 use crate::history::{History, Sample};
@@ -49,14 +51,6 @@ pub struct Refusal {
     pub usable: Option<f64>,
 }
 
-/// What is conserved, at the start, and the sizes that drifts are relative to.
-#[derive(Debug)]
-struct Start {
-    energy: (f64, f64),
-    momentum: (Vec<f64>, f64),
-    casimirs: Vec<(f64, f64)>,
-}
-
 impl Run {
     /// A run from the identity with this momentum.
     #[must_use]
@@ -69,15 +63,15 @@ impl Run {
         let mut rate = vec![0.0; n];
         system.rival.rate(momentum, &mut Vec::new(), &mut rate);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
-        let casimirs = system
-            .casimirs
-            .iter()
-            .map(|(_, casimir)| (casimir.value(momentum), casimir_scale(casimir, momentum)));
-        let start = Start {
-            energy: (system.energy.value(momentum), system.energy.magnitude(momentum)),
-            momentum: (momentum.to_vec(), largest(momentum.iter().copied())),
-            casimirs: casimirs.collect(),
+        let conserved = conserved(system, momentum, momentum);
+        let energy = system.energy.value(momentum);
+        let size = |i: usize| casimir_scale(|mu| system.casimirs[i].1.value(mu), momentum);
+        let scales = Scales {
+            spatial_momentum: momentum.iter().fold(0.0, |largest, mu| mu.abs().max(largest)),
+            casimirs: (0..system.casimirs.len()).map(size).collect(),
+            energy: energy_scale(energy, system.energy.magnitude(momentum)),
         };
+        let start = Start { conserved, scales };
         let mut run = Self {
             h: system.h,
             substeps: 1,
@@ -232,20 +226,11 @@ impl Run {
         self.history.push(Sample { time: self.time(), drifts: [ours, rival] });
     }
 
-    /// Of energy, spatial momentum and Casimirs, as the command defines them.
+    /// Of energy, spatial momentum and Casimirs; NaN where there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
-        let Start { energy, momentum, casimirs } = &self.start;
-        let moved = largest(spatial.iter().zip(&momentum.0).map(|(now, then)| now - then));
-        let casimirs = system
-            .casimirs
-            .iter()
-            .zip(casimirs)
-            .map(|((_, casimir), (then, scale))| relative(casimir.value(mu) - then, *scale));
-        [
-            relative(system.energy.value(mu) - energy.0, energy.1),
-            relative(moved, momentum.1),
-            largest(casimirs),
-        ]
+        let [momentum, casimirs, energy] =
+            self.start.drift(&conserved(system, mu, spatial)).numbers();
+        [energy, momentum, casimirs]
     }
 
     fn our_spatial(&self) -> Vec<f64> {
@@ -253,6 +238,15 @@ impl Run {
         let mut momentum = vec![0.0; mu.len()];
         self.spatial.momentum(g, mu, &mut Scratch::default(), &mut momentum);
         momentum
+    }
+}
+
+/// What is conserved of a state with this momentum and this spatial momentum.
+fn conserved(system: &System, mu: &[f64], spatial: &[f64]) -> Conserved {
+    Conserved {
+        momenta: spatial.to_vec(),
+        casimirs: system.casimirs.iter().map(|(_, casimir)| casimir.value(mu)).collect(),
+        energy: Some(system.energy.value(mu)),
     }
 }
 
@@ -287,28 +281,4 @@ fn hermite((a, slope_a): (f64, f64), (b, slope_b): (f64, f64), s: f64) -> f64 {
     let (t, u) = (1.0 - s, s);
     a * t * t * (1.0 + 2.0 * u) + b * u * u * (1.0 + 2.0 * t) + slope_a * u * t * t
         - slope_b * u * u * t
-}
-
-/// The largest absolute value; NaN where one is.
-fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values
-        .into_iter()
-        .map(f64::abs)
-        .fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
-}
-
-fn relative(difference: f64, size: f64) -> f64 {
-    if size == 0.0 { difference.abs() } else { (difference / size).abs() }
-}
-
-/// The largest value a Casimir takes at ±|μ₁|, … with at most one sign changed.
-fn casimir_scale(casimir: &crate::polynomial::Numeric, momentum: &[f64]) -> f64 {
-    let mut point: Vec<f64> = momentum.iter().map(|entry| entry.abs()).collect();
-    let mut scale = largest([casimir.value(momentum), casimir.value(&point)]);
-    for i in 0..point.len() {
-        point[i] = -point[i];
-        scale = largest([scale, casimir.value(&point)]);
-        point[i] = -point[i];
-    }
-    scale
 }

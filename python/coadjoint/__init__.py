@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ._core import __version__
 from .errors import CoadjointWarning, Error, InputError, RunError
 from .learning import Model, geometrize, learn
-from .results import Drift, Failure, Run, States
+from .results import Drift, Failure, Run, States, Unknown
 from .system import Law, Laws, System, Verdict
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ __all__ = [
     "RunError",
     "States",
     "System",
+    "Unknown",
     "Verdict",
     "__version__",
     "geometrize",

@@ -105,13 +105,11 @@ def _drift(axes: Axes, runs: Mapping[str, Run]) -> None:
     colour = 0
     for name, run in runs.items():
         kinds = [
-            ("spatial momentum", run.drift.spatial_momentum, run._found["conserved_momenta"], "-"),
-            ("Casimirs", run.drift.casimirs, run._found["casimirs"], "--"),
-            ("energy", run.drift.energy, run._found["has_energy"], ":"),
+            ("spatial momentum", run.drift.spatial_momentum, "-"),
+            ("Casimirs", run.drift.casimirs, "--"),
+            ("energy", run.drift.energy, ":"),
         ]
-        for kind, values, known, style in kinds:
-            if not known:
-                continue
+        for kind, values, style in (kinds[place] for place in run._known):
             label = f"{name}: {kind}" if name else kind
             # Zero has no place on this axis; a quarter of the rounding unit stands for it.
             shown = np.maximum(values, _EPSILON / 4)

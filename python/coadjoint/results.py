@@ -18,11 +18,43 @@ if TYPE_CHECKING:
     from .learning import Model
     from .system import System
 
-__all__ = ["Drift", "Failure", "Run", "States"]
+__all__ = ["Drift", "Failure", "Run", "States", "Unknown"]
+
+
+_NAMES = ("spatial momentum", "Casimirs", "energy")
+_HIDDEN = "rounding of large numbers hides it"
+
+
+class Unknown:
+    """A drift that there is not: of what is not conserved, not known or cannot be measured. It is false and equals None;
+    comparing it, or computing with it, raises a TypeError that says why."""
+
+    def __init__(self, what: str, why: str) -> None:
+        #: What is unknown, and why.
+        self.what, self.why = what, why
+
+    def __bool__(self) -> bool:
+        return False
+
+    def __eq__(self, other: object) -> bool:
+        return other is None or isinstance(other, Unknown)
+
+    def __hash__(self) -> int:
+        return hash(None)
+
+    def __repr__(self) -> str:
+        return f"Unknown({self.why!r})"
+
+    def _refuse(self, *_: object) -> Any:
+        raise TypeError(f"there is no drift of the {self.what}: {self.why}")
+
+    __lt__ = __le__ = __gt__ = __ge__ = __float__ = __abs__ = __neg__ = __format__ = _refuse
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _refuse
 
 
 class Drift(NamedTuple):
-    """Relative differences from the start; each an array over the records, or the largest over all steps."""
+    """Relative differences from the start; each an array over the records, NaN where there is none, or the largest over
+    all steps, :class:`Unknown` where there is none. The differences are relative to :attr:`Run.drift_scale`."""
 
     spatial_momentum: Any
     casimirs: Any
@@ -132,8 +164,24 @@ class Run:
 
     @property
     def largest_drift(self) -> Drift:
-        """The largest relative differences of the whole run."""
-        return Drift(*self._found["largest_drift"])
+        """The largest relative differences of the whole run; :class:`Unknown` where there is none, never 0.
+
+        >>> import coadjoint as ca
+        >>> affine = ca.System("Aff1", "a^2/2 + b^2/3", coordinates="a b")
+        >>> drift = affine.simulate([1, 0.5], time=1, step=0.1).largest_drift
+        >>> drift.casimirs < 1e-12
+        Traceback (most recent call last):
+        TypeError: there is no drift of the Casimirs: none known
+        """
+        found, reasons = self._found["largest_drift"], self._found["unknown"]
+        named = zip(_NAMES, found, reasons, strict=True)
+        return Drift(*(Unknown(name, why or _HIDDEN) if value is None else value for name, value, why in named))
+
+    @property
+    def drift_scale(self) -> Drift:
+        """The sizes that drifts are relative to: the largest coordinate of the spatial momentum at the start, the size of
+        each Casimir, and the energy at the start, |E₀|."""
+        return Drift(*self._found["drift_scale"])
 
     @property
     def final_momentum(self) -> Floats:
@@ -200,11 +248,15 @@ class Run:
 
     def _table(self) -> Floats:
         """All columns, as the command writes them."""
-        energy = self._found["has_energy"]
         parts = [self.time[:, np.newaxis], self.momentum, self._array("entries")]
-        if energy:
+        if self._found["has_energy"]:
             parts.append(self.energy[:, np.newaxis])
-        return np.hstack([*parts, self._array("drifts")[:, : 3 if energy else 2]])
+        return np.hstack([*parts, self._array("drifts")[:, self._known]])
+
+    @property
+    def _known(self) -> list[int]:
+        """Which drifts there are: 0 of the spatial momentum, 1 of the Casimirs, 2 of the energy."""
+        return [place for place, why in enumerate(self._found["unknown"]) if why is None]
 
     def plot(self, what: str = "all", *, figure: Figure | None = None) -> Figure:
         """A picture: of the momentum, of the drift, or of both (needs matplotlib).
@@ -235,12 +287,9 @@ class Run:
     def __repr__(self) -> str:
         drift = self.largest_drift
         parts = []
-        if self._found["conserved_momenta"]:
-            parts.append(f"spatial momentum {drift.spatial_momentum:.1e}")
-        if self._found["casimirs"]:
-            parts.append(f"Casimirs {drift.casimirs:.1e}")
-        if self._found["has_energy"]:
-            parts.append(f"energy {drift.energy:.1e}")
+        for name, value, since in zip(_NAMES, drift, self._found["unmeasured"], strict=True):
+            if not isinstance(value, Unknown):
+                parts.append(f"{name} {value:.1e}" + ("" if since is None else f" (not measurable after {since:g})"))
         end = self._found["end"]["time"]
         return (
             f"<Run of {self._name}: {self.label}, {self.steps} steps of {self.step:g} to time {end:g}, "
@@ -300,7 +349,10 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
     def _of(cls, array: Floats, failed: list[tuple[int, int, str]], facts: dict[str, Any]) -> States:
         states = array.view(cls)
         states.failed = [Failure(*row) for row in failed]
-        states.drift = Drift(facts["spatial_momentum"], facts["casimirs"], float("nan"))
+        drifts = [facts["spatial_momentum"], facts["casimirs"], None]
+        whys = [_HIDDEN, facts["unknown_casimirs"], "ensembles measure none"]
+        named = zip(_NAMES, drifts, whys, strict=True)
+        states.drift = Drift(*(Unknown(name, why) if value is None else value for name, value, why in named))
         states.backend, states.columns = facts["backend"], facts["columns"]
         states.step, states.steps = facts["step"], facts["steps"]
         states.truncation = facts["truncation"]

@@ -142,7 +142,7 @@ class System:
         self._text_, self._name, self._given, self._known = text, name, given, known
         self._core = _core.Core(text, name)
         self._facts = self._core.facts()
-        self._steppers: dict[tuple[float, str], _core.Stepper] = {}
+        self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
 
     # What it is.
 
@@ -178,8 +178,15 @@ class System:
 
     @property
     def truncation(self) -> int:
-        """K: S₁ … S_K are kept."""
-        return int(self._facts["truncation"])
+        """K: S₁ … S_K are kept; where the system has a tolerance, the K that it asks for."""
+        if self._facts["tolerance"] is None or self._facts["truncation_given"]:
+            return int(self._facts["truncation"])
+        return self._chosen
+
+    @cached_property
+    def _chosen(self) -> int:
+        found = self._core.choice()
+        return int(self._facts["truncation"]) if found is None else found[0]
 
     @property
     def chart(self) -> str:
@@ -359,9 +366,9 @@ class System:
         array([2. , 0.5, 1. ])
         """
         size = self._facts["step"] if step is None else step
-        if size is None:
+        if size is None and self._facts["tolerance"] is None:
             raise InputError("step is missing: give step=0.1")
-        if type(size) is not float or type(backend) is not str:
+        if size is not None and type(size) is not float or type(backend) is not str:
             size = _arrays.real(size, "step", self._facts["time_unit"])
             _arrays.text(backend, "backend")
         key = (size, backend)

@@ -168,8 +168,7 @@ impl ModelCore {
                 Setup { recording: true, every: Some(every), ..Setup::new(schedule, momentum) };
             let names: Vec<String> =
                 (0..setup.momentum.len()).map(|i| format!("mu[{i}]")).collect();
-            let mut keeper =
-                Keeper { table: Table::default(), control, coordinates: &names, energy: false };
+            let mut keeper = Keeper { table: Table::default(), control, coordinates: &names };
             let outcome = run_model(Path::new(&name), &model, &setup, &mut keeper)?;
             let label = format!("learned {}, {}", model.model.name(), model.chart);
             Ok((keeper.table, outcome, schedule, label))

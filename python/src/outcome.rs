@@ -50,8 +50,11 @@ pub fn result_of<'py>(
     found.set_item("rotations", rotations.collect::<Vec<usize>>())?;
     let drift = outcome.drift;
     found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
-    found.set_item("conserved_momenta", outcome.momenta)?;
-    found.set_item("casimirs", outcome.casimirs)?;
+    let scales = &outcome.scales;
+    let scales = (scales.spatial_momentum, scales.casimirs.clone(), scales.energy);
+    found.set_item("drift_scale", scales)?;
+    found.set_item("unknown", outcome.unknown.0)?;
+    found.set_item("unmeasured", outcome.unmeasured)?;
     found.set_item("potential", outcome.potential)?;
     found.set_item("has_energy", outcome.energy.is_some())?;
     let used = outcome.backend.as_ref();

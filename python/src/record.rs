@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use coadjoint_run::simulate::{Block, Halt, Outlet, Record, Standing, columns};
+use coadjoint_run::simulate::{Begun, Block, Halt, Outlet, Record, Standing, columns};
 
 use crate::control::Control;
 
@@ -37,15 +37,13 @@ pub struct Keeper<'a> {
     pub control: &'a Control,
     /// Names of the momentum's coordinates.
     pub coordinates: &'a [String],
-    /// Whether an energy is known.
-    pub energy: bool,
 }
 
 impl Outlet for Keeper<'_> {
-    fn begin(&mut self, recorded: &[Block]) -> Result<(), Halt> {
+    fn begin(&mut self, begun: &Begun<'_>) -> Result<(), Halt> {
         let place = |block: &Block| (block.range.start, block.range.len());
-        self.table.columns = columns(self.coordinates, recorded, self.energy);
-        self.table.blocks = recorded.iter().map(place).collect();
+        self.table.columns = columns(self.coordinates, begun);
+        self.table.blocks = begun.blocks.iter().map(place).collect();
         Ok(())
     }
 
@@ -59,8 +57,7 @@ impl Outlet for Keeper<'_> {
             spatial.extend((record.spatial_momentum)());
         }
         energy.push(record.energy.unwrap_or(f64::NAN));
-        let own = record.drift;
-        drift.extend([own.spatial_momentum, own.casimirs, own.energy]);
+        drift.extend(record.drift.numbers());
         Ok(())
     }
 

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::System;
+use coadjoint_codegen::tolerance::Choice;
 use coadjoint_run::engine::FloatPolynomial;
 use coadjoint_run::ensemble::{
     self, Attitude, Found, How, Known, Layout, Shape, Watch, matrix_size,
@@ -73,14 +74,20 @@ fn derive(
 }
 
 impl Core {
+    /// The same text, with nothing derived yet, for another thread.
+    fn here(&self) -> Self {
+        let (name, system) = (self.name.clone(), self.system.clone());
+        Self { name, system, derived: Cache::default() }
+    }
+
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
-    fn accurate(&self, accuracy: &Accuracy) -> Result<(System, Option<String>), RunError> {
+    fn accurate(&self, accuracy: &Accuracy) -> Result<(System, Option<Choice>), RunError> {
         let mut system = self.system.clone();
         if let Some(truncation) = accuracy.truncation {
             system.problem.truncation = truncation;
         }
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
-        Ok((system, choice.map(|choice| choice.to_string())))
+        Ok((system, choice))
     }
 
     /// What a row can say.
@@ -96,6 +103,14 @@ impl Core {
 
 #[pymethods]
 impl Core {
+    /// The truncation and the step that the system's own tolerance asks for, if it has one.
+    fn choice(&self, py: Python<'_>) -> PyResult<Option<(usize, f64)>> {
+        let here = self.here();
+        let made = work(py, None, move |_| here.accurate(&Accuracy::default()))?;
+        let (_, choice) = made.map_err(|error| raised(py, &error))?;
+        Ok(choice.map(|choice| (choice.truncation, choice.step)))
+    }
+
     /// Reads the text of a system file.
     #[new]
     fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -202,7 +217,7 @@ impl Core {
             let derived = derive(&cache, &here.name, system, false)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let coordinates = &derived.integrator.problem.coordinates;
-            let mut keeper = Keeper { table: Table::default(), control, coordinates, energy: true };
+            let mut keeper = Keeper { table: Table::default(), control, coordinates };
             let outcome = run(&derived, &setup, &mut keeper)?;
             Ok((keeper.table, outcome, schedule, truncation, choice, derived.label()))
         })?;
@@ -210,7 +225,7 @@ impl Core {
             result.map_err(|error: RunError| raised(py, &error))?;
         let found = result_of(py, table, &outcome, &schedule)?;
         found.set_item("truncation", truncation)?;
-        found.set_item("choice", choice)?;
+        found.set_item("choice", choice.map(|choice| choice.to_string()))?;
         found.set_item("label", label)?;
         Ok(found)
     }
@@ -238,11 +253,7 @@ impl Core {
                 format!("threads={threads}: give a number from 1 to {}", 256.max(4 * processors));
             return Err(refused(py, what));
         }
-        let here = Self {
-            name: self.name.clone(),
-            system: self.system.clone(),
-            derived: Cache::default(),
-        };
+        let here = self.here();
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
@@ -271,7 +282,7 @@ impl Core {
                 values,
                 failed,
                 drift,
-                engine.backend(),
+                (engine.backend(), engine.casimirs()),
                 notes,
                 layout.names(),
                 schedule,
@@ -279,13 +290,24 @@ impl Core {
                 choice,
             ))
         })?;
-        let (values, failed, drift, backend, notes, names, schedule, truncation, choice) =
-            result.map_err(|error: RunError| raised(py, &error))?;
+        let (
+            values,
+            failed,
+            drift,
+            (backend, casimirs),
+            notes,
+            names,
+            schedule,
+            truncation,
+            choice,
+        ) = result.map_err(|error: RunError| raised(py, &error))?;
         let array = values.into_pyarray(py).reshape([count, width])?;
         let failed = failed.into_iter().map(|r| (r.row - 1, r.step, r.reason)).collect();
         let facts = PyDict::new(py);
-        facts.set_item("spatial_momentum", drift.spatial_momentum)?;
-        facts.set_item("casimirs", drift.casimirs)?;
+        facts.set_item("spatial_momentum", drift.conserved.spatial_momentum)?;
+        facts.set_item("casimirs", drift.conserved.casimirs)?;
+        let why = if casimirs == 0 { "none known" } else { "rounding of large numbers hides it" };
+        facts.set_item("unknown_casimirs", why)?;
         facts.set_item("ratio", drift.ratio)?;
         facts.set_item("backend", backend)?;
         facts.set_item("notes", notes)?;
@@ -295,7 +317,7 @@ impl Core {
         facts.set_item("time", schedule.end)?;
         facts.set_item("announcement", schedule.announcement())?;
         facts.set_item("truncation", truncation)?;
-        facts.set_item("choice", choice)?;
+        facts.set_item("choice", choice.map(|choice| choice.to_string()))?;
         Ok((array, failed, facts))
     }
 
@@ -360,12 +382,16 @@ impl Core {
     }
 
     /// Steps of this size, ready to be made.
-    fn stepper(&self, py: Python<'_>, step: f64, backend: &str) -> PyResult<Stepper> {
+    fn stepper(&self, py: Python<'_>, step: Option<f64>, backend: &str) -> PyResult<Stepper> {
         let backend = backend_of(py, backend)?;
-        let (name, system, cache) = (self.name.clone(), self.system.clone(), self.derived.clone());
-        let dimension = system.problem.algebra.dim();
+        let (here, cache) = (self.here(), self.derived.clone());
+        let dimension = self.system.problem.algebra.dim();
         let made = work(py, None, move |_| {
-            let derived = derive(&cache, &name, system, false)?;
+            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let step = step.or(system.run.step).ok_or_else(|| {
+                RunError::Option("--step is missing: give --step 0.1".to_owned())
+            })?;
+            let derived = derive(&cache, &here.name, system, false)?;
             Single::new(derived, step, backend, MANY)
         })?;
         let single = made.map_err(|error| raised(py, &error))?;
@@ -409,14 +435,11 @@ impl Core {
         points: usize,
         seed: u64,
     ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
-        let (name, system, cache) = (self.name.clone(), self.system.clone(), self.derived.clone());
+        let (here, cache) = (self.here(), self.derived.clone());
         let made = work(py, None, move |_| {
-            let step = step.or(system.run.step).unwrap_or(check::DEFAULT_STEP);
-            let given = system.run.momentum.iter().flatten();
-            let size = given.fold(0.0_f64, |size, x| size.max(x.abs()));
-            let size = if size > 0.0 { size } else { 1.0 };
-            let trial = check::Trial::new(step, size, points, seed)?;
-            let derived = derive(&cache, &name, system, false)?;
+            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let trial = check::Trial::new(step, &system.run, points, seed)?;
+            let derived = derive(&cache, &here.name, system, false)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)
@@ -476,10 +499,12 @@ impl Core {
         step: Option<f64>,
         single: bool,
     ) -> PyResult<String> {
-        let source = emit::Source::System(Box::new(self.system.clone()));
-        let (name, language) = (self.name.clone(), language.to_owned());
-        let made =
-            work(py, None, move |_| emitted(&name, source, &language, prefix, step, single))?;
+        let (here, language) = (self.here(), language.to_owned());
+        let made = work(py, None, move |_| {
+            let (system, choice) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let source = emit::Source::System(Box::new(system), choice);
+            emitted(&here.name, source, &language, prefix, step, single)
+        })?;
         made.map_err(|error| raised(py, &error))
     }
 }

@@ -8,6 +8,7 @@ use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
 use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::system::System;
+use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::{ModelFile, problem};
 use coadjoint_program::Precision;
 use coadjoint_program::print::DeviceLanguage;
@@ -19,8 +20,8 @@ use crate::load::integrator;
 /// What is to be code.
 #[derive(Debug)]
 pub enum Source {
-    /// A system.
-    System(Box<System>),
+    /// A system, and what was chosen for its tolerance.
+    System(Box<System>, Option<Choice>),
     /// A learned polynomial.
     Model(Box<ModelFile>),
 }
@@ -30,8 +31,8 @@ pub enum Source {
 /// # Errors
 /// Where the series is too large, or the model is no polynomial.
 pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
-    let system = match source {
-        Source::System(system) => *system,
+    let (system, choice) = match source {
+        Source::System(system, choice) => (*system, choice),
         Source::Model(model) => {
             let problem = problem(&model, "learned")?;
             let style = Options::for_problem(&problem.name);
@@ -46,6 +47,9 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
     let integrator = integrator(path, system.problem)?;
     check_size(&integrator).map_err(|error| RunError::Size { file: path.into(), source: error })?;
     let mut module = file(&integrator, &style);
+    if let Some(line) = choice.as_ref().map(chosen) {
+        module.insert_str(0, &format!("//! {line}\n"));
+    }
     if let Some((potential, _)) = system.potential {
         module.push_str(&potential_items(&Kick::build(potential), &style));
     }
@@ -63,24 +67,34 @@ pub fn header(
     prefix: Option<String>,
 ) -> Result<String, RunError> {
     let style = HeaderOptions { language, ..HeaderOptions::default() };
-    let (problem, style) = match source {
+    let (problem, style, choice) = match source {
         Source::Model(model) => {
             let problem = problem(&model, "learned")?;
-            (problem, HeaderOptions { only_step: Some(model.step), ..style })
+            (problem, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
-        Source::System(system) => {
+        Source::System(system, choice) => {
             refuse_potential(path, &system, "C")?;
             let units = system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
             let momentum = (0..system.problem.algebra.dim()).map(of).collect();
             let time = units.time.clone();
-            (system.problem, HeaderOptions { time, momentum, ..style })
+            (system.problem, HeaderOptions { time, momentum, ..style }, choice)
         }
     };
     let prefix = prefix.unwrap_or_else(|| problem.name.clone());
     let integrator = integrator(path, problem)?;
-    c::header(&integrator, &HeaderOptions { prefix, ..style })
-        .map_err(|error| RunError::Header { file: path.into(), source: error })
+    let text = c::header(&integrator, &HeaderOptions { prefix, ..style })
+        .map_err(|error| RunError::Header { file: path.into(), source: error })?;
+    let line = choice.as_ref().map(|choice| format!("/* {} */\n", chosen(choice)));
+    Ok(line.unwrap_or_default() + &text)
+}
+
+/// What was chosen, for a comment.
+fn chosen(choice: &Choice) -> String {
+    let Choice { tolerance, truncation, step, error, .. } = choice;
+    format!(
+        "Chosen for the tolerance {tolerance:e}: K = {truncation}, step h = {step} (error {error:.1e} at the end of the run)."
+    )
 }
 
 /// The steps as a kernel for devices, which is for one step size alone; `step` replaces that of the system, and a model
@@ -95,14 +109,14 @@ pub fn kernel(
     precision: Precision,
     language: DeviceLanguage,
 ) -> Result<String, RunError> {
-    let (problem, step): (Problem, f64) = match source {
+    let (problem, step, choice): (Problem, f64, Option<Choice>) = match source {
         Source::Model(model) => {
             if step.is_some() {
                 return Err(RunError::Option("--step: a learned model has its own".into()));
             }
-            (problem(&model, "learned")?, model.step)
+            (problem(&model, "learned")?, model.step, None)
         }
-        Source::System(system) => {
+        Source::System(system, choice) => {
             refuse_potential(path, &system, "kernels")?;
             let step = step.or(system.run.step).ok_or_else(|| RunError::Missing {
                 file: path.into(),
@@ -110,7 +124,7 @@ pub fn kernel(
                 example: "step = 0.1",
                 option: "--step 0.1",
             })?;
-            (system.problem, step)
+            (system.problem, step, choice)
         }
     };
     let integrator = integrator(path, problem)?;
@@ -119,12 +133,14 @@ pub fn kernel(
     let group = whole_group(path, &problem.algebra, None)?;
     let interpreter = Interpreter::<_, Exponential>::new(&integrator, group, step)
         .map_err(|source| RunError::Step { time: 0.0, source })?;
+    let chosen = choice.as_ref().map(|choice| format!("\n{}", chosen(choice)));
     let about = format!(
-        "{} on {}, {} chart, K = {}, step {step}.\nWritten by coadjoint {}.",
+        "{} on {}, {} chart, K = {}, step {step}.{}\nWritten by coadjoint {}.",
         problem.name,
         problem.algebra.name(),
         problem.chart,
         problem.truncation,
+        chosen.unwrap_or_default(),
         env!("CARGO_PKG_VERSION"),
     );
     device_text(&interpreter, precision, language, &about)

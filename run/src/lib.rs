@@ -8,6 +8,7 @@ pub mod ensemble;
 mod error;
 mod load;
 pub mod number;
+mod rounding;
 pub mod series;
 pub mod simulate;
 pub mod verify;

@@ -39,6 +39,8 @@ pub fn report(
                 "chart": problem.chart.to_string(),
                 "truncation": problem.truncation,
                 "step": trial.step,
+                "points": trial.points,
+                "about": trial.about,
                 "laws": list,
                 "warnings": warning.iter().map(|steep| json!({
                     "kind": "series_ratio",
@@ -53,13 +55,14 @@ pub fn report(
             // Writing into a string cannot fail.
             let _ = writeln!(
                 out,
-                "{}: group {}, chart {}, K = {}, h = {}, {} random points (seed {})",
+                "{}: group {}, chart {}, K = {}, h = {}, {} random points {} (seed {})",
                 problem.name,
                 problem.algebra.name(),
                 problem.chart,
                 problem.truncation,
                 trial.step,
                 trial.points,
+                trial.place(),
                 trial.seed
             );
             if let Some(warning) = warning {

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
+use coadjoint_codegen::step;
 use coadjoint_run::ensemble::Drift;
 use serde::{Deserialize, Serialize};
 
@@ -29,10 +30,13 @@ pub struct Journal {
     pub rejected: u64,
     /// Where the next row begins in the input.
     pub position: u64,
-    /// The largest drift of J_L so far, as bits.
-    pub spatial_momentum: u64,
-    /// The largest drift of Casimirs so far, as bits.
-    pub casimirs: u64,
+    /// The largest drift of J_L so far, as bits, if one is known.
+    pub spatial_momentum: Option<u64>,
+    /// The largest drift of Casimirs so far, as bits, if one is known.
+    pub casimirs: Option<u64>,
+    /// Rows whose drift could not be measured.
+    #[serde(default)]
+    pub unmeasured: u64,
     /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
     #[serde(default)]
     pub ratio: u64,
@@ -78,18 +82,20 @@ impl Journal {
 
     /// The largest drifts so far.
     pub fn drift(&self) -> Drift {
-        Drift {
-            spatial_momentum: f64::from_bits(self.spatial_momentum),
-            casimirs: f64::from_bits(self.casimirs),
-            ratio: f64::from_bits(self.ratio),
-        }
+        let conserved = step::Drift {
+            spatial_momentum: self.spatial_momentum.map(f64::from_bits),
+            casimirs: self.casimirs.map(f64::from_bits),
+            energy: None,
+        };
+        Drift { conserved, unmeasured: self.unmeasured, ratio: f64::from_bits(self.ratio) }
     }
 
     /// Takes note of drifts.
     pub fn raise(&mut self, drift: Drift) {
         let drift = self.drift().max(drift);
-        self.spatial_momentum = drift.spatial_momentum.to_bits();
-        self.casimirs = drift.casimirs.to_bits();
+        self.spatial_momentum = drift.conserved.spatial_momentum.map(f64::to_bits);
+        self.casimirs = drift.conserved.casimirs.map(f64::to_bits);
+        self.unmeasured = drift.unmeasured;
         self.ratio = drift.ratio.to_bits();
     }
 }

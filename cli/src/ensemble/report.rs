@@ -33,7 +33,15 @@ pub fn report(
     let truncation = integrator.problem.truncation;
     let chart = integrator.problem.chart;
     let drift = outcome.drift;
+    let conserved = drift.conserved;
     if format == Format::Json {
+        // What is not known has no key.
+        let known =
+            [("spatial_momentum", conserved.spatial_momentum), ("casimirs", conserved.casimirs)];
+        let known: serde_json::Map<_, _> = known
+            .iter()
+            .filter_map(|(name, drift)| Some(((*name).into(), json!((*drift)?))))
+            .collect();
         let first = outcome.first.iter();
         let first: Vec<_> =
             first.map(|r| json!({ "row": r.row, "step": r.step, "reason": r.reason })).collect();
@@ -55,10 +63,8 @@ pub fn report(
                 "precision": by.precision.to_string(),
                 "redone": outcome.redone,
             })),
-            "drift": {
-                "spatial_momentum": drift.spatial_momentum,
-                "casimirs": drift.casimirs,
-            },
+            "drift": known,
+            "drift_not_measured": drift.unmeasured,
             "warnings": warning(outcome).iter().map(|text| json!({
                 "kind": "series_ratio",
                 "ratio": drift.ratio,
@@ -102,11 +108,20 @@ pub fn report(
         let _ = writeln!(out, "    all of them are in {}", list.display());
     }
     let _ = writeln!(out, "  largest relative drift");
-    let _ = writeln!(out, "    spatial momentum {:>10.1e}", drift.spatial_momentum);
+    let number = |drift: Option<f64>| match drift {
+        Some(drift) => format!("{drift:>10.1e}"),
+        None => "not measurable".to_owned(),
+    };
+    let _ = writeln!(out, "    spatial momentum {}", number(conserved.spatial_momentum));
     let _ = match engine.casimirs() {
         0 => writeln!(out, "    Casimirs         none known"),
-        count => writeln!(out, "    Casimirs ({count})     {:>10.1e}", drift.casimirs),
+        count => writeln!(out, "    Casimirs ({count})     {}", number(conserved.casimirs)),
     };
+    if drift.unmeasured > 0 {
+        let rows = drift.unmeasured;
+        let _ =
+            writeln!(out, "    not measurable in {rows} rows: rounding of large numbers hides it");
+    }
     let _ = writeln!(out, "  {:.1} s", outcome.seconds);
     out
 }

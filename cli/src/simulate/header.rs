@@ -95,7 +95,9 @@ impl Header {
             ("casimir_scales", json!(scales.casimirs)),
             ("energy_scale", json!(scales.energy)),
         ];
-        self.0.extend(list.into_iter().zip(known).filter_map(|(scale, known)| known.then_some(scale)));
+        self.0.extend(
+            list.into_iter().zip(known).filter_map(|(scale, known)| known.then_some(scale)),
+        );
         self
     }
 

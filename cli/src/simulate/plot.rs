@@ -66,7 +66,7 @@ impl Heading {
 }
 
 /// A number in at most nine digits.
-fn brief(value: f64) -> String {
+pub fn brief(value: f64) -> String {
     let text = format!("{value:.8e}");
     let short = text.parse().unwrap_or(value);
     if short == 0.0 || (1e-4..1e7).contains(&f64::abs(short)) {

@@ -8,6 +8,7 @@ use coadjoint_run::simulate::{Block, Warning, matrix, split};
 use serde_json::{Value, json};
 
 use super::element::lines;
+use super::plot::brief;
 use super::trajectory::Trajectory;
 use crate::arguments::Format;
 
@@ -138,8 +139,10 @@ fn remark(run: &Trajectory, number: usize) -> String {
         _ => String::new(),
     };
     if let Some(time) = run.unmeasured[number] {
-        let time = shortest(time);
-        remark.push_str(&format!(", not measurable after t = {time}: rounding of large numbers hides it"));
+        let time = brief(time);
+        remark.push_str(&format!(
+            ", not measurable after t = {time}: rounding of large numbers hides it"
+        ));
     }
     remark
 }

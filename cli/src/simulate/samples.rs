@@ -81,7 +81,8 @@ impl Samples {
     pub fn to_bits(&self) -> Vec<Vec<u64>> {
         let row = |record: &Record| {
             let Record { time, momentum, energy, drift } = record;
-            let numbers = [*time, *energy].into_iter().chain(drift.numbers()).chain(momentum.iter().copied());
+            let numbers =
+                [*time, *energy].into_iter().chain(drift.numbers()).chain(momentum.iter().copied());
             numbers.map(f64::to_bits).collect()
         };
         let pending = self.pending.iter().map(row);

@@ -51,6 +51,14 @@ impl Recording {
         dim: usize,
         matrix_size: usize,
     ) -> Result<Self, LearnError> {
+        if columns.rows() == 0 {
+            return Err(LearnError::NoSamples);
+        }
+        if columns.column(&format!("mu_{}", dim + 1)).is_some() {
+            let found = (1..).take_while(|i| columns.column(&format!("mu_{i}")).is_some()).count();
+            let what = "a momentum of this group".to_owned();
+            return Err(LearnError::Shape { what, expected: dim, found });
+        }
         let mut unused = columns.names().to_vec();
         let mut gather = |names: &[String]| -> Result<DMatrix<f64>, LearnError> {
             unused.retain(|column| !names.contains(column));

@@ -113,7 +113,9 @@ pub fn select_polynomial(
         .collect();
     let mut candidates = Vec::new();
     for &degree in &options.degrees {
-        if Basis::size(dim, degree) > options.largest_basis {
+        // Fewer equations than coefficients are met by any number of polynomials, and say nothing of which is right.
+        let rest = samples - samples.div_ceil(parts.len().max(1));
+        if Basis::size(dim, degree) > options.largest_basis.min(dim * rest) {
             continue;
         }
         let basis = Basis::new(dim, degree);

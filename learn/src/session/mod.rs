@@ -20,6 +20,7 @@ use crate::error::{BadRow, LearnError};
 use crate::evaluate::{Drifts, Figures, drifts, evaluate};
 use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
+use crate::model::Model;
 use crate::save::{ModelFile, TrainingRecord};
 
 /// The kind of model asked for.
@@ -104,6 +105,9 @@ pub struct Summary {
     pub drifts: Option<Drifts>,
     /// Rows left out of the training data, with the reason.
     pub dropped: Vec<(usize, String)>,
+    /// What the data hardly support.
+    #[serde(default)]
+    pub warnings: Vec<String>,
     /// Columns of the training data that are neither a momentum nor an attitude.
     pub unused: Vec<String>,
 }
@@ -240,6 +244,7 @@ impl Visitor for Learner<'_> {
             test,
             drifts: start.and_then(|s| drifts(&map, &group, &s, request.drift_steps, None).ok()),
             dropped: named(&reduction.dropped),
+            warnings: Vec::from_iter(few_rows(&model, data.len())),
             unused: recording.unused,
         };
         let training = TrainingRecord { train: Some(train), ..record };
@@ -247,6 +252,18 @@ impl Visitor for Learner<'_> {
         let file = ModelFile::new(name, chart, request.step, true, model, training);
         Ok((file, summary))
     }
+}
+
+/// A word about a polynomial with more coefficients than there were rows.
+fn few_rows(model: &Model, rows: usize) -> Option<String> {
+    let Model::Polynomial(polynomial) = model else { return None };
+    let coefficients = polynomial.basis().len();
+    (rows < coefficients).then(|| {
+        format!(
+            "{rows} rows for {coefficients} coefficients: the errors on the training data say little; test the model on \
+             other data, or lower the degree"
+        )
+    })
 }
 
 fn named(rows: &[BadRow]) -> Vec<(usize, String)> {

@@ -1,8 +1,8 @@
 //! Learning from momenta alone.
 
-use coadjoint::{Chart, Phase};
+use coadjoint::{Chart, Coordinates, Phase};
 
-use super::{Kind, Request, Summary, named};
+use super::{Kind, Request, Summary, few_rows, named};
 use crate::data::{MomentumPairs, RowPolicy};
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::evaluate::{drifts, evaluate_momenta};
@@ -27,7 +27,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
             requirement: "momenta alone are learned by polynomials; use auto or polynomial".into(),
         });
     }
-    let bad: Vec<BadRow> = (0..pairs.len())
+    let mut bad: Vec<BadRow> = (0..pairs.len())
         .filter(|&i| {
             !pairs
                 .before
@@ -38,13 +38,32 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         })
         .map(|i| BadRow { row: i + 1, problem: RowProblem::NonFinite })
         .collect();
+    let changes: Vec<f64> = (0..pairs.len()).map(|i| casimir_change(group, pairs, i)).collect();
+    // A method that is none of Poisson's changes them: what is learned of it is the nearest that does not.
+    if !request.momenta_only {
+        let off = changes.iter().enumerate().filter(|(_, change)| **change > request.tolerances.momentum);
+        bad.extend(off.map(|(i, &relative)| BadRow {
+            row: i + 1,
+            problem: RowProblem::CasimirMismatch { relative },
+        }));
+        bad.sort_by_key(|bad| bad.row);
+    }
     if !bad.is_empty() && request.policy == RowPolicy::Refuse {
         return Err(LearnError::BadRows(BadRows { rows: bad, total: pairs.len(), chart: C::NAME }));
     }
     let kept: Vec<usize> =
         (0..pairs.len()).filter(|i| bad.iter().all(|b| b.row != i + 1)).collect();
     let pairs = pairs.select(&kept);
+    if pairs.is_empty() {
+        return Err(LearnError::NoSamples);
+    }
+    // Each pair says as much as an orbit has dimensions.
+    let orbit = group.dim() - group.casimir_count().min(group.dim());
     let fit = |degree: usize, pairs: &MomentumPairs| {
+        let (terms, samples) = (Basis::size(group.dim(), degree), pairs.len());
+        if orbit * samples < terms {
+            return Err(LearnError::NotDetermined { degree, terms, samples, ridge: 0.0 });
+        }
         fit_poisson::<G, C>(group, pairs, &PoissonOptions::degree(degree))
     };
     let figures = |model: &Model, pairs: &MomentumPairs| {
@@ -74,9 +93,15 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
                 }
             }
         }
-        let best = candidates.iter().min_by(|a, b| a.mse.total_cmp(&b.mse)).ok_or_else(|| {
-            LearnError::NotConverged { reason: "no degree from 2 to 6 could be fitted".into() }
-        })?;
+        let best = match candidates.iter().min_by(|a, b| a.mse.total_cmp(&b.mse)) {
+            Some(best) => best,
+            // Why the lowest could not.
+            None => {
+                fit(2, &outside)?;
+                let reason = "no degree from 2 to 6 could be fitted".into();
+                return Err(LearnError::NotConverged { reason });
+            }
+        };
         let mse = best.mse;
         (best.degree, format!("{}: held-out mse of mu'' {mse:.1e}; p eliminated", best.name))
     };
@@ -85,6 +110,13 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let train = figures(&model, &pairs);
     let map = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
+    let mut warnings = Vec::from_iter(few_rows(&model, pairs.len()));
+    let largest = changes.iter().copied().fold(0.0, f64::max);
+    if largest > request.tolerances.momentum {
+        warnings.push(format!(
+            "Casimirs differ by up to {largest:.1e} between before and after; what is learned keeps them"
+        ));
+    }
     let start: Option<Vec<f64>> = request.start.clone().or(first);
     let start = start.map(|mu| Phase::<G>::new(group.identity(), vector::<G>(&mu)));
     let summary = Summary {
@@ -94,6 +126,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         test: test.map(|t| figures(&model, t)),
         drifts: start.and_then(|s| drifts(&map, group, &s, request.drift_steps, None).ok()),
         dropped: named(&bad),
+        warnings,
         unused: Vec::new(),
     };
     let training = TrainingRecord {
@@ -107,4 +140,17 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let (name, chart) = (&request.group, &request.chart);
     let file = ModelFile::new(name, chart, request.step, false, model, training);
     Ok((file, summary))
+}
+
+/// The largest change of a Casimir from one momentum of a pair to the other, relative to its size before; where that is 0,
+/// to the size of the momentum.
+fn casimir_change<G: DataGroup>(group: &G, pairs: &MomentumPairs, pair: usize) -> f64 {
+    let (before, after) = (pairs.before.column(pair), pairs.after.column(pair));
+    let [before, after] = [before, after].map(|mu| vector::<G>(mu.as_slice()));
+    let changes = (0..group.casimir_count()).map(|index| {
+        let (was, is) = (group.casimir(index, &before), group.casimir(index, &after));
+        let size = was.abs().max(before.largest_entry().powi(2) * f64::EPSILON.sqrt());
+        if is == was { 0.0 } else { (is - was).abs() / size }
+    });
+    changes.fold(0.0, f64::max)
 }

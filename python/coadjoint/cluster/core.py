@@ -70,7 +70,7 @@ def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     for key in _SCHEDULE:
         if facts[key] != job[key]:
             raise ShardError(f"{key} is {facts[key]} here and {job[key]} in the manifest")
-    drift = {key: facts[key] for key in ("spatial_momentum", "casimirs", "ratio")}
+    drift = {key: facts[key] for key in ("spatial_momentum", "casimirs", "ratio") if facts[key] is not None}
     return Made(states, failed, drift, facts["notes"])
 
 

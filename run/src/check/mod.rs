@@ -4,6 +4,7 @@ mod order;
 
 use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
 use coadjoint_codegen::lie;
+use coadjoint_codegen::system::Run;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -15,7 +16,7 @@ use crate::error::RunError;
 use crate::load::Derived;
 
 /// The step of a system that names none.
-pub const DEFAULT_STEP: f64 = 0.1;
+const DEFAULT_STEP: f64 = 0.1;
 
 /// A law and how well it holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,13 +51,13 @@ impl Steep {
     }
 }
 
-/// What is tried: a step size, and points of a size.
-#[derive(Clone, Copy, Debug)]
+/// What is tried: a step size, and random points.
+#[derive(Clone, Debug)]
 pub struct Trial {
     /// The step size.
     pub step: f64,
-    /// How large momenta are.
-    pub size: f64,
+    /// The momentum that the points are about; without one each coordinate is between −1 and 1.
+    pub about: Option<Vec<f64>>,
     /// How many points.
     pub points: usize,
     /// The seed of the points.
@@ -64,11 +65,12 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Refuses settings that make no sense.
+    /// With this step, else that of the system, and points about its initial momentum.
     ///
     /// # Errors
-    /// By the name of the setting.
-    pub fn new(step: f64, size: f64, points: usize, seed: u64) -> Result<Self, RunError> {
+    /// Where a setting makes no sense: by its name.
+    pub fn new(step: Option<f64>, run: &Run, points: usize, seed: u64) -> Result<Self, RunError> {
+        let step = step.or(run.step).unwrap_or(DEFAULT_STEP);
         if step == 0.0 || !step.is_finite() {
             let what = "--step must be finite and other than zero; try --step 0.1";
             return Err(RunError::Option(what.to_owned()));
@@ -76,7 +78,16 @@ impl Trial {
         if points == 0 {
             return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
         }
-        Ok(Self { step, size, points, seed })
+        let about = run.momentum.clone().filter(|mu| mu.iter().any(|x| *x != 0.0));
+        Ok(Self { step, about, points, seed })
+    }
+
+    /// The points in words.
+    pub fn place(&self) -> &'static str {
+        match self.about {
+            Some(_) => "about the initial momentum",
+            None => "with coordinates from -1 to 1",
+        }
     }
 }
 
@@ -114,7 +125,7 @@ impl Tried<'_> {
     fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.trial.seed);
         let points: Vec<_> = (0..self.trial.points)
-            .map(|_| random_phase(&group, self.trial.size, &mut random))
+            .map(|_| random_phase(&group, self.trial, &mut random))
             .collect();
         let at = |source| RunError::Step { time: 0.0, source };
         let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
@@ -137,7 +148,7 @@ impl Tried<'_> {
             Some(Law { name, statement, value, bound, pass })
         });
         let mut laws: Vec<Law> = printed.collect();
-        let start = random_phase(&group, self.trial.size, &mut random);
+        let start = random_phase(&group, self.trial, &mut random);
         let expected = self.system.integrator.order() as f64;
         laws.push(order::measure(self.trial.step, expected, &group, &start, |h, steps, state| {
             let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
@@ -199,11 +210,22 @@ fn worse(worst: f64, value: f64) -> f64 {
     if worst.is_nan() || value <= worst { worst } else { value }
 }
 
-/// A group element within the chart, and momenta between −size and size.
-fn random_phase<G: Group>(group: &G, size: f64, random: &mut ChaCha8Rng) -> Phase<G> {
-    let mut vector = |size: f64| {
-        DVector::from_fn(group.dim(), |_, _| size * (2.0 * random.random::<f64>() - 1.0))
-    };
-    let x = vector(1.0);
-    Phase::new(group.exp(&x), vector(size))
+/// Coordinates of random points differ from those given by up to this part of their size.
+const SPREAD: f64 = 0.1;
+
+/// A group element within the chart, and a momentum: about the one given, coordinate by coordinate, since coordinates may
+/// have different units. One that is 0 is as large as the smallest of the others.
+fn random_phase<G: Group>(group: &G, trial: &Trial, random: &mut ChaCha8Rng) -> Phase<G> {
+    let mut vector = || DVector::from_fn(group.dim(), |_, _| 2.0 * random.random::<f64>() - 1.0);
+    let x = vector();
+    let mut momentum = vector();
+    if let Some(about) = trial.about.as_ref().filter(|about| about.len() == group.dim()) {
+        let sizes = about.iter().map(|x| x.abs());
+        let least = sizes.filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
+        for (own, given) in momentum.iter_mut().zip(about) {
+            let size = if *given == 0.0 { least } else { given.abs() };
+            *own = given + SPREAD * size * *own;
+        }
+    }
+    Phase::new(group.exp(&x), momentum)
 }

@@ -7,6 +7,7 @@ use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
 use coadjoint::{Cayley, Chart, Exponential};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::step;
 
 use super::device::{Asked, Use};
 use super::layout::{Layout, Shape};
@@ -16,26 +17,25 @@ use crate::backend::Backend;
 use crate::engine::{Kept, Restore, cayley_group, product_group};
 use crate::error::RunError;
 
-/// The largest drifts over an ensemble, each row's relative to its own size.
+/// The largest drifts over an ensemble, each row's relative to its own [scales](coadjoint_codegen::step::Scales).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of the spatial momentum J_L, relative to the largest coordinate of μ.
-    pub spatial_momentum: f64,
-    /// Of the Casimirs, each relative to itself (absolute where it is 0).
-    pub casimirs: f64,
+    /// Of what is known to be conserved; of energies none is measured.
+    pub conserved: step::Drift,
+    /// Rows at whose end rounding of large numbers hides a drift.
+    pub unmeasured: u64,
     /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
     /// many steps), where it is worth a warning; else 0.
     pub ratio: f64,
 }
 
 impl Drift {
-    /// The larger of each; what is no number is larger than any.
-    pub fn max(self, other: Self) -> Self {
-        Self {
-            spatial_momentum: larger(self.spatial_momentum, other.spatial_momentum),
-            casimirs: larger(self.casimirs, other.casimirs),
-            ratio: larger(self.ratio, other.ratio),
-        }
+    /// The larger of each, and the rows of both.
+    pub fn max(mut self, other: Self) -> Self {
+        self.conserved.raise(other.conserved);
+        self.unmeasured += other.unmeasured;
+        self.ratio = larger(self.ratio, other.ratio);
+        self
     }
 }
 

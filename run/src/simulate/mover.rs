@@ -9,6 +9,7 @@ use nalgebra::DVector;
 use super::schedule::Schedule;
 use crate::engine::{Compiled, Energy, Group, Interpreter, Numbers, Restore, entries_of, phase_of};
 use crate::number::maximum;
+use crate::rounding::nudge;
 
 /// A state as it is watched.
 pub trait Seen {
@@ -18,8 +19,7 @@ pub trait Seen {
     /// Ad\*_g μ.
     fn spatial_momentum(&self) -> DVector<f64>;
 
-    /// What is seen of the state each of whose numbers is off by [`NUDGE`], relatively, up or down: μ, Ad\*_g μ, and the
-    /// energy if it is known.
+    /// What is seen of the state with its numbers [nudged](nudge): μ, Ad\*_g μ, and the energy if it is known.
     fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>);
 
     /// The energy.
@@ -27,17 +27,6 @@ pub trait Seen {
 
     /// A number of the group element that is not finite, where there is one.
     fn flaw(&self) -> Option<f64>;
-}
-
-/// Far above rounding, and so small that what is conserved changes in proportion to it.
-pub const NUDGE: f64 = 1e-9;
-
-/// Moves each number by [`NUDGE`], relatively, up or down without a pattern.
-fn nudge(numbers: &mut [f64]) {
-    for (place, number) in numbers.iter_mut().enumerate() {
-        let up = (place as u32 + 1).wrapping_mul(0x9e37_79b9).count_ones().is_multiple_of(2);
-        *number *= if up { 1.0 + NUDGE } else { 1.0 - NUDGE };
-    }
 }
 
 /// A state as its group has it.

@@ -58,6 +58,9 @@ mod tests {
         assert_eq!(found[6], "energy");
         assert_eq!(found[7..], names(&DRIFTS));
         let part = Begun { blocks: &[], known: [false, true, false], energy: false, ..whole };
-        assert_eq!(columns(&names(&["energy"]), &part), names(&["time", "energy", "casimir_drift"]));
+        assert_eq!(
+            columns(&names(&["energy"]), &part),
+            names(&["time", "energy", "casimir_drift"])
+        );
     }
 }

@@ -7,16 +7,13 @@ use coadjoint_codegen::step::{Start, casimir_scale, energy_scale};
 use nalgebra::DVector;
 
 use super::blocks::{Block, blocks};
-use super::mover::{NUDGE, Seen};
+use super::mover::Seen;
 use super::outlet::Begun;
 use super::warning::{Steep, Warning};
 use crate::backend::Used;
 use crate::engine::{Energy, Group, STEEP};
 use crate::number::{largest, maximum};
-
-/// Where rounding of a state alone may move a conserved quantity by more than this, relative to the scale of its drift, the
-/// drift is not measured: the numbers have grown too large, as they do in groups that are not compact.
-const MEASURABLE: f64 = 1e-11;
+use crate::rounding::measured;
 
 /// What is measured at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -268,16 +265,11 @@ impl<'a, G: Group> Recorder<'a, G> {
             conserved(self.group, &self.watched, momentum, spatial, energy)
         };
         let now = of(state.momentum(), &state.spatial_momentum(), energy);
-        for (number, casimir) in now.casimirs.iter().enumerate() {
-            finite(&format_args!("Casimir {}", number + 1), *casimir)?;
-        }
         let (momentum, spatial, other) = state.nudged(self.watched.energy);
-        let beside = Start { conserved: of(&momentum, &spatial, other), ..self.start.clone() };
-        let moved = beside.drift(&now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
-        let mut drift = self.start.drift(&now).numbers();
-        for (i, drift) in drift.iter_mut().enumerate() {
-            // What is no number is not measured either.
-            if self.tally.unmeasured[i].is_some() || !(moved[i] <= MEASURABLE && drift.is_finite()) {
+        let beside = of(&momentum, &spatial, other);
+        let mut drift = measured(&self.start, &now, beside).numbers();
+        for (drift, since) in drift.iter_mut().zip(self.tally.unmeasured) {
+            if since.is_some() {
                 *drift = f64::NAN;
             }
         }

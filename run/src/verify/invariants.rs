@@ -72,7 +72,7 @@ impl Invariants {
     }
 
     /// By how much the spatial momentum ⟨μ, Ad_{g⁻¹} e_j⟩ drifts from one state to another, relative to the sum of the
-    /// absolute values of its terms; none where a matrix has no inverse.
+    /// absolute values of its terms, of which rounding makes a part; none where a matrix has no inverse.
     pub fn spatial_drift(
         &self,
         (g, mu): (&[f64], &[f64]),
@@ -102,24 +102,28 @@ impl Factor {
         let element = DMatrix::from_fn(self.size, self.size, entry);
         let mu = DVector::from_column_slice(mu.get(self.first..self.first + self.dim)?);
         let inverse = element.clone().try_inverse()?;
-        // Column j: the coordinates of Ad_{g⁻¹} e_j.
-        let adjoint = match &self.basis {
-            None => inverse.clone(),
+        // What rounding of g leaves of g⁻¹, entry by entry.
+        let (size, back) = (element.abs(), inverse.abs());
+        let rounded = &back * &size * &back;
+        // Column j: the coordinates of Ad_{g⁻¹} e_j, and the sums of the absolute values of their terms.
+        let (adjoint, absolute) = match &self.basis {
+            None => (inverse, rounded),
             Some(basis) => {
                 let mut sides = DMatrix::zeros(self.dim, self.dim);
+                let mut sums = DMatrix::zeros(self.dim, self.dim);
                 for (j, matrix) in basis.matrices.iter().enumerate() {
                     let turned = &inverse * matrix * &element;
+                    let terms = &rounded * matrix.abs() * &size;
                     for (i, other) in basis.matrices.iter().enumerate() {
                         sides[(i, j)] = other.dot(&turned);
+                        sums[(i, j)] = other.abs().dot(&terms);
                     }
                 }
-                basis.gram.clone().lu().solve(&sides)?
+                let gram = basis.gram.clone().try_inverse()?;
+                (&gram * sides, gram.abs() * sums)
             }
         };
-        // What rounds is the product of both matrices, whose entries may be far larger than what is left of them.
-        let factor = inverse.norm() * element.norm() / self.size as f64;
-        let absolute = adjoint.abs().tr_mul(&mu.abs()).add_scalar(factor.max(1.0) * mu.amax());
-        Some((adjoint.tr_mul(&mu), absolute))
+        Some((adjoint.tr_mul(&mu), absolute.tr_mul(&mu.abs())))
     }
 }
 
