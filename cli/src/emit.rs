@@ -46,8 +46,7 @@ fn source(options: &EmitOptions) -> Result<(std::path::PathBuf, Source), CliErro
     let source = options.input.source();
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
-    let (system, choice) =
-        load::settled(&source, options.truncation, options.step, parameters)?;
+    let (system, choice) = load::settled(&source, options.truncation, options.step, parameters)?;
     Ok((source.file, Source::System(Box::new(system), choice)))
 }
 

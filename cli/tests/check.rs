@@ -69,3 +69,18 @@ momentum = [0.5, 1.0, -0.5, 0.25]
     let report = json(&["check", &system, "--format", "json"]);
     assert!(report["laws"].as_array().unwrap().iter().all(|law| law["pass"] == true), "{report}");
 }
+
+/// Coordinates of different units have different sizes: points are about the initial momentum, one by one.
+#[test]
+fn points_have_the_scale_of_the_initial_momentum() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "group = \"SO3 |x R3\"\ncoordinates = [\"x\", \"y\", \"z\", \"u\", \"v\", \"w\"]\n\
+         hamiltonian = \"x^2/(2*A) + y^2/(2*A) + z^2/(2*C) + m*w\"\n[parameters]\nA = 8e-5\nC = 1.2e-4\nm = 0.05886\n\
+         [integrator]\ntruncation = 3\nstep = 0.0005\n[initial]\nmomentum = [0, 0, 0.05, 0, 0.5, 0.8660254037844386]\n",
+    );
+    let report = json(&["check", &system, "--format", "json"]);
+    assert_eq!((&report["step"], &report["truncation"]), (&0.0005.into(), &3.into()));
+    assert!(report["laws"].as_array().unwrap().iter().all(|law| law["pass"] == true), "{report}");
+}

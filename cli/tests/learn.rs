@@ -149,3 +149,26 @@ fn arguments_without_sense_are_refused_before_anything_is_allocated() {
         assert!(error.contains(expected), "{arguments:?}: {error}");
     }
 }
+
+/// Data that do not support a model are refused in words.
+#[test]
+fn data_that_support_no_model_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("data.csv");
+    let head = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
+    let three = "1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n";
+    let wide = "mu_1,mu_2,mu_3,mu_4,mu_next_1,mu_next_2,mu_next_3\n1,0,0,0,1,0,0\n";
+    for (text, options, expected) in [
+        (format!("{head}{three}"), &["--degree", "4"][..], "3 samples do not determine"),
+        (format!("{head}{three}"), &[], "3 samples do not determine"),
+        (head.to_owned(), &[], "no usable sample"),
+        (format!("{head}1,0,0,1.1,0,0\n"), &[], "a Casimir of the group differs by 2.1e-1"),
+        (wide.to_owned(), &[], "a momentum of this group has 4 entries where 3 are needed"),
+    ] {
+        std::fs::write(&path, &text).unwrap();
+        let made = coadjoint().arg("learn").arg(&path).args(["--dt", "0.1"]).args(options).output();
+        let (made, error) = made.map(|m| (m.status.success(), m.stderr)).unwrap();
+        let error = String::from_utf8_lossy(&error).into_owned();
+        assert!(!made && error.contains(expected), "{text}{error}");
+    }
+}

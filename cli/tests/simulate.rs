@@ -317,3 +317,79 @@ fn expressions_stand_for_their_numbers() {
         }
     }
 }
+
+const BOOSTS: &str = r#"
+name = "boosts"
+hamiltonian = "HAMILTONIAN"
+[algebra]
+generators = ["a", "b", "c"]
+brackets = ["[a, b] = -c", "[b, c] = a", "[c, a] = b"]
+[integrator]
+step = 0.1
+truncation = 5
+[initial]
+momentum = [0.4, 0.7, -0.3]
+[run]
+time = 20
+"#;
+
+/// Where the group is not compact a drift is measured as far as rounding allows; no run fails for it, and no right one is
+/// convicted.
+#[test]
+fn drifts_of_long_elements_are_not_measured() {
+    for hamiltonian in ["a", "a^2/2 + b^2/3 - c^2/5 + a*c/5 + a/3"] {
+        let directory = tempfile::tempdir().unwrap();
+        let system = file(&directory, &BOOSTS.replace("HAMILTONIAN", hamiltonian));
+        let out = directory.path().join("run.csv").to_str().unwrap().to_owned();
+        let report = json(&["simulate", &system, "--out", &out, "--format", "json"]);
+        let end = report["drift_not_measurable_after"]["spatial_momentum"].as_f64().unwrap();
+        assert!(end > 2.0 && end < 20.0, "{report}");
+        assert!(report["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-8, "{report}");
+        let (_, text, _) = run(&["simulate", &system]);
+        assert!(text.contains("not measurable after t = "), "{text}");
+        let (code, said, error) = run(&["verify", &out]);
+        assert!(code == 0 && said.contains("no row is wrong"), "{said}{error}");
+    }
+}
+
+/// A drift follows from the columns of the file and the scale that it names.
+#[test]
+fn the_scale_of_the_energy_is_the_energy_at_the_start() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/6 - 0.75\"\n[integrator]\nstep = 0.5\ntruncation = 3\n\
+         [initial]\nmomentum = [0.5, 0.9, 1.5]\n[run]\ntime = 100\n",
+    );
+    let out = directory.path().join("run.csv");
+    let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
+    let scale = report["drift_scale"]["energy"].as_f64().unwrap();
+    assert!((scale - 0.0475).abs() < 1e-15, "{report}");
+    let text = std::fs::read_to_string(out).unwrap();
+    assert!(text.contains("# energy_scale: 0.0474"), "{text}");
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let place = |name: &str| names.iter().position(|known| *known == name).unwrap();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let (energy, drift) = (place("energy"), place("energy_drift"));
+    for row in &rows {
+        let expected = (row[energy] - rows[0][energy]).abs() / scale;
+        assert!((row[drift] - expected).abs() <= 1e-12 * expected, "{row:?}");
+    }
+}
+
+/// What is not known or not conserved has no number, in no output.
+#[test]
+fn an_unknown_drift_is_absent() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "group = \"Aff1\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/3\"\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [1, 0.5]\n\
+         [run]\ntime = 1\n",
+    );
+    let out = directory.path().join("run.csv");
+    let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
+    assert!(report["drift"].get("casimirs").is_none() && report["drift"]["energy"].is_number());
+    assert!(!std::fs::read_to_string(out).unwrap().contains("casimir"));
+}

@@ -104,3 +104,32 @@ fn the_choice_is_told() {
     assert_eq!(code, 2);
     assert!(error.contains("between 1e-14 and 1e-1"), "{error}");
 }
+
+/// One function chooses K and h, for every verb and every language.
+#[test]
+fn all_verbs_choose_the_same_truncation_and_step() {
+    let directory = tempfile::tempdir().unwrap();
+    let system = file(
+        &directory,
+        "name = \"body\"\ngroup = \"SO3\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntolerance = 1e-9\n\
+         [initial]\nmomentum = [2, 0.5, 1]\n[run]\ntime = 100\n",
+    );
+    let report = json(&["simulate", &system, "--format", "json"]);
+    let (truncation, step) = (&report["truncation"], &report["step"]);
+    assert_ne!(truncation, 7, "the default");
+    let checked = json(&["check", &system, "--points", "1", "--format", "json"]);
+    assert_eq!((&checked["truncation"], &checked["step"]), (truncation, step));
+    let chosen = format!("K = {truncation}, step h = {step}");
+    for language in ["rust", "c", "cpp", "opencl", "cuda"] {
+        let (code, text, _) = run(&["emit", &system, "--language", language]);
+        assert!(code == 0 && text.contains(&chosen), "{language}: {chosen}");
+    }
+    let (_, series, _) = run(&["derive", &system]);
+    assert!(series.contains(&format!("truncation {truncation}")), "{series}");
+    let states = directory.path().join("states.csv");
+    std::fs::write(&states, "mu_1,mu_2,mu_3\n2,0.5,1\n").unwrap();
+    let out = directory.path().join("ends.csv");
+    let (states, out) = (states.to_str().unwrap(), out.to_str().unwrap());
+    let ends = json(&["ensemble", &system, "--initial", states, "--out", out, "--format", "json"]);
+    assert_eq!((&ends["truncation"], &ends["step"]), (truncation, step));
+}

@@ -135,7 +135,6 @@ fn remark(run: &Trajectory, number: usize) -> String {
             let count = run.momenta;
             format!(" ({count} of its components; the potential breaks the other symmetries)")
         }
-        2 => format!(" (of {:.3e})", run.scales.energy),
         _ => String::new(),
     };
     if let Some(time) = run.unmeasured[number] {

@@ -41,7 +41,8 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let changes: Vec<f64> = (0..pairs.len()).map(|i| casimir_change(group, pairs, i)).collect();
     // A method that is none of Poisson's changes them: what is learned of it is the nearest that does not.
     if !request.momenta_only {
-        let off = changes.iter().enumerate().filter(|(_, change)| **change > request.tolerances.momentum);
+        let off =
+            changes.iter().enumerate().filter(|(_, change)| **change > request.tolerances.momentum);
         bad.extend(off.map(|(i, &relative)| BadRow {
             row: i + 1,
             problem: RowProblem::CasimirMismatch { relative },

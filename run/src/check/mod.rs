@@ -124,9 +124,8 @@ const LAWS: [(&str, &str, &str); 6] = [
 impl Tried<'_> {
     fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.trial.seed);
-        let points: Vec<_> = (0..self.trial.points)
-            .map(|_| random_phase(&group, self.trial, &mut random))
-            .collect();
+        let points: Vec<_> =
+            (0..self.trial.points).map(|_| random_phase(&group, self.trial, &mut random)).collect();
         let at = |source| RunError::Step { time: 0.0, source };
         let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
         let map = |h| make(h).map_err(at);
@@ -148,14 +147,14 @@ impl Tried<'_> {
             Some(Law { name, statement, value, bound, pass })
         });
         let mut laws: Vec<Law> = printed.collect();
-        let start = random_phase(&group, self.trial, &mut random);
+        let starts = [(); STARTS].map(|()| random_phase(&group, self.trial, &mut random));
         let expected = self.system.integrator.order() as f64;
-        laws.push(order::measure(self.trial.step, expected, &group, &start, |h, steps, state| {
+        laws.push(order::measure(self.trial.step, expected, &group, &starts, |h, steps, state| {
             let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
             (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
         }));
         if let Some(forces) = &self.system.forces {
-            laws.extend(self.kicked::<G, C>(forces, &group, &points, &start).map_err(at)?);
+            laws.extend(self.kicked::<G, C>(forces, &group, &points, &starts).map_err(at)?);
         }
         Ok((laws, steep))
     }
@@ -166,7 +165,7 @@ impl Tried<'_> {
         forces: &Forces,
         group: &G,
         points: &[Phase<G>],
-        start: &Phase<G>,
+        starts: &[Phase<G>],
     ) -> Result<Vec<Law>, StepError> {
         let make = |h| forces.step::<G, C>(&self.system.integrator, group, h);
         let (there, back) = (make(self.trial.step)?, make(-self.trial.step)?);
@@ -195,7 +194,7 @@ impl Tried<'_> {
         result.push(law("symmetric+V", statement, symmetric, 1e-11));
         let expected = forces.order().min(self.system.integrator.order() as u32);
         let order =
-            order::measure(self.trial.step, expected.into(), group, start, |h, steps, state| {
+            order::measure(self.trial.step, expected.into(), group, starts, |h, steps, state| {
                 let step = make(h)?;
                 (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
             });
@@ -210,6 +209,8 @@ fn worse(worst: f64, value: f64) -> f64 {
     if worst.is_nan() || value <= worst { worst } else { value }
 }
 
+/// From so many starts the order is measured.
+const STARTS: usize = 5;
 /// Coordinates of random points differ from those given by up to this part of their size.
 const SPREAD: f64 = 0.1;
 
