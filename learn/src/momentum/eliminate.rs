@@ -26,6 +26,20 @@ impl PoissonOptions {
         let iteration = GaussNewton { iterations: 60, relative_decrease: 1e-3, ridge: 1e-16 };
         Self { degree, iteration }
     }
+
+    /// Refuses a degree that makes no sense for so many samples.
+    pub(crate) fn check(&self, dim: usize, samples: usize) -> Result<(), LearnError> {
+        Basis::check_fit(dim, self.degree, samples)?;
+        if self.degree == 0 {
+            return Err(LearnError::InvalidOption {
+                option: "degree",
+                value: "0".into(),
+                requirement: "a generating function without terms moves nothing; give 2 or more"
+                    .into(),
+            });
+        }
+        Ok(())
+    }
 }
 
 /// A Poisson map learned from momenta.
@@ -59,14 +73,7 @@ where
     if pairs.is_empty() {
         return Err(LearnError::NoSamples);
     }
-    Basis::check_fit(group.dim(), options.degree, pairs.len())?;
-    if options.degree == 0 {
-        return Err(LearnError::InvalidOption {
-            option: "degree",
-            value: "0".into(),
-            requirement: "a generating function without terms moves nothing; give 2 or more".into(),
-        });
-    }
+    options.check(group.dim(), pairs.len())?;
     let (dim, samples) = pairs.before.shape();
     // p is near both momenta.
     let mut seen = pairs.before.clone().resize_horizontally(2 * samples, 0.0);

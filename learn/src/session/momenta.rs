@@ -27,6 +27,9 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
             requirement: "momenta alone are learned by polynomials; use auto or polynomial".into(),
         });
     }
+    if let Some(degree) = request.degree {
+        PoissonOptions::degree(degree).check(group.dim(), pairs.len())?;
+    }
     let mut bad: Vec<BadRow> = (0..pairs.len())
         .filter(|&i| {
             !pairs
@@ -98,6 +101,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
             Some(best) => best,
             // Why the lowest could not.
             None => {
+                fit(2, &pairs)?;
                 fit(2, &outside)?;
                 let reason = "no degree from 2 to 6 could be fitted".into();
                 return Err(LearnError::NotConverged { reason });
