@@ -52,20 +52,20 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let mut looks = Looks::default();
     let outcome = simulate::run(&derived, &setup, &mut looks)?;
     let Looks(looks) = looks;
-    let drift = |name: &str, of: fn(&Drift) -> f64| Series {
-        name: name.to_owned(),
-        unit: None,
-        values: looks.iter().map(|look| of(&look.2)).collect(),
+    // What is not known has no curve.
+    let drift = |name: &str, of: fn(&Drift) -> Option<f64>| {
+        let values: Option<Vec<f64>> = looks.iter().map(|look| of(&look.2)).collect();
+        values.map(|values| Series { name: name.to_owned(), unit: None, values })
     };
-    let mut drifts = vec![drift("energy", |drift| drift.energy)];
+    let mut drifts = Vec::from_iter(drift("energy", |drift| drift.energy));
     if outcome.momenta > 0 {
         let count = outcome.momenta;
         let conserved = format!("spatial momentum, {count} conserved");
         let name = if outcome.potential { &*conserved } else { "spatial momentum" };
-        drifts.push(drift(name, |drift| drift.spatial_momentum));
+        drifts.extend(drift(name, |drift| drift.spatial_momentum));
     }
     if outcome.casimirs > 0 {
-        drifts.push(drift("Casimirs", |drift| drift.casimirs));
+        drifts.extend(drift("Casimirs", |drift| drift.casimirs));
     }
     let series = |(i, name): (usize, &String)| Series {
         name: name.clone(),
