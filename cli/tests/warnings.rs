@@ -64,7 +64,11 @@ fn check_and_ensemble_tell_it_too() {
     let directory = TempDir::new().unwrap();
     let (found, error) = report(&["check", BODY, "--step", "0.1"]);
     assert!(kinds(&found).is_empty() && error.is_empty(), "{error}");
-    let (_, out, error) = run(&["check", BODY, "--step", "1.8", "--format", "json"]);
+    let flat = at(&directory, "flat.toml");
+    let text = "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2 + y^2/6 + z^2/7\"\n\
+                [initial]\nmomentum = [0.4, 2.4, 2.0]\n";
+    std::fs::write(&flat, text).unwrap();
+    let (_, out, error) = run(&["check", &flat, "--step", "1.2", "--format", "json"]);
     let found: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(kinds(&found), ["series_ratio"], "{error}");
     assert_eq!(error.matches("warning: ").count(), 1, "{error}");

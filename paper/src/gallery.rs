@@ -52,7 +52,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let mut looks = Looks::default();
     let outcome = simulate::run(&derived, &setup, &mut looks)?;
     let Looks(looks) = looks;
-    // What is not known has no curve.
+    // An unknown drift has no curve.
     let drift = |name: &str, of: fn(&Drift) -> Option<f64>| {
         let values: Option<Vec<f64>> = looks.iter().map(|look| of(&look.2)).collect();
         values.map(|values| Series { name: name.to_owned(), unit: None, values })
