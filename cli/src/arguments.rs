@@ -406,6 +406,9 @@ pub struct VerifyOptions {
     /// How many steps the ensemble made
     #[arg(long, value_name = "n", requires = "input")]
     pub steps: Option<u64>,
+    /// Judge n rows, evenly spread over the file, and say so; all rows if not given
+    #[arg(long, value_name = "n", value_parser = clap::value_parser!(u64).range(1..))]
+    pub sample: Option<u64>,
     /// The step size h, where the output does not say
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,

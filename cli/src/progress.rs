@@ -21,12 +21,13 @@ pub fn bar(length: u64, what: &str) -> ProgressBar {
     bar
 }
 
+/// Whether anybody sees a bar.
+pub fn visible() -> bool {
+    std::io::stderr().is_terminal()
+}
+
 fn target() -> ProgressDrawTarget {
-    if std::io::stderr().is_terminal() {
-        ProgressDrawTarget::stderr_with_hz(5)
-    } else {
-        ProgressDrawTarget::hidden()
-    }
+    if visible() { ProgressDrawTarget::stderr_with_hz(5) } else { ProgressDrawTarget::hidden() }
 }
 
 /// Work of unknown length; its line is there while this lives.

@@ -99,6 +99,33 @@ fn runs_of_every_kind_are_right() {
 }
 
 #[test]
+fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
+    let directory = TempDir::new().unwrap();
+    let out = at(&directory, "run.csv");
+    simulate(&[BODY, "--time", "10"], &out);
+    let judged = |n: &str| {
+        let (code, out, error) = run(&["verify", &out, "--sample", n, "--format", "json"]);
+        assert_eq!(code, 0, "{error}");
+        serde_json::from_str::<Value>(&out).unwrap()
+    };
+    let few = judged("7");
+    assert_eq!((few["rows"].as_u64(), few["steps"].as_u64()), (Some(7), Some(7)), "{few}");
+    assert_eq!(few["not_sampled"], 93);
+    assert_eq!(few["verdict"], "no row of the sample is wrong");
+    // All rows are no sample.
+    let all = judged("1000");
+    assert_eq!((all["rows"].as_u64(), &all["verdict"]), (Some(100), &"no row is wrong".into()));
+    // The last row is always in it; of the element of a row that is not in it nothing is said.
+    let text = read(&out);
+    for (line, code) in [(101, 1), (50, 0)] {
+        std::fs::write(&out, changed(&text, line, 4, &|x| x + 1e-9)).unwrap();
+        assert_eq!(run(&["verify", &out, "--sample", "1"]).0, code, "line {line}");
+        assert_eq!(run(&["verify", &out]).0, 1, "line {line}");
+    }
+    said(&[&out, "--sample", "0"], 2, &["--sample"]);
+}
+
+#[test]
 fn a_report_is_judged_from_its_start_to_its_end() {
     let directory = TempDir::new().unwrap();
     let out = at(&directory, "report.json");

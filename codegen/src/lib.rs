@@ -58,6 +58,6 @@ pub use build_script::{Build, BuildError};
 #[cfg(feature = "judge")]
 pub use coadjoint_symbolic::judge;
 pub use coadjoint_symbolic::{
-    comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem, step,
-    tolerance,
+    cancel, comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem,
+    step, tolerance,
 };

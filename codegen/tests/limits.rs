@@ -30,7 +30,7 @@ fn too_many_generators_by_brackets_are_refused_before_anything_is_allocated() {
     );
     let said = rendered(&text);
     assert!(said.contains("1000 generators are known by their brackets alone"), "{said}");
-    assert!(said.contains("at most 256"), "{said}");
+    assert!(said.contains("at most 512"), "{said}");
 }
 
 #[test]

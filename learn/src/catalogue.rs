@@ -1,7 +1,7 @@
 //! Groups and charts by name.
 
 use coadjoint::{Cayley, Chart, Exponential, SE3, SO3, groups::MatrixGroup};
-use coadjoint_codegen::lie::{LieAlgebra, casimirs, catalogue};
+use coadjoint_codegen::lie::{LieAlgebra, catalogue, watched_casimirs};
 use nalgebra::DMatrix;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -71,8 +71,7 @@ fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::groups
         }
         None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
     }?;
-    let found = (1..=3).rev().find_map(|degree| casimirs(algebra, degree).ok());
-    let terms = found.unwrap_or_default().into_iter().map(|polynomial| {
+    let terms = watched_casimirs(algebra).into_iter().map(|polynomial| {
         let terms = polynomial.terms().map(|(exponents, value)| {
             let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
             (float(&value), powers.collect())

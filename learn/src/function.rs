@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use coadjoint::solve::{ByDimension, NewtonModel, Predict};
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Integrator, LieGroup};
+use coadjoint_codegen::cancel;
 
 /// A smooth function f: 𝔤\* → ℝ in the coordinates dual to the basis, with its derivatives.
 ///
@@ -151,6 +152,7 @@ where
     }
 
     fn gradient(&self, p: &G::Vector) -> G::Vector {
+        cancel::check();
         let mut gradient = vec![0.0; p.dim()];
         self.function.gradient(&entries(p), &mut gradient);
         vector::<G>(&gradient)
@@ -160,6 +162,7 @@ where
         &self,
         p: &G::Vector,
     ) -> (G::Vector, <G::Vector as Coordinates<f64>>::Matrix) {
+        cancel::check();
         let dim = p.dim();
         let mut gradient = vec![0.0; dim];
         let mut hessian = vec![0.0; dim * dim];

@@ -17,8 +17,6 @@ use crate::rival::Rival;
 const MOST_OPERATIONS: usize = 60_000;
 /// Series may become this large: beyond, a page would stand still.
 pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
-/// Casimirs are looked for up to this degree.
-const CASIMIR_DEGREE: u32 = 3;
 
 /// What a factor of the group is, for pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -128,10 +126,7 @@ impl System {
         let algebra = &integrator.problem.algebra;
         let symbols = &integrator.problem.symbols;
         let energy = Numeric::new(&integrator.problem.hamiltonian, dim, symbols);
-        let casimirs =
-            (1..=CASIMIR_DEGREE).rev().find_map(|degree| lie::casimirs(algebra, degree).ok());
-        let casimirs = casimirs
-            .unwrap_or_default()
+        let casimirs = lie::watched_casimirs(algebra)
             .into_iter()
             .map(|exact| {
                 let numeric = Numeric::new(&exact, dim, &[]);

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use coadjoint_codegen::cancel;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -18,8 +19,8 @@ const TELL: Duration = Duration::from_millis(100);
 /// What the work and who waits for it say to each other.
 #[derive(Debug, Default)]
 pub struct Control {
-    /// Set to end the work.
-    pub stop: AtomicBool,
+    /// Set to end the work: it unwinds, where it does not look at this itself.
+    pub stop: Arc<AtomicBool>,
     /// Steps made.
     pub done: AtomicU64,
     /// Steps to be made; 0 while that is not known.
@@ -52,7 +53,9 @@ pub fn work<T: Send + 'static>(
         .name("coadjoint".to_owned())
         .stack_size(16 << 20)
         .spawn(move || {
-            let result = catch_unwind(AssertUnwindSafe(|| job(&theirs.control)));
+            let cancelled = theirs.control.stop.clone();
+            let work = || cancel::scope(cancelled, || job(&theirs.control));
+            let result = catch_unwind(AssertUnwindSafe(work));
             *theirs.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
             theirs.ready.notify_all();
         })

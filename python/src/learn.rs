@@ -130,10 +130,12 @@ pub struct ModelCore {
 impl ModelCore {
     /// Reads the text of a model file.
     #[new]
-    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
-        let model = ModelFile::of_text(Path::new(name), text);
-        let model = model.map_err(|error| raised(py, &RunError::Learn(error)))?;
-        Ok(Self { name: name.to_owned(), model: Arc::new(model) })
+    fn new(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
+        let made = work(py, None, move |_| {
+            let model = Arc::new(ModelFile::of_text(Path::new(&name), &text)?);
+            Ok(Self { name, model })
+        })?;
+        made.map_err(|error| raised(py, &RunError::Learn(error)))
     }
 
     /// What the model is.

@@ -113,9 +113,12 @@ impl Core {
 
     /// Reads the text of a system file.
     #[new]
-    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
-        let system = read(name, text).map_err(|error| raised(py, &error))?;
-        Ok(Self { name: name.to_owned(), system, derived: Cache::default() })
+    fn new(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
+        let made = work(py, None, move |_| {
+            let system = read(&name, &text)?;
+            Ok(Self { name, system, derived: Cache::default() })
+        })?;
+        made.map_err(|error: RunError| raised(py, &error))
     }
 
     /// Everything that the text says, and what follows from it.

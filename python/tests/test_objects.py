@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import copy
 import io
 import os
@@ -123,6 +124,58 @@ def test_control_c_ends_what_takes_long(body: ca.System, what: str) -> None:
         time.sleep(1)
         pytest.fail("it ended before")
     thread.join()
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="threads are listed otherwise there")
+@pytest.mark.parametrize("model", ["network", "gp"])
+def test_nothing_computes_on_after_control_c(body: ca.System, model: str) -> None:
+    def computing() -> bool:
+        """Whether a thread of the package, or one that it has started, is running or wants to."""
+        found = []
+        for task in os.listdir("/proc/self/task"):
+            with contextlib.suppress(OSError), open(f"/proc/self/task/{task}/stat") as stat:
+                found.append(stat.read())
+        return any("(coadjoint) R" in line for line in found)
+
+    rows = np.random.default_rng(1).uniform(-1, 1, (4000, 3))
+    states = np.hstack([rows, np.tile([1.0, 0, 0, 0], (len(rows), 1))])
+    ends = np.asarray(body.ensemble(states, time=0.1, step=0.1))
+    thread = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            attitudes = (states[:, 3:], ends[:, 3:])
+            ca.learn(rows, ends[:, :3], attitudes=attitudes, step=0.1, model=model)
+    thread.join()
+    # A network takes many minutes.
+    quiet = 0
+    for _ in range(6000):
+        time.sleep(0.01)
+        quiet = 0 if computing() else quiet + 1
+        if quiet == 30:
+            return
+    pytest.fail("it computes on")
+
+
+def test_reading_a_system_lets_other_threads_run() -> None:
+    """The longest pause of another thread is no part of the time that reading takes."""
+    terms = "+".join(f"mu[{i}]*mu[{j}]/{i + j + 2}" for i in range(150) for j in range(i, 150))
+    beats = []
+    done = threading.Event()
+
+    def beat() -> None:
+        while not done.is_set():
+            beats.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=beat)
+    thread.start()
+    start = len(beats)
+    ca.System("SO3^50", terms)
+    made = len(beats) - start
+    done.set()
+    thread.join()
+    assert made > 20
 
 
 def test_threads_run_side_by_side(body: ca.System) -> None:

@@ -239,6 +239,32 @@ fn brackets_alone() {
     assert_eq!(heisenberg.into_cayley().err(), Some(TableError::NotFaithful));
 }
 
+/// Large matrices are multiplied and inverted without their zeros.
+#[test]
+fn large_groups_by_brackets_are_their_factors() {
+    let sl2 = [(0, 1, 1, 2.0), (0, 2, 2, -2.0), (1, 2, 0, 1.0)];
+    let both = |copies: usize| -> Vec<_> {
+        let copy = |at: usize| sl2.map(|(i, j, k, c)| (3 * at + i, 3 * at + j, 3 * at + k, c));
+        let one = (0..copies).flat_map(copy);
+        one.flat_map(|(i, j, k, c)| [(i, j, k, c), (j, i, k, -c)]).collect()
+    };
+    let small = MatrixGroup::from_structure_constants(3, &both(1)).unwrap();
+    let large = MatrixGroup::from_structure_constants(18, &both(6)).unwrap();
+    let x = DVector::from_fn(18, |i, _| 0.4 * (1.0 + i as f64).sin());
+    let mu = DVector::from_fn(18, |i, _| (2.0 + i as f64).cos());
+    let g = large.compose(&large.exp(&x), &large.exp(&x));
+    let carried = large.coadjoint(&g, &mu);
+    let back = large.compose(&g, &large.inverse(&g));
+    assert!((back - DMatrix::identity(18, 18)).amax() < 1e-13);
+    for at in (0..18).step_by(3) {
+        let (x, mu) = (x.rows(at, 3).into_owned(), mu.rows(at, 3).into_owned());
+        let own = small.compose(&small.exp(&x), &small.exp(&x));
+        assert!((g.view((at, at), (3, 3)) - &own).amax() < 1e-14);
+        assert!((carried.rows(at, 3) - small.coadjoint(&own, &mu)).amax() < 1e-13);
+    }
+    assert!((large.log(&large.exp(&x)).unwrap() - x).amax() < 1e-13);
+}
+
 #[test]
 fn closed_forms_agree_with_tables_from_zero_to_beyond_a_turn() {
     let so3 = SO3::<f64>::new();

@@ -25,6 +25,7 @@
 //!
 //! `judge`: the module `judge`, which judges single steps in doubled precision, independently of the runtime.
 
+pub mod cancel;
 pub mod comoving;
 pub mod expr;
 pub mod graph;

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options, System};
-use coadjoint_run::verify::{Columns, Found, Rows, follower, judge_of};
+use coadjoint_run::verify::{Columns, Found, Rows, Sample, follower, judge_of};
 use coadjoint_run::{RunError, read_with, text_hash};
 use serde_json::Value;
 
@@ -35,8 +35,8 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
         }
     };
     let mut all = Vec::new();
-    for table in Table::open(output)? {
-        all.push(judge(options, system, table, output)?);
+    for (place, table) in Table::open(output)?.into_iter().enumerate() {
+        all.push(judge(options, system, (table, place), output)?);
     }
     match options.format {
         Format::Text => all.iter().flat_map(Found::lines).for_each(|line| outln!("{line}")),
@@ -60,11 +60,11 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     }
 }
 
-/// Judges one table.
+/// Judges one table, which has this place in the output.
 fn judge(
     options: &VerifyOptions,
     named: Option<&PathBuf>,
-    mut table: Table,
+    (mut table, place): (Table, usize),
     output: &Path,
 ) -> Result<Found, CliError> {
     let refuse = |what: &str| Err(CliError::Option(format!("{}: {what}", output.display())));
@@ -106,10 +106,30 @@ fn judge(
         example: "step = 0.1",
         option: "--step 0.1",
     })?;
-    let _phase = progress::phase("judging");
+    let phase = progress::phase("deriving the judge");
     let judge = judge_of(&system, &problem)?;
+    drop(phase);
     let follower = follower(&judge, &problem, step)?;
     let columns = Columns::find(&problem, table.names(), table.width(), output)?;
+    // Rows are counted for a sample and for a bar; what cannot be read twice has neither.
+    let (mut rows, mut steps) = (0, 0.0);
+    if options.sample.is_some() && !output.is_file() {
+        return refuse("rows are counted before a sample of them is judged: give a file");
+    }
+    if output.is_file() && (options.sample.is_some() || progress::visible()) {
+        let counted = Table::open(output)?.into_iter().nth(place);
+        (rows, steps) = counted.map_or(Ok((0, 0.0)), |mut t| follower.survey(&mut t, &columns))?;
+    }
+    match options.steps {
+        Some(each) => steps = rows as f64 * each as f64,
+        // The first row is a start.
+        None => rows = rows.saturating_sub(1),
+    }
+    let sample = options.sample.map(|wanted| Sample { wanted, of: rows });
+    let share = sample.map_or(1.0, |s| s.wanted.min(rows) as f64 / rows.max(1) as f64);
+    let bar = progress::bar((steps * share).ceil() as u64, "judging");
+    let told = |done| bar.set_position(done);
+    let follower = follower.watched(sample, &told);
     let Some(input) = &options.input else {
         return follower.rows(&mut table, &columns, output);
     };

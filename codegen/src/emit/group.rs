@@ -8,8 +8,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::number::exact;
-use crate::lie::{Chart, LieAlgebra, casimirs, catalogue};
-use crate::poly::Polynomial;
+use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
 
 /// Groups the runtime has closed forms for, under the catalogue's name.
 const CLOSED_FORMS: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
@@ -125,7 +124,9 @@ fn own_tables(
         .check(algebra)
         .is_ok()
         .then(|| quote!(impl #krate::groups::CayleyAlgebra for #marker {}));
-    let casimirs = known_casimirs(algebra).into_iter().map(|casimir| {
+    // Those of large algebras would be long tables, for reports only.
+    let watched = if algebra.dim() > 24 { Vec::new() } else { watched_casimirs(algebra) };
+    let casimirs = watched.into_iter().map(|casimir| {
         let terms = casimir.terms().map(|(exponents, value)| {
             let powers = exponents.iter().enumerate().filter(|(_, power)| **power > 0);
             let factors = powers.map(|(i, &power)| {
@@ -159,17 +160,6 @@ fn own_tables(
         #cayley
     };
     (definition, tables)
-}
-
-/// The polynomial Casimirs of low degree; none where finding them would take long, since the
-/// integrator needs them for reports only.
-fn known_casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
-    let degree = match algebra.dim() {
-        0..=8 => 3,
-        9..=24 => 2,
-        _ => return Vec::new(),
-    };
-    casimirs(algebra, degree).unwrap_or_default()
 }
 
 /// The structure constants with both orders of every bracket, sorted.

@@ -10,6 +10,7 @@ use std::ops::Range;
 use super::names::{Name, Names, is_word};
 use super::sum::{self, Scope};
 use super::token::{Token, Tokens};
+use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Function, Node};
 use crate::number::integer;
@@ -146,6 +147,7 @@ impl Parser<'_> {
         expects_operand: bool,
         before_open: bool,
     ) -> bool {
+        cancel::check();
         let span = self.span(range.clone());
         let shown = &text[range];
         if expects_operand {

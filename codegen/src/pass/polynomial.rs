@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::coefficient::{Coefficient, Table};
+use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Node};
 use crate::number::Rational;
@@ -122,6 +123,7 @@ impl Pass<'_> {
     }
 
     fn node(&mut self, node: &Node, span: Span) -> Option<Sum> {
+        cancel::check();
         match *node {
             Node::Wrong => None,
             Node::Number(ref value) => Some(Sum::constant(Coefficient::number(value.clone()))),
@@ -205,6 +207,7 @@ impl Pass<'_> {
         }
         let mut result = Sum::default();
         for (left, x) in &a.terms {
+            cancel::check();
             for (right, y) in &b.terms {
                 let product = self.table.multiply(x, y);
                 let mut value = self.checked(span, product)?;

@@ -1,6 +1,7 @@
 //! Reduction: from pairs in T\*G to points (x, p) of a Lagrangian submanifold of T\*G.
 
 use coadjoint::{Chart, Coordinates, LieGroup, Phase};
+use coadjoint_codegen::cancel;
 use nalgebra::DMatrix;
 
 use super::fold;
@@ -180,6 +181,7 @@ where
     let mut columns: [Vec<f64>; 4] = Default::default();
     let mut rows = Vec::new();
     for (row, pair) in &given.pairs {
+        cancel::check();
         match reduce_pair::<G, C>(group, pair, tolerances.momentum) {
             Ok((x, p)) => {
                 let found = [&x, &p, &pair.before.momentum, &pair.after.momentum];

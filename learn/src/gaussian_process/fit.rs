@@ -1,5 +1,6 @@
 //! Length and noise by the marginal likelihood, weights by one solve.
 
+use coadjoint_codegen::cancel;
 use nalgebra::{Cholesky, DVector};
 
 use super::kernel::covariance;
@@ -36,6 +37,7 @@ fn likelihood(
     length: f64,
     noise: f64,
 ) -> Option<(f64, f64, DVector<f64>)> {
+    cancel::check();
     let factor = Cholesky::new(covariance(points, dim, length, noise))?;
     let weights = factor.solve(targets);
     let count = targets.len() as f64;

@@ -6,6 +6,7 @@
 //! which threads share, and the pieces are added up in their order: the bits do not depend on how
 //! many threads there are.
 
+use coadjoint_codegen::cancel;
 use nalgebra::{DMatrix, DMatrixView};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -107,6 +108,7 @@ impl SlopeFit {
     pub(super) fn value(&self, unknowns: &[f64]) -> f64 {
         let (layers, last) = self.cut(unknowns);
         let square = |(points, slopes): &(DMatrix<f64>, DMatrix<f64>)| {
+            cancel::check();
             self.misfit(&layers, last, points, slopes).miss.norm_squared()
         };
         self.pieces.iter().map(square).sum::<f64>() / self.entries()
@@ -115,7 +117,9 @@ impl SlopeFit {
     /// The mean squared misfit and its derivative.
     pub(super) fn value_and_gradient(&self, unknowns: &[f64]) -> (f64, Vec<f64>) {
         let (layers, last) = self.cut(unknowns);
+        let token = cancel::token();
         let one = |(points, slopes): &(DMatrix<f64>, DMatrix<f64>)| {
+            token.check();
             let passes = self.misfit(&layers, last, points, slopes);
             let squares = passes.miss.norm_squared();
             (squares, self.half_gradient(&layers, points, passes))

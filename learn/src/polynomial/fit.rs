@@ -1,5 +1,6 @@
 //! Fitting a polynomial to its gradients by linear least squares.
 
+use coadjoint_codegen::cancel;
 use nalgebra::{DMatrix, DVector};
 
 use super::basis::{Basis, Scaling};
@@ -21,6 +22,7 @@ pub(crate) fn gradient_problem(
     let mut matrix = DMatrix::zeros(dim * samples, terms);
     let mut row = vec![0.0; terms * dim];
     for (i, point) in points.column_iter().enumerate() {
+        cancel::check();
         model.basis_gradients(point.as_slice(), &mut row);
         for k in 0..terms {
             for j in 0..dim {

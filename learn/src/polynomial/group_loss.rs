@@ -1,6 +1,7 @@
 //! The paper's alternative loss Σ|exp⁻¹(gᵢ⁻¹ τ(∂S/∂p(pᵢ)))|², by Gauss–Newton.
 
 use coadjoint::{Chart, LieGroup};
+use coadjoint_codegen::cancel;
 use nalgebra::{DMatrix, DVector};
 
 use super::model::PolynomialModel;
@@ -37,6 +38,7 @@ where
 
     // r = exp⁻¹(gᵢ⁻¹ τ(x)) and the x it belongs to.
     let distance = |i: usize, model: &PolynomialModel| {
+        cancel::check();
         let mut x = vec![0.0; dim];
         model.gradient(data.p.column(i).as_slice(), &mut x);
         let x = vector::<G>(&x);

@@ -1,5 +1,6 @@
 //! Degree and ridge by cross-validation.
 
+use coadjoint_codegen::cancel;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -89,6 +90,7 @@ pub(crate) fn gradient_error(
     let mut found = vec![0.0; points.nrows()];
     let mut sum = 0.0;
     for (point, expected) in points.column_iter().zip(gradients.column_iter()) {
+        cancel::check();
         function.gradient(point.as_slice(), &mut found);
         sum += found.iter().zip(expected.iter()).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
     }

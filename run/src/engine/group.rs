@@ -15,9 +15,6 @@ use num_traits::ToPrimitive;
 
 use crate::error::RunError;
 
-/// The degree up to which Casimirs are looked for to watch their drift.
-const CASIMIR_DEGREE: u32 = 3;
-
 /// The group whose Lie algebra this is, factor by factor for a direct product.
 pub fn product_group(
     path: &Path,
@@ -75,19 +72,10 @@ fn matrix_group(
         None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
     };
     let kept = |casimir: &&Polynomial| potential.is_none_or(|v| v.keeps(casimir));
-    let terms = casimirs(algebra).iter().filter(kept).map(terms).collect();
+    let terms = lie::watched_casimirs(algebra).iter().filter(kept).map(terms).collect();
     group
         .and_then(|group| group.with_casimirs(terms))
         .map_err(|source| RunError::Group { file: path.into(), source })
-}
-
-/// The Casimirs whose drift is watched: generators up to the highest degree that is not too much
-/// work.
-fn casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
-    (1..=CASIMIR_DEGREE)
-        .rev()
-        .find_map(|degree| lie::casimirs(algebra, degree).ok())
-        .unwrap_or_default()
 }
 
 fn float(value: &Rational) -> f64 {

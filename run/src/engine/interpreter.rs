@@ -9,6 +9,7 @@ use coadjoint::solve::{
     Settings,
 };
 use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
+use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_codegen::problem::Solver;
@@ -272,6 +273,7 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G,
         left: u64,
         settings: Settings<G::Scalar>,
     ) -> CandidateOf<Interpreter<'a, G, C>> {
+        cancel::check();
         match self {
             Self::Newton(method) => method.propose(generating, mu, left, settings),
             Self::Lagged(method) => method.propose(generating, mu, left, settings),

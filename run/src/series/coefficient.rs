@@ -3,6 +3,7 @@
 //! Coefficients are fractions; only a file with irrational numbers, such as sqrt(2), leaves opaque
 //! symbols in them.
 
+use coadjoint_codegen::cancel;
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
@@ -22,6 +23,7 @@ pub fn terms(problem: &Problem, polynomial: &Polynomial) -> Vec<Term> {
     let dim = problem.algebra.dim();
     let mut result: Vec<Term> = Vec::new();
     for (exponents, factor) in polynomial.terms() {
+        cancel::check();
         let (momenta, symbols) = exponents.split_at(dim);
         match result.last_mut() {
             Some(last) if last.exponents == momenta => {
@@ -47,6 +49,7 @@ impl Term {
 
     /// The coefficient in the notation of the input.
     pub fn coefficient(&self, problem: &Problem) -> String {
+        cancel::check();
         if let Some(number) = self.number() {
             return number.to_string();
         }

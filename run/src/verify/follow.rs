@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use coadjoint_codegen::cancel;
 use coadjoint_codegen::judge::{Branch, Inside, Judge, Motion, Setting, Stop};
 use nalgebra::DVector;
 
@@ -34,6 +35,27 @@ pub struct Follower<'a> {
     step: f64,
     symbols: Vec<f64>,
     invariants: Invariants,
+    sample: Option<Sample>,
+    told: &'a dyn Fn(u64),
+}
+
+/// Rows of a file that stand for all of them: so many, evenly spread, the last among them.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// How many rows are judged.
+    pub wanted: u64,
+    /// How many rows there are to choose from.
+    pub of: u64,
+}
+
+impl Sample {
+    /// Whether it has row `number`, counted from 1.
+    fn holds(self, number: u64) -> bool {
+        let before = |number: u64| {
+            u128::from(number) * u128::from(self.wanted.min(self.of)) / u128::from(self.of.max(1))
+        };
+        before(number) > before(number - 1)
+    }
 }
 
 /// A state of a file.
@@ -59,7 +81,38 @@ impl<'a> Follower<'a> {
         symbols: Vec<f64>,
     ) -> Result<Self, RunError> {
         judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;
-        Ok(Self { judge, step, symbols, invariants })
+        Ok(Self { judge, step, symbols, invariants, sample: None, told: &|_| {} })
+    }
+
+    /// The same, for a sample of the rows; `told` hears how many steps have been judged.
+    #[must_use]
+    pub fn watched(self, sample: Option<Sample>, told: &'a dyn Fn(u64)) -> Self {
+        Self { sample, told, ..self }
+    }
+
+    /// Counts the rows of a file, and the steps from the first to the last, 0 where rows have no time.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn survey<T: Rows>(
+        &self,
+        table: &mut T,
+        columns: &Columns,
+    ) -> Result<(u64, f64), T::Error> {
+        let (mut rows, mut first, mut last) = (0, None, 0.0);
+        while let Some(row) = table.next_row()? {
+            rows += 1;
+            last = columns.time.map_or(0.0, |time| row[time]);
+            first.get_or_insert(last);
+        }
+        Ok((rows, (last - first.unwrap_or(last)) / self.step))
+    }
+
+    /// Whether a row is to be judged, counted from 1; takes note where it is not.
+    fn samples(&self, number: u64, found: &mut Found) -> bool {
+        let chosen = self.sample.is_none_or(|sample| sample.holds(number));
+        found.left_out += u64::from(!chosen);
+        chosen
     }
 
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
@@ -113,7 +166,9 @@ impl<'a> Follower<'a> {
                     (steps.floor() as u64, self.step * (steps - steps.floor()))
                 };
                 let state = |row: &[f64]| (columns.momentum(row), columns.element(row));
-                self.judge_row(&place, &state(last), &state(&row), (count, rest), &mut found);
+                if self.samples(number - 1, &mut found) {
+                    self.judge_row(&place, &state(last), &state(&row), (count, rest), &mut found);
+                }
             }
             // A row beside the grid is where a step of its own led: the motion goes on from the grid.
             if grid {
@@ -171,7 +226,9 @@ impl<'a> Follower<'a> {
             let place = format!("row {number}");
             let before = (before.momentum(&start), before.element(&start));
             let after = (columns.momentum(&end), columns.element(&end));
-            self.judge_row(&place, &before, &after, (steps, 0.0), &mut found);
+            if self.samples(number, &mut found) {
+                self.judge_row(&place, &before, &after, (steps, 0.0), &mut found);
+            }
         }
         if starts.next_row()?.is_some() {
             found.blame(format!("the input has more than the {number} rows of the output"));
@@ -191,6 +248,7 @@ impl<'a> Follower<'a> {
         (steps, rest): (u64, f64),
         found: &mut Found,
     ) {
+        let made = found.steps;
         found.rows += 1;
         found.steps += steps + u64::from(rest != 0.0);
         let finite = |state: &State| {
@@ -205,6 +263,8 @@ impl<'a> Follower<'a> {
         for (size, count) in [(self.step, steps), (rest, u64::from(rest != 0.0))] {
             let Ok(mut setting) = self.judge.at(size, &self.symbols) else { return };
             for done in 1..=count {
+                cancel::check();
+                (self.told)(made + done);
                 match advance(&mut motion, twins.as_mut(), &mut setting) {
                     Ok(()) => {}
                     Err(Trouble::Wrong(what)) => {

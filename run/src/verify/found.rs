@@ -17,6 +17,8 @@ pub struct Found {
     pub casimir: f64,
     /// The same of the spatial momentum.
     pub spatial: f64,
+    /// Rows that are not in the sample asked for.
+    pub left_out: u64,
     /// Rows that the run itself has refused, and says so.
     pub refused: u64,
     /// Rows that could not be judged.
@@ -39,6 +41,9 @@ impl Found {
             format!("worst drift of a Casimir from row to row: {:.2e}", self.casimir),
             format!("worst drift of the spatial momentum from row to row: {:.2e}", self.spatial),
         ];
+        if self.left_out > 0 {
+            lines.push(format!("{} rows are not in the sample", self.left_out));
+        }
         if self.refused > 0 {
             lines.push(format!("{} rows were refused by the run itself", self.refused));
         }
@@ -56,6 +61,7 @@ impl Found {
     pub fn verdict(&self) -> &'static str {
         match (&self.wrong, self.unjudged) {
             (Some(_), _) => "wrong",
+            (None, 0) if self.left_out > 0 => "no row of the sample is wrong",
             (None, 0) => "no row is wrong",
             (None, _) => "not verified: some rows could not be judged",
         }
@@ -72,6 +78,7 @@ impl Found {
             ("group_element", number(self.element)),
             ("casimir", number(self.casimir)),
             ("spatial_momentum", number(self.spatial)),
+            ("not_sampled", (self.left_out > 0).then(|| json!(self.left_out))),
             ("refused", Some(json!(self.refused))),
             ("not_judged", Some(json!(self.unjudged))),
             ("why_not_judged", said(&self.why)),

@@ -1,6 +1,6 @@
 //! What a row must have in common with the row before: Casimirs and the spatial momentum; and its energy.
 
-use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, casimirs};
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, watched_casimirs};
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 use nalgebra::{DMatrix, DVector};
@@ -8,8 +8,6 @@ use num_traits::ToPrimitive;
 
 use crate::engine::FloatPolynomial;
 
-/// Casimirs up to this degree are looked at.
-const DEGREE: u32 = 2;
 /// What is conserved may drift by this much a step, relative to the sum of the absolute values of its terms.
 pub const DRIFT: f64 = 64.0 * f64::EPSILON;
 
@@ -41,7 +39,7 @@ impl Invariants {
     pub fn new(problem: &Problem) -> Self {
         let dim = problem.algebra.dim();
         Self {
-            casimirs: casimirs(&problem.algebra, DEGREE).unwrap_or_default(),
+            casimirs: watched_casimirs(&problem.algebra),
             hamiltonian: FloatPolynomial::new(&problem.hamiltonian, dim, &problem.symbols),
             factors: factors(&problem.algebra),
         }

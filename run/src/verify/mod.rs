@@ -16,7 +16,7 @@ use coadjoint_codegen::problem::Problem;
 
 use crate::error::RunError;
 
-pub use follow::Follower;
+pub use follow::{Follower, Sample};
 pub use found::Found;
 pub use invariants::Invariants;
 pub use record::Columns;

@@ -2,6 +2,7 @@
 
 use core::fmt::Debug;
 
+use super::linear;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
@@ -13,6 +14,9 @@ pub type BasisEntry = (usize, usize, usize, f64);
 
 /// A term c·∏ μ_i^power of a Casimir, as (c, [(i, power), …]).
 pub type CasimirTerm = (f64, &'static [(usize, u32)]);
+
+/// Matrices of the representation.
+pub type MatrixOf<K> = <<K as Tables>::Column as Coordinates<<K as Tables>::Scalar>>::Matrix;
 
 /// A Lie algebra as tables, with the types its coordinates and matrices are stored in.
 ///
@@ -62,6 +66,16 @@ pub trait Tables: Clone + Debug {
 
     /// See [`CayleyGroup::cayley_extent`](crate::groups::CayleyGroup::cayley_extent).
     fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
+
+    /// The product of two matrices of the representation.
+    fn multiply(&self, a: &MatrixOf<Self>, b: &MatrixOf<Self>) -> MatrixOf<Self> {
+        linear::multiply(self.matrix_size(), a, b)
+    }
+
+    /// The inverse of a matrix of the representation; entries that are not finite where there is none.
+    fn invert(&self, m: &MatrixOf<Self>) -> MatrixOf<Self> {
+        linear::invert(self.matrix_size(), m)
+    }
 
     /// How many Casimirs are known.
     fn casimir_count(&self) -> usize;

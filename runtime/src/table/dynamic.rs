@@ -1,5 +1,6 @@
 //! Tables known only at run time.
 
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -10,6 +11,7 @@ use nalgebra::{Complex, DMatrix, DVector, Schur};
 use super::algebra::{BasisEntry, StructureConstant, Tables, monomial};
 use super::domain;
 use super::group::TableGroup;
+use super::linear;
 use crate::number::scalar::Scalar;
 
 /// A matrix group known at run time, coordinates in `DVector<f64>`.
@@ -161,6 +163,9 @@ pub enum TableError {
     },
 }
 
+/// From this size on matrices are multiplied without their zeros, which lists find.
+const LARGE: usize = 16;
+
 /// Relative rounding allowed in the checks below; entries come from exact rationals, rounded once.
 const TOLERANCE: f64 = 1e-12;
 
@@ -208,11 +213,11 @@ impl TableGroup<DynamicTables<false>> {
     ) -> Result<Self, TableError> {
         let (gram_inverse, scale) = gram(basis)?;
         let dim = basis.len();
-        check_structure(dim, structure)?;
+        let brackets = Brackets::new(dim, structure)?;
         for i in 0..dim {
             for j in i + 1..dim {
                 let mut rest = &basis[i] * &basis[j] - &basis[j] * &basis[i];
-                for &(_, _, k, c) in structure.iter().filter(|s| (s.0, s.1) == (i, j)) {
+                for (k, c) in brackets.of(i, j) {
                     rest -= &basis[k] * c;
                 }
                 let defect = rest.amax();
@@ -260,13 +265,14 @@ impl TableGroup<DynamicTables<false>> {
         dim: usize,
         structure: &[StructureConstant],
     ) -> Result<Self, TableError> {
-        check_structure(dim, structure)?;
-        let mut adjoint = vec![DMatrix::zeros(dim, dim); dim];
-        for &(i, j, k, c) in structure {
-            adjoint[i][(k, j)] += c;
-        }
-        let (gram_inverse, faithful) = match gram(&adjoint) {
-            Ok((inverse, _)) => (inverse, true),
+        let Brackets(brackets) = Brackets::new(dim, structure)?;
+        // The matrices ad_i: row k, column j.
+        let entries = |row: &BTreeMap<(usize, usize), f64>| {
+            row.iter().map(|(&(j, k), &c)| (j * dim + k, c)).collect()
+        };
+        let adjoint: Vec<Entries> = brackets.iter().map(entries).collect();
+        let (gram_inverse, faithful) = match gram_inverse(&adjoint, dim) {
+            Ok(inverse) => (inverse, true),
             Err(_) => (DMatrix::zeros(dim, dim), false),
         };
         let (elliptic, cayley) = forms(dim, structure, None);
@@ -280,8 +286,12 @@ impl TableGroup<DynamicTables<false>> {
             diagonal: is_diagonal(&gram_inverse),
             gram_inverse,
             faithful,
-            orthogonal: adjoint.iter().all(|e| *e == -e.transpose()),
-            traceless: adjoint.iter().all(|e| e.trace() == 0.0),
+            orthogonal: brackets.iter().all(|row| {
+                row.iter().all(|(&(j, k), &c)| row.get(&(k, j)).map_or(0.0, |&d| -d) == c)
+            }),
+            traceless: brackets.iter().all(|row| {
+                row.iter().filter(|((j, k), _)| j == k).map(|(_, c)| c).sum::<f64>() == 0.0
+            }),
             casimirs: Vec::new(),
         };
         Ok(Self { tables })
@@ -386,8 +396,13 @@ fn forms(
     basis: Option<(&[BasisEntry], bool)>,
 ) -> (Vec<f64>, Vec<f64>) {
     let (mut elliptic, mut cayley) = (vec![0.0; dim * dim], vec![0.0; dim * dim]);
-    let mut ad = vec![0.0; dim * dim * dim];
-    let ideal = domain::elliptic_form(dim, structure, &mut ad, &mut elliptic);
+    let ideal = if dim > domain::MAX_DIM {
+        large_form(dim, structure, &mut elliptic);
+        0
+    } else {
+        let mut ad = vec![0.0; dim * dim * dim];
+        domain::elliptic_form(dim, structure, &mut ad, &mut elliptic)
+    };
     match basis {
         Some((entries, antisymmetric)) => {
             domain::cayley_form(dim, entries, antisymmetric, ideal, &mut cayley);
@@ -395,6 +410,29 @@ fn forms(
         None => cayley.clone_from(&elliptic),
     }
     (elliptic, cayley)
+}
+
+/// What [`domain::elliptic_form`] writes where no ideal is looked for, without the matrices ad_i: ½ ‖½(A − Aᵀ)‖² plus
+/// the square of the trace.
+fn large_form(dim: usize, structure: &[StructureConstant], form: &mut [f64]) {
+    let mut traces = vec![0.0; dim];
+    let mut places: BTreeMap<(usize, usize), Vec<(usize, f64)>> = BTreeMap::new();
+    for &(i, j, k, c) in structure {
+        places.entry((j, k)).or_default().push((i, c));
+        if j == k {
+            traces[i] += c;
+        }
+    }
+    for &(a, j, k, c) in structure {
+        for (place, factor) in [((j, k), 0.25 * c), ((k, j), -0.25 * c)] {
+            for &(b, d) in places.get(&place).into_iter().flatten() {
+                form[a * dim + b] += factor * d;
+            }
+        }
+    }
+    for (at, entry) in form.iter_mut().enumerate() {
+        *entry += traces[at / dim] * traces[at % dim];
+    }
 }
 
 fn is_diagonal(m: &DMatrix<f64>) -> bool {
@@ -414,74 +452,121 @@ fn gram(basis: &[DMatrix<f64>]) -> Result<(DMatrix<f64>, f64), TableError> {
         }
         scale = scale.max(e.amax());
     }
-    let dim = basis.len();
-    let gram = DMatrix::from_fn(dim, dim, |i, j| basis[i].dot(&basis[j]));
-    // Gram–Schmidt tells which matrix depends on the ones before it.
-    let mut orthogonal: Vec<DMatrix<f64>> = Vec::with_capacity(dim);
-    for (index, e) in basis.iter().enumerate() {
-        let mut rest = e.clone();
-        for _ in 0..2 {
-            for q in &orthogonal {
-                let along = q.dot(&rest);
-                rest -= q * along;
-            }
-        }
-        let norm = rest.norm();
-        if norm <= 1e-10 * e.norm() || norm == 0.0 {
-            return Err(TableError::Dependent { index });
-        }
-        orthogonal.push(rest / norm);
-    }
-    let inverse = gram.try_inverse().ok_or(TableError::Dependent { index: dim - 1 })?;
-    Ok((inverse, scale))
+    let entries = |e: &DMatrix<f64>| {
+        e.iter().copied().enumerate().filter(|&(_, value)| value != 0.0).collect()
+    };
+    let entries: Vec<Entries> = basis.iter().map(entries).collect();
+    Ok((gram_inverse(&entries, size)?, scale))
 }
 
-/// Indices, antisymmetry and the Jacobi identity.
-fn check_structure(dim: usize, structure: &[StructureConstant]) -> Result<(), TableError> {
-    if dim == 0 {
-        return Err(TableError::Empty);
-    }
-    let mut scale = 1.0_f64;
-    let mut ad = vec![DMatrix::<f64>::zeros(dim, dim); dim];
-    for &(i, j, k, c) in structure {
-        for index in [i, j, k] {
-            if index >= dim {
-                return Err(TableError::IndexOutOfRange { index, dim });
-            }
+/// The entries of a matrix that are not zero, with their places column by column.
+type Entries = Vec<(usize, f64)>;
+
+/// The inverse Gram matrix of matrices with so many rows, which must be independent.
+fn gram_inverse(matrices: &[Entries], rows: usize) -> Result<DMatrix<f64>, TableError> {
+    let dim = matrices.len();
+    let dot = |a: &Entries, b: &[f64]| a.iter().map(|&(at, value)| value * b[at]).sum::<f64>();
+    let mut gram = DMatrix::zeros(dim, dim);
+    // Gram–Schmidt tells which matrix depends on the ones before it.
+    let mut orthogonal: Vec<Entries> = Vec::with_capacity(dim);
+    for (index, e) in matrices.iter().enumerate() {
+        let mut rest = vec![0.0; rows * rows];
+        for &(at, value) in e {
+            rest[at] = value;
         }
-        if !c.is_finite() {
-            return Err(TableError::NonFinite { index: i });
+        for (i, other) in matrices.iter().enumerate() {
+            gram[(i, index)] = dot(other, &rest);
         }
-        ad[i][(k, j)] += c;
-        scale = scale.max(c.abs());
-    }
-    for i in 0..dim {
-        for j in i..dim {
-            let sum = ad[i].column(j) + ad[j].column(i);
-            if sum.amax() > TOLERANCE * scale {
-                return Err(TableError::NotAntisymmetric { i, j });
-            }
-        }
-    }
-    // ad is a representation: [ad_i, ad_j] = ad_[i, j].
-    for i in 0..dim {
-        for j in i + 1..dim {
-            let mut rest = &ad[i] * &ad[j] - &ad[j] * &ad[i];
-            for k in 0..dim {
-                let c = ad[i][(k, j)];
-                if c != 0.0 {
-                    rest -= &ad[k] * c;
-                }
-            }
-            for k in 0..dim {
-                let defect = rest.column(k).amax();
-                if defect > TOLERANCE * scale * scale * dim as f64 {
-                    return Err(TableError::Jacobi { i, j, k, defect });
+        let size = gram[(index, index)].sqrt();
+        for _ in 0..2 {
+            for q in &orthogonal {
+                let along = dot(q, &rest);
+                if along != 0.0 {
+                    q.iter().for_each(|&(at, value)| rest[at] -= value * along);
                 }
             }
         }
+        let norm = rest.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if norm <= 1e-10 * size || norm == 0.0 {
+            return Err(TableError::Dependent { index });
+        }
+        let rest = rest.into_iter().enumerate().filter(|&(_, value)| value != 0.0);
+        orthogonal.push(rest.map(|(at, value)| (at, value / norm)).collect());
     }
-    Ok(())
+    gram.try_inverse().ok_or(TableError::Dependent { index: dim - 1 })
+}
+
+/// Structure constants that were checked: for each i the components of [eᵢ, eⱼ] along eₖ, by (j, k).
+struct Brackets(Vec<BTreeMap<(usize, usize), f64>>);
+
+impl Brackets {
+    /// Checks indices, antisymmetry and the Jacobi identity.
+    fn new(dim: usize, structure: &[StructureConstant]) -> Result<Self, TableError> {
+        if dim == 0 {
+            return Err(TableError::Empty);
+        }
+        let mut scale = 1.0_f64;
+        let mut brackets = vec![BTreeMap::new(); dim];
+        for &(i, j, k, c) in structure {
+            for index in [i, j, k] {
+                if index >= dim {
+                    return Err(TableError::IndexOutOfRange { index, dim });
+                }
+            }
+            if !c.is_finite() {
+                return Err(TableError::NonFinite { index: i });
+            }
+            *brackets[i].entry((j, k)).or_insert(0.0) += c;
+            scale = scale.max(c.abs());
+        }
+        let brackets = Self(brackets);
+        let opposite = |i: usize, j: usize, k: usize| brackets.0[j].get(&(i, k)).copied();
+        let constants = brackets.0.iter().enumerate();
+        let constants = constants.flat_map(|(i, row)| row.iter().map(move |(at, &c)| (i, at, c)));
+        let unlike = constants.filter(|&(i, &(j, k), c)| {
+            (c + opposite(i, j, k).unwrap_or(0.0)).abs() > TOLERANCE * scale
+        });
+        if let Some((i, j)) = unlike.map(|(i, &(j, _), _)| (i.min(j), i.max(j))).min() {
+            return Err(TableError::NotAntisymmetric { i, j });
+        }
+        for i in 0..dim {
+            let defect = |(_, defect): &(_, f64)| *defect > TOLERANCE * scale * scale * dim as f64;
+            if let Some(((j, k), defect)) = brackets.jacobiators(i).into_iter().find(defect) {
+                return Err(TableError::Jacobi { i, j, k, defect });
+            }
+        }
+        Ok(brackets)
+    }
+
+    /// The components of [eᵢ, eⱼ] that are not zero, as (k, value).
+    fn of(&self, i: usize, j: usize) -> impl Iterator<Item = (usize, f64)> {
+        self.0[i].range((j, 0)..(j + 1, 0)).map(|(&(_, k), &c)| (k, c))
+    }
+
+    /// The largest coordinate of [[eᵢ, eⱼ], eₖ] + [[eⱼ, eₖ], eᵢ] − [[eᵢ, eₖ], eⱼ] for i < j < k where brackets that
+    /// are not zero meet, by (j, k).
+    fn jacobiators(&self, i: usize) -> BTreeMap<(usize, usize), f64> {
+        let mut sums: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
+        for (&(j, l), c) in self.0[i].range((i + 1, 0)..) {
+            for (&(k, m), d) in self.0[l].range((i + 1, 0)..).filter(|((k, _), _)| *k != j) {
+                let sign = if k > j { 1.0 } else { -1.0 };
+                *sums.entry((j.min(k), j.max(k), m)).or_insert(0.0) += sign * c * d;
+            }
+        }
+        for (j, row) in self.0.iter().enumerate().skip(i + 1) {
+            for (&(k, l), c) in row.range((j + 1, 0)..) {
+                for (m, d) in self.of(i, l) {
+                    *sums.entry((j, k, m)).or_insert(0.0) -= c * d;
+                }
+            }
+        }
+        let mut largest = BTreeMap::new();
+        for ((j, k, _), sum) in sums {
+            let most = largest.entry((j, k)).or_insert(0.0_f64);
+            *most = most.max(sum.abs());
+        }
+        largest
+    }
 }
 
 impl<const CAYLEY: bool> DynamicTables<CAYLEY> {
@@ -542,6 +627,37 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
         self.traceless
     }
 
+    fn multiply(&self, a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+        let n = a.nrows();
+        if n < LARGE {
+            return linear::multiply(n, a, b);
+        }
+        // Column by column and without zeros, which most entries of adjoint matrices are; sums as in `linear`.
+        let entries = |column: &[f64]| -> Entries {
+            column.iter().copied().enumerate().filter(|&(_, value)| value != 0.0).collect()
+        };
+        let left: Vec<Entries> = a.as_slice().chunks_exact(n).map(entries).collect();
+        let mut product = DMatrix::zeros(n, n);
+        for (sums, b) in
+            product.as_mut_slice().chunks_exact_mut(n).zip(b.as_slice().chunks_exact(n))
+        {
+            for (column, &factor) in left.iter().zip(b).filter(|(_, factor)| **factor != 0.0) {
+                for &(i, value) in column {
+                    sums[i] = value.times_plus(factor, sums[i]);
+                }
+            }
+        }
+        product
+    }
+
+    fn invert(&self, m: &DMatrix<f64>) -> DMatrix<f64> {
+        let n = m.nrows();
+        if n < LARGE {
+            return linear::invert(n, m);
+        }
+        m.clone().try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN))
+    }
+
     fn exp_extent(&self, x: &DVector<f64>) -> f64 {
         let bound = self.exp_bound(x);
         if bound <= 1.0 || !bound.is_finite() {
@@ -576,3 +692,29 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
 }
 
 impl super::cayley::CayleyTables for DynamicTables<true> {}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn the_form_of_large_algebras_is_that_of_small_ones() {
+        // sl(2), so(3), and the affine group of the line in a basis that shows no ideal.
+        let one =
+            [(0, 1, 1, 2.0), (0, 2, 2, -2.0), (1, 2, 0, 1.0), (6, 7, 7, 1.0), (6, 7, 6, -1.0)];
+        let turns = [(3, 4, 5, 1.0), (4, 5, 3, 1.0), (5, 3, 4, 1.0)];
+        let both = |(i, j, k, c): StructureConstant| [(i, j, k, c), (j, i, k, -c)];
+        let structure: Vec<StructureConstant> =
+            one.into_iter().chain(turns).flat_map(both).collect();
+        let n = 8;
+        let (mut small, mut large) = (vec![0.0; n * n], vec![0.0; n * n]);
+        assert_eq!(domain::elliptic_form(n, &structure, &mut vec![0.0; n * n * n], &mut small), 0);
+        large_form(n, &structure, &mut large);
+        for (a, b) in small.iter().zip(&large) {
+            assert!((a - b).abs() < 1e-15, "{small:?} {large:?}");
+        }
+        assert!(small.iter().any(|&entry| entry != 0.0));
+    }
+}

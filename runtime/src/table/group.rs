@@ -44,8 +44,7 @@ impl<A, const N: usize, const D: usize, T> FixedDimension for TableGroup<StaticT
     const DIM: usize = N;
 }
 
-/// Matrices of the representation.
-pub type Element<K> = <<K as Tables>::Column as Coordinates<<K as Tables>::Scalar>>::Matrix;
+pub use super::algebra::MatrixOf as Element;
 
 /// Terms of the exponential series for norms up to 1; rounding needs 18 in f64.
 const TERMS: usize = 24;
@@ -137,7 +136,7 @@ impl<K: Tables> TableGroup<K> {
         let mut sum = linear::plus_scaled(size, &self.unit_matrix(), one, &m);
         let mut term = m.clone();
         for k in 2..TERMS {
-            term = linear::multiply(size, &m, &term);
+            term = self.tables.multiply(&m, &term);
             term = linear::scale(size, &term, K::Scalar::of(1.0 / k as f64));
             sum = linear::plus_scaled(size, &sum, one, &term);
             if linear::largest_entry(size, &term).simd_le(rounding).all() {
@@ -145,7 +144,7 @@ impl<K: Tables> TableGroup<K> {
             }
         }
         for _ in 0..count {
-            sum = linear::multiply(size, &sum, &sum);
+            sum = self.tables.multiply(&sum, &sum);
         }
         sum
     }
@@ -164,7 +163,7 @@ impl<K: Tables> TableGroup<K> {
             let value = squared[(i, j)] * half;
             if i == j { value + three_halves } else { value }
         });
-        linear::multiply(size, &g, &correction)
+        self.tables.multiply(&g, &correction)
     }
 }
 
@@ -183,16 +182,12 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        self.straighten(linear::multiply(self.tables.matrix_size(), g, h))
+        self.straighten(self.tables.multiply(g, h))
     }
 
     fn inverse(&self, g: &Self::Element) -> Self::Element {
         let size = self.tables.matrix_size();
-        if self.tables.is_orthogonal() {
-            linear::transpose(size, g)
-        } else {
-            linear::invert(size, g)
-        }
+        if self.tables.is_orthogonal() { linear::transpose(size, g) } else { self.tables.invert(g) }
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
@@ -228,8 +223,8 @@ impl<K: Tables> LieGroup for TableGroup<K> {
                 sum
             });
         }
-        let moved = linear::multiply(size, g, &self.matrix_of(x));
-        self.coordinates_of(&linear::multiply(size, &moved, &self.inverse(g)))
+        let moved = self.tables.multiply(g, &self.matrix_of(x));
+        self.coordinates_of(&self.tables.multiply(&moved, &self.inverse(g)))
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {

@@ -87,8 +87,8 @@ impl<K: Tables> TableGroup<K> {
         }
         let back = self.inverse(g);
         for i in 0..dim {
-            let moved = linear::multiply(size, g, &self.matrix_of(&unit(i)));
-            let moved = linear::multiply(size, &moved, &back);
+            let moved = self.tables.multiply(g, &self.matrix_of(&unit(i)));
+            let moved = self.tables.multiply(&moved, &back);
             let inside = self.matrix_of(&self.coordinates_of(&moved));
             let outside = linear::plus_scaled(size, &moved, minus, &inside);
             defect = defect.simd_max(linear::row_sum_norm(size, &outside));

@@ -6,6 +6,8 @@ use std::hash::Hash;
 
 use coadjoint_program::{Graph, Id};
 
+use crate::cancel;
+
 /// Above this many variables a polynomial is split by the first variable of its terms, so that the
 /// work grows with the terms and not with terms times variables.
 const WIDE: usize = 32;
@@ -149,6 +151,7 @@ struct Occurrence {
 /// Greedy Horner (Ceberio and Kreinovich 2004): take out what all terms share, then split on the
 /// variable that occurs in most terms.
 fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
+    cancel::check();
     if terms.is_empty() {
         return graph.zero();
     }

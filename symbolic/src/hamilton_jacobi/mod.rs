@@ -9,6 +9,7 @@ mod predict;
 mod recurrence;
 
 pub use error::{DeriveError, TermLimit};
+pub(crate) use predict::PredictorSize;
 pub use predict::predictor;
 pub use recurrence::{GeneratingSeries, derive};
 

@@ -2,7 +2,7 @@
 
 use super::{DeriveError, TermLimit};
 use crate::lie::{LieAlgebra, StructureConstant};
-use crate::number::{Rational, integer};
+use crate::number::{Rational, integer, residue};
 use crate::poly::{Polynomial, Product, SumError, sum_of_products};
 use num_traits::One;
 use std::collections::BTreeMap;
@@ -13,8 +13,31 @@ const HIGHEST_DEGREE: u32 = 1000;
 /// The coefficients of t⁰, t¹, … known so far.
 pub(crate) type Series = Vec<Polynomial>;
 
+/// The numbers that polynomials are computed with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Numbers {
+    /// Exact ones.
+    Rational,
+    /// Residues modulo a prime, which say which terms there are but for an improbable accident.
+    Modular,
+}
+
+impl Numbers {
+    pub(crate) fn reduce(self, polynomial: Polynomial) -> Polynomial {
+        if self == Self::Modular { polynomial.residues() } else { polynomial }
+    }
+
+    fn factor(self, value: &Rational) -> Rational {
+        match self {
+            Self::Rational => value.clone(),
+            Self::Modular => Rational::from_integer(residue(value).into()),
+        }
+    }
+}
+
 /// Counts the work done and stops when it exceeds the limit.
 pub(crate) struct Work {
+    numbers: Numbers,
     limit: TermLimit,
     products: u64,
     pub(crate) order: usize,
@@ -22,8 +45,13 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    pub(crate) fn new(variables: usize, limit: TermLimit) -> Self {
-        Self { limit, products: 0, order: 0, variables }
+    pub(crate) fn new(variables: usize, numbers: Numbers, limit: TermLimit) -> Self {
+        Self { numbers, limit, products: 0, order: 0, variables }
+    }
+
+    /// The polynomial times a number.
+    pub(crate) fn scale(&self, polynomial: &Polynomial, factor: &Rational) -> Polynomial {
+        self.numbers.reduce(polynomial.scale(&self.numbers.factor(factor)))
     }
 
     /// Σ factor · left · right.
@@ -37,10 +65,11 @@ impl Work {
             let pairs = left.len().saturating_mul(right.len());
             let cost = left.words().saturating_mul(right.words());
             count = count.saturating_add(pairs.saturating_mul(cost));
-            list.push(Product { factor: factor.clone(), left, right });
+            list.push(Product { factor: self.numbers.factor(factor), left, right });
         }
         self.charge(count)?;
-        sum_of_products(self.variables, &list, self.limit.terms).map_err(|error| match error {
+        let sum = sum_of_products(self.variables, &list, self.limit.terms);
+        sum.map(|sum| self.numbers.reduce(sum)).map_err(|error| match error {
             SumError::Terms(terms) => {
                 DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }
             }

@@ -4,13 +4,14 @@
 //! μ̇ = ad*_ξ μ and ẋ = (d^L τ_x)⁻¹ ξ with ξ = ∂H/∂μ(μ(t)), and then p = (d^R τ_x)^T μ′. So p follows
 //! without composing with S; it agrees with the solution for the truncated S through t^{K+1}.
 
-use super::online::{Composition, Series, Work, adjoint, coadjoint, identity, reciprocal};
+use super::online::{Composition, Numbers, Series, Work, adjoint, coadjoint, identity, reciprocal};
 use super::recurrence::quadratic;
 use super::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{BernoulliWeights, Rational, ratio};
-use crate::poly::Polynomial;
+use crate::poly::{Factors, Polynomial, split_at};
 use num_traits::{One, Zero};
+use std::collections::HashSet;
 
 /// Derives the solution p = Σ_m h^m p_m(μ′) of J_L(∂S/∂p(p), p) = μ′ as a power series in the step h. The result
 /// is indexed by the order m, from 0 to `degree`, then by the component of p; the variables are those of
@@ -25,39 +26,169 @@ pub fn predictor(
     degree: usize,
     limit: TermLimit,
 ) -> Result<Vec<Vec<Polynomial>>, DeriveError> {
-    let dimension = algebra.dim();
-    let variables = hamiltonian.variables();
-    if variables < dimension {
-        return Err(DeriveError::Variables { variables, dimension });
+    let mut rows = Rows::new(algebra, chart, hamiltonian, Numbers::Rational, limit)?;
+    (0..=degree).map(|_| rows.next_row()).collect()
+}
+
+/// The number of monomials of μ′ in all components of a [`predictor`], degree by degree. The polynomials are
+/// expanded modulo a prime, so that no exact coefficient is computed.
+pub(crate) struct PredictorSize<'a> {
+    rows: Rows<'a>,
+    monomials: HashSet<(usize, Factors)>,
+}
+
+impl<'a> PredictorSize<'a> {
+    /// # Errors
+    /// As [`predictor`].
+    pub(crate) fn new(
+        algebra: &'a LieAlgebra,
+        chart: Chart,
+        hamiltonian: &Polynomial,
+        limit: TermLimit,
+    ) -> Result<Self, DeriveError> {
+        let rows = Rows::new(algebra, chart, hamiltonian, Numbers::Modular, limit)?;
+        Ok(Self { rows, monomials: HashSet::new() })
     }
-    let cubic = match chart {
-        Chart::Exponential => Vec::new(),
-        Chart::Cayley => cubic(algebra)?,
-    };
-    let mut work = Work::new(variables, limit);
-    let mut gradient = Composition::new(dimension, &hamiltonian.gradient(dimension))?;
-    let mut mu = identity(dimension, variables);
-    let mut xi: Vec<Series> = vec![Vec::new(); dimension];
-    let mut x = vec![vec![Polynomial::zero(variables)]; dimension];
-    let mut velocity = Velocity::new(dimension, variables);
-    for order in 0..degree {
-        work.order = order + 1;
-        gradient.extend(&mut work, &mu, order)?;
+
+    /// The number up to the next degree, which is 0 at the first call; counting stops beyond `most`.
+    ///
+    /// # Errors
+    /// As [`predictor`].
+    pub(crate) fn next_degree(&mut self, most: usize) -> Result<usize, DeriveError> {
+        let row = self.rows.next_row()?;
+        let dimension = self.rows.algebra.dim();
+        let terms = row.iter().enumerate().flat_map(|(i, p)| p.factors().map(move |(f, _)| (i, f)));
+        for (component, factors) in terms {
+            self.monomials.insert((component, Factors(split_at(&factors, dimension).0.into())));
+            if self.monomials.len() > most {
+                break;
+            }
+        }
+        Ok(self.monomials.len())
+    }
+}
+
+/// The rows p₀, p₁, … of a predictor, computed one after the other.
+struct Rows<'a> {
+    algebra: &'a LieAlgebra,
+    chart: Chart,
+    cubic: Vec<CubicEntry>,
+    work: Work,
+    gradient: Composition,
+    velocity: Velocity,
+    mu: Vec<Series>,
+    xi: Vec<Series>,
+    x: Vec<Series>,
+    /// The rows so far, by component.
+    p: Vec<Series>,
+    /// (ad_x^T)^k μ′ for k ≥ 1, in the exponential chart; x has no constant term, so power k begins at order k.
+    powers: Vec<Vec<Series>>,
+    order: usize,
+}
+
+impl<'a> Rows<'a> {
+    fn new(
+        algebra: &'a LieAlgebra,
+        chart: Chart,
+        hamiltonian: &Polynomial,
+        numbers: Numbers,
+        limit: TermLimit,
+    ) -> Result<Self, DeriveError> {
+        let dimension = algebra.dim();
+        let variables = hamiltonian.variables();
+        if variables < dimension {
+            return Err(DeriveError::Variables { variables, dimension });
+        }
+        let cubic = match chart {
+            Chart::Exponential => Vec::new(),
+            Chart::Cayley => cubic(algebra)?,
+        };
+        let gradient = numbers.reduce(hamiltonian.clone()).gradient(dimension);
+        Ok(Self {
+            algebra,
+            chart,
+            cubic,
+            work: Work::new(variables, numbers, limit),
+            gradient: Composition::new(dimension, &gradient)?,
+            velocity: Velocity::new(dimension, variables),
+            mu: identity(dimension, variables),
+            xi: vec![Vec::new(); dimension],
+            x: vec![vec![Polynomial::zero(variables)]; dimension],
+            p: identity(dimension, variables),
+            powers: Vec::new(),
+            order: 0,
+        })
+    }
+
+    fn next_row(&mut self) -> Result<Vec<Polynomial>, DeriveError> {
+        let order = self.order;
+        self.order += 1;
+        if order > 0 {
+            self.extend_flow(order)?;
+            let row = match self.chart {
+                Chart::Exponential => self.exponential(order)?,
+                Chart::Cayley => self.cayley(order)?,
+            };
+            for (series, coefficient) in self.p.iter_mut().zip(row) {
+                series.push(coefficient);
+            }
+        }
+        Ok(self.p.iter().map(|series| series[order].clone()).collect())
+    }
+
+    /// The coefficients of t^`order` of x and μ.
+    fn extend_flow(&mut self, order: usize) -> Result<(), DeriveError> {
+        let Self { algebra, chart, cubic, work, gradient, velocity, mu, xi, x, .. } = self;
+        work.order = order;
+        gradient.extend(work, mu, order - 1)?;
         for (i, series) in xi.iter_mut().enumerate() {
-            series.push(gradient.coefficient(i, order).clone());
+            series.push(gradient.coefficient(i, order - 1).clone());
         }
-        let rate = velocity.extend(&mut work, algebra, chart, &cubic, &x, &xi, order)?;
-        let turn = coadjoint(&mut work, algebra, &xi, &mu, order)?;
-        let factor = reciprocal(order + 1);
-        for i in 0..dimension {
-            x[i].push(rate[i].scale(&factor));
-            mu[i].push(turn[i].scale(&factor));
+        let rate = velocity.extend(work, algebra, *chart, cubic, x, xi, order - 1)?;
+        let turn = coadjoint(work, algebra, xi, mu, order - 1)?;
+        let factor = reciprocal(order);
+        for i in 0..algebra.dim() {
+            x[i].push(work.scale(&rate[i], &factor));
+            mu[i].push(work.scale(&turn[i], &factor));
         }
+        Ok(())
     }
-    let start = identity(dimension, variables);
-    match chart {
-        Chart::Exponential => right_exponential(&mut work, algebra, &x, &start, degree),
-        Chart::Cayley => right_cayley(&mut work, algebra, &cubic, &x, degree),
+
+    /// Σ_k (ad_x^T)^k μ′ / (k+1)!.
+    fn exponential(&mut self, order: usize) -> Result<Vec<Polynomial>, DeriveError> {
+        let Self { algebra, work, x, p, powers, .. } = self;
+        let one = Polynomial::constant(work.variables, Rational::one());
+        let zero = Polynomial::zero(work.variables);
+        let start: Vec<Series> = p.iter().map(|series| vec![series[0].clone()]).collect();
+        let mut row = vec![zero.clone(); start.len()];
+        powers.push(vec![vec![zero; order]; start.len()]);
+        let mut factor = Rational::one();
+        for k in 1..=order {
+            factor *= reciprocal(k + 1);
+            let below = if k == 1 { &start } else { &powers[k - 2] };
+            let next = coadjoint(work, algebra, x, below, order)?;
+            for (i, coefficient) in next.into_iter().enumerate() {
+                row[i] = work.sum(&[
+                    (Rational::one(), &row[i], &one),
+                    (factor.clone(), &coefficient, &one),
+                ])?;
+                powers[k - 1][i].push(coefficient);
+            }
+        }
+        Ok(row)
+    }
+
+    /// p from J_L = p − ½ ad_x^T p − ¼ ⟨p, x·x⟩ = μ′, order by order.
+    fn cayley(&mut self, order: usize) -> Result<Vec<Polynomial>, DeriveError> {
+        let Self { algebra, cubic, work, x, p, .. } = self;
+        let (dimension, variables) = (algebra.dim(), work.variables);
+        let one = Polynomial::constant(variables, Rational::one());
+        let linear = coadjoint(work, algebra, x, p, order)?;
+        let square = quadratic(work, dimension, variables, cubic, x, p, order)?;
+        let value = |(linear, square)| {
+            work.sum(&[(ratio(1, 2), linear, &one), (ratio(1, 4), square, &one)])
+        };
+        linear.iter().zip(&square).map(value).collect()
     }
 }
 
@@ -141,71 +272,4 @@ fn sandwich(
         .map(|e| CubicEntry { argument: e.result, result: e.argument, ..e.clone() })
         .collect();
     quadratic(work, dimension, variables, &turned, x, xi, order)
-}
-
-/// Σ_k (ad_x^T)^k μ′ / (k+1)!.
-fn right_exponential(
-    work: &mut Work,
-    algebra: &LieAlgebra,
-    x: &[Series],
-    start: &[Series],
-    degree: usize,
-) -> Result<Vec<Vec<Polynomial>>, DeriveError> {
-    let one = Polynomial::constant(work.variables, Rational::one());
-    let mut rows: Vec<Vec<Polynomial>> = Vec::new();
-    // (ad_x^T)^k μ′ for k ≥ 1; x has no constant term, so power k begins at order k.
-    let mut powers: Vec<Vec<Series>> = Vec::new();
-    for order in 0..=degree {
-        work.order = order;
-        let mut row: Vec<Polynomial> = start
-            .iter()
-            .map(|s| s.get(order).cloned().unwrap_or_else(|| Polynomial::zero(work.variables)))
-            .collect();
-        if order > 0 {
-            let zeros = vec![Polynomial::zero(work.variables); order];
-            powers.push(vec![zeros; start.len()]);
-        }
-        let mut factor = Rational::one();
-        for k in 1..=order {
-            factor *= reciprocal(k + 1);
-            let below = if k == 1 { start } else { &powers[k - 2] };
-            let next = coadjoint(work, algebra, x, below, order)?;
-            for (i, coefficient) in next.into_iter().enumerate() {
-                row[i] = work.sum(&[
-                    (Rational::one(), &row[i], &one),
-                    (factor.clone(), &coefficient, &one),
-                ])?;
-                powers[k - 1][i].push(coefficient);
-            }
-        }
-        rows.push(row);
-    }
-    Ok(rows)
-}
-
-/// p from J_L = p − ½ ad_x^T p − ¼ ⟨p, x·x⟩ = μ′, order by order.
-fn right_cayley(
-    work: &mut Work,
-    algebra: &LieAlgebra,
-    cubic: &[CubicEntry],
-    x: &[Series],
-    degree: usize,
-) -> Result<Vec<Vec<Polynomial>>, DeriveError> {
-    let dimension = algebra.dim();
-    let mut p = identity(dimension, work.variables);
-    let mut result: Vec<Vec<Polynomial>> = vec![p.iter().map(|s| s[0].clone()).collect()];
-    let one = Polynomial::constant(work.variables, Rational::one());
-    for order in 1..=degree {
-        let linear = coadjoint(work, algebra, x, &p, order)?;
-        let square = quadratic(work, dimension, work.variables, cubic, x, &p, order)?;
-        let mut row = Vec::with_capacity(dimension);
-        for i in 0..dimension {
-            let value =
-                work.sum(&[(ratio(1, 2), &linear[i], &one), (ratio(1, 4), &square[i], &one)])?;
-            p[i].push(value.clone());
-            row.push(value);
-        }
-        result.push(row);
-    }
-    Ok(result)
 }

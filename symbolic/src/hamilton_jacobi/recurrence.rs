@@ -1,6 +1,8 @@
 //! The recurrence k S_k = [t^{k−1}] H(J_R(Σ t^i ∂S_i/∂p, p)), where [t^m] takes the coefficient of t^m.
 
-use super::online::{Composition, Series, Work, coadjoint, convolve, identity, reciprocal};
+use super::online::{
+    Composition, Numbers, Series, Work, coadjoint, convolve, identity, reciprocal,
+};
 use super::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{BernoulliWeights, Rational, ratio};
@@ -71,7 +73,7 @@ pub(super) fn derive_orders(
     if variables < dimension {
         return Err(DeriveError::Variables { variables, dimension });
     }
-    let mut work = Work::new(variables, limit);
+    let mut work = Work::new(variables, Numbers::Rational, limit);
     let mut momentum = BodyMomentum::new(algebra, chart, variables)?;
     let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian))?;
     let zero = Polynomial::zero(variables);

@@ -51,55 +51,58 @@ pub fn even_program(
     Some(graph.finish(dim, &outputs))
 }
 
-/// ∂S/∂p alone.
-pub fn gradient_program(
-    coefficients: &mut Coefficients,
-    dim: usize,
-    terms: &[BaseTerm],
-) -> Program {
-    let mut graph = Graph::new();
-    let outputs: Vec<Id> = by_coordinate(terms, dim)
-        .iter()
-        .enumerate()
-        .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i).gradient)
-        .collect();
-    graph.finish(dim, &outputs)
+/// ∂S/∂p, lowered once for all programs that have it.
+pub struct Gradient<'a> {
+    with: Vec<Vec<&'a BaseTerm>>,
+    graph: Graph,
+    entries: Vec<GradientEntry>,
 }
 
-/// ∂S/∂p and the upper triangle of ∂²S/∂p², row by row; the Hessian only from terms S_k with
-/// k ≤ `hessian_truncation`.
-pub fn hessian_program(
-    coefficients: &mut Coefficients,
-    dim: usize,
-    terms: &[BaseTerm],
-    hessian_truncation: u32,
-) -> Program {
-    let with = by_coordinate(terms, dim);
-    let mut graph = Graph::new();
-    let entries: Vec<GradientEntry> = with
-        .iter()
-        .enumerate()
-        .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i))
-        .collect();
-    let mut outputs: Vec<Id> = entries.iter().map(|entry| entry.gradient).collect();
-    for (i, entry) in entries.iter().enumerate() {
-        let kept = || with[i].iter().copied().filter(|term| term.order <= hessian_truncation);
-        // ∂ᵢ(pᵢ G + B) = G + pᵢ ∂ᵢG: the diagonal shares G with the gradient, and keeps it whole
-        // even where the rest of the Hessian is truncated.
-        let bend = weighted(coefficients, kept(), &[(i, 2)], |term| {
-            let m = term.exponent(i);
-            m * m.saturating_sub(2)
-        });
-        let bend = lower(&mut graph, &bend);
-        outputs.push(graph.add(bend, entry.slope));
-        for j in i + 1..dim {
-            let mixed = weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
-                term.exponent(i) * term.exponent(j)
-            });
-            outputs.push(lower(&mut graph, &mixed));
-        }
+impl<'a> Gradient<'a> {
+    /// That of these terms.
+    pub fn new(coefficients: &mut Coefficients, dim: usize, terms: &'a [BaseTerm]) -> Self {
+        let with = by_coordinate(terms, dim);
+        let mut graph = Graph::new();
+        let entries = with
+            .iter()
+            .enumerate()
+            .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i))
+            .collect();
+        Self { with, graph, entries }
     }
-    graph.finish(dim, &outputs)
+
+    /// ∂S/∂p alone.
+    pub fn program(self) -> Program {
+        let outputs: Vec<Id> = self.entries.iter().map(|entry| entry.gradient).collect();
+        self.graph.finish(self.entries.len(), &outputs)
+    }
+
+    /// ∂S/∂p and the upper triangle of ∂²S/∂p², row by row; the Hessian only from terms S_k with
+    /// k ≤ `truncation`.
+    pub fn with_hessian(&self, coefficients: &mut Coefficients, truncation: u32) -> Program {
+        let Self { with, entries, .. } = self;
+        let mut graph = self.graph.clone();
+        let dim = entries.len();
+        let mut outputs: Vec<Id> = entries.iter().map(|entry| entry.gradient).collect();
+        for (i, entry) in entries.iter().enumerate() {
+            let kept = || with[i].iter().copied().filter(|term| term.order <= truncation);
+            // ∂ᵢ(pᵢ G + B) = G + pᵢ ∂ᵢG: the diagonal shares G with the gradient, and keeps it whole
+            // even where the rest of the Hessian is truncated.
+            let bend = weighted(coefficients, kept(), &[(i, 2)], |term| {
+                let m = term.exponent(i);
+                m * m.saturating_sub(2)
+            });
+            let bend = lower(&mut graph, &bend);
+            outputs.push(graph.add(bend, entry.slope));
+            for j in i + 1..dim {
+                let mixed = weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
+                    term.exponent(i) * term.exponent(j)
+                });
+                outputs.push(lower(&mut graph, &mixed));
+            }
+        }
+        graph.finish(dim, &outputs)
+    }
 }
 
 /// (p, v) ↦ ∂²S₁/∂p²·v, the inputs of v after those of p.
@@ -169,7 +172,7 @@ pub struct DefectTerm {
     pub degree: u32,
 }
 
-/// What [`hessian_program`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
+/// What [`Gradient::with_hessian`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
 /// |p| being the Euclidean norm.
 pub fn defect(
     coefficients: &mut Coefficients,

@@ -122,8 +122,8 @@ impl Integrator {
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
         let solver = plan.map_or_else(|| problem.solver(), |plan| plan.solver);
-        let hessian =
-            (solver == Solver::Newton).then(|| lower::hessian_program(table, dim, &s, truncation));
+        let gradient = (solver == Solver::Newton).then(|| lower::Gradient::new(table, dim, &s));
+        let hessian = gradient.as_ref().map(|gradient| gradient.with_hessian(table, truncation));
         let (plan, polynomials) = match plan {
             Some(plan) => {
                 let Problem { algebra, chart, .. } = &problem;
@@ -139,16 +139,15 @@ impl Integrator {
             None => Plan::choose(&problem, &s, limit)?,
         };
         let kept = plan.hessian_truncation as u32;
-        let newton = hessian
-            .as_ref()
-            .map(|whole| (lower::hessian_program(table, dim, &s, kept), whole))
-            .and_then(|(program, whole)| (program != *whole).then_some(program));
+        let truncated = gradient.as_ref().filter(|_| kept < truncation);
+        let newton = truncated.map(|gradient| gradient.with_hessian(table, kept));
+        let newton = newton.filter(|program| hessian.as_ref() != Some(program));
         let parts = (hessian.is_some() && plan::in_parts(&problem)).then(|| {
             let (coarse, fine): (Vec<_>, Vec<_>) =
                 s.iter().cloned().partition(|term| term.order <= kept);
             GradientParts {
-                coarse: lower::gradient_program(table, dim, &coarse),
-                fine: lower::gradient_program(table, dim, &fine),
+                coarse: lower::Gradient::new(table, dim, &coarse).program(),
+                fine: lower::Gradient::new(table, dim, &fine).program(),
                 leading: lower::leading_program(table, dim, &s),
                 at_once: plan.at_once(&problem, &s).map(|(degree, kept)| {
                     let kept = kept as u32;
@@ -157,8 +156,8 @@ impl Integrator {
                     AtOnce {
                         onwards: flow::advance_program(table, &problem),
                         around: flow::step_program(table, &problem, degree),
-                        coarse: lower::hessian_program(table, dim, &coarse, kept),
-                        fine: lower::gradient_program(table, dim, &fine),
+                        coarse: lower::Gradient::new(table, dim, &coarse).with_hessian(table, kept),
+                        fine: lower::Gradient::new(table, dim, &fine).program(),
                     }
                 }),
             }
@@ -178,7 +177,7 @@ impl Integrator {
                 lower::vector_program(table, dim, &components)
             }
         };
-        let gradient = lower::gradient_program(table, dim, &s);
+        let gradient = gradient.unwrap_or_else(|| lower::Gradient::new(table, dim, &s)).program();
         let value = lower::value_program(table, dim, &s);
         let energy = lower::value_program(table, dim, &h);
         let frame = problem.comoving.iter().flat_map(Frame::parts);

@@ -1,11 +1,9 @@
 //! Choosing the predictor and the Hessian's truncation.
 
-use std::collections::BTreeSet;
-
 use super::coefficients::Coefficients;
 use super::flow;
 use super::terms::{BaseTerm, collect};
-use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, TermLimit, predictor};
+use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorSize, TermLimit, predictor};
 use crate::lie::Chart;
 use crate::poly::Polynomial;
 use crate::problem::{Problem, Solver};
@@ -91,8 +89,18 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let (_, plan, polynomials) = Self::cheapest(problem, terms, limit)?;
-        Ok((plan, polynomials))
+        let mut plans = Self::by_cost(problem, terms, limit)?.into_iter();
+        loop {
+            let plan = plans.next().map_or_else(|| Self::constant(problem), |(_, plan)| plan);
+            let Predictor::Explicit(degree) = plan.predictor else { return Ok((plan, Vec::new())) };
+            let Problem { algebra, chart, .. } = problem;
+            match predictor(algebra, *chart, problem.generated(), degree, limit) {
+                Ok(polynomials) => return Ok((plan, polynomials)),
+                // Its coefficients are larger than what the count knows of: the next best will do.
+                Err(error) if degree > 0 && too_large(&error) => {}
+                Err(error) => return Err(error),
+            }
+        }
     }
 
     /// About the operations of a step of the series S₁ … S_K, K the problem's truncation, with the
@@ -108,40 +116,35 @@ impl Plan {
         let dim = problem.algebra.dim();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let terms = collect(&mut Coefficients::default(), dim, orders);
-        Ok(Self::cheapest(problem, &terms, limit)?.0)
+        let plans = Self::by_cost(problem, &terms, limit)?;
+        Ok(plans.first().map_or(usize::MAX, |&(cost, _)| cost))
     }
 
-    /// The operations of a step, the plan, and the polynomials of an explicit predictor.
-    fn cheapest(
+    /// The plan with the constant predictor.
+    fn constant(problem: &Problem) -> Self {
+        Self {
+            solver: problem.solver(),
+            predictor: Predictor::Explicit(0),
+            hessian_truncation: problem.truncation,
+        }
+    }
+
+    /// The plans that may be worth it, with the operations of a step, the cheapest first. No polynomial of a predictor is
+    /// computed for them: its monomials are counted modulo a prime, and no further than another plan is
+    /// cheaper.
+    fn by_cost(
         problem: &Problem,
         terms: &[BaseTerm],
         limit: TermLimit,
-    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
-        if problem.solver() == Solver::FixedPoint {
-            return Self::matrix_free(problem, terms, limit);
-        }
-        let costs = Costs::new(problem, terms);
-        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
+    ) -> Result<Vec<(usize, Self)>, DeriveError> {
         let highest = Self::single_step_degree(problem.truncation);
-        let flows = problem.chart == Chart::Exponential;
+        let newton = problem.solver() == Solver::Newton;
+        let flows = newton && problem.chart == Chart::Exponential;
         // Where guesses are made for several steps at once they lead from one to the next, and with four
         // times the error of one the fine part at the guess must do: the best there is pays.
         let ahead = flows && in_parts(problem);
-        let explicit = if ahead { 0..0 } else { 0..highest + 1 };
-        for degree in explicit.step_by(2) {
-            let Some(polynomials) = affordable(problem, degree, limit, best.is_some())? else {
-                break;
-            };
-            let own = predictor_operations(&polynomials, problem.algebra.dim());
-            let Some((cost, plan)) = costs.cheapest(Predictor::Explicit(degree), own) else {
-                break;
-            };
-            match &best {
-                Some((least, ..)) if own > *least => break,
-                Some((least, ..)) if cost >= *least => {}
-                _ => best = Some((cost, plan, polynomials)),
-            }
-        }
+        let costs = Costs::new(problem, terms);
+        let mut found: Vec<(usize, Self)> = Vec::new();
         if flows {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
@@ -150,54 +153,35 @@ impl Plan {
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
                 let own = program.cost().total() + WAIT;
-                let plan = costs.cheapest(Predictor::Flow(degree), own);
-                if let Some((cost, plan)) = plan
-                    && best.as_ref().is_none_or(|(least, ..)| cost < *least)
-                {
-                    best = Some((cost, plan, Vec::new()));
-                }
+                found.extend(costs.cheapest(Predictor::Flow(degree), own));
             }
         }
-        let constant = Self {
-            solver: Solver::Newton,
-            predictor: Predictor::Explicit(0),
-            hessian_truncation: problem.truncation,
-        };
-        Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
-    }
-
-    /// The plan for the fixed point. Each evaluation gains about an order in h, and so does each
-    /// degree of the predictor, whose terms multiply with every degree: on a spin chain degree 2
-    /// has as many as the gradient of S₁ + S₃, degree 4 has sixty times more.
-    fn matrix_free(
-        problem: &Problem,
-        terms: &[BaseTerm],
-        limit: TermLimit,
-    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let n = problem.algebra.dim();
-        let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
-        let mut best: Option<(usize, Self, Vec<Vec<Polynomial>>)> = None;
-        for degree in 0..=HIGHEST_CHEAP_DEGREE {
-            let Some(polynomials) = affordable(problem, degree, limit, best.is_some())? else {
+        let mut least = found.iter().map(|&(cost, _)| cost).min().unwrap_or(usize::MAX);
+        // Of equal costs the explicit predictor's comes first.
+        let mut explicit: Vec<(usize, Self)> = Vec::new();
+        let Problem { algebra, chart, .. } = problem;
+        let mut size = PredictorSize::new(algebra, *chart, problem.generated(), limit)?;
+        let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
+        for degree in if ahead { 0..0 } else { 0..last + 1 } {
+            // About two operations for each monomial.
+            let own = match size.next_degree(least / 2) {
+                Ok(monomials) => 2 * monomials,
+                Err(error) if degree > 0 && too_large(&error) => break,
+                Err(error) => return Err(error),
+            };
+            // It only grows with the degree.
+            if own > least {
                 break;
-            };
-            let plan = Self {
-                solver: Solver::FixedPoint,
-                predictor: Predictor::Explicit(degree),
-                hessian_truncation: problem.truncation,
-            };
-            let evaluations = EVALUATIONS - degree;
-            let cost = predictor_operations(&polynomials, n) + evaluations * evaluation;
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, plan, polynomials));
+            }
+            if degree % every == 0 {
+                let plan = costs.cheapest(Predictor::Explicit(degree), own);
+                explicit.extend(plan);
+                least = plan.map_or(least, |(cost, _)| cost.min(least));
             }
         }
-        let constant = Self {
-            solver: Solver::FixedPoint,
-            predictor: Predictor::Explicit(0),
-            hessian_truncation: problem.truncation,
-        };
-        Ok(best.unwrap_or((usize::MAX, constant, Vec::new())))
+        explicit.extend(found);
+        explicit.sort_by_key(|&(cost, _)| cost);
+        Ok(explicit)
     }
 }
 
@@ -228,10 +212,11 @@ const CORRECTIONS: usize = 3;
 
 /// What steps cost, in operations.
 struct Costs {
+    solver: Solver,
     truncation: usize,
     /// The order in h that the error is to reach.
     goal: usize,
-    /// A chord step: gradient, chart, substitution.
+    /// A chord step: gradient, chart, substitution; for the fixed point an evaluation.
     chord: usize,
     /// The first step, for each truncation of the Hessian: also its entries, the Jacobian
     /// 1 − D·Hess S, and elimination.
@@ -241,15 +226,19 @@ struct Costs {
 impl Costs {
     fn new(problem: &Problem, terms: &[BaseTerm]) -> Self {
         let n = problem.algebra.dim();
-        let truncation = problem.truncation;
+        let (solver, truncation) = (problem.solver(), problem.truncation);
         let degree = Plan::single_step_degree(truncation);
+        if solver == Solver::FixedPoint {
+            let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
+            return Self { solver, truncation, goal: 0, chord: evaluation, newton: Vec::new() };
+        }
         if in_parts(problem) {
             let coarse: Vec<_> =
                 terms.iter().filter(|term| term.order as usize <= COARSE).cloned().collect();
             let corrections = CORRECTIONS * (WAIT + gradient_operations(&coarse));
             let step = corrections + gradient_operations(terms);
             let newton = vec![(COARSE, step)];
-            return Self { truncation, goal: degree + 5, chord: step, newton };
+            return Self { solver, truncation, goal: degree + 5, chord: step, newton };
         }
         let goal = 2 * degree + 2;
         let chord = WAIT + 10 * n * n + gradient_operations(terms);
@@ -258,14 +247,23 @@ impl Costs {
             .step_by(2)
             .map(|k| (k, matrices + chord + hessian_operations(terms, k)))
             .collect();
-        Self { truncation, goal, chord, newton }
+        Self { solver, truncation, goal, chord, newton }
     }
 
     /// The cheapest plan with a given predictor, which takes `own` operations.
     fn cheapest(&self, predictor: Predictor, own: usize) -> Option<(usize, Plan)> {
+        let Self { solver, truncation, .. } = *self;
+        if solver == Solver::FixedPoint {
+            // Each evaluation gains about an order in h, and so does each degree of the predictor, whose terms
+            // multiply with every degree: on a spin chain degree 2 has as many as the gradient of S₁ + S₃,
+            // degree 4 has sixty times more.
+            let evaluations = EVALUATIONS - predictor.degree();
+            let plan = Plan { solver, predictor, hessian_truncation: truncation };
+            return Some((own + evaluations * self.chord, plan));
+        }
         let plans = self.newton.iter().map(|&(hessian_truncation, newton)| {
-            let plan = Plan { solver: Solver::Newton, predictor, hessian_truncation };
-            (own + newton + plan.chord_steps(self.truncation, self.goal) * self.chord, plan)
+            let plan = Plan { solver, predictor, hessian_truncation };
+            (own + newton + plan.chord_steps(truncation, self.goal) * self.chord, plan)
         });
         // Of equal costs the better Hessian, which comes last.
         plans.reduce(|best, next| if next.0 <= best.0 { next } else { best })
@@ -279,31 +277,9 @@ const HIGHEST_CHEAP_DEGREE: usize = 2;
 /// Evaluations of the fixed point from the constant predictor to rounding, at h|Ω| of about 0.1.
 const EVALUATIONS: usize = 10;
 
-/// The explicit predictor of a degree; `None` where it is too large and a lower one will do.
-fn affordable(
-    problem: &Problem,
-    degree: usize,
-    limit: TermLimit,
-    lower: bool,
-) -> Result<Option<Vec<Vec<Polynomial>>>, DeriveError> {
-    match predictor(&problem.algebra, problem.chart, problem.generated(), degree, limit) {
-        Ok(polynomials) => Ok(Some(polynomials)),
-        Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) if lower => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
-/// About two operations for each monomial of each component.
-fn predictor_operations(predictor: &[Vec<Polynomial>], dim: usize) -> usize {
-    let monomials = |component: usize| {
-        let orders = predictor.iter().filter_map(|order| order.get(component));
-        let momenta = orders.flat_map(Polynomial::factors).map(|(mut factors, _)| {
-            factors.retain(|&(variable, _)| (variable as usize) < dim);
-            factors
-        });
-        momenta.collect::<BTreeSet<_>>().len()
-    };
-    2 * (0..dim).map(monomials).sum::<usize>()
+/// Whether a derivation stopped at its limit.
+fn too_large(error: &DeriveError) -> bool {
+    matches!(error, DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
 }
 
 /// About one and a half operations for each monomial of each entry, since entries share powers.

@@ -14,7 +14,7 @@ mod product;
 mod span;
 
 pub use algebra::{LieAlgebra, StructureConstant};
-pub use casimir::{CasimirError, casimirs};
+pub use casimir::{CasimirError, casimirs, watched_casimirs};
 pub use chart::{Chart, ChartError};
 pub use elliptic::QuadraticForm;
 pub use error::LieAlgebraError;

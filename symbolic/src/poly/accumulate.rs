@@ -2,6 +2,7 @@
 
 use super::monomial::Key;
 use super::table::Table;
+use crate::cancel;
 use crate::number::{Sum, Words};
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -85,6 +86,7 @@ pub(super) fn accumulate<K: Key, N: Number>(
         let (factor, left, right) = &numbers[index];
         let mut i = 0;
         while i < left_keys.len() {
+            cancel::check();
             let scaled = factor.times(&left[i]);
             let mut j = 0;
             while j < right_keys.len() {

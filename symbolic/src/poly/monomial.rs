@@ -80,7 +80,7 @@ impl Key for u128 {
 }
 
 /// The factors (variable, exponent) of a monomial, ascending by variable, exponents positive.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Factors(pub(crate) Box<[(u32, u32)]>);
 
 impl Ord for Factors {

@@ -1,6 +1,7 @@
 //! The polynomial type.
 
 use super::monomial::{Factors, Packing};
+use crate::cancel;
 use crate::number::{Coefficients, Rational};
 use num_traits::{One, Zero};
 use std::borrow::Cow;
@@ -30,7 +31,7 @@ use std::collections::BTreeMap;
 /// degree of a product must be below 2³²: derivations refuse more, and `*` returns zero.
 #[derive(Clone)]
 pub struct Polynomial {
-    variables: usize,
+    pub(super) variables: usize,
     /// No term has a greater total degree.
     pub(super) bound: u32,
     pub(super) keys: Keys,
@@ -113,6 +114,7 @@ impl Polynomial {
     ) -> Self {
         let mut sums: BTreeMap<std::cmp::Reverse<Factors>, Rational> = BTreeMap::new();
         for (factors, value) in terms {
+            cancel::check();
             let mut merged: BTreeMap<u32, u32> = BTreeMap::new();
             for (variable, exponent) in factors {
                 if exponent > 0 && (variable as usize) < variables {

@@ -22,9 +22,6 @@ const OF_OTHERS: f64 = 1.0 / 3.0;
 /// Corrections at most.
 const CORRECTIONS: u32 = 12;
 
-/// The Casimirs that are watched have this degree at most.
-const CASIMIR_DEGREE: u32 = 3;
-
 /// How far a group element may be from the group: the square root of rounding.
 fn off_group(precision: Precision) -> f64 {
     precision.epsilon().sqrt()
@@ -138,9 +135,7 @@ fn watch(integrator: &Integrator, group: &Product) -> Program {
     let mut graph = Graph::new();
     let mu = inputs(&mut graph, m, n);
     let mut outputs = graph.call(&integrator.energy, &mu);
-    let algebra = &integrator.problem.algebra;
-    let casimirs = (1..=CASIMIR_DEGREE).rev().find_map(|d| lie::casimirs(algebra, d).ok());
-    for casimir in casimirs.unwrap_or_default() {
+    for casimir in lie::watched_casimirs(&integrator.problem.algebra) {
         outputs.push(polynomial(&mut graph, &casimir, &mu));
     }
     graph.finish(m + n, &outputs)

@@ -28,6 +28,23 @@ fn counts(group: &str, chart: Chart, h: &Polynomial, truncation: usize) -> Vec<u
     (1..=truncation).step_by(2).map(|k| series.order(k).len()).collect()
 }
 
+/// A flag set by another thread ends derivations where they are; work without a flag goes on.
+#[test]
+fn cancelled_derivations_unwind() {
+    use coadjoint_symbolic::cancel::{Cancelled, scope};
+    use std::sync::{Arc, atomic::AtomicBool};
+
+    let so3 = catalogue::lookup("SO3").unwrap();
+    let limit = TermLimit::default();
+    let work = |stop: bool| {
+        let derivation = || derive(&so3, Chart::Exponential, &rigid_body(), 7, limit).unwrap();
+        std::panic::catch_unwind(|| scope(Arc::new(AtomicBool::new(stop)), derivation))
+    };
+    assert!(work(true).unwrap_err().is::<Cancelled>());
+    assert!(work(false).is_ok());
+    derive(&so3, Chart::Exponential, &rigid_body(), 7, limit).unwrap();
+}
+
 #[test]
 fn terms_per_order() {
     // Counts from the table "Terms per S_k" of the mathematics notes (docs: chart and order).

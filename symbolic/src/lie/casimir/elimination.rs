@@ -1,5 +1,6 @@
 //! Sparse exact elimination.
 
+use crate::cancel;
 use crate::number::Field;
 use std::collections::BTreeMap;
 
@@ -26,6 +27,7 @@ impl<F: Field> Echelon<F> {
         let mut lead = None;
         let mut at = row.keys().next().copied();
         while let Some(column) = at {
+            cancel::check();
             if let (Some(pivot), Some(value)) = (self.rows.get(&column), row.get(&column).cloned())
             {
                 self.operations += pivot.len() as u64;

@@ -2,6 +2,7 @@
 
 use super::elimination::{Echelon, Exceeded};
 use super::{CasimirError, MONOMIALS, OPERATIONS};
+use crate::cancel;
 use crate::lie::LieAlgebra;
 use crate::number::{Field, Rational, Residue, reconstruct};
 use crate::poly::{Polynomial, Product, sum_of_products};
@@ -136,6 +137,7 @@ fn kernel<F: Field>(
     let mut equations: BTreeMap<(u32, Vec<u32>), BTreeMap<u32, F>> = BTreeMap::new();
     let minus = F::one().negated();
     for (column, monomial) in monomials.iter().enumerate() {
+        cancel::check();
         for place in 0..monomial.len() {
             // A repeated variable comes once for each repetition, which is its exponent.
             for (j, l, value) in structure.get(&monomial[place]).into_iter().flatten() {
