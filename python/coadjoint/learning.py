@@ -252,8 +252,8 @@ def learn(
         found_text, summary = _core.learn(data, tested, settings, told)
     found = Model(found_text, "model", json.loads(summary))
     unused("data", others + found.summary.get("unused", []))
-    for text in found.summary.get("warnings") or []:
-        warnings.warn(text, CoadjointWarning, stacklevel=2)
+    for message in found.summary.get("warnings") or []:
+        warnings.warn(message, CoadjointWarning, stacklevel=2)
     dropped = found.summary.get("dropped") or []
     if dropped:
         row, reason = dropped[0]
