@@ -317,7 +317,7 @@ pub struct SimulateOptions {
     #[arg(requires = "out", conflicts_with = "model")]
     pub at: Option<String>,
     /// Write the records as they are made, as .csv or .npy by the name (- for the standard output).
-    /// Until the run is complete the name is FILE.part
+    /// Until the run is complete the name is FILE.partial
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Keep the state in this file, so that the same command goes on where it was stopped

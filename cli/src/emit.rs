@@ -1,14 +1,13 @@
 //! `coadjoint emit`: the integrator as a Rust module, as a header of C, or as a kernel for devices.
 
-use std::path::Path;
-
+use coadjoint_codegen::file;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
 use coadjoint_run::emit::{Source, header, kernel, rust};
 
 use crate::arguments::EmitOptions;
 use crate::ensemble::PrecisionName;
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 use crate::{load, progress};
 
 /// Writes the code to `--out` or the standard output.
@@ -26,6 +25,10 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
     }
     let (path, source) = source(options)?;
     let path = path.as_path();
+    if let Some(out) = &options.out {
+        // Refused before the derivation, which may take long.
+        file::check(out, &[path]).map_err(unwritten(out))?;
+    }
     let phase = progress::phase("deriving S and writing it");
     let text = if let Some(language) = language.of_device() {
         kernel(path, source, options.step, options.precision.into(), language)?
@@ -35,7 +38,13 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
         rust(path, source)?
     };
     drop(phase);
-    write(options.out.as_deref(), &text)
+    match &options.out {
+        Some(out) => file::write(out, &[path], text.as_bytes()).map_err(unwritten(out)),
+        None => {
+            out!("{text}");
+            Ok(())
+        }
+    }
 }
 
 /// What is to be written, and the file it is from.
@@ -58,16 +67,4 @@ fn check_unused(options: &EmitOptions) -> Result<(), CliError> {
         (None, PrecisionName::Double) => return Ok(()),
     };
     Err(CliError::Option(format!("{unused} is for --language opencl and cuda alone")))
-}
-
-/// To the file, or to the standard output.
-fn write(path: Option<&Path>, text: &str) -> Result<(), CliError> {
-    match path {
-        Some(path) => std::fs::write(path, text)
-            .map_err(|error| CliError::Write { path: path.into(), message: error.to_string() }),
-        None => {
-            out!("{text}");
-            Ok(())
-        }
-    }
 }

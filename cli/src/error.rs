@@ -1,6 +1,7 @@
 //! What can go wrong, and the exit code it means.
 
-use std::path::PathBuf;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 use coadjoint_learn::LearnError;
 use coadjoint_run::RunError;
@@ -23,12 +24,12 @@ pub enum CliError {
         source: std::io::Error,
     },
     /// A file that cannot be written.
-    #[error("cannot write {}: {message}", .path.display())]
+    #[error("cannot write {}: {source}", .path.display())]
     Write {
         /// The file.
         path: PathBuf,
         /// Why.
-        message: String,
+        source: std::io::Error,
     },
     /// Nobody reads the records any more, which is no failure.
     #[error("nobody reads the records any more")]
@@ -64,12 +65,28 @@ impl From<RunError> for CliError {
     }
 }
 
+/// The error of a file that cannot be read.
+pub fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
+    |source| CliError::Read { path: path.into(), source }
+}
+
+/// The error of a file that cannot be written.
+pub fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
+    |source| CliError::Write { path: path.into(), source }
+}
+
 impl CliError {
     /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::NobodyReads => 0,
             Self::Option(_) | Self::Read { .. } => 2,
+            // A name that no output may have, or that another run uses.
+            Self::Write { source, .. }
+                if matches!(source.kind(), ErrorKind::InvalidInput | ErrorKind::ResourceBusy) =>
+            {
+                2
+            }
             Self::Run(error) if error.is_input() => 2,
             Self::Run(_)
             | Self::Rows { .. }

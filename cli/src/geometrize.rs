@@ -63,6 +63,9 @@ pub struct GeometrizeOptions {
 
 /// Finds the Poisson map.
 pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
+    let named = [&options.data, &options.system, &options.test];
+    let inputs: Vec<&PathBuf> = named.into_iter().flatten().collect();
+    options.fit.check(&inputs)?;
     let (data, group) = (options.data.clone().unwrap_or_default(), options.group.clone());
     let request = Request {
         kind: Kind::Polynomial,
@@ -81,7 +84,7 @@ pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
             learn_momenta(&request, &pairs)?
         }
     };
-    options.fit.finish(&file, &summary)
+    options.fit.finish(&inputs, &file, &summary)
 }
 
 /// The system, with the values of its parameters put in.

@@ -1,15 +1,16 @@
 //! `coadjoint learn`: fit a map to pairs of states.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use coadjoint_codegen::file;
 use coadjoint_learn::data::{RowPolicy, Tolerances};
 use coadjoint_learn::{
     Errors, Figures, Kind, ModelFile, NetworkSettings, Request, Summary, learn, remove_checkpoints,
 };
 
 use crate::arguments::{ChartName, Format};
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 use crate::progress;
 
 /// Kinds of models.
@@ -145,10 +146,24 @@ impl Fit {
         self.seed
     }
 
+    /// Refuses, before anything is computed, to write the model where something is read.
+    pub fn check(&self, inputs: &[&PathBuf]) -> Result<(), CliError> {
+        let Some(path) = &self.out else { return Ok(()) };
+        let inputs: Vec<&Path> = inputs.iter().map(|input| input.as_path()).collect();
+        file::check(path, &inputs).map_err(unwritten(path))
+    }
+
     /// Writes the model and prints the figures.
-    pub fn finish(&self, file: &ModelFile, summary: &Summary) -> Result<(), CliError> {
+    pub fn finish(
+        &self,
+        inputs: &[&PathBuf],
+        file: &ModelFile,
+        summary: &Summary,
+    ) -> Result<(), CliError> {
         if let Some(path) = &self.out {
-            file.save(path)?;
+            let inputs: Vec<&Path> = inputs.iter().map(|input| input.as_path()).collect();
+            let written = file.text().and_then(|text| file::write(path, &inputs, text.as_bytes()));
+            written.map_err(unwritten(path))?;
         }
         match self.format {
             Format::Json => {
@@ -171,6 +186,8 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         ModelName::Network => Kind::Network,
         ModelName::Hybrid => Kind::Hybrid,
     };
+    let inputs: Vec<&PathBuf> = std::iter::once(&options.data).chain(&options.test).collect();
+    options.fit.check(&inputs)?;
     let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
     // Beside the model, so that a command given again goes on where it was killed.
     let checkpoint = options.fit.out.as_ref().map(|out| {
@@ -200,7 +217,7 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         bar.set_message(format!("loss {loss:.2e}"));
     })?;
     bar.finish_and_clear();
-    options.fit.finish(&file, &summary)?;
+    options.fit.finish(&inputs, &file, &summary)?;
     checkpoint.map_or(Ok(()), |base| Ok(remove_checkpoints(&base)?))
 }
 

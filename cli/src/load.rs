@@ -10,11 +10,11 @@ use coadjoint_run::{meet_tolerance as meet, read_with};
 pub use coadjoint_run::integrator;
 
 use crate::arguments::{Accuracy, Source};
-use crate::error::CliError;
+use crate::error::{CliError, unread};
 
 /// The text of the file at `path`.
 pub fn text(path: &Path) -> Result<String, CliError> {
-    read_text(path).map_err(|source| CliError::Read { path: path.into(), source })
+    read_text(path).map_err(unread(path))
 }
 
 /// Reads the file at `path`.

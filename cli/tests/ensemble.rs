@@ -484,7 +484,7 @@ fn mistakes_are_told_before_anything_runs() {
         (BODY, &good, &out, &["--shard", "3/2"], "counted from 1"),
         (BODY, &good, &out, &["--shard", "0/2"], "counted from 1"),
         (BODY, &good, &out, &["--shard", "half"], "write i/n"),
-        (BODY, &good, &good, &[], "--out must be another file"),
+        (BODY, &good, &good, &[], "is the same file, which this run uses"),
         (BODY, &good, &at(&directory, "out.txt"), &[], "must end in .csv or .npy"),
         (BODY, &good, &out, &["--step", "0"], "other than zero"),
     ] {

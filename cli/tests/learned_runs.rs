@@ -83,11 +83,11 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(130), "{error}");
         assert!(error.contains("interrupted at time ") && error.contains("goes on from state"));
-        assert!(place.at(&format!("{name}.part")).exists() && !place.at(name).exists());
+        assert!(place.at(&format!("{name}.partial")).exists() && !place.at(name).exists());
         let resumed = place.run(name, &keep);
         assert!(resumed.status.success(), "{}", String::from_utf8_lossy(&resumed.stderr));
         assert!(place.bytes(name) == place.bytes(&whole), "{name}");
-        assert!(!place.at(&format!("{name}.part")).exists());
+        assert!(!place.at(&format!("{name}.partial")).exists());
     }
 }
 

@@ -39,9 +39,9 @@ fn a_run_that_fails_leaves_its_records() {
         let out = directory.path().join(name);
         let (code, _, error) = run(&["simulate", &system, "--out", out.to_str().unwrap()]);
         assert_eq!(code, 1, "{error}");
-        assert!(error.contains(", step ") && error.contains(&format!("{name}.part")), "{error}");
+        assert!(error.contains(", step ") && error.contains(&format!("{name}.partial")), "{error}");
         assert!(!out.exists());
-        let part = directory.path().join(format!("{name}.part"));
+        let part = directory.path().join(format!("{name}.partial"));
         let time = error.split("at time ").nth(1).unwrap().split(',').next().unwrap();
         let time: f64 = time.parse().unwrap();
         assert!(time > 1.0);
@@ -92,7 +92,7 @@ fn files_say_what_they_are() {
     ] {
         assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
     }
-    assert!(!directory.path().join("t.csv.part").exists());
+    assert!(!directory.path().join("t.csv.partial").exists());
 }
 
 /// The names are those of the file; numbers are short, with exponents, and read back exactly.
@@ -200,7 +200,7 @@ fn names_are_looked_at_first() {
         (&["--checkpoint", "none/c"], "there is no folder none"),
         (&["--checkpoint", "c", "--truncation", "3,5"], "give one --truncation"),
         (&["--checkpoint", "c", "--out", "-"], "write to a file"),
-        (&["--checkpoint", "t.csv", "--out", "t.csv"], "must be different files"),
+        (&["--checkpoint", "t.csv", "--out", "t.csv"], "t.csv is the same file"),
         (&["--at", "1"], "--out"),
     ] {
         let (code, _, error) = run(&[&["simulate", slow], arguments].concat());
@@ -238,7 +238,7 @@ fn full_disks_are_named() {
     // A device is written as it is.
     let (code, report, _) = run(&["simulate", BODY, "--time", "1", "--out", "/dev/null"]);
     assert!(code == 0 && report.contains("11 records in /dev/null"), "{report}");
-    assert!(!Path::new("/dev/null.part").exists());
+    assert!(!Path::new("/dev/null.partialial").exists());
 }
 
 /// Records are on the disk while the run goes on, and memory does not grow with their number.
@@ -252,7 +252,7 @@ fn memory_does_not_grow_with_steps() {
          [initial]\nmomentum = [1, 0.2, 0]\n[run]\ntime = 1500\n",
     );
     let out = directory.path().join("t.csv");
-    let part = directory.path().join("t.csv.part");
+    let part = directory.path().join("t.csv.partial");
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
     command.args(["simulate", &system, "--out"]).arg(&out).stdout(Stdio::null());
     let mut child = command.spawn().unwrap();

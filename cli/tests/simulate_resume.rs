@@ -72,7 +72,7 @@ fn same(place: &Place, whole: &Output, resumed: &Output, out: &str) {
     assert!(place.bytes(&format!("{whole_name}.svg")) == place.bytes(&format!("{out}.svg")));
     let report = |output: &Output| String::from_utf8(output.stdout.clone()).unwrap();
     assert_eq!(report(whole).replace(&whole_name, out), report(resumed));
-    assert!(!place.at(&format!("{out}.part")).exists());
+    assert!(!place.at(&format!("{out}.partial")).exists());
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_killed_run_ends_with_the_same_bits() {
         wait_for_second(&mut child, &place.at("state"));
         child.kill().unwrap();
         child.wait().unwrap();
-        assert!(!place.at(out).exists() && place.at(&format!("{out}.part")).exists());
+        assert!(!place.at(out).exists() && place.at(&format!("{out}.partial")).exists());
         same(&place, &whole, &place.run(out, &KEEP), out);
 
         // Once more it is only told of.
@@ -115,7 +115,7 @@ fn an_interrupted_run_leaves_a_whole_part_and_goes_on() {
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(130), "{error}");
         assert!(error.contains("interrupted at time ") && error.contains("goes on from state"));
-        let part = String::from_utf8(place.bytes(&format!("{out}.part"))).unwrap();
+        let part = String::from_utf8(place.bytes(&format!("{out}.partial"))).unwrap();
         let (last, rows) = (part.lines().last().unwrap(), part.lines().rev().nth(1).unwrap());
         assert!(last.starts_with("# part: interrupted at time "), "{last}");
         assert_eq!(rows.split(',').count(), 17);
@@ -143,9 +143,9 @@ fn another_run_is_refused_by_name() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("another `out`"));
     // The file of records is gone.
-    std::fs::rename(place.at("t.csv.part"), place.at("away")).unwrap();
+    std::fs::rename(place.at("t.csv.partial"), place.at("away")).unwrap();
     refused(&[], "bring the file back");
-    std::fs::rename(place.at("away"), place.at("t.csv.part")).unwrap();
+    std::fs::rename(place.at("away"), place.at("t.csv.partial")).unwrap();
     // A comment changes nothing that is run, but is another text.
     let text = std::fs::read_to_string(place.at("body.toml")).unwrap();
     std::fs::write(place.at("body.toml"), format!("{text}# more\n")).unwrap();

@@ -232,7 +232,7 @@ fn what_cannot_be_judged_is_refused() {
 #[test]
 fn a_part_is_said_to_be_one() {
     let directory = TempDir::new().unwrap();
-    let (whole, part) = (at(&directory, "t.csv"), at(&directory, "t.csv.part"));
+    let (whole, part) = (at(&directory, "t.csv"), at(&directory, "t.csv.partial"));
     simulate(&[BODY, "--time", "3"], &whole);
     // As a run that is interrupted leaves it.
     let text = read(&whole);
@@ -254,7 +254,7 @@ fn growing_momenta_are_judged_as_far_as_can_be() {
     );
     let out = at(&directory, "t.csv");
     assert_eq!(run(&["simulate", &system, "--out", &out]).0, 1);
-    let (code, found, error) = run(&["verify", &format!("{out}.part")]);
+    let (code, found, error) = run(&["verify", &format!("{out}.partial")]);
     assert!(code == 0 || code == 3, "{found}{error}");
     simulate(&[&system, "--time", "4"], &out);
     right(&[&out]);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::diagnostic::read_text;
 use crate::emit;
+use crate::file;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick};
 use crate::lie::Chart;
@@ -140,9 +141,9 @@ impl Build {
             move |source| BuildError::Io { path, source }
         };
         let text = read_text(&self.input).map_err(io(&self.input))?;
-        let file = self.input.display().to_string();
+        let name = self.input.display().to_string();
         let system = system::read(&text, self.options)
-            .map_err(|mistakes| BuildError::System(mistakes.render(&file, &text)))?;
+            .map_err(|mistakes| BuildError::System(mistakes.render(&name, &text)))?;
         let options = emit::Options::for_problem(&system.problem.name);
         let integrator = Integrator::build(system.problem, self.limit)
             .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
@@ -152,6 +153,6 @@ impl Build {
         if let Some((potential, _)) = system.potential {
             module.push_str(&emit::potential_items(&Kick::build(potential), &options));
         }
-        std::fs::write(path, module).map_err(io(path))
+        file::write(path, &[&self.input], module.as_bytes()).map_err(io(path))
     }
 }

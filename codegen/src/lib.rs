@@ -44,6 +44,8 @@
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;
+#[cfg(feature = "system")]
+pub mod file;
 pub mod parse;
 pub mod pass;
 #[cfg(feature = "system")]

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::diagnostic::read_text;
+use coadjoint_codegen::file;
 use serde::{Deserialize, Serialize};
 
 use crate::error::LearnError;
@@ -74,7 +76,7 @@ impl ModelFile {
     /// [`LearnError::File`] when the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), LearnError> {
         let fail = |source| LearnError::File { path: path.into(), source };
-        std::fs::write(path, self.text().map_err(fail)?).map_err(fail)
+        file::write(path, &[], self.text().map_err(fail)?.as_bytes()).map_err(fail)
     }
 
     /// The model as JSON, as [`ModelFile::save`] writes it.
@@ -91,7 +93,7 @@ impl ModelFile {
     /// [`LearnError::File`] when the file cannot be read, [`LearnError::Model`] when it is damaged,
     /// of another version, or something else altogether.
     pub fn load(path: &Path) -> Result<Self, LearnError> {
-        let text = std::fs::read_to_string(path).map_err(|source| match source.kind() {
+        let text = read_text(path).map_err(|source| match source.kind() {
             std::io::ErrorKind::InvalidData => LearnError::Model {
                 path: path.into(),
                 reason: "it is not a text file; models are JSON".into(),

@@ -1,4 +1,5 @@
 from collections.abc import Callable
+import os
 from typing import Any, final
 
 import numpy as np
@@ -76,6 +77,8 @@ class Stepper:
         steps: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
+def read_text(path: str | os.PathLike[str]) -> str: ...
+def write_text(path: str | os.PathLike[str], text: str) -> None: ...
 def learn(
     data: list[tuple[str, NDArray[np.float64]]],
     test: list[tuple[str, NDArray[np.float64]]] | None,

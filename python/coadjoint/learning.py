@@ -45,13 +45,11 @@ class Model:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Model:
         """The model of a file."""
-        with open(path, encoding="utf-8") as file:
-            return cls(file.read(), os.fspath(path))
+        return cls(_core.read_text(path), os.fspath(path))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the model as JSON."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self._model_text)
+        """Writes the model as JSON: all of it, or what was there stays."""
+        _core.write_text(path, self._model_text)
 
     @property
     def text(self) -> str:

@@ -133,8 +133,7 @@ class System:
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
         """The system of a file, in TOML."""
-        with open(path, encoding="utf-8") as file:
-            return cls.from_text(file.read(), os.fspath(path))
+        return cls.from_text(_core.read_text(path), os.fspath(path))
 
     def _read(
         self, text: str, name: str, given: tuple[tuple[str, Any], ...] | None, known: dict[str, Any]

@@ -6,6 +6,7 @@ mod asked;
 mod control;
 mod emit;
 mod error;
+mod files;
 mod given;
 mod learn;
 mod outcome;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 /// The extension module.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::files::{read_text, write_text};
     #[pymodule_export]
     use super::learn::{ModelCore, learn};
     #[pymodule_export]

@@ -37,8 +37,8 @@ impl Finished {
     }
 
     /// Writes the note: all of it or nothing.
-    pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        note::write(self, path)
+    pub fn write(&self, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+        note::write(self, path, inputs)
     }
 
     /// Whether the files are those that it describes.

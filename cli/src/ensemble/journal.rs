@@ -1,12 +1,12 @@
 //! How far a run has come: what a restart needs.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
+use coadjoint_codegen::file::{self, Extent};
 use coadjoint_codegen::step;
-use coadjoint_run::ensemble::Drift;
+use coadjoint_run::ensemble::{Drift, Engine};
 use serde::{Deserialize, Serialize};
 
 use super::note;
@@ -24,8 +24,12 @@ pub struct Journal {
     pub rows: u64,
     /// Bytes of the output so far.
     pub output: u64,
+    /// The checksum of these.
+    pub output_crc32: u32,
     /// Bytes of the list of rejected rows so far.
     pub rejected_bytes: u64,
+    /// The checksum of these.
+    pub rejected_crc32: u32,
     /// Rejected rows so far.
     pub rejected: u64,
     /// Where the next row begins in the input.
@@ -48,6 +52,8 @@ pub struct Journal {
     pub redone: u64,
     /// Whether all is written and only names are to be changed.
     pub complete: bool,
+    /// The bytes of the whole file then, and their checksum.
+    pub whole: [u64; 2],
 }
 
 impl Journal {
@@ -57,8 +63,18 @@ impl Journal {
     }
 
     /// Writes it: the old journal or the new one, never a piece.
-    pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        note::write(self, path)
+    pub fn write(&self, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+        note::write(self, path, inputs)
+    }
+
+    /// How much of the output there is.
+    pub fn extent(&self) -> Extent {
+        Extent { bytes: self.output, crc32: self.output_crc32 }
+    }
+
+    /// How much of the list of rejected rows there is.
+    pub fn rejected_extent(&self) -> Extent {
+        Extent { bytes: self.rejected_bytes, crc32: self.rejected_crc32 }
     }
 
     /// Refuses to go on with a run that is another.
@@ -90,6 +106,14 @@ impl Journal {
         Drift { conserved, unmeasured: self.unmeasured, ratio: f64::from_bits(self.ratio) }
     }
 
+    /// Takes note of what makes the steps now.
+    pub fn made_by(&mut self, engine: &dyn Engine) {
+        let maker = engine.device().map_or_else(|| engine.backend(), |device| device.to_string());
+        if !self.made_by.contains(&maker) {
+            self.made_by.push(maker);
+        }
+    }
+
     /// Takes note of drifts.
     pub fn raise(&mut self, drift: Drift) {
         let drift = self.drift().max(drift);
@@ -109,7 +133,7 @@ const PIECES: u64 = 64;
 /// pieces of 1 MiB from beginning to end.
 pub fn fingerprint(path: &Path) -> Result<String, CliError> {
     let hash = || -> std::io::Result<String> {
-        let mut file = File::open(path)?;
+        let mut file = file::open(path)?;
         let length = file.metadata()?.len();
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         let mut piece = Vec::new();

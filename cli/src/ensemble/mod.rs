@@ -17,8 +17,6 @@ mod table;
 pub use device::PrecisionName;
 pub use shard::Shard;
 
-use std::path::Path;
-
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
@@ -41,10 +39,8 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let known = Known::of(&system.problem, &system.parameters);
     let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
-    if same_file(&options.initial, &options.out) {
-        return Err(CliError::Option("--out must be another file than --initial".into()));
-    }
     // Refused before the derivation, which may take long.
+    run::Files::of(&options.out).check(&[path, &options.initial])?;
     let form = output::Form::of(&options.out)?;
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
@@ -53,7 +49,6 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
     let how = How { backend: options.backend.into(), work, device: asked };
     let engine = engine(path, &integrator, step, how, &Kept::default())?;
-    engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let input = input::open(&options.initial, engine.shape(), &known)?;
     let range = options.shard.rows(input.total());
     let problem = &integrator.problem;
@@ -75,6 +70,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     }
     let job = Job {
         engine: engine.as_ref(),
+        inputs: vec![path.clone(), options.initial.clone()],
         input,
         out: options.out.clone(),
         range,
@@ -95,7 +91,9 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
             .build_global()
             .map_err(|error| CliError::Option(format!("--threads {threads}: {error}")))?;
     }
-    let outcome = run::run(job)?;
+    let outcome = run::run(job);
+    engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
+    let outcome = outcome?;
     if let Some(text) = report::warning(&outcome) {
         eprintln!("warning: {text}");
     }
@@ -131,12 +129,4 @@ fn check_threads(threads: usize) -> Result<(), CliError> {
         "--threads {threads}: at most {most} are started, and more than the {processors} processors \
          of this machine save no time; leave it out for one each"
     )))
-}
-
-/// Whether two names mean one file.
-fn same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
 }

@@ -1,8 +1,7 @@
-//! Writing end states: appended to a file of its own, which takes the real name when it is whole.
+//! The text of end states, in the format of the file.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::Path;
 
 use rayon::prelude::*;
 
@@ -110,88 +109,4 @@ fn push_cell(text: &mut Vec<u8>, cell: &[u8]) {
         text.push(byte);
     }
     text.push(b'"');
-}
-
-/// A file that grows at its end.
-#[derive(Debug)]
-pub struct Appended {
-    path: PathBuf,
-    file: File,
-    length: u64,
-}
-
-impl Appended {
-    /// Opens or makes the file, cut to `length` bytes, and keeps other processes out of it.
-    pub fn open(path: &Path, length: u64) -> Result<Self, CliError> {
-        let failed = |error: std::io::Error| unwritten(path, &error);
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(failed)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(CliError::Option(format!(
-                    "{} is being written by another process: give each shard its own --out, and \
-                     let the other one end",
-                    path.display()
-                )));
-            }
-            // Some file systems have no locks; then nothing keeps others out.
-            Err(TryLockError::Error(_)) => {}
-        }
-        let found = file.metadata().map_err(failed)?.len();
-        if found < length {
-            return Err(CliError::Option(format!(
-                "{} has {found} bytes where {length} were written; begin anew with --restart",
-                path.display()
-            )));
-        }
-        file.set_len(length).map_err(failed)?;
-        file.seek(SeekFrom::Start(length)).map_err(failed)?;
-        Ok(Self { path: path.into(), file, length })
-    }
-
-    /// Bytes so far.
-    pub fn length(&self) -> u64 {
-        self.length
-    }
-
-    /// Writes at the end.
-    pub fn append(&mut self, bytes: &[u8]) -> Result<(), CliError> {
-        self.file.write_all(bytes).map_err(|error| unwritten(&self.path, &error))?;
-        self.length += bytes.len() as u64;
-        Ok(())
-    }
-
-    /// Waits until everything is on the disk.
-    pub fn sync(&self) -> Result<(), CliError> {
-        self.file.sync_data().map_err(|error| unwritten(&self.path, &error))
-    }
-}
-
-/// Gives `from` the name `to`, in one moment.
-pub fn rename(from: &Path, to: &Path) -> Result<(), CliError> {
-    fs::rename(from, to).map_err(|error| unwritten(to, &error))?;
-    // The directory holds the name.
-    let directory = to.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if let Ok(directory) = File::open(directory) {
-        let _ = directory.sync_all();
-    }
-    Ok(())
-}
-
-/// `path` with `ending` added to its name.
-pub fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(ending);
-    path.with_file_name(name)
-}
-
-/// A file that cannot be written.
-pub fn unwritten(path: &Path, error: &dyn std::fmt::Display) -> CliError {
-    CliError::Write { path: path.into(), message: error.to_string() }
 }

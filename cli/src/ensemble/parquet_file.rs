@@ -12,13 +12,14 @@ use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::Type;
 
+use coadjoint_codegen::file::Output;
 use coadjoint_run::ensemble::Layout;
 
 /// Rows of a row group.
 const GROUP: usize = 1 << 17;
 
-/// Writes the numbers of `from`, row-major, as the columns of a new Parquet file `to`.
-pub fn convert(from: &Path, to: &Path, layout: &Layout) -> Result<(), ParquetError> {
+/// Writes the numbers of `from`, row-major, as the columns of a Parquet file to `to`.
+pub fn convert(from: &Path, to: &mut Output, layout: &Layout) -> Result<(), ParquetError> {
     let names = layout.names();
     let column = |name: &String| {
         Type::primitive_type_builder(name, PhysicalType::DOUBLE)
@@ -28,9 +29,9 @@ pub fn convert(from: &Path, to: &Path, layout: &Layout) -> Result<(), ParquetErr
     };
     let columns = names.iter().map(column).collect::<Result<Vec<_>, _>>()?;
     let schema = Type::group_type_builder("states").with_fields(columns).build()?;
-    let file = File::create(to)?;
+    to.begin(&[])?;
     let properties = Arc::new(WriterProperties::builder().build());
-    let mut writer = SerializedFileWriter::new(file.try_clone()?, Arc::new(schema), properties)?;
+    let mut writer = SerializedFileWriter::new(&mut *to, Arc::new(schema), properties)?;
     let mut source = BufReader::new(File::open(from)?);
     let row = names.len() * 8;
     loop {
@@ -56,6 +57,5 @@ pub fn convert(from: &Path, to: &Path, layout: &Layout) -> Result<(), ParquetErr
         group.close()?;
     }
     writer.close()?;
-    file.sync_all()?;
-    Ok(())
+    Ok(to.sync()?)
 }

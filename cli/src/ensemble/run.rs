@@ -1,19 +1,21 @@
 //! The run itself: piece after piece, each safe on the disk before it counts.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use coadjoint_codegen::file::{self, Extent, Output, beside, passing};
 use coadjoint_run::ensemble::{Drift, Engine, Layout, Rejected, Watch, piece as length};
 
 use super::finished::Finished;
 use super::input::Input;
 use super::journal::{Identity, Journal};
-use super::output::{Appended, Form, beside, rename, unwritten};
+use super::output::Form;
 use super::table::Piece;
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 use crate::progress;
 
 /// What is on the disk is noted this often.
@@ -22,13 +24,18 @@ const NOTED: Duration = Duration::from_millis(200);
 /// Rejected rows that are told at the end; all are in the list.
 const TOLD: usize = 5;
 
+/// The names of the columns of the list of rejected rows.
+const LIST: &[u8] = b"row,step,reason\n";
+
 /// A run that is set up.
 pub struct Job<'a> {
     /// Advances rows.
     pub engine: &'a dyn Engine,
     /// Where rows come from.
     pub input: Box<dyn Input>,
-    /// Where they go.
+    /// Everything the run reads.
+    pub inputs: Vec<PathBuf>,
+    /// Where rows go.
     pub out: PathBuf,
     /// Rows of the input, counted from 0.
     pub range: Range<u64>,
@@ -67,33 +74,45 @@ pub struct Outcome {
     pub seconds: f64,
 }
 
-/// The files of a run.
-struct Files {
+/// The names of the files of a run.
+pub struct Files {
     out: PathBuf,
-    partial: PathBuf,
+    /// A Parquet file that is whole but for its name.
+    parquet: PathBuf,
     list: PathBuf,
-    list_partial: PathBuf,
     journal: PathBuf,
     done: PathBuf,
 }
 
 impl Files {
-    fn of(out: &Path) -> Self {
+    /// Of this output.
+    pub fn of(out: &Path) -> Self {
         Self {
             out: out.into(),
-            partial: beside(out, ".partial"),
+            parquet: passing(&beside(out, ".parquet")),
             list: beside(out, ".rejected.csv"),
-            list_partial: beside(out, ".rejected.csv.partial"),
             journal: beside(out, ".journal"),
             done: beside(out, ".done"),
         }
     }
+
+    /// Refuses names that are inputs of the run.
+    pub fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
+        let names = [&self.out, &self.parquet, &self.list, &self.journal, &self.done];
+        names.iter().try_for_each(|name| file::check(name, inputs).map_err(unwritten(name)))
+    }
+}
+
+/// The files that grow, and kept from other processes.
+struct Open {
+    output: Output,
+    list: Output,
 }
 
 /// Removes a file that may be missing.
 fn remove(path: &Path) -> Result<(), CliError> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(unwritten(path, &error)),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(unwritten(path)(error)),
         _ => Ok(()),
     }
 }
@@ -104,7 +123,12 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
     let form = Form::of(&job.out)?;
     let layout = job.input.layout();
     let files = Files::of(&job.out);
+    let inputs = job.inputs.clone();
+    let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
     let count = job.range.end - job.range.start;
+    // Before anything is read that another process may write.
+    let open = |path: &Path| Output::open(path, &inputs).map_err(unwritten(path));
+    let mut open = Open { output: open(&files.out)?, list: open(&files.list)? };
     if let Some(journal) = finished(&job, &files)? {
         return Ok(outcome(count, (count, true), journal, files, Vec::new(), start));
     }
@@ -118,19 +142,35 @@ pub fn run(mut job: Job<'_>) -> Result<Outcome, CliError> {
     let mut first = Vec::new();
     // After the last note only names are left to change; the files may have theirs already.
     if !journal.complete {
-        let output = Appended::open(&files.partial, journal.output)?;
-        let list = Appended::open(&files.list_partial, journal.rejected_bytes)?;
-        first = advance(&mut job, form, &layout, &files, &mut journal, output, list)?;
-        seal(form, &layout, &files, count, &mut journal)?;
+        resume(&mut open, &files, &journal)?;
+        first = advance(&mut job, form, &layout, (&files, &inputs), &mut journal, &mut open)?;
+        seal(form, &layout, (&files, &inputs), count, &mut journal, &open)?;
     }
     remove(&files.done)?;
-    publish(form, &layout, &files, &journal)?;
+    publish(form, (&files, &inputs), &journal, &mut open)?;
     if job.keep {
         let first_row = job.range.start + 1;
-        Finished::of(&files.out, &files.list, first_row, journal.clone())?.write(&files.done)?;
+        let done = Finished::of(&files.out, &files.list, first_row, journal.clone())?;
+        done.write(&files.done, &inputs)?;
     }
     remove(&files.journal)?;
     Ok(outcome(count, (resumed, false), journal, files, first, start))
+}
+
+/// Goes on behind what the journal counts.
+fn resume(open: &mut Open, files: &Files, journal: &Journal) -> Result<(), CliError> {
+    let extents = [journal.extent(), journal.rejected_extent()];
+    let both = [(&mut open.output, &files.out), (&mut open.list, &files.list)];
+    for ((output, path), extent) in both.into_iter().zip(extents) {
+        output.resume(extent, 0).map_err(|error| match error.kind() {
+            ErrorKind::InvalidData => CliError::Option(format!(
+                "{}: {error}; begin anew with --restart",
+                passing(path).display()
+            )),
+            _ => unwritten(path)(error),
+        })?;
+    }
+    Ok(())
 }
 
 /// What a finished run has noted that is to be kept; `None` where the run is to be made.
@@ -178,28 +218,29 @@ fn advance(
     job: &mut Job<'_>,
     form: Form,
     layout: &Layout,
-    files: &Files,
+    (files, inputs): (&Files, &[&Path]),
     journal: &mut Journal,
-    mut output: Appended,
-    mut list: Appended,
+    Open { output, list }: &mut Open,
 ) -> Result<Vec<Rejected>, CliError> {
+    let append = |to: &mut Output, path: &Path, bytes: &[u8]| {
+        to.append(bytes).map_err(unwritten(&passing(path)))
+    };
+    let sync = |output: &Output, list: &Output| {
+        output.sync().and_then(|()| list.sync()).map_err(unwritten(&files.out))
+    };
     let count = job.range.end - job.range.start;
     let table = job.input.table().cloned();
     if journal.rows == 0 {
-        output.append(&form.header(layout, table.as_ref(), count))?;
-        list.append(b"row,step,reason\n")?;
+        append(output, &files.out, &form.header(layout, table.as_ref(), count))?;
+        append(list, &files.list, LIST)?;
     }
     let position = (journal.rows > 0).then_some(journal.position);
     job.input.seek(job.range.start + journal.rows, position)?;
     let steps = job.steps.max(1);
     let bar = progress::bar(count.saturating_mul(steps), "trajectories");
     bar.set_position(journal.rows.saturating_mul(steps));
-    let by = job.engine.device();
-    let card = by.as_ref().is_some_and(|by| !by.processor);
-    let maker = by.map_or_else(|| job.engine.backend(), |by| by.to_string());
-    if !journal.made_by.contains(&maker) {
-        journal.made_by.push(maker);
-    }
+    let card = job.engine.device().is_some_and(|by| !by.processor);
+    journal.made_by(job.engine);
     let earlier = journal.redone;
     let mut piece = Piece::default();
     let stop = AtomicBool::new(false);
@@ -218,29 +259,29 @@ fn advance(
             &mut piece.rows,
             &Watch { made: &made, stop: &stop },
         )?;
-        output.append(&form.encode(layout, table.as_ref(), &piece))?;
+        append(output, &files.out, &form.encode(layout, table.as_ref(), &piece))?;
         for rejected in &piece.rows.rejected {
             let reason = rejected.reason.replace('"', "'");
-            list.append(format!("{},{},\"{reason}\"\n", rejected.row, rejected.step).as_bytes())?;
+            let line = format!("{},{},\"{reason}\"\n", rejected.row, rejected.step);
+            append(list, &files.list, line.as_bytes())?;
         }
         first.extend(piece.rows.rejected.iter().take(TOLD - first.len().min(TOLD)).cloned());
         journal.raise(drift);
+        journal.made_by(job.engine);
         journal.redone = earlier + job.engine.device().map_or(0, |by| by.redone);
         journal.rows += take;
         journal.rejected += piece.rows.rejected.len() as u64;
         journal.position = job.input.position();
-        journal.output = output.length();
-        journal.rejected_bytes = list.length();
+        Extent { bytes: journal.output, crc32: journal.output_crc32 } = output.extent();
+        Extent { bytes: journal.rejected_bytes, crc32: journal.rejected_crc32 } = list.extent();
         bar.set_position(journal.rows.saturating_mul(steps));
         if noted.elapsed() > NOTED && journal.rows < count {
-            output.sync()?;
-            list.sync()?;
-            journal.write(&files.journal)?;
+            sync(output, list)?;
+            journal.write(&files.journal, inputs)?;
             noted = Instant::now();
         }
     }
-    output.sync()?;
-    list.sync()?;
+    sync(output, list)?;
     bar.finish_and_clear();
     Ok(first)
 }
@@ -249,43 +290,72 @@ fn advance(
 fn seal(
     form: Form,
     layout: &Layout,
-    files: &Files,
+    (files, inputs): (&Files, &[&Path]),
     count: u64,
     journal: &mut Journal,
+    open: &Open,
 ) -> Result<(), CliError> {
     debug_assert_eq!(journal.rows, count);
+    #[allow(unused_mut)]
+    let mut whole = open.output.extent();
     #[cfg(feature = "parquet")]
     if form == Form::Parquet {
-        let whole = beside(&files.out, ".parquet.partial");
-        super::parquet_file::convert(&files.partial, &whole, layout)
-            .map_err(|error| unwritten(&whole, &error))?;
+        let written =
+            Output::open_as(&files.out, &files.parquet, inputs).and_then(|mut parquet| {
+                super::parquet_file::convert(&passing(&files.out), &mut parquet, layout)
+                    .map_err(std::io::Error::other)?;
+                Ok(parquet.extent())
+            });
+        whole = written.map_err(unwritten(&files.parquet))?;
     }
     let _ = (form, layout);
     journal.complete = true;
-    journal.write(&files.journal)
+    journal.whole = [whole.bytes, u64::from(whole.crc32)];
+    journal.write(&files.journal, inputs)
 }
 
-/// Gives the files their names.
-fn publish(form: Form, _layout: &Layout, files: &Files, journal: &Journal) -> Result<(), CliError> {
-    if journal.rejected == 0 {
-        remove(&files.list_partial)?;
-        remove(&files.list)?;
-    } else if files.list_partial.exists() {
-        rename(&files.list_partial, &files.list)?;
-    }
-    let whole = match form {
-        #[cfg(feature = "parquet")]
-        Form::Parquet => beside(&files.out, ".parquet.partial"),
-        _ => files.partial.clone(),
+/// Gives the files their names, the output's last. Those of an earlier run that ended between two of them may have theirs
+/// already.
+fn publish(
+    form: Form,
+    (files, inputs): (&Files, &[&Path]),
+    journal: &Journal,
+    open: &mut Open,
+) -> Result<(), CliError> {
+    let [bytes, crc32] = journal.whole;
+    let whole = Extent { bytes, crc32: crc32 as u32 };
+    let name = |output: &mut Output, path: &Path, whole: Extent| {
+        if output.is_fresh() && file::extent(path).is_ok_and(|found| found == whole) {
+            return Ok(());
+        }
+        let known = if output.is_begun() { Ok(()) } else { output.resume(whole, 0) };
+        known.and_then(|()| output.publish()).map_err(|error| match error.kind() {
+            ErrorKind::InvalidData => CliError::Option(format!(
+                "{} says that {} is written, but {error}; begin anew with --restart",
+                files.journal.display(),
+                path.display()
+            )),
+            _ => unwritten(path)(error),
+        })
     };
-    if whole.exists() {
-        rename(&whole, &files.out)?;
-    } else if !files.out.exists() {
-        return Err(CliError::Option(format!(
-            "{} says that {} is written, but it is gone; begin anew with --restart",
-            files.journal.display(),
-            files.out.display()
-        )));
+    if journal.rejected > 0 {
+        name(&mut open.list, &files.list, journal.rejected_extent())?;
+    } else {
+        open.list.discard();
+        // That of an earlier run.
+        if fs::read(&files.list).is_ok_and(|list| list.starts_with(LIST)) {
+            remove(&files.list)?;
+        }
     }
-    remove(&files.partial)
+    #[cfg(feature = "parquet")]
+    if form == Form::Parquet {
+        let parquet = Output::open_as(&files.out, &files.parquet, inputs);
+        let mut parquet = parquet.map_err(unwritten(&files.parquet))?;
+        name(&mut parquet, &files.out, whole)?;
+        // The numbers have served.
+        open.output.discard();
+        return Ok(());
+    }
+    let _ = (form, inputs);
+    name(&mut open.output, &files.out, whole)
 }

@@ -1,16 +1,15 @@
 //! How far a run has come, on the disk.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::io::{Error, ErrorKind};
+use std::path::Path;
 
+use coadjoint_codegen::diagnostic::read_text;
+use coadjoint_codegen::file::{self, Extent};
 use coadjoint_run::simulate::{Drift, Steep, Tally};
 use serde::{Deserialize, Serialize};
 
-use super::sink::{Extent, failed};
-use super::target::beside;
-use crate::error::CliError;
+use crate::error::{CliError, unread, unwritten};
 
 /// The state of a run. Records that it counts are on the disk before it is. Numbers are kept as bits.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -39,6 +38,8 @@ pub struct Checkpoint {
     pub steep: Option<[u64; 3]>,
     /// Bytes of the file of records.
     pub bytes: u64,
+    /// The checksum of these.
+    pub records_crc32: u32,
     /// Records in it.
     pub rows: u64,
     /// Times of `--at` recorded.
@@ -53,22 +54,26 @@ impl Checkpoint {
     /// The checkpoint at `path`, if there is one, which must be of this run.
     ///
     /// # Errors
-    /// Where it cannot be read, or is of another run: by the name of what differs.
+    /// Where it cannot be read, is damaged, or is of another run: by the name of what differs.
     pub fn read(
         path: &Path,
         identity: &BTreeMap<String, String>,
     ) -> Result<Option<Self>, CliError> {
-        let text = match fs::read_to_string(path) {
+        let text = match read_text(path) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(source) => return Err(CliError::Read { path: path.into(), source }),
+            Err(error) => return Err(unread(path)(error)),
         };
-        let found: Self = serde_json::from_str(&text).map_err(|error| {
+        let refuse = |what: &dyn std::fmt::Display| {
             CliError::Option(format!(
-                "{} is no checkpoint of this version ({error}): remove it to begin anew",
+                "{} is damaged, or is no checkpoint of this version ({what}): remove it to begin anew",
                 path.display()
             ))
-        })?;
+        };
+        if !file::is_sealed(&text) {
+            return Err(refuse(&"its checksum is not that of its content"));
+        }
+        let found: Self = serde_json::from_str(&text).map_err(|error| refuse(&error))?;
         for key in found.identity.keys().chain(identity.keys()) {
             let [was, is] =
                 [&found.identity, identity].map(|i| i.get(key).map_or("not given", String::as_str));
@@ -87,9 +92,10 @@ impl Checkpoint {
     ///
     /// # Errors
     /// Where it cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        let text = serde_json::to_string(self).map_err(|error| failed(path, &error))?;
-        replace(path, &text)
+    pub fn write(&self, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+        let text = serde_json::to_string(self).map_err(Error::other);
+        let written = text.and_then(|text| file::write(path, inputs, file::seal(&text).as_bytes()));
+        written.map_err(unwritten(path))
     }
 
     /// The maxima and sums.
@@ -116,9 +122,9 @@ impl Checkpoint {
         self.steep = tally.steep.map(|s| [s.step, s.time.to_bits(), s.ratio.to_bits()]);
     }
 
-    /// How much of the file of records is vouched for.
-    pub fn extent(&self) -> Extent {
-        Extent { bytes: self.bytes, rows: self.rows }
+    /// How much of the file of records is vouched for, and how many records that is.
+    pub fn extent(&self) -> (Extent, u64) {
+        (Extent { bytes: self.bytes, crc32: self.records_crc32 }, self.rows)
     }
 }
 
@@ -130,32 +136,4 @@ pub fn bits(values: impl Iterator<Item = f64>) -> Vec<u64> {
 /// Numbers of bits.
 pub fn numbers(bits: &[u64]) -> Vec<f64> {
     bits.iter().copied().map(f64::from_bits).collect()
-}
-
-/// Puts a text in place of a file, which is never there in pieces.
-///
-/// # Errors
-/// Where it cannot be written.
-pub fn replace(path: &Path, text: &str) -> Result<(), CliError> {
-    let next: PathBuf = beside(path, ".next");
-    let write = || -> std::io::Result<()> {
-        let mut file = File::create(&next)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()
-    };
-    write().map_err(|error| failed(&next, &error))?;
-    rename(&next, path)
-}
-
-/// Renames, and writes the folder that holds the name.
-///
-/// # Errors
-/// Where it cannot be renamed.
-pub fn rename(from: &Path, to: &Path) -> Result<(), CliError> {
-    fs::rename(from, to).map_err(|error| failed(to, &error))?;
-    let folder = to.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if let Ok(folder) = File::open(folder) {
-        let _ = folder.sync_all();
-    }
-    Ok(())
 }

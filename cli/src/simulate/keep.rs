@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
+use coadjoint_codegen::file::Output;
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{
     Begun, Block, Halt, Moment, Outcome, Outlet, Record, Resume, Standing, columns,
@@ -29,6 +30,8 @@ pub struct Keeper<'a> {
     coordinates: &'a [String],
     /// Which drifts records have.
     known: [bool; 3],
+    /// The file of records, before anything is asked of it.
+    output: Option<Output>,
     sink: Option<Sink>,
     /// The moments kept for pictures, if any are.
     samples: Option<Samples>,
@@ -59,6 +62,7 @@ impl<'a> Keeper<'a> {
             header,
             coordinates,
             known: [false; 3],
+            output: None,
             sink: None,
             samples: settings.sampled.then(|| Samples::new(coordinates.len())),
             found: None,
@@ -89,12 +93,7 @@ impl<'a> Keeper<'a> {
             (Ok(outcome), None) => (outcome, None),
             (Ok(outcome), Some(sink)) => {
                 let rows = sink.rows();
-                // After an earlier end the name may have been given already.
-                let complete = self.found.as_ref().is_some_and(|found| found.complete);
-                let named = complete && target.is_some_and(|t| !t.part().exists());
-                if !named {
-                    sink.publish()?;
-                }
+                sink.publish()?;
                 (outcome, Some(rows))
             }
             (Err(error), sink) => {
@@ -127,6 +126,8 @@ impl<'a> Keeper<'a> {
     /// The checkpoint that the run goes on from, if there is one.
     fn find(&mut self, blocks: &[Block]) -> Result<Option<Resume>, CliError> {
         let setup = &self.settings.setup;
+        // First of all: what is read below is then not another run's.
+        self.output = self.settings.out.as_ref().map(Target::open).transpose()?.flatten();
         let Some((path, _)) = &self.settings.checkpoint else { return Ok(None) };
         let Some(found) = Checkpoint::read(path, &self.identity())? else { return Ok(None) };
         let momentum = numbers(&found.momentum);
@@ -163,16 +164,19 @@ impl<'a> Keeper<'a> {
         let header = || self.header.clone().with_scales(begun.known, begun.scales);
         let target = self.settings.out.as_ref();
         let Some(found) = &self.found else {
-            let begin = |target| Sink::begin(target, header(), names());
+            let output = self.output.take();
+            let begin = |target| Sink::begin(target, output, header(), names());
             self.sink = target.map(begin).transpose()?;
             return Ok(());
         };
-        let extent = found.extent();
+        let output = self.output.take();
         let resume = |target: &Target| {
-            if found.complete && !target.part().exists() && target.path.exists() {
-                return Ok(Sink::done(target, extent));
+            // After an earlier end the name may have been given already.
+            let fresh = output.as_ref().is_some_and(Output::is_fresh);
+            if found.complete && fresh && target.path.exists() {
+                return Ok(Sink::done(target, found.rows));
             }
-            Sink::resume(target, header(), names(), extent)
+            Sink::resume(target, output, header(), names(), found.extent())
         };
         self.sink = target.map(resume).transpose()?;
         let path = self.settings.checkpoint.as_ref().map(|(path, _)| path.display().to_string());
@@ -224,7 +228,8 @@ impl<'a> Keeper<'a> {
     /// Writes a checkpoint; the records that it counts are on the disk before.
     fn save(&mut self, path: &Path, standing: &Standing<'_>) -> Result<(), CliError> {
         let state = (standing.state)();
-        let extent = self.sink.as_mut().map(Sink::vouch).transpose()?.unwrap_or_default();
+        let vouched = self.sink.as_mut().map(Sink::vouch).transpose()?;
+        let (extent, rows) = vouched.unwrap_or_default();
         let mut checkpoint = Checkpoint {
             identity: self.identity(),
             step: state.step,
@@ -232,14 +237,15 @@ impl<'a> Keeper<'a> {
             element: bits(state.element.iter().copied()),
             own: state.own.map(|numbers| bits(numbers.iter().copied())),
             bytes: extent.bytes,
-            rows: extent.rows,
+            records_crc32: extent.crc32,
+            rows,
             times: state.times,
             samples: self.samples.as_ref().map(Samples::to_bits).unwrap_or_default(),
             complete: state.step == self.settings.setup.schedule.steps,
             ..Checkpoint::default()
         };
         checkpoint.set_tally(&state.tally);
-        checkpoint.write(path)?;
+        checkpoint.write(path, &self.settings.inputs())?;
         self.saved = Instant::now();
         Ok(())
     }

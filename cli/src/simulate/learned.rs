@@ -9,7 +9,7 @@ use coadjoint_run::text_hash;
 
 use super::header::Header;
 use super::keep::Keeper;
-use super::setup::{Settings, check_names, checkpoint, every};
+use super::setup::{Settings, check_names, checkpoint, every, inputs};
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
 use crate::load;
@@ -41,6 +41,7 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
     let settings = Settings {
         file: path.into(),
         hash: text_hash(&text),
+        inputs: inputs(options),
         setup: Setup {
             recording: out.is_some(),
             every: Some(every(options.every.unwrap_or(1))?),

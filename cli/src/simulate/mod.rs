@@ -15,7 +15,7 @@ mod sink;
 mod target;
 mod trajectory;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
 use coadjoint_run::simulate::{Outlet, Schedule};
@@ -38,7 +38,9 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
     let out = setup::check_names(options)?;
     let Runs { runs, heading, units } = runs(options, out.as_ref())?;
     if let Some(path) = &options.plot {
-        plot::draw(path, &plot::picture(&heading, &runs))?;
+        let inputs = setup::inputs(options);
+        let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
+        plot::draw(path, &inputs, &plot::picture(&heading, &runs))?;
     }
     print(&runs, &units, options, out.as_ref());
     Ok(())

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::file;
 use coadjoint_codegen::system::{System, Units};
 use coadjoint_draw::run::{Picture, Run, Series, render};
 
 use super::trajectory::Trajectory;
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 
 /// Writes the picture.
-pub fn draw(path: &Path, picture: &Picture) -> Result<(), CliError> {
-    std::fs::write(path, render(picture))
-        .map_err(|error| CliError::Write { path: path.to_owned(), message: error.to_string() })
+pub fn draw(path: &Path, inputs: &[&Path], picture: &Picture) -> Result<(), CliError> {
+    file::write(path, inputs, render(picture).as_bytes()).map_err(unwritten(path))
 }
 
 /// What a picture says above its panels.

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use coadjoint_codegen::file;
 use coadjoint_codegen::system::Run;
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{Schedule, Setup, Times};
 use nalgebra::DVector;
 
-use super::target::{Target, folder};
+use super::target::Target;
 use crate::arguments::SimulateOptions;
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 
 /// The settings of a run, and what is kept of it.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub struct Settings {
     pub file: PathBuf,
     /// The SHA-256 of its text.
     pub hash: String,
+    /// Everything the run reads.
+    pub inputs: Vec<PathBuf>,
     /// From where, how far, in which steps.
     pub setup: Setup,
     /// Where records go.
@@ -61,6 +64,7 @@ impl Settings {
         Ok(Self {
             file,
             hash: hash.to_owned(),
+            inputs: inputs(options),
             setup: Setup {
                 schedule,
                 recording: out.is_some(),
@@ -75,6 +79,18 @@ impl Settings {
             checkpoint: checkpoint(options)?,
         })
     }
+
+    /// Everything the run reads.
+    pub fn inputs(&self) -> Vec<&Path> {
+        self.inputs.iter().map(PathBuf::as_path).collect()
+    }
+}
+
+/// Everything a run reads.
+pub fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
+    let times = options.at.iter().map(PathBuf::from);
+    let system = options.input.model.clone().unwrap_or_else(|| options.input.source().file);
+    std::iter::once(system).chain(times).collect()
 }
 
 /// Every how many steps a record is written.
@@ -107,8 +123,16 @@ pub fn checkpoint(options: &SimulateOptions) -> Result<Option<(PathBuf, Duration
 /// By the name of the option.
 pub fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
     let refuse = |what: String| Err(CliError::Option(what));
+    let inputs = inputs(options);
+    let out = options.out.as_deref().map(|out| Target::new(out, &inputs)).transpose()?;
+    let mut used = inputs;
+    used.extend(out.iter().flat_map(Target::names));
+    for path in options.plot.iter().chain(&options.checkpoint) {
+        let others: Vec<&Path> = used.iter().map(PathBuf::as_path).collect();
+        file::check(path, &others).map_err(unwritten(path))?;
+        used.push(path.clone());
+    }
     if let Some(plot) = &options.plot {
-        folder("--plot", plot)?;
         let ending = plot.extension().and_then(|ending| ending.to_str());
         if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
             return refuse(format!(
@@ -117,23 +141,17 @@ pub fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError
             ));
         }
     }
-    let out = options.out.as_deref().map(Target::new).transpose()?;
-    let Some(checkpoint) = &options.checkpoint else { return Ok(out) };
-    folder("--checkpoint", checkpoint)?;
+    if options.checkpoint.is_none() {
+        return Ok(out);
+    }
     if options.truncation.len() > 1 {
         return refuse("--checkpoint is of one run: give one --truncation".to_owned());
     }
-    if let Some(out) = &out {
-        if out.place != super::target::Place::File {
-            return refuse(format!(
-                "--checkpoint: what was written to {} cannot be continued; write to a file",
-                out.path.display()
-            ));
-        }
-        let same = |name: &Path| checkpoint.as_path() == name;
-        if same(&out.path) || same(&out.part()) || same(&out.description()) {
-            return refuse("--checkpoint and --out must be different files".to_owned());
-        }
+    if let Some(out) = out.as_ref().filter(|out| out.place != super::target::Place::File) {
+        return refuse(format!(
+            "--checkpoint: what was written to {} cannot be continued; write to a file",
+            out.path.display()
+        ));
     }
     Ok(out)
 }

@@ -1,17 +1,16 @@
 //! Records written as they are made.
 
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{ErrorKind, Seek, SeekFrom, Write, stdout};
-use std::path::Path;
+use std::io::{Error, ErrorKind, Write, stdout};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use coadjoint_codegen::file::{self, Extent, Output};
 use coadjoint_run::number::shortest;
 use serde_json::{Value, json};
 
-use super::checkpoint;
 use super::header::Header;
 use super::target::{Form, Place, Target};
-use crate::error::CliError;
+use crate::error::{CliError, unwritten};
 
 /// Bytes kept in memory before they are written.
 const BUFFER: usize = 1 << 16;
@@ -20,42 +19,43 @@ const DELAY: Duration = Duration::from_millis(500);
 /// Length of the head of a `.npy` file here.
 const HEAD: usize = 128;
 
-/// How much of a file is vouched for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Extent {
-    /// Bytes.
-    pub bytes: u64,
-    /// Records.
-    pub rows: u64,
-}
-
 /// A file, a device or the standard output that takes records.
 pub struct Sink {
     target: Target,
     header: Header,
     names: Vec<String>,
-    /// `None` for the standard output, and where nobody reads any more.
-    file: Option<File>,
+    /// `None` for the standard output, and for a file that an earlier run has completed.
+    output: Option<Output>,
+    /// Nobody reads any more, or there is nothing to add.
     closed: bool,
     /// A write has failed; nothing more is tried.
     broken: bool,
     buffer: Vec<u8>,
     /// Whole records written so far.
-    written: Extent,
+    written: u64,
     /// Records in the buffer.
     waiting: u64,
     flushed: Instant,
 }
 
 impl Sink {
-    /// Begins anew.
+    /// Begins anew; `output` is what the target has opened.
     ///
     /// # Errors
-    /// Where the file cannot be made or another run writes it.
-    pub fn begin(target: &Target, header: Header, names: Vec<String>) -> Result<Self, CliError> {
-        let mut sink = Self::open(target, header, names)?;
-        if let (Some(file), Place::File) = (&mut sink.file, target.place) {
-            file.set_len(0).map_err(|error| failed(&target.part(), &error))?;
+    /// Where it cannot be written.
+    pub fn begin(
+        target: &Target,
+        output: Option<Output>,
+        header: Header,
+        names: Vec<String>,
+    ) -> Result<Self, CliError> {
+        let mut sink = Self::new(target, output, header, names);
+        let head = match target.form {
+            Form::Csv => Vec::new(),
+            Form::Npy => npy_head(0, sink.names.len()).to_vec(),
+        };
+        if let Some(output) = &mut sink.output {
+            output.begin(&head).map_err(unwritten(&target.part()))?;
         }
         match target.form {
             Form::Csv => {
@@ -64,10 +64,7 @@ impl Sink {
                 }
                 sink.buffer.extend_from_slice(names_line(&sink.names)?.as_bytes());
             }
-            Form::Npy => {
-                sink.buffer.extend_from_slice(&npy_head(0, sink.names.len()));
-                sink.describe(false)?;
-            }
+            Form::Npy => sink.describe(false)?,
         }
         sink.flush()?;
         Ok(sink)
@@ -76,86 +73,54 @@ impl Sink {
     /// Goes on where a checkpoint was made; what came after it is cut off.
     ///
     /// # Errors
-    /// Where the file is not there or is shorter than the checkpoint says.
+    /// Where the file is not that of which the checkpoint is.
     pub fn resume(
         target: &Target,
+        output: Option<Output>,
         header: Header,
         names: Vec<String>,
-        extent: Extent,
+        (extent, rows): (Extent, u64),
     ) -> Result<Self, CliError> {
-        let part = target.part();
-        let length = std::fs::metadata(&part).map_or(0, |data| data.len());
-        if length < extent.bytes {
-            return Err(CliError::Option(format!(
-                "{} has {length} bytes, but the checkpoint is of a run that had written {}: bring \
-                 the file back, or remove the checkpoint to begin anew",
-                part.display(),
-                extent.bytes
-            )));
+        let mut sink = Self::new(target, output, header, names);
+        let head = if target.form == Form::Npy { HEAD as u64 } else { 0 };
+        if let Some(output) = &mut sink.output {
+            output.resume(extent, head).map_err(|error| match error.kind() {
+                ErrorKind::InvalidData => CliError::Option(format!(
+                    "{}: {error}: bring the file back, or remove the checkpoint to begin anew",
+                    target.part().display()
+                )),
+                _ => unwritten(&target.part())(error),
+            })?;
         }
-        let mut sink = Self::open(target, header, names)?;
-        if let Some(file) = &mut sink.file {
-            let cut = file.set_len(extent.bytes).and_then(|()| file.seek(SeekFrom::End(0)));
-            cut.map_err(|error| failed(&part, &error))?;
-        }
-        sink.written = extent;
+        sink.written = rows;
+        sink.head()?;
         Ok(sink)
     }
 
-    fn open(target: &Target, header: Header, names: Vec<String>) -> Result<Self, CliError> {
-        let part = target.part();
-        let file = match target.place {
-            Place::Standard => None,
-            place => {
-                let create = place == Place::File;
-                let mut options = OpenOptions::new();
-                let file = options.write(true).create(create).truncate(false).open(&part);
-                let file = file.map_err(|error| failed(&part, &error))?;
-                if create {
-                    match file.try_lock() {
-                        Err(TryLockError::WouldBlock) => {
-                            return Err(failed(&part, &"another run is writing it"));
-                        }
-                        // Not every file system has locks.
-                        Err(TryLockError::Error(_)) | Ok(()) => {}
-                    }
-                }
-                Some(file)
-            }
-        };
-        Ok(Self {
+    fn new(target: &Target, output: Option<Output>, header: Header, names: Vec<String>) -> Self {
+        Self {
             target: target.clone(),
             header,
             names,
-            file,
+            output,
             closed: false,
             broken: false,
             buffer: Vec::with_capacity(BUFFER + 4096),
-            written: Extent::default(),
-            waiting: 0,
-            flushed: Instant::now(),
-        })
-    }
-
-    /// A file that an earlier run has completed; nothing is added.
-    pub fn done(target: &Target, extent: Extent) -> Self {
-        Self {
-            target: target.clone(),
-            header: Header::default(),
-            names: Vec::new(),
-            file: None,
-            closed: true,
-            broken: false,
-            buffer: Vec::new(),
-            written: extent,
+            written: 0,
             waiting: 0,
             flushed: Instant::now(),
         }
+    }
+
+    /// A file that an earlier run has completed; nothing is added.
+    pub fn done(target: &Target, rows: u64) -> Self {
+        let sink = Self::new(target, None, Header::default(), Vec::new());
+        Self { closed: true, written: rows, ..sink }
     }
 
     /// How many records there are.
     pub fn rows(&self) -> u64 {
-        self.written.rows + self.waiting
+        self.written + self.waiting
     }
 
     /// Whether nobody reads any more.
@@ -192,88 +157,92 @@ impl Sink {
         if self.waiting > 0 && self.flushed.elapsed() >= DELAY { self.flush() } else { Ok(()) }
     }
 
-    /// Writes what waits. After a failure the file ends with its last whole record.
+    /// Writes what waits. After a failure the file ends with the last record that fitted.
     fn flush(&mut self) -> Result<(), CliError> {
-        let outcome = self.write();
-        self.broken |= outcome.is_err();
-        if let (Err(_), Some(file), Place::File) = (&outcome, &self.file, self.target.place) {
-            // The failure itself is what is reported.
-            let _ = file.set_len(self.written.bytes);
-        }
-        self.flushed = Instant::now();
-        outcome
-    }
-
-    fn write(&mut self) -> Result<(), CliError> {
+        let mut outcome = Ok(());
+        let mut kept = self.waiting;
         if !self.closed {
-            let written = match &mut self.file {
-                Some(file) => file.write_all(&self.buffer),
+            let written = match &mut self.output {
+                Some(output) => output.append(&self.buffer),
                 None => {
                     let mut out = stdout().lock();
                     out.write_all(&self.buffer).and_then(|()| out.flush())
                 }
             };
             match written {
+                Ok(()) => {}
                 Err(error)
                     if error.kind() == ErrorKind::BrokenPipe
                         && self.target.place != Place::File =>
                 {
                     self.closed = true;
                 }
-                outcome => outcome.map_err(|error| self.failed(&error))?,
+                Err(error) => {
+                    kept = self.keep_whole();
+                    outcome = Err(self.failed(error));
+                }
             }
         }
-        let bytes = self.written.bytes + self.buffer.len() as u64;
-        self.written = Extent { bytes, rows: self.written.rows + self.waiting };
+        self.written += kept;
         self.waiting = 0;
         self.buffer.clear();
-        self.head()
+        let head = self.head();
+        let outcome = outcome.and(head);
+        self.broken |= outcome.is_err();
+        self.flushed = Instant::now();
+        outcome
+    }
+
+    /// Writes those of the records that wait for which there is room; how many they are.
+    fn keep_whole(&mut self) -> u64 {
+        let (Some(output), Place::File) = (&mut self.output, self.target.place) else { return 0 };
+        let fits = |record: &&[u8]| output.append(record).is_ok();
+        let kept = match self.target.form {
+            Form::Csv => {
+                self.buffer.split_inclusive(|byte| *byte == b'\n').take_while(fits).count()
+            }
+            Form::Npy => self.buffer.chunks(8 * self.names.len().max(1)).take_while(fits).count(),
+        };
+        (kept as u64).min(self.waiting)
     }
 
     /// Brings the number of records in the head of a matrix up to date.
     fn head(&mut self) -> Result<(), CliError> {
-        let (Form::Npy, Some(file)) = (self.target.form, &mut self.file) else { return Ok(()) };
-        let head = npy_head(self.written.rows, self.names.len());
-        let outcome = file
-            .seek(SeekFrom::Start(0))
-            .and_then(|_| file.write_all(&head))
-            .and_then(|()| file.seek(SeekFrom::End(0)));
-        outcome.map(|_| ()).map_err(|error| self.failed(&error))
+        let (Form::Npy, Some(output)) = (self.target.form, &mut self.output) else { return Ok(()) };
+        let head = npy_head(self.written, self.names.len());
+        output.set_head(&head).map_err(|error| self.failed(error))
     }
 
     /// Writes all to the disk and says how much there is.
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn vouch(&mut self) -> Result<Extent, CliError> {
+    pub fn vouch(&mut self) -> Result<(Extent, u64), CliError> {
         self.flush()?;
-        if let (Some(file), Place::File) = (&self.file, self.target.place) {
-            file.sync_data().map_err(|error| self.failed(&error))?;
-        }
-        Ok(self.written)
+        let Some(output) = &self.output else { return Ok((Extent::default(), self.written)) };
+        output.sync().map_err(|error| self.failed(error))?;
+        Ok((output.extent(), self.written))
     }
 
     /// Says at the end of the file that it is complete; it still has the name of a part.
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn complete(&mut self) -> Result<Extent, CliError> {
+    pub fn complete(&mut self) -> Result<(), CliError> {
         self.close(&format!("complete: {} records", self.rows()));
-        self.vouch()
+        self.vouch().map(drop)
     }
 
     /// Gives a complete file its name.
     ///
     /// # Errors
     /// Where the name cannot be given.
-    pub fn publish(self) -> Result<(), CliError> {
-        if self.target.place != Place::File {
-            return Ok(());
-        }
-        if self.target.form == Form::Npy {
+    pub fn publish(mut self) -> Result<(), CliError> {
+        if self.target.form == Form::Npy && self.output.is_some() {
             self.describe(true)?;
         }
-        checkpoint::rename(&self.target.part(), &self.target.path)
+        let Some(output) = &mut self.output else { return Ok(()) };
+        output.publish().map_err(unwritten(&self.target.path))
     }
 
     /// Ends a file that stays a part, as well as can be, and says why.
@@ -297,27 +266,24 @@ impl Sink {
         object.insert("columns".into(), json!(self.names));
         object.insert("complete".into(), Value::Bool(complete));
         let text = format!("{:#}\n", Value::Object(object));
-        checkpoint::replace(&self.target.description(), &text)
+        let path = self.target.description();
+        let inputs: Vec<&Path> = self.target.inputs.iter().map(PathBuf::as_path).collect();
+        file::write(&path, &inputs, text.as_bytes()).map_err(unwritten(&path))
     }
 
-    fn failed(&self, why: &dyn std::fmt::Display) -> CliError {
+    fn failed(&self, error: Error) -> CliError {
         match self.target.place {
-            Place::Standard => failed(Path::new("the standard output"), why),
-            _ => failed(&self.target.part(), why),
+            Place::Standard => unwritten(Path::new("the standard output"))(error),
+            _ => unwritten(&self.target.part())(error),
         }
     }
-}
-
-/// A file that cannot be written.
-pub fn failed(path: &Path, why: &dyn std::fmt::Display) -> CliError {
-    CliError::Write { path: path.into(), message: why.to_string() }
 }
 
 /// Names with commas or quotes are quoted.
 fn names_line(names: &[String]) -> Result<String, CliError> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let unwritten =
-        |error: &dyn std::fmt::Display| failed(Path::new("the names of columns"), error);
+        |error: &dyn std::fmt::Display| CliError::Option(format!("the names of columns: {error}"));
     writer.write_record(names).map_err(|error| unwritten(&error))?;
     let bytes = writer.into_inner().map_err(|error| unwritten(&error))?;
     String::from_utf8(bytes).map_err(|error| unwritten(&error))

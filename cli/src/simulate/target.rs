@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::CliError;
+use coadjoint_codegen::file::{self, Output, beside, passing};
+
+use crate::error::{CliError, unwritten};
 
 /// The format of a file of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +22,7 @@ pub enum Place {
     Standard,
     /// A device or a pipe, written as it is.
     Device,
-    /// A file, which has its name with `.part` added until it is complete.
+    /// A file, which has its name with `.partial` added until it is complete.
     File,
 }
 
@@ -33,15 +35,21 @@ pub struct Target {
     pub form: Form,
     /// The kind of place.
     pub place: Place,
+    /// What the run reads.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Target {
     /// The target of `--out`.
     ///
     /// # Errors
-    /// Where the name has no known ending, or its folder is not there.
-    pub fn new(path: &Path) -> Result<Self, CliError> {
-        let target = |form, place| Ok(Self { path: path.to_owned(), form, place });
+    /// Where the name has no known ending, its folder is not there, or it is one of the inputs.
+    pub fn new(path: &Path, inputs: &[PathBuf]) -> Result<Self, CliError> {
+        let target = |form, place| {
+            let target = Self { path: path.to_owned(), form, place, inputs: inputs.to_vec() };
+            target.check()?;
+            Ok(target)
+        };
         if path == Path::new("-") {
             return target(Form::Csv, Place::Standard);
         }
@@ -57,7 +65,7 @@ impl Target {
                 _ => target(Form::Csv, Place::Device),
             };
         }
-        folder("--out", path)?;
+        file::check(path, &[]).map_err(unwritten(path))?;
         match ending {
             Some("csv") => target(Form::Csv, Place::File),
             Some("npy") => target(Form::Npy, Place::File),
@@ -82,13 +90,41 @@ impl Target {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
         let ending = self.path.extension().unwrap_or_default().to_string_lossy();
         let path = self.path.with_file_name(format!("{stem}-K{truncation}.{ending}"));
-        Ok(Self { path, ..self.clone() })
+        let target = Self { path, ..self.clone() };
+        target.check()?;
+        Ok(target)
+    }
+
+    /// The names of the files that are written.
+    pub fn names(&self) -> Vec<PathBuf> {
+        match (self.place, self.form) {
+            (Place::File, Form::Csv) => vec![self.path.clone(), self.part()],
+            (Place::File, Form::Npy) => vec![self.path.clone(), self.part(), self.description()],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Refuses names that are inputs.
+    fn check(&self) -> Result<(), CliError> {
+        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
+        let names = self.names();
+        names.iter().try_for_each(|name| file::check(name, &inputs).map_err(unwritten(name)))
+    }
+
+    /// Opens it, and keeps other runs out; `None` for the standard output.
+    ///
+    /// # Errors
+    /// Where it cannot be written, or another run writes it.
+    pub fn open(&self) -> Result<Option<Output>, CliError> {
+        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
+        let opened = (self.place != Place::Standard).then(|| Output::open(&self.path, &inputs));
+        opened.transpose().map_err(unwritten(&self.part()))
     }
 
     /// The name that is written to until all is there.
     pub fn part(&self) -> PathBuf {
         match self.place {
-            Place::File => beside(&self.path, ".part"),
+            Place::File => passing(&self.path),
             _ => self.path.clone(),
         }
     }
@@ -97,30 +133,4 @@ impl Target {
     pub fn description(&self) -> PathBuf {
         beside(&self.path, ".json")
     }
-}
-
-/// Refuses a name in a folder that is not there.
-///
-/// # Errors
-/// With the option's name.
-pub fn folder(option: &str, path: &Path) -> Result<(), CliError> {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    if path.is_dir() {
-        return Err(CliError::Option(format!("{option} {}: this is a folder", path.display())));
-    }
-    match parent {
-        Some(parent) if !parent.is_dir() => Err(CliError::Option(format!(
-            "{option} {}: there is no folder {}",
-            path.display(),
-            parent.display()
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// `path` with `ending` added to its name.
-pub fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(ending);
-    path.with_file_name(name)
 }

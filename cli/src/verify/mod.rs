@@ -16,7 +16,7 @@ use serde_json::Value;
 
 use crate::arguments::{Format, VerifyOptions};
 use crate::error::CliError;
-use crate::progress;
+use crate::{load, progress};
 
 use table::Table;
 
@@ -157,7 +157,7 @@ fn system_of(
             output.display()
         ))
     })?;
-    let text = crate::load::text(&system)?;
+    let text = load::text(&system)?;
     match table.value("system_sha256") {
         Some(hash) if hash != text_hash(&text) => Err(CliError::Option(format!(
             "{}: {} is not the system file of this run: its text has another hash",

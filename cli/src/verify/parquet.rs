@@ -1,14 +1,15 @@
 //! Rows of a Parquet file.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::Field;
 use ::parquet::record::reader::RowIter;
 
+use coadjoint_codegen::file;
+
 use super::table::damaged;
-use crate::error::CliError;
+use crate::error::{CliError, unread};
 
 /// The rows of a Parquet file, as numbers; a null, and what is no number, is NaN.
 pub struct Rows {
@@ -22,8 +23,7 @@ impl Rows {
     /// # Errors
     /// Where the file is damaged.
     pub fn open(path: &Path) -> Result<(Vec<String>, Self), CliError> {
-        let file =
-            File::open(path).map_err(|source| CliError::Read { path: path.into(), source })?;
+        let file = file::open(path).map_err(unread(path))?;
         let reader = SerializedFileReader::new(file).map_err(|error| damaged(path, &error))?;
         let columns = reader.metadata().file_metadata().schema_descr().columns();
         let names = columns.iter().map(|column| column.path().string()).collect();

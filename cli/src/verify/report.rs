@@ -7,13 +7,14 @@ use serde_json::{Deserializer, Map, Value};
 
 use super::table::{Table, damaged};
 use crate::error::CliError;
+use crate::load;
 
 /// A table for each run of ours in the file, which may hold one report, a list of them, or one a line.
 ///
 /// # Errors
 /// Where it cannot be read or holds no such report.
 pub fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
-    let text = crate::load::text(path)?;
+    let text = load::text(path)?;
     let mut reports = Vec::new();
     for value in Deserializer::from_str(&text).into_iter::<Value>() {
         match value.map_err(|error| damaged(path, &format!("no JSON: {error}")))? {

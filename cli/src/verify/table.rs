@@ -5,12 +5,13 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use coadjoint_codegen::diagnostic::check_table;
+use coadjoint_codegen::diagnostic::{check_table, read_text};
+use coadjoint_codegen::file;
 use coadjoint_run::verify::Rows;
 use serde_json::Value;
 
 use super::report;
-use crate::error::CliError;
+use crate::error::{CliError, unread};
 
 /// A file of rows.
 pub struct Table {
@@ -31,10 +32,6 @@ enum Source {
     Rows(std::vec::IntoIter<Vec<f64>>),
     #[cfg(feature = "parquet")]
     Parquet(Box<super::parquet::Rows>),
-}
-
-fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
-    move |source| CliError::Read { path: path.into(), source }
 }
 
 /// A file that is not what its name says.
@@ -77,7 +74,7 @@ impl Table {
     /// Lines `# name: value`, then the names of the columns.
     fn text(path: &Path) -> Result<Self, CliError> {
         check_table(path).map_err(unread(path))?;
-        let file = File::open(path).map_err(unread(path))?;
+        let file = file::open(path).map_err(unread(path))?;
         let (path, head) = (path.to_owned(), BTreeMap::new());
         let source = Source::Text(BufReader::new(file), 0);
         let mut table = Self { path, source, head, names: Vec::new(), width: 0 };
@@ -112,7 +109,7 @@ impl Table {
 
     /// NumPy's head, and the JSON file beside the matrix, if there is one.
     fn matrix(path: &Path) -> Result<Self, CliError> {
-        let mut reader = BufReader::new(File::open(path).map_err(unread(path))?);
+        let mut reader = BufReader::new(file::open(path).map_err(unread(path))?);
         let mut start = [0; 10];
         reader.read_exact(&mut start).map_err(unread(path))?;
         if &start[..6] != b"\x93NUMPY" || start[6] != 1 {
@@ -143,9 +140,7 @@ impl Table {
             // Bounded by the length of the file.
             width: usize::try_from(*width).unwrap_or(usize::MAX),
         };
-        let mut beside = path.to_path_buf().into_os_string();
-        beside.push(".json");
-        if let Ok(text) = std::fs::read_to_string(beside)
+        if let Ok(text) = read_text(&file::beside(path, ".json"))
             && let Ok(Value::Object(object)) = serde_json::from_str(&text)
         {
             for (name, value) in object {

@@ -1,15 +1,16 @@
 //! Files that are not the text they should be.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result};
 use std::path::Path;
+
+use crate::file;
 
 /// The text of a file.
 ///
 /// # Errors
 /// Where it cannot be read or is not UTF-8: then the place of the first byte that is not.
 pub fn read_text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path)?;
+    let bytes = file::read(path)?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         no_text(error.as_bytes(), valid)
@@ -21,8 +22,8 @@ pub fn read_text(path: &Path) -> Result<String> {
 /// # Errors
 /// Where it cannot be read, is not UTF-8, or has semicolons or tabs in place of commas.
 pub fn check_table(path: &Path) -> Result<()> {
-    let file = File::open(path)?;
-    // Of a pipe the line would be lost.
+    let file = file::open(path)?;
+    // Of the standard input the line would be lost.
     if !file.metadata()?.is_file() {
         return Ok(());
     }

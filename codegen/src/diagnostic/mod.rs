@@ -2,6 +2,7 @@
 //!
 //! Every front end collects into one [`Diagnostics`], so that all mistakes are reported at once.
 
+#[cfg(feature = "system")]
 mod encoding;
 mod mistake;
 mod quote;
@@ -9,6 +10,7 @@ mod render;
 mod span;
 
 pub use coadjoint_symbolic::nearest::nearest;
+#[cfg(feature = "system")]
 pub use encoding::{check_table, read_text};
 pub use mistake::Mistake;
 pub use quote::unclosed_quote;

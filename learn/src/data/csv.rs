@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use coadjoint_codegen::diagnostic::check_table;
+use coadjoint_codegen::file;
 
 use super::columns::Columns;
 use crate::error::LearnError;
@@ -17,7 +18,7 @@ pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
     check_table(path).map_err(|source| LearnError::File { path: path.into(), source })?;
     let mut reader =
         ::csv::ReaderBuilder::new().trim(::csv::Trim::All).comment(Some(b'#')).from_reader(
-            std::fs::File::open(path)
+            file::open_whole(path)
                 .map_err(|source| LearnError::File { path: path.into(), source })?,
         );
     let names: Vec<String> = reader.headers().map_err(format)?.iter().map(Into::into).collect();

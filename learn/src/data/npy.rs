@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
+use coadjoint_codegen::file;
 use zip::ZipArchive;
 
 use super::columns::Columns;
@@ -74,7 +75,7 @@ pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, 
 }
 
 fn open(path: &Path) -> Result<File, LearnError> {
-    File::open(path).map_err(|source| unread(path, source))
+    file::open_whole(path).map_err(|source| unread(path, source))
 }
 
 fn unread(path: &Path, source: std::io::Error) -> LearnError {

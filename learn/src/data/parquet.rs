@@ -1,6 +1,5 @@
 //! Parquet with columns of 64- or 32-bit floats (uncompressed or Snappy).
 
-use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,6 +12,8 @@ use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::record::Field;
 use ::parquet::schema::types::Type;
 
+use coadjoint_codegen::file;
+
 use super::columns::Columns;
 use crate::error::LearnError;
 
@@ -23,7 +24,8 @@ pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
         format: "Parquet",
         reason: e.to_string(),
     };
-    let file = File::open(path).map_err(|source| LearnError::File { path: path.into(), source })?;
+    let file =
+        file::open_whole(path).map_err(|source| LearnError::File { path: path.into(), source })?;
     let reader = SerializedFileReader::new(file).map_err(format)?;
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     for row in reader.get_row_iter(None).map_err(format)? {
@@ -46,34 +48,25 @@ pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
     Columns::new(columns)
 }
 
-/// Writes the columns as required 64-bit floats, in one row group.
-pub(super) fn write(path: &Path, columns: &Columns) -> Result<(), LearnError> {
-    let file =
-        File::create(path).map_err(|source| LearnError::File { path: path.into(), source })?;
-    let write = || -> Result<(), ParquetError> {
-        let fields = columns.names().iter().map(|name| {
-            Type::primitive_type_builder(name, PhysicalType::DOUBLE)
-                .with_repetition(Repetition::REQUIRED)
-                .build()
-                .map(Arc::new)
-        });
-        let fields: Vec<_> = fields.collect::<Result<_, _>>()?;
-        let schema = Type::group_type_builder("pairs").with_fields(fields).build()?;
-        let properties = Arc::new(WriterProperties::builder().build());
-        let mut writer = SerializedFileWriter::new(file, Arc::new(schema), properties)?;
-        let mut group = writer.next_row_group()?;
-        for column in columns.values() {
-            if let Some(mut out) = group.next_column()? {
-                out.typed::<DoubleType>().write_batch(column, None, None)?;
-                out.close()?;
-            }
+/// The columns as required 64-bit floats, in one row group.
+pub(super) fn bytes(columns: &Columns) -> Result<Vec<u8>, ParquetError> {
+    let fields = columns.names().iter().map(|name| {
+        Type::primitive_type_builder(name, PhysicalType::DOUBLE)
+            .with_repetition(Repetition::REQUIRED)
+            .build()
+            .map(Arc::new)
+    });
+    let fields: Vec<_> = fields.collect::<Result<_, _>>()?;
+    let schema = Type::group_type_builder("pairs").with_fields(fields).build()?;
+    let properties = Arc::new(WriterProperties::builder().build());
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), properties)?;
+    let mut group = writer.next_row_group()?;
+    for column in columns.values() {
+        if let Some(mut out) = group.next_column()? {
+            out.typed::<DoubleType>().write_batch(column, None, None)?;
+            out.close()?;
         }
-        group.close()?;
-        writer.close().map(|_| ())
-    };
-    write().map_err(|error| LearnError::Format {
-        path: path.into(),
-        format: "Parquet",
-        reason: error.to_string(),
-    })
+    }
+    group.close()?;
+    writer.into_inner()
 }

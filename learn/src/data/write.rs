@@ -1,10 +1,9 @@
 //! Writing pairs of phase points, in the columns the reader looks for.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{Cursor, Write};
 use std::path::Path;
 
-use zip::result::ZipError;
+use coadjoint_codegen::file;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -51,39 +50,33 @@ pub fn write_pairs<G: LieGroup<Scalar = f64>>(
 /// As [`write_pairs`].
 pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    match ending.as_deref() {
-        Some("csv") => write_csv(path, columns),
-        Some("npz") => write_npz(path, columns).map_err(|error| match error {
-            ZipError::Io(source) => LearnError::File { path: path.into(), source },
-            error => {
-                LearnError::Format { path: path.into(), format: "NumPy", reason: error.to_string() }
-            }
-        }),
+    let format = |format, reason| LearnError::Format { path: path.into(), format, reason };
+    let bytes = match ending.as_deref() {
+        Some("csv") => csv(columns).map_err(|error| format("CSV", error.to_string()))?,
+        Some("npz") => npz(columns).map_err(|error| format("NumPy", error.to_string()))?,
         #[cfg(feature = "parquet")]
-        Some("parquet") => super::parquet::write(path, columns),
-        _ => Err(LearnError::UnknownFormat { path: path.into() }),
-    }
+        Some("parquet") => {
+            super::parquet::bytes(columns).map_err(|error| format("Parquet", error.to_string()))?
+        }
+        _ => return Err(LearnError::UnknownFormat { path: path.into() }),
+    };
+    file::write(path, &[], &bytes).map_err(|source| LearnError::File { path: path.into(), source })
 }
 
 /// In the shortest decimal form that reads back to the same number.
-fn write_csv(path: &Path, columns: &Columns) -> Result<(), LearnError> {
-    let format = |e: ::csv::Error| LearnError::Format {
-        path: path.into(),
-        format: "CSV",
-        reason: e.to_string(),
-    };
-    let mut writer = ::csv::Writer::from_path(path).map_err(format)?;
-    writer.write_record(columns.names()).map_err(format)?;
+fn csv(columns: &Columns) -> Result<Vec<u8>, ::csv::Error> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    writer.write_record(columns.names())?;
     for row in 0..columns.rows() {
         let cells = columns.values().iter().map(|column| column[row].to_string());
-        writer.write_record(cells).map_err(format)?;
+        writer.write_record(cells)?;
     }
-    writer.flush().map_err(|source| LearnError::File { path: path.into(), source })
+    writer.into_inner().map_err(|error| error.into_error().into())
 }
 
 /// An array of shape (N,) per column, not compressed, as `numpy.savez` writes them.
-fn write_npz(path: &Path, columns: &Columns) -> zip::result::ZipResult<()> {
-    let mut archive = ZipWriter::new(BufWriter::new(File::create(path)?));
+fn npz(columns: &Columns) -> zip::result::ZipResult<Vec<u8>> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let rows = columns.rows() as u64;
     for (name, column) in columns.names().iter().zip(columns.values()) {
         let options = SimpleFileOptions::default()
@@ -95,6 +88,5 @@ fn write_npz(path: &Path, columns: &Columns) -> zip::result::ZipResult<()> {
             archive.write_all(&value.to_le_bytes())?;
         }
     }
-    archive.finish()?.flush()?;
-    Ok(())
+    Ok(archive.finish()?.into_inner())
 }

@@ -1,11 +1,11 @@
 //! Where training stands, on disk: an interrupted run goes on and ends with the same bits.
 //!
-//! A line of JSON, then the numbers as little-endian 64-bit floats. A file is written beside its
-//! place and moved there, so that there is always a whole one.
+//! A line of JSON, the numbers as little-endian 64-bit floats, and a CRC-32 of all of these. A file is written beside
+//! its place and moved there, so that there is always a whole one.
 
-use std::io::Write;
 use std::path::Path;
 
+use coadjoint_codegen::file;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ use super::descent::Descent;
 use crate::error::LearnError;
 
 /// The first field of every checkpoint.
-const FORMAT: &str = "coadjoint-checkpoint-2";
+const FORMAT: &str = "coadjoint-checkpoint-3";
 
 /// The state between two evaluations of the loss: what is being done, and all losses so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,15 +67,8 @@ impl State {
         bytes.push(b'\n');
         let numbers = self.history.iter().chain(parts.into_iter().flatten());
         bytes.extend(numbers.flat_map(|v| v.to_le_bytes()));
-        let mut beside = path.as_os_str().to_owned();
-        beside.push(".new");
-        let write = || -> std::io::Result<()> {
-            let mut file = std::fs::File::create(&beside)?;
-            file.write_all(&bytes)?;
-            file.sync_all()?;
-            std::fs::rename(&beside, path)
-        };
-        write().map_err(fail)
+        bytes.extend(file::crc32(&bytes).to_le_bytes());
+        file::write(path, &[], &bytes).map_err(fail)
     }
 
     /// Reads the state of the task with this fingerprint; `None` if there is no file.
@@ -87,11 +80,15 @@ impl State {
         };
         let fail =
             |reason: &str| LearnError::Checkpoint { path: path.into(), reason: reason.into() };
+        let (bytes, sum) = bytes.split_last_chunk::<4>().unwrap_or((&[], &[0; 4]));
+        if file::crc32(bytes) != u32::from_le_bytes(*sum) {
+            return Err(fail("it is damaged, or no checkpoint of this version"));
+        }
         let end = bytes.iter().position(|&b| b == b'\n').unwrap_or(0);
         let header: Header = serde_json::from_slice(&bytes[..end])
             .ok()
             .filter(|h: &Header| h.format == FORMAT)
-            .ok_or_else(|| fail("it is damaged, or no checkpoint of this version"))?;
+            .ok_or_else(|| fail("it is no checkpoint of this version"))?;
         if header.task != task {
             return Err(fail("it belongs to other data or other options"));
         }
@@ -151,8 +148,14 @@ mod tests {
         let reason = |task| State::load(&path, task).unwrap_err().to_string();
         assert!(reason(own + 1).contains("other data"), "{}", reason(own + 1));
         let whole = std::fs::read(&path).unwrap();
+        for (place, bit) in (0..whole.len()).map(|place| (place, place % 8)) {
+            let mut changed = whole.clone();
+            changed[place] ^= 1 << bit;
+            std::fs::write(&path, &changed).unwrap();
+            assert!(reason(own).contains("damaged"), "byte {place}");
+        }
         std::fs::write(&path, &whole[..whole.len() - 8]).unwrap();
-        assert!(reason(own).contains("cut off"));
+        assert!(reason(own).contains("damaged"));
         std::fs::write(&path, b"hello").unwrap();
         assert!(reason(own).contains("damaged") && reason(own).contains("delete it"));
         std::fs::remove_file(&path).unwrap();

@@ -8,7 +8,7 @@ import os
 import socket
 import tempfile
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import IO, Any
 
 import fsspec
@@ -102,14 +102,17 @@ class Folder:
             return digest(file)
 
     def write(
-        self, name: str, fill: Fill, passing_in: str = "_run/partial"
+        self, name: str, fill: Fill, passing_in: str = "_run/partial", inputs: Sequence[str] = ()
     ) -> tuple[int, str]:
-        """Writes a file whole or not at all, and returns its bytes and its SHA-256.
+        """Writes a file whole or not at all, and returns its bytes and its SHA-256; none of ``inputs`` is replaced.
 
         On a local disk it is filled under a passing name in the folder ``passing_in``, forced to the disk, and
         renamed. Elsewhere it is filled in a temporary file here and put as one object, which other
         machines see when it is complete.
         """
+        for path in inputs:
+            if self._same(self.at(name), path):
+                raise InputError(f"{path} is read by this call: write to another file")
         if self.local:
             return self._rename(name, fill, passing_in)
         with tempfile.TemporaryDirectory(prefix="coadjoint-") as here:
@@ -121,6 +124,12 @@ class Folder:
             self.fs.makedirs(os.path.dirname(self.at(name)), exist_ok=True)
             self.fs.put_file(passing, self.at(name))
         return found
+
+    def _same(self, path: str, other: str) -> bool:
+        """Whether two paths lead to one file, through whatever links."""
+        if self.local and os.path.exists(path) and os.path.exists(other):
+            return os.path.samefile(path, other)
+        return path == other
 
     def put(self, name: str, content: bytes) -> tuple[int, str]:
         """Writes a small file whole or not at all."""

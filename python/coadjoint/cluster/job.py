@@ -13,10 +13,24 @@ from . import core, manifest, result, shard, states
 from .drive import Engine, drive
 from .errors import ClusterError, InputError
 from .files import Folder, absolute
-from .plan import plan
+from .plan import Plan, plan
 from .progress import Counter, Progress
 from .result import Result
 from .shard import Summary, Task
+
+
+def forget(folder: Folder, wanted: dict[str, Any]) -> None:
+    """Removes the files that the manifest in a folder names, and then replaces it. Without one nothing is removed."""
+    known = manifest.read(folder)
+    if known is None:
+        return
+    shards = range(Plan(known["plan"]["rows"], known["plan"]["rows_per_shard"]).shards)
+    there = {*folder.names(), *(f"_run/{name}" for name in folder.names("_run"))}
+    names = {result.SUMMARY, *(of(n) for n in shards for of in (shard.part, shard.record, shard.bad_list))}
+    for name in sorted(names & there):
+        folder.remove(name)
+    folder.sweep(lambda name: (shard.number(name) or 0) in shards)
+    folder.put(manifest.NAME, manifest.seal(wanted))
 
 
 class Job:
@@ -84,7 +98,7 @@ class Job:
                 raise InputError(f"out is the folder of {file.name}: give another one")
         try:
             if restart:
-                manifest.forget(self.folder)
+                forget(self.folder, self.manifest())
             manifest.settle(self.folder, self.manifest())
         except OSError as error:
             raise ClusterError(f"out: {self.folder.name} cannot be written: {error}") from error

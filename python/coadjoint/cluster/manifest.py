@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zlib
 from typing import Any
 
 from .errors import ManifestError
@@ -16,20 +17,34 @@ def encode(value: Any) -> bytes:
     return (json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode()
 
 
+def seal(value: dict[str, Any]) -> bytes:
+    """JSON as by ``encode``, with a checksum of the rest."""
+    return encode(value | {"crc32": f"{zlib.crc32(encode(value)):08x}"})
+
+
+def unseal(raw: bytes) -> dict[str, Any]:
+    """The value of what ``seal`` has made; ValueError where a byte of it is another."""
+    found = json.loads(raw)
+    if not isinstance(found, dict):
+        raise ValueError("it is no object")
+    found.pop("crc32", None)
+    if seal(found) != raw:
+        raise ValueError("its checksum is not that of its content")
+    return found
+
+
 def read(folder: Folder) -> dict[str, Any] | None:
     """The manifest in a folder, or None where there is none."""
     raw = folder.read(NAME)
     if raw is None:
         return None
     try:
-        found = json.loads(raw)
-        if not isinstance(found, dict):
-            raise ValueError("it is no object")
+        return unseal(raw)
     except ValueError as error:
         raise ManifestError(
-            f"{folder.name}/{NAME} cannot be read ({error}); begin anew with restart=True"
+            f"{folder.name}/{NAME} cannot be read ({error}): it does not say which files are of the run; give another "
+            "folder as out, or remove this one"
         ) from error
-    return found
 
 
 def settle(folder: Folder, wanted: dict[str, Any]) -> bool:
@@ -44,7 +59,7 @@ def settle(folder: Folder, wanted: dict[str, Any]) -> bool:
             raise ManifestError(
                 f"{folder.name} has parts of another run and no manifest; give another folder as out"
             )
-        folder.put(NAME, encode(wanted))
+        folder.put(NAME, seal(wanted))
         # Of several that begin at once the last one has written: all must want the same.
         known = read(folder) or {}
     wanted = json.loads(encode(wanted))
@@ -74,15 +89,3 @@ def differences(then: Any, now: Any, name: str = "") -> list[str]:
 def _short(value: Any) -> str:
     text = "not given" if value is None else json.dumps(value, ensure_ascii=False)
     return text if len(text) <= 200 else text[:197] + "..."
-
-
-def forget(folder: Folder) -> None:
-    """Removes a run: the manifest last, so that what is left is never taken for whole."""
-    for name in folder.names():
-        if name.startswith("part-") and name.endswith(".parquet"):
-            folder.remove(name)
-    for name in folder.names("_run"):
-        if name.startswith(("shard-", "bad-", "summary")):
-            folder.remove(f"_run/{name}")
-    folder.sweep(lambda _: True)
-    folder.remove(NAME)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from collections.abc import Iterator
@@ -67,7 +68,15 @@ def bad_rows(out: str | os.PathLike[str], storage_options: dict[str, Any] | None
     folder = Folder(absolute(out), storage_options)
     for name in folder.names("_run"):
         if name.startswith("bad-"):
-            for line in (folder.read(f"_run/{name}") or b"").split(b"\n"):
+            content = folder.read(f"_run/{name}") or b""
+            record = folder.read(shard.record(shard.number(name) or 0))
+            # Without its record a shard is being made.
+            if record is None:
+                continue
+            known = manifest.unseal(record).get("bad_sha256")
+            if hashlib.sha256(content).hexdigest() != known:
+                raise ClusterError(f"{folder.name}/_run/{name} is not as it was written: call run again")
+            for line in content.split(b"\n"):
                 if line:
                     yield json.loads(line)
 
@@ -80,11 +89,14 @@ def summarize(folder: Folder, plan: Plan) -> bool:
         return False
     total: dict[str, Any] = {"rows": 0, "bad": 0, "shards": plan.shards, "drift": {}}
     for content in folder.read_all(records):
-        entry = json.loads(content)
+        try:
+            entry = manifest.unseal(content)
+        except ValueError:
+            return False
         total["rows"] += entry["rows"]
         total["bad"] += entry["bad"]
         shard.raise_to(total["drift"], entry["drift"])
-    folder.put(SUMMARY, manifest.encode(total))
+    folder.put(SUMMARY, manifest.seal(total))
     return True
 
 
@@ -110,7 +122,7 @@ def check(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = 
             f"{folder.name}: of {plan.shards} shards {len(wrong)} are missing or changed ({some}); call run again"
         )
     summarize(folder, plan)
-    return dict(json.loads(folder.read(SUMMARY) or b"{}"))
+    return manifest.unseal(folder.read(SUMMARY) or b"{}")
 
 
 def join(
@@ -120,9 +132,9 @@ def join(
 
     It is rarely needed: whatever reads a folder of Parquet files reads the folder as it is.
     """
-    check(out, storage_options)
+    shards = check(out, storage_options)["shards"]
     folder = Folder(absolute(out), storage_options)
-    parts = [name for name in folder.names() if name.startswith("part-") and name.endswith(".parquet")]
+    parts = [shard.part(number) for number in range(shards)]
     target = absolute(to)
     parent, _, name = target.rpartition("/")
     rows = 0
@@ -131,7 +143,8 @@ def join(
         nonlocal rows
         rows = parquet.joined(file, (folder.fs.open(folder.at(part), "rb") for part in parts))
 
-    Folder(parent or "/", storage_options).write(name, fill, passing_in="")
+    inputs = [folder.at(part) for part in parts]
+    Folder(parent or "/", storage_options).write(name, fill, passing_in="", inputs=inputs)
     return rows
 
 

@@ -18,7 +18,7 @@ from .._arrays import Floats
 from . import core, parquet, states
 from .errors import ClusterError, InputError, ShardError
 from .files import LASTING, Folder
-from .manifest import encode
+from .manifest import seal, unseal
 from .plan import group_rows
 
 
@@ -132,7 +132,7 @@ def finished(folder: Folder, shard: int, start: int, stop: int, verify: bool) ->
     if raw is None:
         return None
     try:
-        entry: dict[str, Any] = json.loads(raw)
+        entry = unseal(raw)
         if (entry["start"], entry["rows"]) != (start, stop - start):
             return None
         wanted = [(part(shard), entry["bytes"], entry["sha256"])]
@@ -187,7 +187,7 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
     }
     if rejected:
         entry["bad_bytes"], entry["bad_sha256"] = folder.put(bad_list(task.shard), b"".join(rejected))
-    folder.put(record(task.shard), encode(entry))
+    folder.put(record(task.shard), seal(entry))
     return entry
 
 

@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import shutil
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import IO, Any
@@ -46,20 +47,28 @@ def join_shards(files: Sequence[str | os.PathLike[str]], to: str | os.PathLike[s
     write = {"csv": _csv, "npy": _npy, "parquet": _parquet}.get(ending)
     if write is None:
         raise InputError(f"{target}: the name must end in .csv, .npy or .parquet")
-    folder.write(name, lambda file: write(file, [each.path for each in found]), passing_in="")
+    paths = [each.path for each in found]
     lists = [f"{each.path}.rejected.csv" for each in found if each.note["journal"]["rejected"]]
+    inputs = [*paths, *lists]
+    folder.write(name, lambda file: write(file, paths), passing_in="", inputs=inputs)
+    rejected = f"{name}.rejected.csv"
     if lists:
-        folder.write(f"{name}.rejected.csv", lambda file: _csv(file, lists), passing_in="")
-    else:
-        folder.remove(f"{name}.rejected.csv")
+        folder.write(rejected, lambda file: _csv(file, lists), passing_in="", inputs=inputs)
+    elif (folder.read(rejected) or b"").startswith(b"row,step,reason\n"):
+        folder.remove(rejected)
     journals = [each.note["journal"] for each in found]
     return {key: sum(journal[key] for journal in journals) for key in ("rows", "rejected")}
 
 
 def _read(path: str) -> _Shard:
     try:
-        with open(f"{path}.done", encoding="utf-8") as file:
-            note = json.load(file)
+        with open(f"{path}.done", "rb") as file:
+            raw = file.read()
+        # As the command has sealed it: the checksum of all that follows it.
+        head, _, rest = raw.partition(b'",')
+        if head != b'{"crc32":"%08x' % zlib.crc32(rest):
+            raise ValueError("its checksum is not that of its content")
+        note = json.loads(raw)
         index, count = map(int, note["journal"]["identity"]["shard"].split("/"))
     except FileNotFoundError:
         raise ClusterError(

@@ -12,6 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 import support
 from coadjoint import cluster
+from coadjoint.cluster import manifest
 
 
 def run(states, out, **options):
@@ -109,15 +110,74 @@ def test_a_manifest_of_another_version_is_refused(serial, tmp_path):
     path = out / "_run" / "manifest.json"
     known = json.loads(path.read_text())
     known["versions"]["coadjoint"] = "0.0.1"
-    path.write_text(json.dumps(known))
+    known.pop("crc32")
+    path.write_bytes(manifest.seal(known))
     with pytest.raises(cluster.ManifestError, match='versions.coadjoint was "0.0.1" and is'):
         run(states, out)
     path.write_text("{")
     with pytest.raises(cluster.ManifestError, match="cannot be read"):
         run(states, out)
     path.unlink()
-    with pytest.raises(cluster.ManifestError, match="parts of another run and no manifest"):
-        run(states, out)
+    before = support.tree(out)
+    for options in [{}, {"restart": True}]:
+        with pytest.raises(cluster.ManifestError, match="parts of another run and no manifest"):
+            run(states, out, **options)
+    assert support.tree(out) == before
+
+
+def test_only_own_files_are_removed(serial, tmp_path):
+    states, whole, _ = serial
+    out = tmp_path / "out"
+    out.mkdir()
+    # Named as others name theirs.
+    foreign = out / "part-00000-abc.parquet"
+    foreign.write_bytes(b"not ours")
+    for options in [{}, {"restart": True}]:
+        with pytest.raises(cluster.ManifestError, match="no manifest"):
+            run(states, out, **options)
+    assert os.listdir(out) == [foreign.name]
+    foreign.rename(tmp_path / "away")
+    run(states, out)
+    (tmp_path / "away").rename(foreign)
+    run(states, out, restart=True)
+    assert foreign.read_bytes() == b"not ours"
+    foreign.unlink()
+    support.same(whole, out)
+
+
+def test_a_changed_byte_of_a_record_is_noticed(serial, tmp_path):
+    states, whole, _ = serial
+    out = tmp_path / "out"
+    run(states, out)
+    for name in ["manifest.json", "shard-00003.json"]:
+        path = out / "_run" / name
+        content = path.read_bytes()
+        for index in range(0, len(content), 7):
+            path.write_bytes(content[:index] + bytes([content[index] ^ 1]) + content[index + 1 :])
+            with pytest.raises(cluster.ClusterError):
+                cluster.check(out)
+        path.write_bytes(content)
+    assert cluster.check(out)["bad"] == 3
+    bad = out / "_run" / "bad-00003.jsonl"
+    content = bad.read_bytes()
+    bad.write_bytes(content.replace(b"1", b"2", 1))
+    with pytest.raises(cluster.ClusterError, match="not as it was written"):
+        list(cluster.bad_rows(out))
+    bad.write_bytes(content)
+    support.same(whole, out)
+
+
+def test_joining_never_replaces_what_it_reads(serial, tmp_path):
+    states, whole, _ = serial
+    out = tmp_path / "out"
+    run(states, out)
+    before = support.tree(out)
+    link = tmp_path / "link.parquet"
+    link.symlink_to(out / "part-00001.parquet")
+    for name in [out / "part-00001.parquet", link]:
+        with pytest.raises(cluster.InputError, match="is read by this call"):
+            cluster.join(out, name)
+    assert support.tree(out) == before
 
 
 def test_a_worker_of_another_version_is_refused(serial, tmp_path, monkeypatch):

@@ -27,7 +27,7 @@ impl Times {
         let list = argument.split(',').map(|word| word.trim().parse::<f64>());
         let times = match list.collect::<Result<Vec<f64>, _>>() {
             Ok(times) => times,
-            Err(_) => file(Path::new(argument)).map_err(refuse)?,
+            Err(_) => read(Path::new(argument)).map_err(refuse)?,
         };
         Self::new(times, schedule).map_err(refuse)
     }
@@ -62,7 +62,7 @@ impl Times {
     }
 }
 
-fn file(path: &Path) -> Result<Vec<f64>, String> {
+fn read(path: &Path) -> Result<Vec<f64>, String> {
     let text = read_text(path).map_err(|error| {
         format!("neither numbers with commas between them nor a file that can be read ({error})")
     })?;

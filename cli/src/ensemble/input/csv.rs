@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
 use coadjoint_codegen::diagnostic::check_table;
 
-use super::{Input, damaged, unread};
+use super::{Input, damaged};
 use crate::ensemble::table::{Piece, Table};
-use crate::error::CliError;
+use crate::error::{CliError, unread};
+use coadjoint_codegen::file;
 use coadjoint_run::ensemble::{Found, Known, Layout, Shape};
 
 /// A CSV file; blanks around cells and lines that begin with # are passed over.
@@ -67,7 +68,7 @@ impl CsvInput {
 }
 
 fn reader(path: &Path) -> Result<Reader<BufReader<File>>, CliError> {
-    let file = File::open(path).map_err(unread(path))?;
+    let file = file::open(path).map_err(unread(path))?;
     // Not trimmed: cells that are no numbers are carried through as they are.
     // Flexible: a row with too few or too many cells is a bad row, not the end.
     let mut builder = ReaderBuilder::new();

@@ -55,8 +55,3 @@ pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Box<dyn Input>, 
 fn damaged(path: &Path, reason: impl std::fmt::Display) -> CliError {
     CliError::Option(format!("{}: {reason}", path.display()))
 }
-
-/// An error of the system below.
-fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
-    |source| CliError::Read { path: path.into(), source }
-}

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use coadjoint_learn::NpyHeader;
 
-use super::{Input, damaged, unread};
+use super::{Input, damaged};
 use crate::ensemble::table::Piece;
-use crate::error::CliError;
+use crate::error::{CliError, unread};
+use coadjoint_codegen::file;
 use coadjoint_run::ensemble::{Layout, Shape};
 
 /// A `.npy` file: n columns of momentum, then the attitude if there is one.
@@ -24,7 +25,7 @@ pub struct NpyInput {
 impl NpyInput {
     /// Reads the header.
     pub fn open(path: &Path, shape: Shape) -> Result<Self, CliError> {
-        let file = File::open(path).map_err(unread(path))?;
+        let file = file::open(path).map_err(unread(path))?;
         let length = file.metadata().map_err(unread(path))?.len();
         let mut reader = BufReader::with_capacity(1 << 18, file);
         let header = NpyHeader::read(&mut reader, length).map_err(|error| damaged(path, error))?;

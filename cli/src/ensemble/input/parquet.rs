@@ -7,9 +7,10 @@ use ::parquet::column::reader::ColumnReader;
 use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::{Input, damaged, unread};
+use super::{Input, damaged};
 use crate::ensemble::table::Piece;
-use crate::error::CliError;
+use crate::error::{CliError, unread};
+use coadjoint_codegen::file;
 use coadjoint_run::ensemble::{Found, Known, Layout, Shape};
 
 /// A `.parquet` file, read row group by row group; a null is no number.
@@ -28,7 +29,7 @@ pub struct ParquetInput {
 impl ParquetInput {
     /// Reads the footer.
     pub fn open(path: &Path, shape: Shape, known: &Known) -> Result<Self, CliError> {
-        let file = File::open(path).map_err(unread(path))?;
+        let file = file::open(path).map_err(unread(path))?;
         let reader = SerializedFileReader::new(file).map_err(|error| damaged(path, error))?;
         let metadata = reader.metadata().file_metadata();
         let columns = metadata.schema_descr().columns();

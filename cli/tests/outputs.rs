@@ -1,0 +1,263 @@
+//! The files that the command writes: never over an input, whole or not there, and known to be what was written.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use support::{coadjoint, root, run};
+
+const BODY: &str = "examples/rigid_body.toml";
+
+/// A folder with a system, a table of momenta, and pairs to learn from.
+struct Place(tempfile::TempDir);
+
+impl Place {
+    fn new() -> Self {
+        let place = Self(tempfile::tempdir().unwrap());
+        fs::copy(root().join(BODY), place.at("body.toml")).unwrap();
+        let rows: String =
+            (0..40).map(|i| format!("{},0.5,1\n", 1.0 + f64::from(i) / 40.0)).collect();
+        fs::write(place.at("states.csv"), format!("mu_1,mu_2,mu_3\n{rows}")).unwrap();
+        let pair = |i: i32| {
+            let (sin, cos) = (f64::from(i) / 40.0).sin_cos();
+            format!("{cos},{sin},1,{},{},1\n", cos * 0.995 - sin * 0.1, sin * 0.995 + cos * 0.1)
+        };
+        let names = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
+        let pairs: String = (0..40).map(pair).collect();
+        fs::write(place.at("pairs.csv"), format!("{names}{pairs}")).unwrap();
+        fs::write(place.at("times"), "0.5 1").unwrap();
+        place
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        let mut command = coadjoint();
+        command.current_dir(self.0.path()).args(arguments.split(' ')).output().unwrap()
+    }
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn an_output_is_never_an_input() {
+    let place = Place::new();
+    for (arguments, input) in [
+        ("emit body.toml --out OUT", "body.toml"),
+        ("emit body.toml --language c --out OUT", "body.toml"),
+        ("simulate body.toml --time 1 --plot OUT", "body.toml"),
+        ("simulate body.toml --time 1 --checkpoint OUT", "body.toml"),
+        ("simulate body.toml --time 1 --out OUT", "body.toml"),
+        ("simulate body.toml --time 1 --out t.csv --at times --checkpoint OUT", "times"),
+        ("ensemble body.toml --initial states.csv --time 1 --out OUT", "states.csv"),
+        ("ensemble body.toml --initial states.csv --time 1 --restart --out OUT", "body.toml"),
+        ("learn pairs.csv --dt 0.1 --out OUT", "pairs.csv"),
+        ("learn pairs.csv --dt 0.1 --test states.csv --out OUT", "states.csv"),
+        ("geometrize pairs.csv --dt 0.1 --out OUT", "pairs.csv"),
+        ("geometrize --system body.toml --dt 0.1 --out OUT", "body.toml"),
+    ] {
+        let before = fs::read(place.at(input)).unwrap();
+        // The name itself where it can be given, links to it, and names that end in `.partial` until all is written.
+        let ending = ["--plot", "simulate", "ensemble"].iter().any(|word| arguments.contains(word));
+        let link = if arguments.contains("--plot") { "link.svg" } else { "link.csv" };
+        let out = |name: &str| arguments.replace("OUT", name);
+        let refused = |name: &str| {
+            let output = place.run(&out(name));
+            assert_eq!(output.status.code(), Some(2), "{}: {}", out(name), said(&output));
+            assert!(said(&output).contains("the same file"), "{}: {}", out(name), said(&output));
+            assert!(fs::read(place.at(input)).unwrap() == before, "{}", out(name));
+        };
+        if !ending || arguments.contains("--checkpoint") || input == "states.csv" {
+            refused(input);
+        }
+        std::os::unix::fs::symlink(place.at(input), place.at(link)).unwrap();
+        refused(link);
+        fs::remove_file(place.at(link)).unwrap();
+        fs::hard_link(place.at(input), place.at(link)).unwrap();
+        refused(link);
+        // The name under which the file grows.
+        let passing = place.at(&format!("{link}.partial"));
+        fs::rename(place.at(link), &passing).unwrap();
+        refused(link);
+        fs::remove_file(passing).unwrap();
+    }
+    assert_eq!(place.names(), ["body.toml", "pairs.csv", "states.csv", "times"]);
+}
+
+/// The command in a shell that lets files grow to so many blocks of 512 bytes.
+fn limited(place: &Place, blocks: u32, arguments: &str) -> Output {
+    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" {arguments}");
+    let mut command = Command::new("sh");
+    command.current_dir(place.0.path()).args(["-c", &script]).arg(env!("CARGO_BIN_EXE_coadjoint"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).output().unwrap()
+}
+
+#[test]
+fn a_full_disk_leaves_what_was_there_and_whole_records() {
+    let place = Place::new();
+    fs::write(place.at("old"), "what was there").unwrap();
+    for arguments in ["emit body.toml --out old", "simulate body.toml --plot old.svg --time 1"] {
+        let output = limited(&place, 2, arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+        assert!(said(&output).contains("cannot write old"), "{}", said(&output));
+    }
+    assert_eq!(fs::read(place.at("old")).unwrap(), b"what was there");
+    assert!(!place.names().iter().any(|name| name.contains(".partial") || name.contains(".svg")));
+    for name in ["t.csv", "t.npy"] {
+        let output = limited(&place, 16, &format!("simulate body.toml --time 100 --out {name}"));
+        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+        assert!(said(&output).contains(&format!("{name}.partial")), "{}", said(&output));
+        let part = fs::read(place.at(&format!("{name}.partial"))).unwrap();
+        // A row has 17 numbers.
+        assert!(part.len() > 8192 - 17 * 24, "{name}: {} bytes", part.len());
+        if name == "t.csv" {
+            let last = String::from_utf8(part).unwrap();
+            let last = last.strip_suffix('\n').unwrap().lines().last().unwrap().to_owned();
+            assert_eq!(last.split(',').count(), 17, "{last}");
+        } else {
+            let array = npyz::NpyFile::new(&part[..]).unwrap();
+            assert_eq!(array.shape()[0], (8192 - 128) / (17 * 8));
+        }
+    }
+}
+
+/// One bit of whatever a run goes on from: an error, or the same result.
+#[test]
+fn a_changed_bit_never_gives_another_result() {
+    let place = Place::new();
+    let simulate =
+        "simulate body.toml --time 4 --out t.csv --checkpoint state --checkpoint-interval 0";
+    let ensemble = "ensemble body.toml --initial states.csv --time 1 --out e.csv --keep";
+    // Full after some records: the checkpoint before that stays.
+    assert_eq!(limited(&place, 12, simulate).status.code(), Some(1));
+    assert!(place.run(ensemble).status.success());
+    let kept = ["state", "t.csv.partial", "e.csv", "e.csv.done"];
+    let before = kept.map(|name| fs::read(place.at(name)).unwrap());
+    let restore =
+        || kept.iter().zip(&before).for_each(|(name, old)| fs::write(place.at(name), old).unwrap());
+    let results = || {
+        let outputs = [simulate, ensemble].map(|arguments| place.run(arguments));
+        let files = ["t.csv", "e.csv"].map(|name| fs::read(place.at(name)).ok());
+        (outputs, files)
+    };
+    let (outputs, expected) = results();
+    assert!(outputs.iter().all(|output| output.status.success()), "{outputs:?}");
+    assert!(said(&outputs[0]).contains("going on from state at step "), "{outputs:?}");
+    for (name, old) in kept.iter().zip(&before) {
+        for place_of in (0..old.len()).step_by(old.len() / 9) {
+            restore();
+            let _ = fs::remove_file(place.at("t.csv"));
+            let mut changed = old.clone();
+            changed[place_of] ^= 1;
+            fs::write(place.at(name), changed).unwrap();
+            let (outputs, files) = results();
+            for ((output, file), right) in outputs.iter().zip(files).zip(&expected) {
+                let failed = output.status.code() == Some(2);
+                assert!(failed || &file == right, "{name}, byte {place_of}: {}", said(output));
+            }
+        }
+    }
+}
+
+/// Inputs that never end, or that are larger than what is read, are refused before they are read.
+#[test]
+fn devices_pipes_and_large_files_are_refused() {
+    let place = Place::new();
+    let status = Command::new("mkfifo").arg(place.at("pipe.csv")).status().unwrap();
+    assert!(status.success());
+    fs::copy(place.at("pipe.csv").with_file_name("body.toml"), place.at("large.toml")).unwrap();
+    fs::File::options()
+        .write(true)
+        .open(place.at("large.toml"))
+        .unwrap()
+        .set_len(65_000_000)
+        .unwrap();
+    for (arguments, what) in [
+        ("derive /dev/zero", "a device or a pipe"),
+        ("derive pipe.csv", "a device or a pipe"),
+        ("derive large.toml", "more than 64 MB"),
+        ("simulate --model large.toml --start 1,1,1 --time 1", "COADJOINT_MAX_MEGABYTES"),
+        ("simulate body.toml --out t.csv --at pipe.csv", "a device or a pipe"),
+        ("ensemble body.toml --initial pipe.csv --out e.csv", "a device or a pipe"),
+        ("learn pipe.csv --dt 0.1", "a device or a pipe"),
+        ("verify body.toml pipe.csv", "a device or a pipe"),
+    ] {
+        let output = place.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", said(&output));
+        assert!(said(&output).contains(what), "{arguments}: {}", said(&output));
+    }
+    let mut raised = coadjoint();
+    let raised =
+        raised.env("COADJOINT_MAX_MEGABYTES", "100").arg("derive").arg(place.at("large.toml"));
+    let output = raised.output().unwrap();
+    assert!(!said(&output).contains("MB"), "{}", said(&output));
+    let text = fs::read(place.at("body.toml")).unwrap();
+    let piped = coadjoint().args(["derive", "/dev/stdin"]).write_stdin(text).output().unwrap();
+    assert!(piped.status.success(), "{}", said(&piped));
+    assert_eq!(run(&["derive", BODY]).1.as_bytes(), piped.stdout);
+}
+
+/// Whatever opens an output does so by the one function that knows all of this.
+#[test]
+fn one_place_opens_outputs() {
+    let mut found = Vec::new();
+    for folder in
+        ["cli/src", "run/src", "learn/src", "codegen/src", "python/src", "python/coadjoint"]
+    {
+        look(&root().join(folder), &mut found);
+    }
+    let allowed = ["codegen/src/file.rs", "cluster/files.py"];
+    found.retain(|place: &String| !allowed.iter().any(|own| place.contains(own)));
+    assert!(found.is_empty(), "these open files by themselves: {found:#?}");
+}
+
+const OPENERS: [&str; 11] = [
+    "File::create",
+    "fs::write",
+    "OpenOptions",
+    "File::options",
+    "fs::rename",
+    "fs::copy",
+    "hard_link",
+    "Writer::from_path",
+    ".write_text(",
+    ".write_bytes(",
+    "os.replace",
+];
+
+fn look(folder: &Path, found: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            look(&path, found);
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "py") {
+            let text = fs::read_to_string(&path).unwrap();
+            let text = text.split("#[cfg(test)]").next().unwrap().replace("_core.write_text", "");
+            for (number, line) in text.lines().enumerate() {
+                let python = ["\"w\"", "\"wb\"", "\"xb\"", "\"a\""].iter();
+                let opens = line.contains("open(")
+                    && !line.contains("fdopen")
+                    && python.clone().any(|mode| line.contains(mode));
+                if opens || OPENERS.iter().any(|opener| line.contains(opener)) {
+                    found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
+                }
+            }
+        }
+    }
+}
