@@ -29,6 +29,12 @@ pub enum NativeError {
         /// The time limit.
         seconds: f64,
     },
+    /// The compiler was ended because its step is not wanted any more.
+    #[error("the C compiler '{compiler}' was stopped")]
+    Stopped {
+        /// The command.
+        compiler: String,
+    },
     /// The compiler refused, or is broken.
     #[error("the C compiler '{compiler}' failed ({status}): {message}")]
     Failed {

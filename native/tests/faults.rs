@@ -8,11 +8,26 @@ use std::fs;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
 use coadjoint_program::{Kernel, Stepper};
 use common::{bits, kernel, lane, state};
+
+fn alive(pid: &str) -> bool {
+    let status = Command::new("kill").args(["-0", pid.trim()]).stderr(Stdio::null()).status();
+    status.unwrap().success()
+}
+
+/// A process that was ended is there until its parent has heard of it.
+fn ends(pid: &str) {
+    let start = Instant::now();
+    while alive(pid) && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(!alive(pid), "the child {pid} goes on");
+}
 
 fn small(seed: u64) -> Kernel {
     kernel(seed, [3, 4, 1], 20, true, 0.05)
@@ -127,14 +142,72 @@ fn a_hanging_compiler_is_stopped_with_all_that_it_started() {
         assert!(matches!(error, NativeError::TimedOut { .. }), "{error:?}");
         is_one_line(&error);
         let pid = fs::read_to_string(&started).unwrap();
-        let alive = || Command::new("kill").args(["-0", pid.trim()]).stderr(Stdio::null()).status();
-        // A process that was ended is there until its parent has heard of it.
-        let start = Instant::now();
-        while alive().unwrap().success() && start.elapsed() < Duration::from_secs(20) {
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        assert!(!alive().unwrap().success(), "the child {pid} goes on");
+        ends(&pid);
     }
+}
+
+#[test]
+fn a_compiler_that_is_not_wanted_is_stopped_with_all_that_it_started() {
+    let folder = tempfile::tempdir().unwrap();
+    let started = folder.path().join("started");
+    let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
+    let options = script(folder.path(), ":", &hangs);
+    let stop = options.stop.clone();
+    let compiling = std::thread::spawn(move || Native::by_c(&small(1), &options).unwrap_err());
+    while fs::read_to_string(&started).unwrap_or_default().is_empty() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    stop.store(true, Ordering::Relaxed);
+    let error = compiling.join().unwrap();
+    assert!(matches!(error, NativeError::Stopped { .. }), "{error:?}");
+    ends(&fs::read_to_string(&started).unwrap());
+}
+
+/// The environment variable by which a test asks for a copy of itself that compiles with this compiler.
+const HANGING: &str = "COADJOINT_TEST_HANGING";
+
+#[test]
+fn no_compiler_outlives_a_process_that_is_killed() {
+    if let Some(compiler) = std::env::var_os(HANGING) {
+        let (compiler, cache) = (Some(compiler), CacheFolder::None);
+        let _ = Native::by_c(&small(1), &COptions { compiler, cache, ..COptions::default() });
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let started = folder.path().join("started");
+    let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
+    let mut child = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "no_compiler_outlives_a_process_that_is_killed"])
+        .env(HANGING, script(folder.path(), ":", &hangs).compiler.unwrap())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    while fs::read_to_string(&started).unwrap_or_default().is_empty() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let pid = fs::read_to_string(&started).unwrap();
+    assert!(alive(&pid));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    ends(&pid);
+}
+
+/// Where groups of users share files, new folders can be written to by the group unless they are made otherwise.
+#[test]
+fn the_cache_works_under_any_umask() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = folder.path().join("cache");
+    for _ in 0..2 {
+        let status = Command::new("sh")
+            .args(["-c", "umask 002; exec \"$0\" --exact a_process_compiles"])
+            .arg(std::env::current_exe().unwrap())
+            .env(CHILD, &cache)
+            .stdout(Stdio::null())
+            .status()
+            .unwrap();
+        assert!(status.success());
+    }
+    assert!(Native::by_c(&small(1), &options(&cache)).unwrap().cached);
 }
 
 #[test]

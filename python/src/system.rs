@@ -280,7 +280,7 @@ impl Core {
                 let watch = Watch { made: &made, stop: &control.stop };
                 ensemble::advance_all(engine, &layout, schedule.steps, &mut values, &watch)
             })?;
-            let notes = engine.notes().to_vec();
+            let notes = engine.notes();
             Ok((
                 values,
                 failed,

@@ -1,6 +1,8 @@
 //! What evaluates the programs of a step.
 
-use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::JoinHandle;
 use std::time::Duration;
 #[cfg(feature = "jit")]
 use std::time::Instant;
@@ -13,7 +15,7 @@ use crate::error::RunError;
 /// What is to make the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// What is cheapest for this run: a short one never waits for a compiler.
+    /// Whatever is cheapest for this run: it begins on the interpreter and never waits for a compiler.
     #[default]
     Auto,
     /// The interpreter of the programs, which is always there.
@@ -70,14 +72,36 @@ pub struct Used {
     pub ready: Option<Duration>,
 }
 
-/// Programs ready to make steps.
+/// Machine code, what made it, and how long that took.
 #[derive(Debug)]
-pub struct Code {
-    entry: Option<Entry>,
+struct Made {
+    entry: Entry,
     name: String,
     ready: Duration,
-    notes: Vec<String>,
 }
+
+/// The code that is on its way, shared with the thread that makes it.
+#[derive(Debug, Default)]
+struct Coming {
+    made: OnceLock<Made>,
+    notes: Mutex<Vec<String>>,
+    /// No more is to be expected.
+    over: AtomicBool,
+    /// Ends a compiler that is at work.
+    stop: Arc<AtomicBool>,
+}
+
+/// Programs ready to make steps: interpreted until there is machine code of them, if any is made. The bits are the same.
+#[derive(Debug)]
+pub struct Code {
+    coming: Arc<Coming>,
+    /// Runs the compiler.
+    thread: Mutex<Option<JoinHandle<()>>>,
+    interpreted: AtomicBool,
+}
+
+/// Steps that are made at a time while machine code is on its way.
+const FEW: u64 = 256;
 
 impl Code {
     /// By the backend asked for, to make about so many steps of trajectories one by one or side by side; what is not
@@ -91,100 +115,162 @@ impl Code {
         steps: f64,
         trajectories: Trajectories,
     ) -> Result<Self, RunError> {
-        let failed = |what: &dyn fmt::Display| RunError::Option(format!("--backend: {what}"));
+        let code = Self::interpreter();
         match backend {
-            Backend::Interpreter => Ok(Self::interpreter()),
-            Backend::C => Self::by_c(kernel, trajectories).map_err(|error| failed(&error)),
-            #[cfg(feature = "jit")]
-            Backend::Jit => {
-                Self::by_cranelift(kernel, trajectories).map_err(|error| failed(&error))
+            Backend::Interpreter => {}
+            Backend::Auto => {
+                let plan = plan(kernel, steps, trajectories);
+                return Ok(if plan.is_empty() {
+                    code
+                } else {
+                    code.start(plan, kernel, trajectories)
+                });
             }
-            Backend::Auto => Ok(Self::cheapest(kernel, steps, trajectories)),
+            named => {
+                let made = named.make(kernel, trajectories, &code.coming.stop);
+                let made = made.map_err(|what| RunError::Option(format!("--backend: {what}")))?;
+                let _ = code.coming.made.set(made);
+            }
         }
+        code.coming.over.store(true, Ordering::Relaxed);
+        Ok(code)
     }
 
     fn interpreter() -> Self {
-        Self {
-            entry: None,
-            name: "interpreter".to_owned(),
-            ready: Duration::ZERO,
-            notes: Vec::new(),
-        }
+        let (coming, thread) = (Arc::default(), Mutex::default());
+        Self { coming, thread, interpreted: AtomicBool::new(false) }
     }
 
-    fn by_c(
-        kernel: &Kernel,
-        trajectories: Trajectories,
-    ) -> Result<Self, coadjoint_native::NativeError> {
-        let native = Native::by_c(kernel, &COptions { trajectories, ..COptions::default() })?;
-        let name = format!("machine code by {}", native.compiler);
-        Ok(Self { entry: Some(native.entry), name, ready: native.ready, notes: Vec::new() })
-    }
-
-    #[cfg(feature = "jit")]
-    fn by_cranelift(
-        kernel: &Kernel,
-        trajectories: Trajectories,
-    ) -> Result<Self, coadjoint_native::jit::JitError> {
-        let begun = Instant::now();
-        let entry = coadjoint_native::jit::compile(kernel, trajectories)?;
-        let name = "machine code by Cranelift".to_owned();
-        Ok(Self { entry: Some(entry), name, ready: begun.elapsed(), notes: Vec::new() })
-    }
-
-    /// What takes least time for so many steps; what cannot be had is told, and the next best is taken.
-    fn cheapest(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Self {
-        let operations = operations(kernel) as f64;
-        let pace = if trajectories == Trajectories::Lanes { LANES } else { ONE };
-        let run = |each: f64| steps * operations * each * 1e-9;
-        let interpreted = run(pace.interpreted);
-        let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(pace.by_c);
-        let mut notes = Vec::new();
-        let tell = |notes: &mut Vec<String>, error: &dyn fmt::Display, next: &str| {
-            notes.push(format!("{error}; {next} makes the steps"));
-        };
-        #[cfg(feature = "jit")]
-        {
-            let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(pace.by_cranelift);
-            let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
-            if by_cranelift < interpreted && !slower {
-                match Self::by_cranelift(kernel, trajectories) {
-                    Ok(code) => return code,
-                    Err(error) => tell(&mut notes, &error, "another backend"),
+    /// Has machine code made in the background, by the first of these backends that can.
+    fn start(self, plan: Vec<Backend>, kernel: &Kernel, trajectories: Trajectories) -> Self {
+        let (coming, kernel) = (self.coming.clone(), kernel.clone());
+        let by_compiler = plan.first() == Some(&Backend::C);
+        let work = move || {
+            for backend in plan {
+                match backend.make(&kernel, trajectories, &coming.stop) {
+                    Ok(made) => {
+                        let _ = coming.made.set(made);
+                        break;
+                    }
+                    Err(_) if coming.stop.load(Ordering::Relaxed) => break,
+                    Err(error) => {
+                        let mut notes = coming.notes.lock().unwrap_or_else(PoisonError::into_inner);
+                        notes.push(format!("{error}; the run goes on without it"));
+                    }
                 }
             }
-        }
-        if by_c < interpreted && operations <= MOST_FOR_COMPILER {
-            match Self::by_c(kernel, trajectories) {
-                Ok(code) => return Self { notes, ..code },
-                Err(error) => tell(&mut notes, &error, "the interpreter"),
+            coming.over.store(true, Ordering::Relaxed);
+        };
+        match std::thread::Builder::new().spawn(work) {
+            // Cranelift ends by itself, after half a second at most.
+            Ok(thread) if by_compiler => {
+                *self.thread.lock().unwrap_or_else(PoisonError::into_inner) = Some(thread);
             }
+            Ok(_) => {}
+            Err(_) => self.coming.over.store(true, Ordering::Relaxed),
         }
-        Self { notes, ..Self::interpreter() }
+        self
+    }
+
+    /// Ends a compiler that is still at work: the run is over.
+    pub fn stop(&self) {
+        self.coming.stop.store(true, Ordering::Relaxed);
+        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
+        // One that panicked has made nothing.
+        let _ = thread.map(JoinHandle::join);
     }
 
     /// Whether a processor runs it as it is.
     pub fn is_machine_code(&self) -> bool {
-        self.entry.is_some()
+        self.coming.made.get().is_some()
     }
 
-    /// What makes the steps, for reports.
+    /// How many steps to make before it is asked again by what.
+    pub fn at_a_time(&self) -> u64 {
+        let over = self.is_machine_code() || self.coming.over.load(Ordering::Relaxed);
+        if over { u64::MAX } else { FEW }
+    }
+
+    /// What makes the steps now, in a few words.
+    pub fn maker(&self) -> &str {
+        self.coming.made.get().map_or("interpreter", |made| &made.name)
+    }
+
+    /// What has made the steps, for reports.
     pub fn used(&self) -> Used {
-        Used { name: self.name.clone(), ready: self.entry.as_ref().map(|_| self.ready) }
+        let first = self.is_machine_code() && self.interpreted.load(Ordering::Relaxed);
+        let name = format!("{}{}", if first { "interpreter, then " } else { "" }, self.maker());
+        Used { name, ready: self.coming.made.get().map(|made| made.ready) }
     }
 
-    /// What could not be had, and what takes its place.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
+    /// What could not be had so far.
+    pub fn notes(&self) -> Vec<String> {
+        self.coming.notes.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What makes the steps of this kernel, from which the code is.
+    /// What makes the next steps of this kernel, from which the code is.
     pub fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
-        match &self.entry {
-            Some(entry) => entry,
-            None => kernel,
+        match self.coming.made.get() {
+            Some(made) => &made.entry,
+            None => {
+                if !self.interpreted.load(Ordering::Relaxed) {
+                    self.interpreted.store(true, Ordering::Relaxed);
+                }
+                kernel
+            }
         }
     }
+}
+
+impl Drop for Code {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+impl Backend {
+    /// Makes machine code, or says why there is none.
+    fn make(
+        self,
+        kernel: &Kernel,
+        trajectories: Trajectories,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Made, String> {
+        #[cfg(feature = "jit")]
+        if self == Self::Jit {
+            let begun = Instant::now();
+            let entry = coadjoint_native::jit::compile(kernel, trajectories);
+            let entry = entry.map_err(|error| error.to_string())?;
+            let name = "machine code by Cranelift".to_owned();
+            return Ok(Made { entry, name, ready: begun.elapsed() });
+        }
+        let options = COptions { trajectories, stop: stop.clone(), ..COptions::default() };
+        let native = Native::by_c(kernel, &options).map_err(|error| error.to_string())?;
+        let name = format!("machine code by {}", native.compiler);
+        Ok(Made { entry: native.entry, name, ready: native.ready })
+    }
+}
+
+/// The backends that take less time for so many steps than the interpreter, the best one first.
+fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
+    let operations = operations(kernel) as f64;
+    let pace = if trajectories == Trajectories::Lanes { LANES } else { ONE };
+    let run = |each: f64| steps * operations * each * 1e-9;
+    let interpreted = run(pace.interpreted);
+    let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(pace.by_c);
+    let mut plan = Vec::new();
+    #[cfg(feature = "jit")]
+    {
+        let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(pace.by_cranelift);
+        let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
+        if by_cranelift < interpreted && !slower {
+            plan.push(Backend::Jit);
+        }
+    }
+    if by_c < interpreted && operations <= MOST_FOR_COMPILER {
+        plan.push(Backend::C);
+    }
+    plan
 }
 
 /// The operations of a step, if one correction is enough.

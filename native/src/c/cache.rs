@@ -65,11 +65,7 @@ impl Cache {
             CacheFolder::At(folder) => folder.clone(),
             CacheFolder::None => return None,
         };
-        let mut builder = fs::DirBuilder::new();
-        builder.recursive(true);
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.create(&folder).ok()?;
+        private().recursive(true).create(&folder).ok()?;
         let data = fs::symlink_metadata(&folder).ok()?;
         (data.is_dir() && is_ours(&data)).then_some(Self { folder })
     }
@@ -99,7 +95,7 @@ impl Cache {
         let bytes = fs::read(library)?;
         let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(&self.folder)?;
         let staged = stage.path().join(key);
-        fs::DirBuilder::new().create(&staged)?;
+        private().create(&staged)?;
         write(&staged.join(LIBRARY), &bytes)?;
         write(&staged.join(HASH), hash(&bytes).as_bytes())?;
         let entry = self.folder.join(key);
@@ -140,6 +136,15 @@ impl Cache {
 }
 
 const STAGE: &str = ".stage-";
+
+/// What makes folders for the user alone.
+fn private() -> fs::DirBuilder {
+    #[allow(unused_mut)]
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder
+}
 
 /// A file for the user alone, on the disk before it is renamed.
 fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -3,8 +3,11 @@
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use super::COptions;
 use super::process::{Fault, Finished, run};
 use crate::error::NativeError;
 
@@ -16,6 +19,7 @@ pub(super) struct Compiler {
     /// What it says of its version.
     version: String,
     limit: Duration,
+    stop: Arc<AtomicBool>,
 }
 
 /// What asking for the version may take.
@@ -27,19 +31,16 @@ pub(super) const LIBRARY: &str = if cfg!(windows) { "step.dll" } else { "step.so
 impl Compiler {
     /// The compiler that was named, or that of the environment variable CC, else the first of `cc`, `gcc` and `clang`
     /// that answers.
-    pub fn find(
-        named: Option<&OsStr>,
-        limit: Duration,
-        folder: &Path,
-    ) -> Result<Self, NativeError> {
+    pub fn find(options: &COptions, folder: &Path) -> Result<Self, NativeError> {
+        let named = options.compiler.as_deref();
         let environment = std::env::var_os("CC").filter(|command| !command.is_empty());
         if let Some(command) = named.map(OsStr::to_owned).or(environment) {
-            return Self::ask(&command, limit, folder);
+            return Self::ask(&command, options, folder);
         }
         let candidates = ["cc", "gcc", "clang"];
         let mut first = None;
         for candidate in candidates {
-            match Self::ask(OsStr::new(candidate), limit, folder) {
+            match Self::ask(OsStr::new(candidate), options, folder) {
                 Ok(compiler) => return Ok(compiler),
                 Err(NativeError::Start { source, .. })
                     if source.kind() == std::io::ErrorKind::NotFound => {}
@@ -52,9 +53,10 @@ impl Compiler {
     }
 
     /// A command with its version. It may have arguments, as in `ccache gcc`.
-    fn ask(command: &OsStr, limit: Duration, folder: &Path) -> Result<Self, NativeError> {
+    fn ask(command: &OsStr, options: &COptions, folder: &Path) -> Result<Self, NativeError> {
         let (program, arguments) = split(command);
-        let mut compiler = Self { program, arguments, version: String::new(), limit };
+        let (limit, stop, version) = (options.time_limit, options.stop.clone(), String::new());
+        let mut compiler = Self { program, arguments, version, limit, stop };
         let mut command = compiler.command();
         command.arg("--version");
         let finished = compiler.run(command, limit.min(VERSION_LIMIT), folder)?;
@@ -128,13 +130,16 @@ impl Compiler {
         folder: &Path,
     ) -> Result<Finished, NativeError> {
         let compiler = self.name();
-        let finished = run(&mut command, limit, folder).map_err(|fault| match fault {
-            Fault::Start(source) => NativeError::Start { compiler: compiler.clone(), source },
-            Fault::Output(source) => NativeError::Write { path: folder.to_owned(), source },
-            Fault::TimedOut => {
-                NativeError::TimedOut { compiler: compiler.clone(), seconds: limit.as_secs_f64() }
-            }
-        })?;
+        let finished =
+            run(&mut command, limit, &self.stop, folder).map_err(|fault| match fault {
+                Fault::Start(source) => NativeError::Start { compiler: compiler.clone(), source },
+                Fault::Output(source) => NativeError::Write { path: folder.to_owned(), source },
+                Fault::Stopped => NativeError::Stopped { compiler: compiler.clone() },
+                Fault::TimedOut => NativeError::TimedOut {
+                    compiler: compiler.clone(),
+                    seconds: limit.as_secs_f64(),
+                },
+            })?;
         if finished.status.success() {
             return Ok(finished);
         }

@@ -10,6 +10,8 @@ mod process;
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use coadjoint_program::print::native_unit;
@@ -36,6 +38,8 @@ pub struct COptions {
     pub cache: CacheFolder,
     /// What is compiled: either half takes about half the time.
     pub trajectories: Trajectories,
+    /// Set it from another thread to end the compiler and all that it has started.
+    pub stop: Arc<AtomicBool>,
 }
 
 impl Default for COptions {
@@ -45,6 +49,7 @@ impl Default for COptions {
             time_limit: Duration::from_secs(120),
             cache: CacheFolder::User,
             trajectories: Trajectories::Both,
+            stop: Arc::default(),
         }
     }
 }
@@ -67,13 +72,12 @@ impl Native {
     /// the interpreter.
     ///
     /// # Errors
-    /// [`NativeError`] where there is no compiler, it fails or does not end in time, no temporary file can be written, or
+    /// [`NativeError`] where there is no compiler, it fails, is stopped or does not end in time, no temporary file can be written, or
     /// the library cannot be loaded. A cache that cannot be used is no error.
     pub fn by_c(kernel: &Kernel, options: &COptions) -> Result<Self, NativeError> {
         let start = Instant::now();
         let folder = private_folder()?;
-        let compiler =
-            Compiler::find(options.compiler.as_deref(), options.time_limit, folder.path())?;
+        let compiler = Compiler::find(options, folder.path())?;
         let text = native_unit(kernel, options.trajectories);
         let load = |library: &Path| load(kernel, options.trajectories, library);
         let done = |entry, cached| Self {

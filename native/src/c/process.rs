@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Why a command has no result.
@@ -14,6 +15,8 @@ pub(super) enum Fault {
     Output(std::io::Error),
     /// It did not end in time; it and what it had started were ended.
     TimedOut,
+    /// The same, because somebody asked for it.
+    Stopped,
 }
 
 /// How a command ended, and what it wrote to its outputs, the error output last.
@@ -23,11 +26,13 @@ pub(super) struct Finished {
     pub errors: String,
 }
 
-/// Runs a command to its end, at most so long. Its outputs go through files in `folder`: a pipe would stay open as long
+/// Runs a command to its end, at most so long and until `stop` is set. It and what it starts do not outlive this process.
+/// Its outputs go through files in `folder`: a pipe would stay open as long
 /// as anything that the command started.
 pub(super) fn run(
     command: &mut Command,
     limit: Duration,
+    stop: &AtomicBool,
     folder: &Path,
 ) -> Result<Finished, Fault> {
     let (output, errors) = (folder.join("output"), folder.join("errors"));
@@ -36,7 +41,10 @@ pub(super) fn run(
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     let mut child = command.spawn().map_err(Fault::Start)?;
-    let status = wait(&mut child, limit)?;
+    let watcher = Watcher::new(child.id());
+    let status = wait(&mut child, limit, stop);
+    drop(watcher);
+    let status = status?;
     let read = |path: &Path| {
         let bytes = std::fs::read(path).map_err(Fault::Output)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -44,7 +52,33 @@ pub(super) fn run(
     Ok(Finished { status, output: read(&output)?, errors: read(&errors)? })
 }
 
-fn wait(child: &mut Child, limit: Duration) -> Result<ExitStatus, Fault> {
+/// A shell that ends a group of processes when this process ends, in whatever way: its input is closed then.
+struct Watcher(Child);
+
+impl Watcher {
+    /// Of the group that this process leads. None where there are no groups or there is no shell.
+    fn new(leader: u32) -> Option<Self> {
+        if !cfg!(unix) {
+            return None;
+        }
+        let mut command = Command::new("sh");
+        command.args(["-c", "read _; kill -KILL \"-$1\"", "sh", &leader.to_string()]);
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        // What a terminal sends to this process must not end the watcher.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        command.spawn().ok().map(Self)
+    }
+}
+
+impl Drop for Watcher {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn wait(child: &mut Child, limit: Duration, stop: &AtomicBool) -> Result<ExitStatus, Fault> {
     let start = Instant::now();
     let mut pause = Duration::from_micros(500);
     loop {
@@ -52,9 +86,10 @@ fn wait(child: &mut Child, limit: Duration) -> Result<ExitStatus, Fault> {
             return Ok(status);
         }
         let left = limit.saturating_sub(start.elapsed());
-        if left.is_zero() {
+        let stopped = stop.load(Ordering::Relaxed);
+        if left.is_zero() || stopped {
             end(child);
-            return Err(Fault::TimedOut);
+            return Err(if stopped { Fault::Stopped } else { Fault::TimedOut });
         }
         std::thread::sleep(pause.min(left));
         pause = (pause * 3 / 2).min(Duration::from_millis(5));

@@ -69,6 +69,8 @@ impl Kept {
     /// Keeps a code.
     fn keep(&self, backend: Backend, trajectories: Trajectories, code: &Arc<Code>) {
         let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
+        // Others are of runs that ended before they were compiled.
+        codes.retain(|(.., code)| code.is_machine_code());
         codes.push((backend, trajectories, code.clone()));
     }
 }
@@ -81,6 +83,13 @@ pub struct Compiled {
     /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
+}
+
+/// Nothing is compiled any more when the run is over.
+impl Drop for Compiled {
+    fn drop(&mut self) {
+        self.code.stop();
+    }
 }
 
 impl std::fmt::Debug for Compiled {
@@ -177,7 +186,8 @@ impl Compiled {
     ) -> Result<Outcome, (u64, StepError)> {
         let mut total = Outcome::default();
         while total.steps < steps {
-            let asked = if self.framed { 1 } else { steps - total.steps };
+            let asked = (steps - total.steps).min(self.code.at_a_time());
+            let asked = if self.framed { 1 } else { asked };
             let Numbers { g, mu } = numbers;
             let made = self.code.stepper(self.kernel()).advance(&self.slots, g, mu, asked);
             total.steps += made.steps;

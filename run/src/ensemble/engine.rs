@@ -63,11 +63,11 @@ pub trait Engine: Sync {
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
     fn device(&self) -> Option<Use>;
 
-    /// What else evaluates steps, in a few words.
+    /// What else evaluates steps now, in a few words: it may change while a compiler works.
     fn backend(&self) -> String;
 
-    /// What could not be had, and what takes its place.
-    fn notes(&self) -> &[String];
+    /// What could not be had so far.
+    fn notes(&self) -> Vec<String>;
 }
 
 /// Who looks on while rows are advanced.

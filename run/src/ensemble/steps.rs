@@ -316,12 +316,12 @@ where
     }
 
     fn backend(&self) -> String {
-        let words = |compiled: &Compiled| compiled.code().used().name;
-        self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), words)
+        let maker = |compiled: &Compiled| compiled.code().maker().to_owned();
+        self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), maker)
     }
 
-    fn notes(&self) -> &[String] {
-        self.compiled.as_ref().map_or(&[], |compiled| compiled.code().notes())
+    fn notes(&self) -> Vec<String> {
+        self.compiled.as_ref().map_or_else(Vec::new, |compiled| compiled.code().notes())
     }
 
     fn advance(

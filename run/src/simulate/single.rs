@@ -58,8 +58,8 @@ impl<S: AsRef<Derived>> Single<S> {
 
     /// What makes the steps.
     pub fn backend(&self) -> String {
-        let name = |compiled: &Compiled| compiled.code().used().name;
-        self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), name)
+        let maker = |compiled: &Compiled| compiled.code().maker().to_owned();
+        self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), maker)
     }
 
     /// Rows of the group's matrices.

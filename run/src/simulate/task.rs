@@ -169,10 +169,10 @@ impl<'a> Task<'a> {
             });
             return march.run(&mut mover, &beside, outlet);
         };
-        compiled.code().notes().iter().for_each(|note| outlet.warn(note));
         let mut mover = ByPrograms::new(&compiled, &step, &advised);
-        let outcome = march.run(&mut mover, &beside, outlet)?;
-        Ok(Outcome { backend: Some(compiled.code().used()), ..outcome })
+        let outcome = march.run(&mut mover, &beside, outlet);
+        compiled.code().notes().iter().for_each(|note| outlet.warn(note));
+        Ok(Outcome { backend: Some(compiled.code().used()), ..outcome? })
     }
 }
 
