@@ -2,7 +2,6 @@
 
 use core::marker::PhantomData;
 
-use coadjoint::solve::{ByDimension, NewtonModel, Predict};
 use coadjoint::{Chart, Coordinates, GeneratingFunction, Integrator, LieGroup};
 use coadjoint_codegen::cancel;
 
@@ -172,29 +171,12 @@ where
     }
 }
 
-impl<G, C, M> Predict for Generating<G, C, M>
-where
-    G: LieGroup<Scalar = f64>,
-    C: Chart<G>,
-    M: MomentumFunction,
-{
-}
-
-impl<G, C, M> NewtonModel for Generating<G, C, M>
-where
-    G: LieGroup<Scalar = f64>,
-    C: Chart<G>,
-    M: MomentumFunction,
-{
-}
-
 impl<G, C, M> Integrator for Generating<G, C, M>
 where
     G: LieGroup<Scalar = f64>,
     C: Chart<G>,
     M: MomentumFunction,
 {
-    type Method = ByDimension<Self>;
 }
 
 /// The coordinates of `vector` as numbers in a row.

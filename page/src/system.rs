@@ -4,7 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::problem::{Parameter, Problem, Solver};
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
 use crate::fields::Fields;
@@ -113,7 +113,7 @@ impl System {
         let integrator = Integrator::build(problem, LIMIT)
             .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
-        let step = Step::build(&integrator, REACH).map_err(|error| refused(&error))?;
+        let step = Step::build(&integrator).map_err(|error| refused(&error))?;
         let programs = step.kernel().programs();
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
         if operations > MOST_OPERATIONS {

@@ -25,6 +25,7 @@ impl Program {
             let value = match *node {
                 Node::Zero => T::of(0.0),
                 Node::Constant(bits) => T::of(f64::from_bits(bits)),
+                Node::Epsilon => T::of(f64::EPSILON),
                 Node::Input(i) => input(i as usize),
                 Node::Slot(i) => slot(i as usize),
                 Node::Add(a, b) => at(a).add(at(b)),

@@ -116,10 +116,11 @@ impl Kernel {
         })
     }
 
-    /// The same step, whose programs and tolerance are those for numbers of this length.
+    /// The same step in numbers of this length, whose rounding the tolerance follows.
     #[must_use]
     pub fn in_precision(self, precision: Precision) -> Self {
-        Self { precision, ..self }
+        let tolerance = self.tolerance / self.precision.epsilon() * precision.epsilon();
+        Self { precision, tolerance, ..self }
     }
 
     /// The numbers that the programs are made for. The interpreter and machine code evaluate them in 64 bits all the

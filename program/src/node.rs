@@ -27,6 +27,8 @@ pub enum Node {
     Zero,
     /// Another number, by its bits.
     Constant(u64),
+    /// The distance from 1 to the next larger number of the type that the program is evaluated in.
+    Epsilon,
     /// Input number i.
     Input(u32),
     /// Folded coefficient number i.
@@ -57,7 +59,9 @@ impl Node {
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
         let list = match *self {
-            Self::Zero | Self::Constant(_) | Self::Input(_) | Self::Slot(_) => [None; 4],
+            Self::Zero | Self::Constant(_) | Self::Epsilon | Self::Input(_) | Self::Slot(_) => {
+                [None; 4]
+            }
             Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) | Self::Round(a) => {
                 [Some(a), None, None, None]
             }
@@ -84,7 +88,11 @@ impl Node {
             Self::Sqrt(a) => Self::Sqrt(rename(a)),
             Self::Round(a) => Self::Round(rename(a)),
             Self::Select(a, b, c, d) => Self::Select(rename(a), rename(b), rename(c), rename(d)),
-            leaf @ (Self::Zero | Self::Constant(_) | Self::Input(_) | Self::Slot(_)) => leaf,
+            leaf @ (Self::Zero
+            | Self::Constant(_)
+            | Self::Epsilon
+            | Self::Input(_)
+            | Self::Slot(_)) => leaf,
         }
     }
 }
@@ -192,6 +200,11 @@ impl Graph {
             return self.zero();
         }
         self.intern(Node::Constant(value.to_bits()))
+    }
+
+    /// The rounding unit of the numbers that the program is evaluated in.
+    pub fn epsilon(&mut self) -> Id {
+        self.intern(Node::Epsilon)
     }
 
     /// Input number `index`.
@@ -342,6 +355,7 @@ impl Graph {
                 Node::Input(i) => inputs.get(i as usize).copied().unwrap_or_else(|| self.zero()),
                 Node::Zero => self.zero(),
                 Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+                Node::Epsilon => self.epsilon(),
                 Node::Slot(i) => self.slot(i as usize),
                 Node::Add(a, b) => self.add(ids[a.index()], ids[b.index()]),
                 Node::Sub(a, b) => self.sub(ids[a.index()], ids[b.index()]),

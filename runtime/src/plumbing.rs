@@ -2,13 +2,14 @@
 
 use crate::error::StepError;
 use crate::generating::ScalarOf;
-pub use crate::number::lift::Lift;
+use crate::group::phase::Phase;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
-pub use crate::solve::wide::{
-    LINEARISES, WideStep, linearise, linearise_in_lanes, refine, refine_in_lanes,
-};
-use crate::step::phase::Phase;
+
+pub use crate::number::lift::Lift;
+pub use crate::solve::{Driven, DrivenOf};
+pub use crate::step::drive::{Number, Programs, drive};
+pub use crate::step::numbers::ElementNumbers;
 
 /// A monomial, as pairs of a coordinate and its exponent.
 pub type Monomial = &'static [(u32, u32)];
@@ -85,13 +86,12 @@ fn powers<T: Scalar, const POWERS: usize>(x: T) -> [T; POWERS] {
     })
 }
 
-/// The slots, given the parts.
-// Inlined, as large arrays that are returned get copied.
-#[inline(always)]
-pub fn slots<T: Scalar, const PARTS: usize, const BASES: usize, const SLOTS: usize>(
+/// The slots, of which there may be fewer than places in `slots`.
+pub fn slots<T: Scalar, const PARTS: usize, const BASES: usize>(
     table: &Table,
     parts: &[T; PARTS],
-) -> [T; SLOTS] {
+    slots: &mut [T],
+) {
     let mut bases = [T::of(0.0); BASES];
     let mut start = 0;
     for (base, &end) in bases.iter_mut().zip(table.bases) {
@@ -100,38 +100,21 @@ pub fn slots<T: Scalar, const PARTS: usize, const BASES: usize, const SLOTS: usi
         }
         start = end as usize;
     }
-    let mut slots = [T::of(0.0); SLOTS];
     for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
         // No index reaches its array's end; the compiler is told.
         *slot = bases[(base as usize).min(BASES.saturating_sub(1))] * T::of(f64::from(scale));
     }
-    slots
 }
 
-/// Σ weight·|slot|, sorted by degree: the coefficients of a bound as a polynomial in the size of
+/// Adds weight·|slot| to the place of its degree from `start`: the coefficients of a bound as a polynomial in the size of
 /// the momentum. Entries are (slot, weight, degree).
-pub fn bound<T: Scalar, const DEGREES: usize>(
-    slots: &[T],
-    terms: &[(u32, f64, u32)],
-) -> [T; DEGREES] {
-    let mut bound = [T::of(0.0); DEGREES];
+pub fn bound<T: Scalar>(slots: &mut [T], start: usize, terms: &[(u32, f64, u32)]) {
     for &(slot, weight, degree) in terms {
         let value = slots.get(slot as usize).copied().unwrap_or(T::of(0.0));
-        if let Some(sum) = bound.get_mut(degree as usize) {
+        if let Some(sum) = slots.get_mut(start + degree as usize) {
             *sum += value.simd_abs() * T::of(weight);
         }
     }
-    bound
-}
-
-/// Σ coefficients\[k\] sizeᵏ.
-#[inline(always)]
-pub fn polynomial<T: Scalar, const DEGREES: usize>(coefficients: &[T; DEGREES], size: T) -> T {
-    let mut sum = T::of(0.0);
-    for &coefficient in coefficients.iter().rev() {
-        sum = sum.times_plus(size, coefficient);
-    }
-    sum
 }
 
 /// The coefficients of S_K and S_{K−2}, one for each of their terms.
@@ -224,9 +207,3 @@ pub fn advise<S: Integrator>(
 
 /// Shorter steps that are tried to advise one.
 const MOST_HALVINGS: u32 = 24;
-
-/// The fine part of the gradient, over numbers that may be wider than the coefficients.
-pub trait FinePart<C, const SLOTS: usize, const N: usize> {
-    /// The fine part at `input`.
-    fn fine<T: Scalar + Lift<C>>(c: &[C; SLOTS], input: &[T; N]) -> [T; N];
-}

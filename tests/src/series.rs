@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use coadjoint::Integrator;
-use coadjoint::solve::{ByDimension, NewtonModel, Predict};
 use coadjoint::{Exponential, GeneratingFunction, groups::MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
@@ -151,8 +150,4 @@ impl GeneratingFunction for Series {
     }
 }
 
-impl Predict for Series {}
-impl NewtonModel for Series {}
-impl Integrator for Series {
-    type Method = ByDimension<Self>;
-}
+impl Integrator for Series {}

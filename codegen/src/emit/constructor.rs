@@ -13,24 +13,29 @@ use super::table::Sizes;
 use crate::integrator::{Integrator, Products};
 use crate::problem::{Parameter, Shape};
 
-/// The constructor `new(step, parameters…)`.
+/// The constructor `new(step, parameters…)`, and what folds: the integrator's coefficients are followed by those of the bound
+/// on what Newton's method leaves out of the Hessian, and by the square of the radius.
 #[must_use]
 pub fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
     group: &TokenStream,
+    slots: usize,
 ) -> TokenStream {
     let problem = &integrator.problem;
     let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
     let step = format_ident!("{}", fresh("step", &names));
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
     let all = Products::of(&integrator.coefficients);
-    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&integrator.coefficients, &all);
+    let Sizes { powers, products, parts, bases } = Sizes::of(&integrator.coefficients, &all);
     let last = Literal::usize_unsuffixed(integrator.coefficients.last_terms(problem.truncation));
-    let defects = Literal::usize_unsuffixed(integrator.defect_len());
-    let defect = integrator.defect.iter().map(|term| {
+    let base = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
+    let square = Literal::usize_unsuffixed(slots - 1);
+    let slots = Literal::usize_unsuffixed(slots);
+    let bound = integrator.defect.iter().map(|term| {
         let slot = Literal::usize_unsuffixed(term.slot);
         let weight = float(term.weight);
         let degree = Literal::u32_unsuffixed(term.degree);
@@ -47,33 +52,30 @@ pub fn constructor(
             #step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            Self::of_symbols(#step, &[#(#symbols),*])
+            Self::of_symbols(#step, &#symbols)
         }
 
         fn of_symbols(
             step: T,
             symbols: &[T; #count],
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let parts = Self::parts(step, symbols)?;
-            let coefficients = #krate::plumbing::slots::<T, #parts, #bases, #slots>(
+            let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
                 Self::table(),
-                &parts,
-            );
+                &[#(#texts),*],
+                step,
+                symbols,
+            )?;
+            let mut coefficients = [T::of(0.0); #slots];
+            #krate::plumbing::slots::<T, #parts, #bases>(Self::table(), &parts, &mut coefficients);
+            #krate::plumbing::bound(&mut coefficients, #base, &[#(#bound),*]);
             let last = #krate::plumbing::last_terms::<T, #parts, #last>(
                 Self::table(),
                 &parts,
                 Self::TRUNCATION,
             );
             let radius = #krate::plumbing::radius(Self::table(), &last, Self::TRUNCATION);
-            let defect = #krate::plumbing::bound::<T, #defects>(&coefficients, &[#(#defect),*]);
-            ::core::result::Result::Ok(Self {
-                step,
-                symbols: *symbols,
-                coefficients,
-                defect,
-                last,
-                radius,
-            })
+            coefficients[#square] = radius * radius;
+            ::core::result::Result::Ok(Self { step, symbols: *symbols, coefficients, last, radius })
         }
 
         /// The error of a step, with a step size that works where one is found.
@@ -86,18 +88,6 @@ pub fn constructor(
             #krate::plumbing::advise(error, phase, self.step, |step| {
                 Self::of_symbols(step, &self.symbols)
             })
-        }
-
-        fn parts(
-            step: T,
-            symbols: &[T; #count],
-        ) -> ::core::result::Result<[T; #parts], #krate::StepError> {
-            #krate::plumbing::parts::<T, #powers, #products, #parts>(
-                Self::table(),
-                &[#(#texts),*],
-                step,
-                symbols,
-            )
         }
     }
 }

@@ -24,6 +24,8 @@ pub struct GroupType {
     pub definition: TokenStream,
     /// The tables of those items.
     pub tables: TokenStream,
+    /// Whether the group is known by tables as a whole.
+    pub by_tables: bool,
 }
 
 /// The runtime type for `algebra`: one of the runtime's own, or tables written beside the
@@ -41,11 +43,13 @@ pub fn group_type(
     if known && CLOSED_FORMS.iter().chain(&RUNTIME_TABLES).any(|known| *known == algebra.name()) {
         let group = format_ident!("{}", algebra.name());
         let ty = quote!(#krate::groups::#group<T>);
-        return GroupType { ty, definition: nothing(), tables: nothing() };
+        return GroupType { ty, definition: nothing(), tables: nothing(), by_tables: false };
     }
     let group = format_ident!("{name}Group");
     // Factors act on their own coordinates: far cheaper than one group of large matrices.
-    let (definition, tables) = match known.then(|| product(algebra, krate)).flatten() {
+    let product = known.then(|| product(algebra, krate)).flatten();
+    let by_tables = product.is_none();
+    let (definition, tables) = match product {
         Some(ty) => {
             let about = format!(" The group {}.", rust_comment(algebra.name()));
             let definition = quote! {
@@ -56,7 +60,7 @@ pub fn group_type(
         }
         None => own_tables(algebra, name, &group, visibility, krate),
     };
-    GroupType { ty: quote!(#group<T>), definition, tables }
+    GroupType { ty: quote!(#group<T>), definition, tables, by_tables }
 }
 
 /// The type of a product of the runtime's closed forms and powers of them, by its name.

@@ -2,23 +2,32 @@
 
 use coadjoint_program::quoting::rust_comment;
 
-use crate::integrator::{Integrator, Predictor};
+use super::programs::step_operations;
+use crate::integrator::Integrator;
+use crate::step::Step;
 
-/// Lines for a doc comment: source, group, chart, truncation, order, terms, operations.
+/// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
 #[must_use]
-pub fn lines(integrator: &Integrator) -> Vec<String> {
+pub fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
     let problem = &integrator.problem;
     let terms: Vec<String> = (1..=problem.truncation)
         .step_by(2)
         .map(|k| format!("S{k}: {}", integrator.series.order(k).len()))
         .collect();
-    let iteration = integrator.iteration().cost();
-    let what = if integrator.hessian.is_some() { "gradient and Hessian" } else { "gradient" };
-    let predictor = integrator.predictor.cost();
     let frame = problem
         .comoving
         .as_ref()
         .map(|_| " Comoving frame: S generates the motion in it.".to_owned());
+    let operations = match step {
+        Some(step) => {
+            let all = step_operations(step);
+            let again = step.kernel().programs().correct.cost().total();
+            format!(" A step takes {all} operations, and {again} more for each further correction.")
+        }
+        None => {
+            " A step is solved in loops over the coordinates, without programs of its own.".into()
+        }
+    };
     let mut lines = vec![
         format!(" Hamiltonian: `{}`", rust_comment(&problem.source)),
         String::new(),
@@ -30,26 +39,13 @@ pub fn lines(integrator: &Integrator) -> Vec<String> {
             integrator.order()
         ),
         format!(" Terms: {}.", terms.join(", ")),
-        format!(
-            " Operations: {what} {} multiplications and {} additions; predictor of degree {}{} {} \
-             and {}.",
-            iteration.multiplications,
-            iteration.additions,
-            integrator.plan.predictor.degree(),
-            match integrator.plan.predictor {
-                Predictor::Explicit(_) => "",
-                Predictor::Flow(_) => " along the flow",
-            },
-            predictor.multiplications,
-            predictor.additions
-        ),
+        operations,
     ];
     lines.extend(frame);
     lines
 }
 
-/// Lines for the head of a file: by whom it is written, what the integrator says of itself, and how
-/// to read what follows.
+/// Lines for the head of a file: by whom it is written, and how to read what follows.
 #[must_use]
 pub fn file_lines(integrator: &Integrator) -> Vec<String> {
     let mut result = vec![
@@ -60,15 +56,11 @@ pub fn file_lines(integrator: &Integrator) -> Vec<String> {
         ),
         String::new(),
     ];
-    result.extend(lines(integrator).into_iter().map(|line| line.trim_start().to_owned()));
     result.extend(
         [
-            "",
             "Programs have one operation a line: `c[i]` is a coefficient, folded once for the step size \
              and the",
-            "parameters, and `a.times_plus(b, c)` is a * b + c. A comment says what a line computes. \
-             Coordinates",
-            "count from one in names and comments. Tables stand at the end.",
+            "parameters, and `a.times_plus(b, c)` is a * b + c. Tables stand at the end.",
         ]
         .map(str::to_owned),
     );

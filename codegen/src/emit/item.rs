@@ -4,13 +4,14 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::constructor::constructor;
-use super::generating_function::{generating_function, scalar_function};
+use super::generating_function::{generating_function, scalar_function, without_programs};
 use super::options::Options;
-use super::scope::{Meaning, Scope};
+use super::programs::{MOST_OPERATIONS, programs, step_operations};
 use super::table::table_item;
 use super::types::Types;
 use super::{allow, header};
 use crate::integrator::{Integrator, Products};
+use crate::step::Step;
 
 /// The integrator as items: a struct and its implementations, tables last.
 #[must_use]
@@ -18,25 +19,27 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, attributes } = options;
     let types = Types::new(&integrator.problem.algebra, integrator.problem.chart, options);
     let Types { group, vector, definition, tables, aliases, .. } = &types;
-    let summary = header::lines(integrator);
-    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
-    let slots = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
-    let defects = Literal::usize_unsuffixed(integrator.defect_len());
-    let constructor = constructor(integrator, krate, group);
-    let scope = Scope {
-        krate: krate.clone(),
-        input: vector.clone(),
-        slots: integrator.coefficients.slots().len(),
-        lifted: false,
-        dim: types.dim,
-        meaning: Meaning::Unnamed,
+    let step = match types.by_tables {
+        true => Step::on_matrices(integrator),
+        false => Step::build(integrator),
     };
-    let generating = generating_function(integrator, krate, name, &types, &scope);
+    let step = step.ok().filter(|step| step_operations(step) <= MOST_OPERATIONS);
+    let summary = header::lines(integrator, step.as_ref());
+    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
+    let count = integrator.coefficients.slots().len() + integrator.defect_len() + 1;
+    let slots = Literal::usize_unsuffixed(count);
+    let constructor = constructor(integrator, krate, group, count);
+    let generating = generating_function(integrator, krate, name, &types, count);
+    let programs = match &step {
+        Some(step) => programs(step, krate, name, group, count),
+        None => without_programs(integrator, krate, name, &types, count),
+    };
+    let n = Literal::usize_unsuffixed(types.dim);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let last = integrator.coefficients.last_terms(integrator.problem.truncation);
     let last = Literal::usize_unsuffixed(last);
     let lanes = lanes(krate, name);
-    let energy = scalar_function(&integrator.energy, &scope.of(Meaning::Energy));
+    let energy = scalar_function(&integrator.energy, krate, "mu", count);
     let table =
         table_item(krate, &integrator.coefficients, &Products::of(&integrator.coefficients));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
@@ -57,8 +60,6 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
             symbols: [T; #symbols],
             /// The coefficients of the programs below, folded for h and the parameters.
             coefficients: [T; #slots],
-            /// A bound on the part of the Hessian that Newton's method leaves out, by degree.
-            defect: [T; #defects],
             /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
             last: [T; #last],
             radius: T,
@@ -125,11 +126,12 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                 /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
                 #[inline]
                 pub fn energy(&self, mu: &#vector) -> T {
-                    let input = mu;
-                    let c = &self.coefficients;
+                    let (mu, c): (&[T; #n], _) = (&mu.data.0[0], &self.coefficients);
                     #energy
                 }
             }
+
+            #programs
 
             #generating
 
@@ -160,7 +162,6 @@ fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
                     step: L::splat(self.step),
                     symbols: self.symbols.map(L::splat),
                     coefficients: self.coefficients.map(L::splat),
-                    defect: self.defect.map(L::splat),
                     last: self.last.map(L::splat),
                     radius: L::splat(self.radius),
                 }

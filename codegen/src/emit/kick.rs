@@ -7,7 +7,6 @@ use quote::quote;
 use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
 use super::options::Options;
-use super::scope::{Meaning, Scope};
 use super::table::{Sizes, table_item};
 use super::types::Types;
 use super::{allow, parameter};
@@ -29,21 +28,15 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let Arguments { arguments, scalars, .. } = arguments(&potential.parameters, krate);
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
-    let count = Literal::usize_unsuffixed(potential.symbols.len());
+    let symbol_count = Literal::usize_unsuffixed(potential.symbols.len());
     let all = Products::of(&kick.coefficients);
-    let Sizes { powers, products, parts, bases, slots } = Sizes::of(&kick.coefficients, &all);
+    let Sizes { powers, products, parts, bases } = Sizes::of(&kick.coefficients, &all);
+    let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
     let table = table_item(krate, &kick.coefficients, &all);
 
-    let scope = Scope {
-        krate: krate.clone(),
-        input: quote!([T; #entries]),
-        slots: kick.coefficients.slots().len(),
-        lifted: false,
-        dim: potential.size(),
-        meaning: Meaning::Potential,
-    };
-    let energy = scalar_function(&kick.energy, &scope);
-    let torque = vector_function(&kick.torque, vector, &scope.of(Meaning::Torque));
+    let count = kick.coefficients.slots().len();
+    let energy = scalar_function(&kick.energy, krate, "g", count);
+    let torque = vector_function(&kick.torque, vector, krate, "g", count);
     let cost = kick.torque.cost();
     let summary = [
         format!(" Potential: `{}`", rust_comment(&potential.source)),
@@ -57,10 +50,10 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     ];
     let entries_of_g = quote! {
         let group = const { &<#group>::new() };
-        let input: [T; #entries] = ::core::array::from_fn(|k| {
+        let g: [T; #entries] = ::core::array::from_fn(|k| {
             #krate::LieGroup::matrix_entry(group, g, k / #size, k % #size)
         });
-        let (input, c) = (&input, &self.coefficients);
+        let (g, c) = (&g, &self.coefficients);
     };
     quote! {
         #definition
@@ -87,7 +80,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 pub fn new(
                     #(#arguments),*
                 ) -> ::core::result::Result<Self, #krate::StepError> {
-                    let symbols: [T; #count] = [#(#symbols),*];
+                    let symbols: [T; #symbol_count] = [#(#symbols),*];
                     // No coefficient holds the step size.
                     let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
                         &TABLE,
@@ -95,10 +88,8 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                         T::of(1.0),
                         &symbols,
                     )?;
-                    let coefficients = #krate::plumbing::slots::<T, #parts, #bases, #slots>(
-                        &TABLE,
-                        &parts,
-                    );
+                    let mut coefficients = [T::of(0.0); #slots];
+                    #krate::plumbing::slots::<T, #parts, #bases>(&TABLE, &parts, &mut coefficients);
                     ::core::result::Result::Ok(Self { coefficients })
                 }
 

@@ -1,6 +1,6 @@
 //! What the folded coefficients of a program mean.
 
-use super::scope::{subscript, superscript};
+use super::subscript::{subscript, superscript};
 use crate::integrator::Coefficients;
 
 /// Beyond as many coefficients no one looks them up.

@@ -4,7 +4,6 @@
 //! `coadjoint::GeneratingFunction`. Everything is generic over the scalar, allocates nothing, and
 //! names the runtime by absolute path.
 
-mod body;
 pub mod c;
 mod constructor;
 mod file;
@@ -20,11 +19,11 @@ mod limit;
 mod number;
 mod options;
 mod parameter;
-mod scope;
-mod split;
+mod program;
+mod programs;
+mod subscript;
 mod table;
 mod types;
-mod writer;
 
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;

@@ -16,8 +16,6 @@ pub struct Sizes {
     pub parts: Literal,
     /// How many bases there are.
     pub bases: Literal,
-    /// How many slots there are.
-    pub slots: Literal,
 }
 
 impl Sizes {
@@ -31,7 +29,6 @@ impl Sizes {
             products: Literal::usize_unsuffixed(products.steps().len() + 1),
             parts: Literal::usize_unsuffixed(coefficients.parts().flatten().count()),
             bases: Literal::usize_unsuffixed(coefficients.bases().len()),
-            slots: Literal::usize_unsuffixed(coefficients.slots().len()),
         }
     }
 }

@@ -13,6 +13,8 @@ pub struct Types {
     pub dim: usize,
     /// The group, over the scalar `T`.
     pub group: TokenStream,
+    /// Whether elements are matrices in the representation of the basis, also those of a product.
+    pub by_tables: bool,
     /// The chart.
     pub chart: TokenStream,
     /// Vectors of the algebra or its dual, over the scalar `T`.
@@ -48,6 +50,7 @@ impl Types {
         Self {
             dim,
             group: group.ty,
+            by_tables: group.by_tables,
             chart,
             vector: quote!(#vector<T>),
             matrix: quote!(#matrix<T>),

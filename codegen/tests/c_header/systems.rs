@@ -7,7 +7,7 @@ use coadjoint_codegen::emit::c::{HeaderError, HeaderOptions, Language, header};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters};
 use num_traits::ToPrimitive;
 
@@ -204,7 +204,7 @@ impl Built {
         let symbols = problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&values)).collect();
         let prefix = coadjoint_codegen::emit::c::prefix(&problem.name);
         let ending = if system.language == Language::Cpp { "hpp" } else { "h" };
-        let programs = Step::build(&integrator, REACH).unwrap();
+        let programs = Step::build(&integrator).unwrap();
         Self {
             system,
             step: run.step.unwrap(),

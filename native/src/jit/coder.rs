@@ -207,6 +207,7 @@ impl<'f> Coder<'f> {
                 None => self.number(0.0),
             },
             Node::Constant(bits) => self.number(f64::from_bits(bits)),
+            Node::Epsilon => self.number(f64::EPSILON),
             _ => self.number(0.0),
         }
     }
@@ -224,7 +225,11 @@ impl<'f> Coder<'f> {
             Node::Sqrt(_) => self.builder.ins().sqrt(a),
             Node::Round(_) => self.builder.ins().nearest(a),
             Node::Select(..) => self.select([a, b, c, d]),
-            Node::Zero | Node::Constant(_) | Node::Input(_) | Node::Slot(_) => a,
+            Node::Zero
+            | Node::Constant(_)
+            | Node::Epsilon
+            | Node::Input(_)
+            | Node::Slot(_) => a,
         }
     }
 }

@@ -31,6 +31,11 @@ pub trait Dialect {
     /// A number of the program. It stands alone or as an operand: a negative one has to be in parentheses.
     fn constant(&self, value: f64) -> String;
 
+    /// The rounding unit of the numbers: the distance from 1 to the next larger one.
+    fn epsilon(&self) -> String {
+        self.constant(f64::EPSILON)
+    }
+
     /// Folded coefficient number `index`.
     fn slot(&self, index: usize) -> String;
 

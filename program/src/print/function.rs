@@ -46,6 +46,7 @@ pub(super) fn leaf(
     match node {
         Node::Zero => Some(dialect.constant(0.0)),
         Node::Constant(bits) => Some(dialect.constant(f64::from_bits(bits))),
+        Node::Epsilon => Some(dialect.epsilon()),
         Node::Slot(index) => Some(dialect.slot(index as usize)),
         Node::Input(index) => match Signature::find(&signature.inputs, index as usize) {
             Some((field, at)) => Some(field.place(at, |name| name.into())),

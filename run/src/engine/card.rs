@@ -2,7 +2,7 @@
 
 use coadjoint::{Chart, LieGroup};
 use coadjoint_codegen::graph::Arithmetic;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_device::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
@@ -18,7 +18,7 @@ fn programs<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     option: &str,
 ) -> Result<(Step, Vec<f64>), RunError> {
     let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
-    let step = Step::build_in(interpreter.integrator, REACH, precision);
+    let step = Step::build_in(interpreter.integrator, precision);
     let step = step.map_err(|error| failed(&error))?;
     let programs = step.kernel().programs();
     let operations = programs.correct.nodes().len() + programs.transport.nodes().len();

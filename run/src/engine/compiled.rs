@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{REACH, Scratch, Spatial, Step};
+use coadjoint_codegen::step::{Scratch, Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
 use super::restore::{entries_of, phase_of};
@@ -41,7 +41,7 @@ struct Programs {
 
 impl Programs {
     fn build(integrator: &Integrator) -> Result<Arc<Self>, coadjoint_codegen::step::StepError> {
-        let step = Step::build(integrator, REACH)?;
+        let step = Step::build(integrator)?;
         let spatial = Spatial::new(&step);
         Ok(Arc::new(Self { step, spatial }))
     }

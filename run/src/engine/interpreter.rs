@@ -4,15 +4,12 @@ use std::marker::PhantomData;
 
 use coadjoint::generating::{MatrixOf, ScalarOf, VectorOf, hessian_by_differences};
 use coadjoint::plumbing;
-use coadjoint::solve::{
-    CandidateOf, FixedPoint, LaggedModel, LaggedNewton, Method, Newton, NewtonModel, Predict,
-    Settings,
-};
+use coadjoint::solve::Solver;
 use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem;
 
 /// What a program computed.
 struct Outputs<'s, T> {
@@ -57,10 +54,6 @@ pub struct Interpreter<'a, G, C> {
     pub(super) group: G,
     /// The folded coefficients C_m(h).
     pub(super) slots: Vec<f64>,
-    /// The bound on what the Newton program leaves out of the Hessian, by degree.
-    pub(super) defect: Vec<f64>,
-    /// Whether H_red is of degree two or less.
-    pub(super) quadratic: bool,
     /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is at most ½ in
     /// every direction.
     pub(super) last: Vec<f64>,
@@ -74,16 +67,11 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
         let parts = fold_parts(integrator, step)?;
         let coefficients = &integrator.coefficients;
         let truncation = integrator.problem.truncation;
-        let orders = coefficients.last_orders(truncation);
-        let last: Vec<f64> = orders.map(|(number, ..)| parts[number]).collect();
+        let last: Vec<f64> =
+            coefficients.last_orders(truncation).map(|(number, ..)| parts[number]).collect();
         let radius = plumbing::radius_of(truncation, of_last(integrator, &last));
         let slots = coefficients.slots_of_parts(&parts);
-        let mut defect = vec![0.0; integrator.defect_len()];
-        for term in &integrator.defect {
-            defect[term.degree as usize] += slots[term.slot].abs() * term.weight;
-        }
-        let quadratic = integrator.problem.is_quadratic();
-        Ok(Self { integrator, group, slots, defect, quadratic, last, radius, chart: PhantomData })
+        Ok(Self { integrator, group, slots, last, radius, chart: PhantomData })
     }
 
     /// Evaluates a program and hands its outputs to `read`.
@@ -106,14 +94,6 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     #[inline(always)]
     fn vector(&self, program: &Program, p: &G::Vector) -> G::Vector {
         self.run(program, |i| p[i], |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
-    }
-
-    /// A program of a point and a direction.
-    #[inline(always)]
-    fn product(&self, program: &Program, p: &G::Vector, direction: &G::Vector) -> G::Vector {
-        let n = p.dim();
-        let both = |i: usize| if i < n { p[i] } else { direction[i - n] };
-        self.run(program, both, |output| G::Vector::from_entries(n, |i| output.get(i)))
     }
 
     #[inline(always)]
@@ -180,139 +160,20 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
     }
 }
 
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Predict for Interpreter<'_, G, C> {
-    fn predict_increment(&self, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
-        let flows = matches!(self.integrator.plan.predictor, Predictor::Flow(_));
-        flows.then(|| self.vector(&self.integrator.predictor, mu))
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
+    fn solver(&self) -> Solver {
+        match self.integrator.plan.solver {
+            problem::Solver::Newton => Solver::Newton,
+            problem::Solver::FixedPoint => Solver::FixedPoint,
+        }
     }
 
     fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
-        match self.predict_increment(mu) {
-            Some(x) => C::default().pull_back(&self.group, &x, mu),
-            None => self.vector(&self.integrator.predictor, mu),
-        }
-    }
-}
-
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> NewtonModel for Interpreter<'_, G, C> {
-    fn newton_model(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
-        match &self.integrator.hessian {
-            Some(_) => self.gradient_and_matrix(self.integrator.iteration(), p),
-            None => self.gradient_and_hessian(p),
-        }
-    }
-
-    fn bend(&self, x: ScalarOf<Self>) -> ScalarOf<Self> {
-        // As generated code has it: a quarter of |x|² is ample for quadratic Hamiltonians.
-        if self.quadratic { x * x * Scalar::of(0.25) } else { Scalar::of(1.0) }
-    }
-
-    fn hessian_defect(&self, size: ScalarOf<Self>) -> ScalarOf<Self> {
-        let mut sum = ScalarOf::<Self>::of(0.0);
-        for &coefficient in self.defect.iter().rev() {
-            sum = sum.times_plus(size, Scalar::of(coefficient));
-        }
-        sum
-    }
-}
-
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> LaggedModel for Interpreter<'_, G, C> {
-    fn coarse_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
-        let coarse = self.integrator.parts.as_ref().map(|parts| &parts.coarse);
-        self.vector(coarse.unwrap_or(&self.integrator.gradient), p)
-    }
-
-    fn fine_gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.parts {
-            Some(parts) => self.vector(&parts.fine, p),
-            None => VectorOf::<Self>::zeros(p.dim()),
-        }
-    }
-
-    fn leading_product(&self, p: &VectorOf<Self>, direction: &VectorOf<Self>) -> VectorOf<Self> {
-        match &self.integrator.parts {
-            Some(parts) => self.product(&parts.leading, p, direction),
-            None => direction.left_multiply(&self.newton_model(p).1),
-        }
-    }
-}
-
-/// The method that the plan of an integrator names.
-#[derive(Clone, Debug)]
-pub enum Planned<S: LaggedModel> {
-    /// Newton's method with matrices.
-    Newton(Newton<S>),
-    /// The quasi-Newton method with a lagged gradient.
-    Lagged(LaggedNewton),
-    /// The fixed point.
-    FixedPoint,
-}
-
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
-    type Method = Planned<Self>;
-}
-
-// Not inlined: each is compiled once for a group and chart, wherever steps are made.
-impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Method<Interpreter<'a, G, C>>
-    for Planned<Interpreter<'a, G, C>>
-{
-    fn begin(generating: &Interpreter<'a, G, C>) -> Self {
-        let integrator = generating.integrator;
-        match (integrator.plan.solver, &integrator.parts) {
-            (Solver::FixedPoint, _) => Self::FixedPoint,
-            (Solver::Newton, None) => Self::Newton(Newton::begin(generating)),
-            (Solver::Newton, Some(_)) => Self::Lagged(LaggedNewton),
-        }
-    }
-
-    #[inline(never)]
-    fn propose(
-        &mut self,
-        generating: &Interpreter<'a, G, C>,
-        mu: &G::Vector,
-        left: u64,
-        settings: Settings<G::Scalar>,
-    ) -> CandidateOf<Interpreter<'a, G, C>> {
         cancel::check();
-        match self {
-            Self::Newton(method) => method.propose(generating, mu, left, settings),
-            Self::Lagged(method) => method.propose(generating, mu, left, settings),
-            Self::FixedPoint => FixedPoint.propose(generating, mu, left, settings),
-        }
-    }
-
-    fn forget(&mut self) {
-        match self {
-            Self::Newton(method) => method.forget(),
-            // Nothing is carried from step to step by these.
-            Self::Lagged(_) | Self::FixedPoint => {}
-        }
-    }
-
-    fn propose_from(
-        generating: &Interpreter<'a, G, C>,
-        mu: &G::Vector,
-        guess: G::Vector,
-        settings: Settings<G::Scalar>,
-    ) -> CandidateOf<Interpreter<'a, G, C>> {
-        // The solution is the same whatever the method; this one is compiled already.
-        let one = Scalar::of(1.0);
-        Self::propose_scaled(generating, mu, one, guess, settings)
-    }
-
-    #[inline(never)]
-    fn propose_scaled(
-        generating: &Interpreter<'a, G, C>,
-        mu: &G::Vector,
-        scale: G::Scalar,
-        guess: G::Vector,
-        settings: Settings<G::Scalar>,
-    ) -> CandidateOf<Interpreter<'a, G, C>> {
-        match generating.integrator.plan.solver {
-            Solver::Newton => Newton::propose_scaled(generating, mu, scale, guess, settings),
-            Solver::FixedPoint => {
-                FixedPoint::propose_scaled(generating, mu, scale, guess, settings)
-            }
+        let guess = self.vector(&self.integrator.predictor, mu);
+        match self.integrator.plan.predictor {
+            Predictor::Explicit(_) => guess,
+            Predictor::Flow(_) => C::default().pull_back(&self.group, &guess, mu),
         }
     }
 }

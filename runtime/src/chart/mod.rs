@@ -4,7 +4,6 @@ use core::fmt::Debug;
 
 use crate::group::{CayleyGroup, LieGroup};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
 
 type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Matrix;
 
@@ -12,9 +11,6 @@ type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar
 pub trait Chart<G: LieGroup>: Copy + Debug + Default {
     /// The name users write: `exp` or `cayley`.
     const NAME: &'static str;
-
-    /// What [`Chart::pull_back_change`] leaves out is about (|x|/2)^CHANGE_ORDER of it; one or two.
-    const CHANGE_ORDER: u32 = 1;
 
     /// τ(x) and Ad\*_{τ(x)⁻¹} μ: the group increment of a step and the momentum after it.
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector);
@@ -37,20 +33,6 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         mu: &G::Vector,
     ) -> (G::Vector, Matrix<G>);
 
-    /// About ∂p/∂x·v, the change of p = (d^R τ_x)ᵀ μ where x moves by v; ½ ad\*_v p if not more.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn pull_back_change(
-        self,
-        group: &G,
-        x: &G::Vector,
-        mu: &G::Vector,
-        p: &G::Vector,
-        v: &G::Vector,
-    ) -> G::Vector {
-        let _ = (x, mu);
-        half_turn(group, p, v)
-    }
-
     /// J_L(x, p) = (d^R τ_x)^{−T} p, the momentum on the left: the body momentum before the step.
     fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector;
 
@@ -59,14 +41,6 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         let negative = G::Vector::from_entries(x.dim(), |i| -x[i]);
         self.left_momentum(group, &negative, p)
     }
-}
-
-/// ½ ad\*_v p, to leading order the change of p where x moves by v, whatever the chart.
-#[inline(always)]
-pub(crate) fn half_turn<G: LieGroup>(group: &G, p: &G::Vector, v: &G::Vector) -> G::Vector {
-    let half = G::Scalar::of(0.5);
-    let turned = group.ad_star(v, p);
-    G::Vector::from_entries(v.dim(), |i| turned[i] * half)
 }
 
 /// τ = exp, the default chart: at equal truncation far more accurate than Cayley.
@@ -79,7 +53,6 @@ pub struct Cayley;
 
 impl<G: LieGroup> Chart<G> for Exponential {
     const NAME: &'static str = "exp";
-    const CHANGE_ORDER: u32 = 2;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
@@ -109,24 +82,6 @@ impl<G: LieGroup> Chart<G> for Exponential {
         mu: &G::Vector,
     ) -> (G::Vector, Matrix<G>) {
         group.dexp_transpose_with_derivative(x, mu)
-    }
-
-    // ½ ad*_v μ + (ad*_v ad*_x + ad*_x ad*_v) μ/6 = (1 + ad*_x/3) ½ ad*_v (μ + ad*_x μ/3), where
-    // ad*_x μ is 2 (p − μ) to second order.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn pull_back_change(
-        self,
-        group: &G,
-        x: &G::Vector,
-        mu: &G::Vector,
-        p: &G::Vector,
-        v: &G::Vector,
-    ) -> G::Vector {
-        let (sixth, third) = (G::Scalar::of(1.0 / 6.0), G::Scalar::of(1.0 / 3.0));
-        let mean = G::Vector::from_entries(v.dim(), |i| (mu[i] + (p[i] + p[i])) * sixth);
-        let turned = group.ad_star(v, &mean);
-        let again = group.ad_star(x, &turned);
-        G::Vector::from_entries(v.dim(), |i| again[i].times_plus(third, turned[i]))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

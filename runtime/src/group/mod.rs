@@ -2,6 +2,7 @@
 
 pub(crate) mod element_error;
 pub(crate) mod heisenberg;
+pub(crate) mod phase;
 pub(crate) mod product;
 pub(crate) mod se2;
 pub(crate) mod se3;

@@ -5,11 +5,12 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::{F64x8, LaneGroup, Lanes};
-use crate::error::{StepError, Stopped};
+use crate::error::StepError;
 use crate::generating::GeneratingFunction;
-use crate::solve::{Integrator, Method, Settings};
-use crate::step::phase::Phase;
-use crate::step::{STEPS_PER_BLOCK, block};
+use crate::group::phase::Phase;
+use crate::solve::Integrator;
+use crate::step::advance_by;
+use crate::step::drive::BLOCK as STEPS_PER_BLOCK;
 
 /// Lanes per pack.
 const WIDTH: usize = <F64x8 as SimdValue>::LANES;
@@ -38,8 +39,7 @@ pub struct Failure {
 ///
 /// The result does not depend on the number of threads, on the grouping into packs, or on the
 /// processor's vector width: each trajectory gets the bits that [`advance_by`](crate::advance_by)
-/// gives, but where that solves several steps at once ([`BlockNewton`](crate::solve::BlockNewton)), which
-/// rounds otherwise. Each lane has a verdict of its own: a trajectory that is refused keeps its last good state and is
+/// gives. Each lane has a verdict of its own: a trajectory that is refused keeps its last good state and is
 /// reported (sorted by index); the others go on, with the same bits.
 pub fn advance_all<S>(step: &S, states: &mut [Phase<S::Group>], steps: u64) -> Vec<Failure>
 where
@@ -69,14 +69,13 @@ fn advance_pack<S: Lanes>(
     steps: u64,
     failures: &mut Vec<Failure>,
 ) {
-    let settings = Settings::default().with_single_steps();
     let mut stopped = [false; WIDTH];
     let mut done = 0;
     while done < steps {
         let length = STEPS_PER_BLOCK.min(steps - done);
         let Some(mut lanes) = pack::<S>(states, &stopped) else { return };
         let run = Run { step: packed, phase: &mut lanes.0, steps: length };
-        let together = Arch::new().dispatch(run).is_ok();
+        let together = Arch::new().dispatch(run);
         for (lane, state) in states.iter_mut().enumerate() {
             if stopped[lane] {
                 continue;
@@ -85,8 +84,7 @@ fn advance_pack<S: Lanes>(
                 *state = <S::Group as LaneGroup>::extract(&lanes.0, lane);
                 continue;
             }
-            let mut method = S::Method::begin(step);
-            if let Err(why) = block(step, &mut method, state, length, settings) {
+            if let Err(why) = advance_by(step, state, length) {
                 stopped[lane] = true;
                 let step = done + why.steps;
                 failures.push(Failure { index: first + lane, step, error: why.error });
@@ -121,12 +119,11 @@ struct Run<'a, S: Integrator> {
 }
 
 impl<S: Integrator> WithSimd for Run<'_, S> {
-    type Output = Result<(), Stopped>;
+    /// Whether all steps were made in all lanes.
+    type Output = bool;
 
     #[inline(always)]
     fn with_simd<I: Simd>(self, _simd: I) -> Self::Output {
-        let settings = Settings::default().with_single_steps();
-        let mut method = S::Method::begin(self.step);
-        block(self.step, &mut method, self.phase, self.steps, settings).map(drop)
+        self.step.drive(self.phase, self.steps).steps == self.steps
     }
 }

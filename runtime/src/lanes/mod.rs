@@ -12,6 +12,7 @@ use nalgebra::{SVector, SimdValue};
 pub use simba::simd::{AutoF64x4 as F64x4, AutoF64x8 as F64x8};
 
 use crate::group::heisenberg::Heisenberg;
+use crate::group::phase::Phase;
 use crate::group::product::{Power, Product};
 use crate::group::se2::SE2;
 use crate::group::se3::SE3;
@@ -20,8 +21,7 @@ use crate::group::su2::SU2;
 use crate::group::{FixedDimension, LieGroup};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-use crate::solve::{Integrator, MatrixFree, Predict};
-use crate::step::phase::Phase;
+use crate::solve::Integrator;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group that exists over lanes and is known to the compiler: nothing but its type is needed.
@@ -108,8 +108,9 @@ impl<G: FixedLaneGroup> LaneGroup for G {
 /// A lane computes the same bits as the scalar integrator.
 pub trait Lanes: Integrator<Group: LaneGroup> {
     /// The same integrator over lanes.
-    type Over<L: Scalar + SimdValue<Element = f64>>: Integrator<Group = <Self::Group as LaneGroup>::Over<L>>
-        + Predict;
+    type Over<L: Scalar + SimdValue<Element = f64>>: Integrator<
+        Group = <Self::Group as LaneGroup>::Over<L>,
+    >;
 
     /// This integrator in every lane: same step size, same parameters.
     fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L>;
@@ -300,13 +301,5 @@ where
     ) -> Phase<Self> {
         let (left, right) = factors(lanes);
         joined(A::extract::<L>(&left, lane), B::extract::<L>(&right, lane))
-    }
-}
-
-impl<S: Lanes + Predict> Lanes for MatrixFree<S> {
-    type Over<L: Scalar + SimdValue<Element = f64>> = MatrixFree<S::Over<L>>;
-
-    fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L> {
-        MatrixFree(self.0.splat())
     }
 }

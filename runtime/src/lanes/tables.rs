@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use nalgebra::{DVector, SimdValue};
 
 use super::LaneGroup;
+use crate::group::phase::Phase;
 use crate::number::scalar::Scalar;
-use crate::step::phase::Phase;
 use crate::table::{
     BasisEntry, CayleyTables, DynamicTables, StructureConstant, TableGroup, Tables, monomial,
 };

@@ -6,10 +6,10 @@ use super::Vector;
 use crate::chart::Chart;
 use crate::error::StepError;
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::solve::Integrator;
 use crate::solve::solve;
-use crate::step::phase::Phase;
 use crate::step::{advance, poisson_map};
 
 /// Weights of the central difference of eighth order at ±1, ±2, ±3, ±4 steps

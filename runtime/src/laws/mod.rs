@@ -13,9 +13,9 @@ use crate::error::StepError;
 use crate::generating::GeneratingFunction;
 use crate::generating::Reversed;
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::solve::Integrator;
-use crate::step::phase::Phase;
 use crate::step::{advance, poisson_map};
 
 pub use differences::{poisson_defect, symplectic_defect, symplectic_defect_of};

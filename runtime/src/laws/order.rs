@@ -3,7 +3,7 @@
 use super::{element_difference, relative, worse};
 use crate::error::StepError;
 use crate::group::LieGroup;
-use crate::step::phase::Phase;
+use crate::group::phase::Phase;
 
 /// Why an order could not be measured.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

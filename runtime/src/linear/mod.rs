@@ -2,4 +2,3 @@
 
 mod block_elimination;
 pub(crate) mod coordinates;
-pub(crate) mod response;

@@ -26,7 +26,6 @@ type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;
 
 /// In which lanes a candidate is solved, near its guess, a short way into the chart, and of a series that converges.
 /// Comparisons with what is not a number do not hold.
-#[inline(always)]
 fn accept<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -46,35 +45,21 @@ fn accept<S: GeneratingFunction + ?Sized>(
 }
 
 /// In which lanes a candidate is solved, and near its guess.
-#[inline(always)]
 fn solved<V, T: Scalar>(candidate: &Candidate<V, T>, settings: Settings<T>) -> T::SimdBool {
     candidate.residual.simd_le(settings.tolerance()) & candidate.moved.simd_le(T::of(NEAR))
 }
 
-/// Whether a candidate is right in all lanes.
-#[inline(always)]
-pub(crate) fn is_right<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-    candidate: &CandidateOf<S>,
-    settings: Settings<ScalarOf<S>>,
-) -> bool {
-    accept(generating, mu, candidate, settings).all()
-}
-
-/// The candidate if it is right, or what `rescue` makes of it. Where speed counts, ask [`is_right`], and let what is
-/// rescued go a way of its own to its end: where both ways meet again, x goes through memory.
+/// The candidate if it is right, or what `rescue` makes of it.
 ///
 /// # Errors
 /// Why there is no right step.
-#[inline(always)]
 pub(crate) fn judge<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: CandidateOf<S>,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<CandidateOf<S>, StepError> {
-    if is_right(generating, mu, &candidate, settings) {
+    if accept(generating, mu, &candidate, settings).all() {
         return Ok(candidate);
     }
     rescue(generating, mu, candidate, settings)

@@ -8,14 +8,13 @@ use crate::number::scalar::Scalar;
 pub struct Settings<T> {
     tolerance: T,
     any_ratio: bool,
-    one_by_one: bool,
 }
 
 impl<T: Scalar> Default for Settings<T> {
     /// To rounding (four units of it), and a series whose last two terms have a ratio of at most ½.
     #[inline(always)]
     fn default() -> Self {
-        Self { tolerance: T::of(4.0) * T::epsilon(), any_ratio: false, one_by_one: false }
+        Self { tolerance: T::of(4.0) * T::epsilon(), any_ratio: false }
     }
 }
 
@@ -35,20 +34,6 @@ impl<T: Scalar> Settings<T> {
     #[must_use]
     pub fn with_any_ratio(self) -> Self {
         Self { any_ratio: true, ..self }
-    }
-
-    /// Steps are never solved several at once: lanes and scalars then have the same bits.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_single_steps(self) -> Self {
-        Self { one_by_one: true, ..self }
-    }
-
-    /// See [`Settings::with_single_steps`].
-    #[inline(always)]
-    #[must_use]
-    pub fn goes_one_by_one(&self) -> bool {
-        self.one_by_one
     }
 
     /// See [`Settings::with_tolerance`].

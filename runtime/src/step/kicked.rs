@@ -5,11 +5,11 @@ use core::marker::PhantomData;
 use crate::error::StepError;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
 use crate::step::advance;
-use crate::step::phase::Phase;
 use crate::step::splitting::{MAX_FLOWS, Splitting};
 
 /// One step of H_red(μ) + V(t, g): the generated flows of H_red and kicks by the torque of V,

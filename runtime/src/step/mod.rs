@@ -1,28 +1,21 @@
 //! From a generating function to maps: Poisson on 𝔤\*, symplectic on T\*G.
 
-mod frame;
+pub(crate) mod drive;
 pub(crate) mod kicked;
-mod march;
 pub(crate) mod monitor;
-mod moves;
-pub(crate) mod phase;
+pub(crate) mod numbers;
 pub(crate) mod splitting;
-
-#[cfg(feature = "ensemble")]
-pub(crate) use march::{STEPS_PER_BLOCK, block};
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 
-use self::frame::move_frame;
-use self::march::march;
-use self::moves::{Momentum, Moves, finite_or_nan};
-use self::phase::Phase;
 use crate::chart::Chart;
 use crate::error::{StepError, Stopped};
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-use crate::solve::{CandidateOf, Integrator, Method, Settings, is_right, rescue};
+use crate::solve::{Candidate, CandidateOf, Integrator, Settings, judge, propose, rescue};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,14 +34,14 @@ pub struct StepReport<T> {
 ///
 /// # Errors
 /// [`StepError`].
-#[inline(always)]
+#[inline]
 pub fn poisson_map<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
 ) -> Result<VectorOf<S>, StepError> {
-    let mut moved = Momentum::<S::Group>(mu.clone());
-    single(generating, &mut moved, Settings::default())?;
-    Ok(moved.0)
+    let mut phase = Phase { group_element: generating.group().identity(), momentum: mu.clone() };
+    advance(generating, &mut phase)?;
+    Ok(phase.momentum)
 }
 
 /// Advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′): Algorithm 1 of the paper. Symplectic,
@@ -62,99 +55,80 @@ pub fn advance<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    advance_with(generating, phase, Settings::default())
+    let driven = generating.drive(phase, 1);
+    if driven.steps == 1 {
+        return Ok(StepReport { iterations: driven.iterations, residual: driven.residual });
+    }
+    by_hand(generating, phase, driven.refused, Settings::default())
 }
 
-/// As [`advance`], with settings of one's own.
-///
-/// # Errors
-/// As [`advance`].
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub fn advance_with<S: Integrator + ?Sized>(
-    generating: &S,
-    phase: &mut Phase<S::Group>,
-    settings: Settings<ScalarOf<S>>,
-) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    single(generating, phase, settings)
-}
-
-/// Many steps of [`advance`], and faster than one by one: each step takes its first guess from the
-/// one before ([`Predict::predict_after`](crate::solve::Predict::predict_after)), or several are solved at once
-/// ([`BlockNewton`](crate::solve::BlockNewton)), a comoving frame moves on for many at once,
-/// and what steps read of `generating` is prepared once. The report holds the largest number of
-/// iterations and the largest residual of a step; no step, none.
+/// Many steps of [`advance`], faster than one by one: a comoving frame moves on, and the state is checked, for many at
+/// once. The report holds the largest number of iterations and the largest residual of a step.
 ///
 /// # Errors
 /// [`Stopped`]: how many steps were made, and why the next one was not; `phase` is then the state before that.
-// Not inlined: beside code that might write to `generating`, nothing can be prepared.
+// Not inlined: what steps read of `generating` is prepared once, where nothing beside it might write there.
 #[inline(never)]
 pub fn advance_by<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     steps: u64,
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
-    march(generating, phase, steps, Settings::default())
+    let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
+    let mut note = |iterations: u32, residual: ScalarOf<S>| {
+        worst.iterations = worst.iterations.max(iterations);
+        worst.residual = worst.residual.simd_max(residual);
+    };
+    let mut done = 0;
+    while done < steps {
+        let driven = generating.drive(phase, steps - done);
+        done += driven.steps;
+        note(driven.iterations, driven.residual);
+        if done < steps {
+            let report = by_hand(generating, phase, driven.refused, Settings::default())
+                .map_err(|error| Stopped { steps: done, error })?;
+            note(report.iterations, report.residual);
+            done += 1;
+        }
+    }
+    Ok(worst)
 }
 
-/// As [`advance_by`], with settings of one's own.
+/// As [`advance`], with settings of one's own; never by programs, whose settings are the default.
 ///
 /// # Errors
-/// As [`advance_by`].
-#[inline(never)]
-pub fn advance_by_with<S: Integrator + ?Sized>(
+/// As [`advance`].
+pub fn advance_with<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
-    steps: u64,
-    settings: Settings<ScalarOf<S>>,
-) -> Result<StepReport<ScalarOf<S>>, Stopped> {
-    march(generating, phase, steps, settings)
-}
-
-/// One step of whatever moves; it is left as it was where there is none.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn single<S: Integrator + ?Sized, M: Moves<S::Group>>(
-    generating: &S,
-    state: &mut M,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let mut method = S::Method::begin(generating);
-    let candidate = method.propose(generating, state.momentum(), 1, settings);
-    if is_right(generating, state.momentum(), &candidate, settings) {
-        return complete(generating, state, &candidate);
-    }
-    // A copy, so that a state that steps in a loop go from can stay in registers.
-    let mut next = state.clone();
-    let report = generating.apart(|s| rescued(s, &mut next, candidate, settings))?;
-    *state = next;
-    Ok(report)
+    by_hand(generating, phase, None, settings)
 }
 
-/// The same for a candidate that is not right.
+/// One step without programs, or of the candidate that programs have found and refused.
+///
+/// # Errors
+/// As [`advance`].
 #[cold]
 #[inline(never)]
-fn rescued<S: Integrator + ?Sized, M: Moves<S::Group>>(
+fn by_hand<S: Integrator + ?Sized>(
     generating: &S,
-    state: &mut M,
-    candidate: CandidateOf<S>,
+    phase: &mut Phase<S::Group>,
+    refused: Option<CandidateOf<S>>,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let candidate = rescue(generating, state.momentum(), candidate, settings)?;
-    complete(generating, state, &candidate)
-}
-
-/// Moves a state by an accepted step, and checks what comes of it.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn complete<S: Integrator + ?Sized, M: Moves<S::Group>>(
-    generating: &S,
-    state: &mut M,
-    candidate: &CandidateOf<S>,
-) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let mut next = state.clone();
-    displace(generating, &mut next, &candidate.x);
-    move_frame(generating, &mut next, 1);
-    next.check(generating.group())?;
-    *state = next;
-    Ok(StepReport { iterations: candidate.iterations, residual: candidate.residual })
+    let mu = &phase.momentum;
+    let Candidate { x, iterations, residual, .. } = match refused {
+        Some(candidate) => rescue(generating, mu, candidate, settings)?,
+        None => {
+            let guess = generating.predict(mu);
+            let candidate = propose(generating, mu, Scalar::of(1.0), guess, settings);
+            judge(generating, mu, candidate, settings)?
+        }
+    };
+    reconstruct(generating, phase, &x)?;
+    Ok(StepReport { iterations, residual })
 }
 
 /// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that
@@ -162,30 +136,39 @@ fn complete<S: Integrator + ?Sized, M: Moves<S::Group>>(
 ///
 /// # Errors
 /// [`StepError::OffGroup`] and [`StepError::Overflow`]; `phase` is then left as it was.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn reconstruct<S: GeneratingFunction + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     x: &VectorOf<S>,
 ) -> Result<(), StepError> {
+    let group = generating.group();
     let mut next = phase.clone();
-    displace(generating, &mut next, x);
-    move_frame(generating, &mut next, 1);
-    check(generating.group(), &next)?;
+    let (increment, moved) = S::Chart::default().transport(group, x, &next.momentum);
+    move_by(group, &mut next, &increment, moved);
+    let mut motion = 0;
+    while let Some(y) = generating.frame(motion, &next.momentum) {
+        let (increment, moved) = group.exp_transport(&y, &next.momentum);
+        move_by(group, &mut next, &increment, moved);
+        motion += 1;
+    }
+    check(group, &next)?;
     *phase = next;
     Ok(())
 }
 
-/// (g, μ) ↦ (g·τ(x), Ad\*_{τ(x)⁻¹} μ).
-#[inline(always)]
-fn displace<S: GeneratingFunction + ?Sized, M: Moves<S::Group>>(
-    generating: &S,
-    state: &mut M,
-    x: &VectorOf<S>,
-) {
-    let group = generating.group();
-    let (increment, moved) = S::Chart::default().transport(group, x, state.momentum());
-    state.move_by(group, &increment, moved);
+/// (g, μ) ↦ (g·k, Ad\*_{k⁻¹} μ), given both k and the moved momentum.
+fn move_by<G: LieGroup>(group: &G, phase: &mut Phase<G>, k: &G::Element, moved: G::Vector) {
+    phase.group_element = group.compose(&phase.group_element, k);
+    phase.momentum = moved;
+}
+
+/// Zero where all coordinates are finite, else NaN.
+fn finite_or_nan<T: Scalar, V: Coordinates<T>>(mu: &V) -> T {
+    let mut sum = T::of(0.0);
+    for i in 0..mu.dim() {
+        sum = mu[i].times_plus(T::of(0.0), sum);
+    }
+    sum
 }
 
 /// How far a group element may be from the group, in units of √rounding: products keep it at rounding.
@@ -195,27 +178,22 @@ const OFF_GROUP: f64 = 1.0;
 ///
 /// # Errors
 /// What is wrong with it.
-#[inline(always)]
 fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
     let defect = group.element_defect(&phase.group_element) + finite_or_nan(&phase.momentum);
     match defect.simd_le(largest_defect()).all() {
         true => Ok(()),
-        // A copy, so that the phase itself can stay in registers.
-        false => Err(unsound(group, phase.clone())),
+        false => Err(unsound(group, phase)),
     }
 }
 
 /// The largest [`LieGroup::element_defect`] of a state that is accepted: the square root of rounding.
-#[inline(always)]
 fn largest_defect<T: Scalar>() -> T {
     // Of rounding in the scalar, not in its lanes' type.
     T::of(OFF_GROUP) * T::epsilon().simd_sqrt()
 }
 
 /// Names what is wrong with a state.
-#[cold]
-#[inline(never)]
-fn unsound<G: LieGroup>(group: &G, phase: Phase<G>) -> StepError {
+fn unsound<G: LieGroup>(group: &G, phase: &Phase<G>) -> StepError {
     if !finite_or_nan(&phase.momentum).simd_le(G::Scalar::of(0.0)).all() {
         return StepError::Overflow;
     }

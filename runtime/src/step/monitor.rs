@@ -5,9 +5,9 @@ use core::fmt::Debug;
 use nalgebra::{SimdComplexField, SimdPartialOrd};
 
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-use crate::step::phase::Phase;
 
 /// The largest drifts seen so far, each relative to its scale. NaN where a state was not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -92,21 +92,6 @@ impl Coefficients {
         self.slots_of_parts(&self.fold_parts(step, symbols))
     }
 
-    /// Whether a base has even powers of h only, or odd ones only; `None` where it has both.
-    #[must_use]
-    pub fn is_even(&self, base: usize) -> Option<bool> {
-        let mut parities = self.bases.get(base)?.iter().map(|term| term.step_power % 2 == 0);
-        let first = parities.next()?;
-        parities.all(|parity| parity == first).then_some(first)
-    }
-
-    /// The highest power of h in a base.
-    #[must_use]
-    pub fn order(&self, base: usize) -> usize {
-        let terms = self.bases.get(base).and_then(|terms| terms.last());
-        terms.map_or(0, |term| term.step_power as usize)
-    }
-
     /// How many parts of the series have the order K or K − 2: the coefficients of its last two terms. None for
     /// K = 1, where there is one term only.
     #[must_use]

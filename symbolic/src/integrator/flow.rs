@@ -11,7 +11,6 @@ use std::collections::HashMap;
 use num_traits::One;
 
 use super::coefficients::{Coefficients, Contribution};
-use super::runge_kutta;
 use super::terms::{self, BaseTerm};
 use crate::graph::{Graph, Id, Program};
 use crate::number::{Rational, ratio};
@@ -27,79 +26,38 @@ pub fn increment_program(
     problem: &Problem,
     degree: usize,
 ) -> Program {
-    let mut flow = Flow::new(coefficients, problem, Origin::Start);
+    let mut flow = Flow::new(coefficients, problem);
     flow.extend(degree - 1);
     let x = flow.increment(degree);
     flow.graph.finish(problem.algebra.dim(), &x)
 }
 
-/// μ, and after it a number of steps, which need not be whole ↦ μ so much later, about.
-pub fn advance_program(coefficients: &mut Coefficients, problem: &Problem) -> Program {
-    let mut flow = Flow::new(coefficients, problem, Origin::Start);
-    let dim = problem.algebra.dim();
-    let field = flow.field();
-    let start = flow.momenta[0].clone();
-    let steps = flow.graph.input(dim);
-    let mut rates = vec![flow.rates(&field, steps)];
-    for weights in runge_kutta::STAGES {
-        let stage = flow.weigh(&start, &rates, weights);
-        flow.restart(stage);
-        rates.push(flow.rates(&field, steps));
+/// ∫ (s − ½)ⁱ sᵏ ds from 0 to 1.
+fn moment(i: u32, k: i64) -> Rational {
+    let mut sum = ratio(0, 1);
+    // (s − ½)ⁱ term by term: the coefficients of sʲ from that of sⁱ down.
+    let mut binomial = ratio(1, 1);
+    for j in (0..=i64::from(i)).rev() {
+        sum += &binomial * ratio(1, k + j + 1);
+        binomial *= ratio(-j, 2 * (i64::from(i) - j + 1));
     }
-    let end = flow.weigh(&start, &rates, runge_kutta::LAST);
-    flow.graph.finish(dim + 1, &end)
+    sum
 }
 
-/// The momentum in the middle of a step ↦ x, then the momentum where it begins, up to h^degree.
-pub fn step_program(coefficients: &mut Coefficients, problem: &Problem, degree: usize) -> Program {
-    let mut flow = Flow::new(coefficients, problem, Origin::Middle);
-    flow.extend(degree);
-    let mut outputs = flow.increment(degree);
-    outputs.extend(flow.momentum(|k| ratio(1 - 2 * (k as i64 % 2), 1 << k)));
-    flow.graph.finish(problem.algebra.dim(), &outputs)
+/// The share of sᵏ in a₁ = 9/4 B₀ − 15 B₂, the value of ω in the middle of the step.
+fn a1(k: i64) -> Rational {
+    ratio(9, 4) * moment(0, k) - ratio(15, 1) * moment(2, k)
 }
 
-/// Where the time s over the step is zero.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    Start,
-    Middle,
+/// The share of sᵏ in a₃ = 180 B₂ − 15 B₀, half the second derivative there.
+fn a3(k: i64) -> Rational {
+    ratio(180, 1) * moment(2, k) - ratio(15, 1) * moment(0, k)
 }
 
-impl Origin {
-    /// ∫ (s − ½)ⁱ sᵏ ds from 0 to 1, or ∫ sⁱ⁺ᵏ ds from −½ to ½.
-    fn moment(self, i: u32, k: i64) -> Rational {
-        if self == Self::Middle {
-            let power = i64::from(i) + k;
-            let whole = ratio(1, (power + 1) << power);
-            return if power % 2 == 0 { whole } else { ratio(0, 1) };
-        }
-        let mut sum = ratio(0, 1);
-        // (s − ½)ⁱ term by term: the coefficients of sʲ from that of sⁱ down.
-        let mut binomial = ratio(1, 1);
-        for j in (0..=i64::from(i)).rev() {
-            sum += &binomial * ratio(1, k + j + 1);
-            binomial *= ratio(-j, 2 * (i64::from(i) - j + 1));
-        }
-        sum
-    }
-
-    /// The share of sᵏ in a₁ = 9/4 B₀ − 15 B₂, the value of ω in the middle of the step.
-    fn a1(self, k: i64) -> Rational {
-        ratio(9, 4) * self.moment(0, k) - ratio(15, 1) * self.moment(2, k)
-    }
-
-    /// The share of sᵏ in a₃ = 180 B₂ − 15 B₀, half the second derivative there.
-    fn a3(self, k: i64) -> Rational {
-        ratio(180, 1) * self.moment(2, k) - ratio(15, 1) * self.moment(0, k)
-    }
-}
-
-/// Power series in the time over the step, s from 0 to 1 or from −½ to ½, as nodes of a graph.
+/// Power series in the time over the step, s from 0 to 1, as nodes of a graph.
 struct Flow<'a> {
     coefficients: &'a mut Coefficients,
     problem: &'a Problem,
-    origin: Origin,
     graph: Graph,
     /// The coefficients of sᵏ in each coordinate of μ: `[order][coordinate]`.
     momenta: Vec<Vec<Id>>,
@@ -110,47 +68,11 @@ struct Flow<'a> {
 }
 
 impl<'a> Flow<'a> {
-    fn new(coefficients: &'a mut Coefficients, problem: &'a Problem, origin: Origin) -> Self {
+    fn new(coefficients: &'a mut Coefficients, problem: &'a Problem) -> Self {
         let mut graph = Graph::new();
         let inputs = (0..problem.algebra.dim()).map(|i| graph.input(i)).collect();
         let (products, numbers) = (HashMap::new(), HashMap::new());
-        Self { coefficients, problem, origin, graph, momenta: vec![inputs], products, numbers }
-    }
-
-    /// Forgets the powers: what follows is the flow from another momentum.
-    fn restart(&mut self, momentum: Vec<Id>) {
-        self.momenta = vec![momentum];
-        self.products.clear();
-    }
-
-    /// The terms of h μ̇.
-    fn field(&mut self) -> Vec<Vec<BaseTerm>> {
-        let field = self.problem.algebra.hamiltonian_field(self.problem.generated());
-        field.iter().map(|rate| self.collect(1, rate)).collect()
-    }
-
-    /// h μ̇ where the powers begin, times a number.
-    fn rates(&mut self, field: &[Vec<BaseTerm>], times: Id) -> Vec<Id> {
-        let rate = |terms: &Vec<BaseTerm>| {
-            let rate = self.evaluate(terms, 0);
-            self.graph.mul(times, rate)
-        };
-        field.iter().map(rate).collect()
-    }
-
-    /// start + Σ weight · rate, over the stages named; the newest last, for which the sum would have to wait.
-    fn weigh(&mut self, start: &[Id], rates: &[Vec<Id>], weights: &[(usize, f64)]) -> Vec<Id> {
-        let zero = self.graph.zero();
-        let mut sums = start.to_vec();
-        for &(stage, weight) in weights {
-            let weight = self.number(Rational::from_float(weight).unwrap_or_default());
-            for (sum, &rate) in sums.iter_mut().zip(&rates[stage]) {
-                if rate != zero {
-                    *sum = self.graph.times_plus(weight, rate, *sum);
-                }
-            }
-        }
-        sums
+        Self { coefficients, problem, graph, momenta: vec![inputs], products, numbers }
     }
 
     /// The momentum's coefficients up to s^highest.
@@ -168,29 +90,6 @@ impl<'a> Flow<'a> {
                 .collect();
             self.momenta.push(rates);
         }
-    }
-
-    /// Σ weight(k) · the momentum's coefficient of sᵏ, over all powers.
-    fn momentum(&mut self, weight: impl Fn(usize) -> Rational) -> Vec<Id> {
-        let zero = self.graph.zero();
-        (0..self.problem.algebra.dim())
-            .map(|i| {
-                let mut sum = zero;
-                // Small ones first.
-                for k in (0..self.momenta.len()).rev() {
-                    let coefficient = self.momenta[k][i];
-                    let weight = weight(k);
-                    if coefficient == zero {
-                    } else if weight.is_one() {
-                        sum = self.graph.add(sum, coefficient);
-                    } else {
-                        let weight = self.number(weight);
-                        sum = self.graph.times_plus(weight, coefficient, sum);
-                    }
-                }
-                sum
-            })
-            .collect()
     }
 
     /// x up to h^degree.
@@ -340,9 +239,8 @@ impl<'a> Flow<'a> {
     /// x = B₀ + \[B₀, B₁\], Bᵢ = ∫ (s − ½)ⁱ ω ds. For ġ = gω brackets of an even number of factors
     /// change sign against the formulas for ẏ = ωy.
     fn fourth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
-        let at = self.origin;
-        let b0 = self.combine(jets, |k| at.moment(0, k));
-        let b1 = self.combine(jets, |k| at.moment(1, k));
+        let b0 = self.combine(jets, |k| moment(0, k));
+        let b1 = self.combine(jets, |k| moment(1, k));
         let turn = self.bracket(&ratio(1, 1), &b0, &b1);
         self.add(&b0, &[(ratio(1, 1), &turn)])
     }
@@ -350,12 +248,11 @@ impl<'a> Flow<'a> {
     /// x = a₁ + a₃/12 + \[20a₁ + a₃ + c, a₂ + \[a₁, 2a₃ − c\]/60\]/240, c = \[a₁, a₂\], with
     /// a₁ = 9/4 B₀ − 15 B₂, a₂ = 12 B₁, a₃ = 180 B₂ − 15 B₀.
     fn sixth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
-        let at = self.origin;
-        let straight = self.combine(jets, |k| at.moment(0, k));
-        let outer = self.combine(jets, |k| ratio(20, 1) * at.a1(k) + at.a3(k));
-        let a1 = self.combine(jets, |k| at.a1(k));
-        let a2 = self.combine(jets, |k| ratio(12, 1) * at.moment(1, k));
-        let twice_a3 = self.combine(jets, |k| ratio(2, 1) * at.a3(k));
+        let straight = self.combine(jets, |k| moment(0, k));
+        let outer = self.combine(jets, |k| ratio(20, 1) * a1(k) + a3(k));
+        let a1 = self.combine(jets, |k| a1(k));
+        let a2 = self.combine(jets, |k| ratio(12, 1) * moment(1, k));
+        let twice_a3 = self.combine(jets, |k| ratio(2, 1) * a3(k));
         let c = self.bracket(&ratio(1, 1), &a1, &a2);
         let inner = self.add(&twice_a3, &[(ratio(-1, 1), &c)]);
         let inner = self.bracket(&ratio(1, 60), &a1, &inner);
@@ -370,17 +267,16 @@ impl<'a> Flow<'a> {
     /// s₂ = {u + s₁, v + r₁}; r₂ = {a₁ + 5s₁/4, 2a₃ + s₂ + {a₂, s₁}/2};
     /// s₃ = {B₀ − 7s₁/3 − s₂/6, 63r₁ + r₂ − 9a₂ − 9a₄/4}; x = B₀ − 7s₂/120 + s₃/360.
     fn eighth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
-        let at = self.origin;
         let one = || ratio(1, 1);
-        let a2 = |k| ratio(75, 1) * at.moment(1, k) - ratio(420, 1) * at.moment(3, k);
-        let a4 = |k| ratio(2800, 1) * at.moment(3, k) - ratio(420, 1) * at.moment(1, k);
-        let straight = self.combine(jets, |k| at.moment(0, k));
-        let u = self.combine(jets, |k| at.a1(k) + at.a3(k) / ratio(28, 1));
+        let a2 = |k| ratio(75, 1) * moment(1, k) - ratio(420, 1) * moment(3, k);
+        let a4 = |k| ratio(2800, 1) * moment(3, k) - ratio(420, 1) * moment(1, k);
+        let straight = self.combine(jets, |k| moment(0, k));
+        let u = self.combine(jets, |k| a1(k) + a3(k) / ratio(28, 1));
         let v = self.combine(jets, |k| a2(k) + ratio(3, 28) * a4(k));
         let last = self.combine(jets, |k| ratio(-9, 1) * a2(k) - ratio(9, 4) * a4(k));
-        let first = self.combine(jets, |k| at.a1(k));
+        let first = self.combine(jets, |k| a1(k));
         let second = self.combine(jets, a2);
-        let third = self.combine(jets, |k| at.a3(k));
+        let third = self.combine(jets, |k| a3(k));
 
         let s1 = self.bracket(&ratio(1, 28), &u, &v);
         let r1 = self.add(&s1, &[(ratio(-1, 14), &third)]);

@@ -29,28 +29,6 @@ pub fn vector_program(
     graph.finish(dim, &outputs)
 }
 
-/// Twice the parts of the same polynomials that are even in h; `None` where a monomial has even and
-/// odd powers of h.
-pub fn even_program(
-    coefficients: &mut Coefficients,
-    dim: usize,
-    components: &[Vec<BaseTerm>],
-) -> Option<Program> {
-    let mut graph = Graph::new();
-    let mut outputs = Vec::with_capacity(dim);
-    for terms in components {
-        let mut even = Vec::new();
-        for term in terms {
-            if coefficients.is_even(term.base)? {
-                even.push(term);
-            }
-        }
-        let twice = weighted(coefficients, even, &[], |_| 2);
-        outputs.push(lower(&mut graph, &twice));
-    }
-    Some(graph.finish(dim, &outputs))
-}
-
 /// ∂S/∂p, lowered once for all programs that have it.
 pub struct Gradient<'a> {
     with: Vec<Vec<&'a BaseTerm>>,
@@ -103,35 +81,6 @@ impl<'a> Gradient<'a> {
         }
         graph.finish(dim, &outputs)
     }
-}
-
-/// (p, v) ↦ ∂²S₁/∂p²·v, the inputs of v after those of p.
-pub fn leading_program(coefficients: &mut Coefficients, dim: usize, terms: &[BaseTerm]) -> Program {
-    let mut graph = Graph::new();
-    let mut outputs = Vec::with_capacity(dim);
-    for (i, terms) in by_coordinate(terms, dim).iter().enumerate() {
-        let kept = || terms.iter().copied().filter(|term| term.order <= 1);
-        let mut sum = graph.zero();
-        for j in 0..dim {
-            let entry = if i == j {
-                weighted(coefficients, kept(), &[(i, 2)], |term| {
-                    let m = term.exponent(i);
-                    m * m.saturating_sub(1)
-                })
-            } else {
-                weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
-                    term.exponent(i) * term.exponent(j)
-                })
-            };
-            let entry = lower(&mut graph, &entry);
-            if entry != graph.zero() {
-                let direction = graph.input(dim + j);
-                sum = graph.times_plus(entry, direction, sum);
-            }
-        }
-        outputs.push(sum);
-    }
-    graph.finish(2 * dim, &outputs)
 }
 
 /// One coordinate of ∂S/∂p in the form pᵢ·G + B.

@@ -6,7 +6,6 @@ mod kick;
 mod lower;
 mod plan;
 mod products;
-mod runge_kutta;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
@@ -19,32 +18,6 @@ use crate::comoving::Frame;
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
 use crate::problem::{Problem, Solver};
-
-/// ∂S/∂p in two parts.
-#[derive(Clone, Debug)]
-pub struct GradientParts {
-    /// p ↦ ∂(S₁ + … + S_k)/∂p, with the k up to which the plan keeps the Hessian.
-    pub coarse: Program,
-    /// p ↦ ∂(S_{k+2} + … + S_K)/∂p.
-    pub fine: Program,
-    /// (p, v) ↦ the Hessian of S₁ times v.
-    pub leading: Program,
-    /// What several steps go by at once, where they do.
-    pub at_once: Option<AtOnce>,
-}
-
-/// What several steps go by at once.
-#[derive(Clone, Debug)]
-pub struct AtOnce {
-    /// The momentum, then a number of steps ↦ about the momentum so much later.
-    pub onwards: Program,
-    /// The momentum in the middle of a step ↦ about x, and the momentum before it.
-    pub around: Program,
-    /// p ↦ ∂(S₁ + … + S_k)/∂p, then the upper triangle of its derivative.
-    pub coarse: Program,
-    /// p ↦ ∂(S_{k+2} + … + S_K)/∂p.
-    pub fine: Program,
-}
 
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
 /// programs over them.
@@ -70,15 +43,10 @@ pub struct Integrator {
     /// As `hessian`, with the Hessian truncated as the plan says; `None` where that changes
     /// nothing.
     pub newton: Option<Program>,
-    /// What steps go by where the gradient comes in two parts.
-    pub parts: Option<GradientParts>,
-    /// Bounds what `newton` leaves out of the Hessian, or the Hessian of the fine part.
+    /// Bounds what `newton` leaves out of the Hessian.
     pub defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
-    /// μ ↦ twice the part of an explicit predictor that is even in h, from which a step that follows
-    /// another takes the p of the one before; `None` where it cannot be told apart.
-    pub continuation: Option<Program>,
     /// μ ↦ H_red(μ).
     pub energy: Program,
     /// μ ↦ y for each part of the comoving frame's motion: exp y follows the map of S.
@@ -142,28 +110,7 @@ impl Integrator {
         let truncated = gradient.as_ref().filter(|_| kept < truncation);
         let newton = truncated.map(|gradient| gradient.with_hessian(table, kept));
         let newton = newton.filter(|program| hessian.as_ref() != Some(program));
-        let parts = (hessian.is_some() && plan::in_parts(&problem)).then(|| {
-            let (coarse, fine): (Vec<_>, Vec<_>) =
-                s.iter().cloned().partition(|term| term.order <= kept);
-            GradientParts {
-                coarse: lower::Gradient::new(table, dim, &coarse).program(),
-                fine: lower::Gradient::new(table, dim, &fine).program(),
-                leading: lower::leading_program(table, dim, &s),
-                at_once: plan.at_once(&problem, &s).map(|(degree, kept)| {
-                    let kept = kept as u32;
-                    let (coarse, fine): (Vec<_>, Vec<_>) =
-                        s.iter().cloned().partition(|term| term.order <= kept);
-                    AtOnce {
-                        onwards: flow::advance_program(table, &problem),
-                        around: flow::step_program(table, &problem, degree),
-                        coarse: lower::Gradient::new(table, dim, &coarse).with_hessian(table, kept),
-                        fine: lower::Gradient::new(table, dim, &fine).program(),
-                    }
-                }),
-            }
-        });
         let defect = lower::defect(table, &s, kept);
-        let mut continuation = None;
         let predictor = match plan.predictor {
             Predictor::Flow(degree) => flow::increment_program(table, &problem, degree),
             Predictor::Explicit(_) => {
@@ -173,7 +120,6 @@ impl Integrator {
                         terms::collect(table, dim, orders)
                     })
                     .collect();
-                continuation = lower::even_program(table, dim, &components);
                 lower::vector_program(table, dim, &components)
             }
         };
@@ -198,10 +144,8 @@ impl Integrator {
             gradient,
             hessian,
             newton,
-            parts,
             defect,
             predictor,
-            continuation,
             energy,
             frame,
         })

@@ -48,19 +48,6 @@ impl Plan {
         even.min(truncation + 1)
     }
 
-    /// Whether several steps are solved at once, along the flow and with matrices: the degree of the guesses,
-    /// and the k up to which the Hessian of S₁ … S_k is taken. The more of it, the longer steps can be.
-    pub fn at_once(&self, problem: &Problem, terms: &[BaseTerm]) -> Option<(usize, usize)> {
-        let Predictor::Flow(degree) = self.predictor else { return None };
-        if problem.algebra.dim() > MOST_DIMENSIONS {
-            return None;
-        }
-        let highest = problem.truncation.min(HIGHEST_OF_HESSIAN);
-        let longer = (self.hessian_truncation + 2..=highest).step_by(2);
-        let affordable = longer.take_while(|&k| hessian_operations(terms, k) <= HESSIAN_OPERATIONS);
-        Some((degree, affordable.last().unwrap_or(self.hessian_truncation)))
-    }
-
     /// Chord steps after the first, Newton's, until the error is of the order in h that is `goal`. With
     /// the predictor's error of order e, every step gains e + 1 orders, or k + 2 if the Hessian leaves
     /// out S_{k+2} and higher and that is less.
@@ -74,7 +61,7 @@ impl Plan {
     /// How many chord steps are to be expected after the first step, Newton's.
     pub(crate) fn chords(self, problem: &Problem) -> usize {
         let degree = Self::single_step_degree(problem.truncation);
-        let goal = if in_parts(problem) { degree + 5 } else { 2 * degree + 2 };
+        let goal = if corrects_dearly(problem) { degree + 5 } else { 2 * degree + 2 };
         self.chord_steps(problem.truncation, goal)
     }
 
@@ -140,15 +127,14 @@ impl Plan {
         let highest = Self::single_step_degree(problem.truncation);
         let newton = problem.solver() == Solver::Newton;
         let flows = newton && problem.chart == Chart::Exponential;
-        // Where guesses are made for several steps at once they lead from one to the next, and with four
-        // times the error of one the fine part at the guess must do: the best there is pays.
-        let ahead = flows && in_parts(problem);
+        // Where a correction is dear the best guess there is pays.
+        let best_guess = flows && corrects_dearly(problem);
         let costs = Costs::new(problem, terms);
         let mut found: Vec<(usize, Self)> = Vec::new();
         if flows {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
-            for &degree in if ahead { &degrees[possible.saturating_sub(1)..] } else { degrees } {
+            for &degree in if best_guess { &degrees[possible.saturating_sub(1)..] } else { degrees } {
                 let program =
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
@@ -162,7 +148,7 @@ impl Plan {
         let Problem { algebra, chart, .. } = problem;
         let mut size = PredictorSize::new(algebra, *chart, problem.generated(), limit)?;
         let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
-        for degree in if ahead { 0..0 } else { 0..last + 1 } {
+        for degree in if best_guess { 0..0 } else { 0..last + 1 } {
             // About two operations for each monomial.
             let own = match size.next_degree(least / 2) {
                 Ok(monomials) => 2 * monomials,
@@ -189,23 +175,13 @@ impl Plan {
 /// waits for its own results (measured on SO(3)).
 const WAIT: usize = 300;
 
-/// Whether steps go by the gradient in two parts, without matrices: in more than three dimensions, where
-/// matrices take longer than polynomials, and for long series, most of whose terms matter little.
-pub fn in_parts(problem: &Problem) -> bool {
+/// Whether most of a step goes into its corrections: in more than three dimensions and for long series, whose Hessian is
+/// then taken of the first terms alone.
+fn corrects_dearly(problem: &Problem) -> bool {
     problem.solver() == Solver::Newton && problem.algebra.dim() > 3 && problem.truncation >= 7
 }
 
-/// Several steps are solved at once up to this dimension, with matrices of two blocks of three a side.
-const MOST_DIMENSIONS: usize = 6;
-
-/// The Hessian that several steps take is that of S₁ … S_k for k up to this: it makes long steps cost as little
-/// as short ones, and S₉ no more than that, but for a tenth of a step.
-const HIGHEST_OF_HESSIAN: usize = 7;
-
-/// What it has beyond that of the coarse part is at most so many operations.
-const HESSIAN_OPERATIONS: usize = 2000;
-
-/// The coarse part: S₁ + S₃ + S₅.
+/// Such a Hessian is that of S₁ + S₃ + S₅.
 const COARSE: usize = 5;
 /// Corrections of x for one gradient, measured on SE(3).
 const CORRECTIONS: usize = 3;
@@ -232,7 +208,7 @@ impl Costs {
             let evaluation = gradient_operations(terms) + CHART_OPERATIONS * n;
             return Self { solver, truncation, goal: 0, chord: evaluation, newton: Vec::new() };
         }
-        if in_parts(problem) {
+        if corrects_dearly(problem) {
             let coarse: Vec<_> =
                 terms.iter().filter(|term| term.order as usize <= COARSE).cloned().collect();
             let corrections = CORRECTIONS * (WAIT + gradient_operations(&coarse));

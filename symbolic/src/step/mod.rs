@@ -41,10 +41,6 @@ use tables::Tables;
 use translations::Translations;
 use unitriangular::Unitriangular;
 
-/// The norm of ad_x and of the matrix of x up to which series by tables are exact to rounding, if nothing else is asked
-/// for: up to it steps are accepted at once.
-pub const REACH: f64 = std::f64::consts::FRAC_PI_2;
-
 /// Why a step is not made of straight-line programs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -95,43 +91,54 @@ pub struct Step {
 }
 
 impl Step {
-    /// The programs of a step; series by tables hold up to `reach` (see [`REACH`]).
+    /// The programs of a step.
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
-    pub fn build(integrator: &Integrator, reach: f64) -> Result<Self, StepError> {
-        Self::build_in(integrator, reach, Precision::Double)
+    pub fn build(integrator: &Integrator) -> Result<Self, StepError> {
+        Self::on(integrator, &integrator.problem.algebra.factors())
     }
 
-    /// The same for numbers of this precision: what is solved, accepted and sound is judged by their rounding.
+    /// The same in numbers of this precision, whose rounding says what is solved, accepted and sound.
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs in this precision.
-    pub fn build_in(
-        integrator: &Integrator,
-        reach: f64,
-        precision: Precision,
-    ) -> Result<Self, StepError> {
-        let problem = &integrator.problem;
+    pub fn build_in(integrator: &Integrator, precision: Precision) -> Result<Self, StepError> {
         if precision == Precision::Single && !integrator.frame.is_empty() {
             return Err(StepError::SingleFrame);
         }
+        let step = Self::build(integrator)?;
+        Ok(Self { kernel: step.kernel.in_precision(precision), ..step })
+    }
+
+    /// The same where group elements are matrices in the representation of the basis, also those of a product.
+    ///
+    /// # Errors
+    /// As [`Step::build`].
+    pub fn on_matrices(integrator: &Integrator) -> Result<Self, StepError> {
+        let algebra = &integrator.problem.algebra;
+        let slope = Scheme::of(integrator).slope();
+        Self::with(integrator, vec![tables(algebra, integrator.problem.chart, slope)?])
+    }
+
+    fn on(integrator: &Integrator, factors: &[LieAlgebra]) -> Result<Self, StepError> {
+        let (chart, slope) = (integrator.problem.chart, Scheme::of(integrator).slope());
+        let parts: Result<Vec<_>, _> =
+            factors.iter().map(|factor| part(factor, chart, slope)).collect();
+        Self::with(integrator, parts?)
+    }
+
+    fn with(integrator: &Integrator, parts: Vec<Box<dyn Part>>) -> Result<Self, StepError> {
         if integrator.plan.solver == Solver::FixedPoint || integrator.hessian.is_none() {
-            return Err(StepError::FixedPoint { dimension: problem.algebra.dim() });
+            return Err(StepError::FixedPoint { dimension: integrator.problem.algebra.dim() });
         }
-        let scheme = Scheme::of(integrator);
-        let parts: Result<Vec<Box<dyn Part>>, StepError> = problem
-            .algebra
-            .factors()
-            .iter()
-            .map(|factor| part(factor, problem.chart, reach, scheme.slope()))
-            .collect();
-        let group = Product(parts?);
+        let group = Product(parts);
         let base = integrator.coefficients.slots().len();
         let bound_len = integrator.defect_len();
         let bound = integrator.defect.iter();
         let bound = bound.map(|term| (term.degree as usize, term.slot, term.weight)).collect();
-        let kernel = programs::kernel(integrator, scheme, &group, (base, bound_len), precision)?;
+        let scheme = Scheme::of(integrator);
+        let kernel = programs::kernel(integrator, scheme, &group, (base, bound_len))?;
         Ok(Self { kernel, group, base, bound, bound_len })
     }
 
@@ -189,12 +196,7 @@ impl Step {
 }
 
 /// The formulas of a group that is no product.
-fn part(
-    algebra: &LieAlgebra,
-    chart: Chart,
-    reach: f64,
-    slope: f64,
-) -> Result<Box<dyn Part>, StepError> {
+fn part(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Result<Box<dyn Part>, StepError> {
     let is = |name: &str| {
         catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
     };
@@ -216,7 +218,12 @@ fn part(
     if is(&format!("R{}", algebra.dim())) {
         return Ok(Box::new(Translations { dim: algebra.dim() }));
     }
-    match Tables::new(algebra, chart, reach, slope) {
+    tables(algebra, chart, slope)
+}
+
+/// The formulas of any group, by tables.
+fn tables(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Result<Box<dyn Part>, StepError> {
+    match Tables::new(algebra, chart, slope) {
         Some(tables) => Ok(Box::new(tables)),
         None => Err(StepError::Dependent { group: algebra.name().to_owned() }),
     }

@@ -1,12 +1,12 @@
 //! The programs of a step, put together.
 
-use coadjoint_program::{Kernel, Precision, Programs};
+use coadjoint_program::{Kernel, Programs};
 use num_traits::ToPrimitive;
 
 use super::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::solving::{Scheme, square_of_series, tolerance};
+use super::solving::{ROUNDINGS, Scheme, square_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
@@ -22,10 +22,6 @@ const OF_OTHERS: f64 = 1.0 / 3.0;
 /// Corrections at most.
 const CORRECTIONS: u32 = 12;
 
-/// How far a group element may be from the group: the square root of rounding.
-fn off_group(precision: Precision) -> f64 {
-    precision.epsilon().sqrt()
-}
 
 pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
@@ -38,43 +34,38 @@ pub fn kernel(
     scheme: Scheme,
     group: &Product,
     (base, bound_len): (usize, usize),
-    precision: Precision,
 ) -> Result<Kernel, StepError> {
-    let (guess, correct) = scheme.programs(integrator, group, (base, bound_len), precision);
+    let (guess, correct) = scheme.programs(integrator, group, (base, bound_len));
     let programs = Programs {
         guess,
         correct,
-        accept: accept(integrator, group, base + bound_len, precision),
+        accept: accept(integrator, group, base + bound_len),
         transport: transport(group),
         frame: frame(integrator, group)?,
-        sound: sound(group, precision),
+        sound: sound(group),
         watch: watch(integrator, group),
         matrix: matrix(group),
     };
     let (dim, element) = (group.dim(), group.element());
-    let kernel = Kernel::new(dim, element, tolerance(precision), NEAR, CORRECTIONS, programs)?;
-    Ok(kernel.in_precision(precision))
+    let tolerance = ROUNDINGS * f64::EPSILON;
+    Ok(Kernel::new(dim, element, tolerance, NEAR, CORRECTIONS, programs)?)
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.
-fn accept(
-    integrator: &Integrator,
-    group: &Product,
-    radius: usize,
-    precision: Precision,
-) -> Program {
+fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
     let (left, way) = (graph.input(2 * n), graph.input(2 * n + 1));
-    let (tolerance, near) = (graph.constant(tolerance(precision)), graph.constant(NEAR));
+    let (tolerance, near) = (tolerance(&mut graph), graph.constant(NEAR));
     let extent = group.extent(&mut graph, &x);
     let one = graph.constant(1.0);
     let square = square_of_series(&mut graph, integrator, group, &mu);
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     let (series, others) = (inverse_square(group.estimated()), inverse_square(OF_OTHERS));
-    let finite = graph.constant(precision.largest());
+    // No series has a radius so large that its square has no place in 32 bits.
+    let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
     let extent = graph.mul(extent, share);
     let tests = [(left, tolerance), (way, near), (extent, one), (square, radius)];
@@ -116,15 +107,16 @@ fn frame(integrator: &Integrator, group: &Product) -> Result<Option<Program>, St
     Ok(Some(graph.finish(m + n + 1, &outputs)))
 }
 
-/// g, μ ↦ 1 where both are finite and g is on the group.
-fn sound(group: &Product, precision: Precision) -> Program {
+/// g, μ ↦ 1 where both are finite and g is on the group, to the square root of rounding.
+fn sound(group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
     let mut graph = Graph::new();
     let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
     let defect = group.defect(&mut graph, &g);
     let rest = finite(&mut graph, &mu);
     let defect = graph.add(defect, rest);
-    let limit = graph.constant(off_group(precision));
+    let limit = graph.epsilon();
+    let limit = graph.sqrt(limit);
     let verdict = all_at_most(&mut graph, &[(defect, limit)]);
     graph.finish(m + n, &[verdict])
 }

@@ -1,7 +1,5 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
-use coadjoint_program::Precision;
-
 use super::part::Part;
 use super::product::Product;
 use super::programs::inputs;
@@ -10,9 +8,13 @@ use super::vector::{Eliminated, Matrix, dot, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 
-/// What may be left of the equation, relative to the largest coordinate of μ: four units of rounding.
-pub fn tolerance(precision: Precision) -> f64 {
-    4.0 * precision.epsilon()
+/// What may be left of the equation, relative to the largest coordinate of μ, in units of rounding.
+pub const ROUNDINGS: f64 = 4.0;
+
+/// What may be left of the equation, relative to the largest coordinate of μ.
+pub fn tolerance(graph: &mut Graph) -> Id {
+    let (unit, many) = (graph.epsilon(), graph.constant(ROUNDINGS));
+    graph.mul(many, unit)
 }
 
 /// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
@@ -70,11 +72,10 @@ impl Scheme {
         integrator: &Integrator,
         group: &Product,
         bound: (usize, usize),
-        precision: Precision,
     ) -> (Program, Program) {
         match self {
-            Self::Newton => (guess(integrator, group, bound), newton(integrator, group, precision)),
-            Self::Chord => chord(integrator, group, bound, precision),
+            Self::Newton => (guess(integrator, group, bound), newton(integrator, group)),
+            Self::Chord => chord(integrator, group, bound),
         }
     }
 }
@@ -201,8 +202,8 @@ fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
 
 /// What is left: the estimate where the way from the place of the matrices is short, else the correction itself; the
 /// smaller of both where the correction is below rounding.
-fn left(graph: &mut Graph, precision: Precision, (estimate, relative, way): (Id, Id, Id)) -> Id {
-    let (trusted, tolerance) = (graph.constant(TRUSTED), graph.constant(tolerance(precision)));
+fn left(graph: &mut Graph, (estimate, relative, way): (Id, Id, Id)) -> Id {
+    let (trusted, tolerance) = (graph.constant(TRUSTED), tolerance(graph));
     let left = graph.select(way, trusted, estimate, relative);
     let rounded = graph.min(left, relative);
     graph.select(relative, tolerance, rounded, left)
@@ -210,7 +211,7 @@ fn left(graph: &mut Graph, precision: Precision, (estimate, relative, way): (Id,
 
 /// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, a bound on what is left, the
 /// length of the correction.
-fn newton(integrator: &Integrator, group: &Product, precision: Precision) -> Program {
+fn newton(integrator: &Integrator, group: &Product) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -224,19 +225,14 @@ fn newton(integrator: &Integrator, group: &Product, precision: Precision) -> Pro
     let curved = graph.times_plus(half, stretch, bend);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, precision, (estimate, relative, relative));
+    let left = left(&mut graph, (estimate, relative, relative));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, relative]).collect();
     graph.finish(2 * n + 2, &outputs)
 }
 
 /// The guess with a step of Newton's method from it, and a chord with the matrices of that step, which are among the
 /// constants.
-fn chord(
-    integrator: &Integrator,
-    group: &Product,
-    bound: (usize, usize),
-    precision: Precision,
-) -> (Program, Program) {
+fn chord(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> (Program, Program) {
     let n = group.dim();
     let mut graph = Graph::new();
     let mu = inputs(&mut graph, 0, n);
@@ -263,8 +259,7 @@ fn chord(
     let matrices = Matrices { hessian, jacobian };
     let inputs_of_chord = n + outputs.len();
     let guess = graph.finish(n, &outputs);
-    let correct =
-        chord_correction(chord, integrator, group, &matrices, (inputs_of_chord, precision));
+    let correct = chord_correction(chord, integrator, group, &matrices, inputs_of_chord);
     (guess, correct)
 }
 
@@ -274,7 +269,7 @@ fn chord_correction(
     integrator: &Integrator,
     group: &Product,
     matrices: &Matrices,
-    (inputs_of_chord, precision): (usize, Precision),
+    inputs_of_chord: usize,
 ) -> Program {
     let n = group.dim();
     let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -298,7 +293,7 @@ fn chord_correction(
     let curved = graph.times_plus(four, bend, curved);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, precision, (estimate, relative, way));
+    let left = left(&mut graph, (estimate, relative, way));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, way]).collect();
     graph.finish(inputs_of_chord, &outputs)
 }

@@ -6,7 +6,10 @@ use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::Rational;
 use crate::step::part::{Moved, Part};
-use crate::step::vector::{Matrix, finite, largest, solve};
+use crate::step::vector::{Matrix, dot, finite, largest, solve};
+
+/// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
+const REACH: f64 = std::f64::consts::FRAC_PI_2;
 
 /// What series may leave out: below rounding.
 const ROUNDING: f64 = 1e-17;
@@ -26,10 +29,10 @@ pub struct Tables {
     basis: Vec<Entries>,
     /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ; none for adjoint matrices in the exponential chart, which need none.
     dual: Vec<Entries>,
-    /// The norm of ad_x and of X up to which series are exact to rounding.
-    reach: f64,
-    /// What the derivative of φ may leave out there.
+    /// What the derivative of φ may leave out.
     slope: f64,
+    /// Whether elements are orthogonal matrices.
+    orthogonal: bool,
 }
 
 fn float(value: &Rational) -> f64 {
@@ -37,9 +40,9 @@ fn float(value: &Rational) -> f64 {
 }
 
 impl Tables {
-    /// The group of this algebra; its series hold up to this norm of ad_x and of the matrix of x, where derivatives may
-    /// leave out as much as `slope`. `None` where its matrices are not linearly independent.
-    pub fn new(algebra: &LieAlgebra, chart: Chart, reach: f64, slope: f64) -> Option<Self> {
+    /// The group of this algebra, of whose derivatives as much as `slope` may be left out. `None` where its matrices are
+    /// not linearly independent.
+    pub fn new(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Option<Self> {
         let dim = algebra.dim();
         let mut structure = Vec::new();
         for c in algebra.structure() {
@@ -67,7 +70,11 @@ impl Tables {
             (Chart::Exponential, None) => Vec::new(),
             _ => dual_of(matrices)?.iter().map(entries).collect(),
         };
-        Some(Self { chart, dim, size, structure, basis, dual, reach, slope })
+        let antisymmetric = |matrix: &RationalMatrix| {
+            matrix.entries().all(|(i, j, value)| matrix.get(j, i) == -value.clone())
+        };
+        let orthogonal = matrices.iter().all(antisymmetric);
+        Some(Self { chart, dim, size, structure, basis, dual, slope, orthogonal })
     }
 
     /// ad_xᵀ as a matrix.
@@ -114,7 +121,7 @@ impl Tables {
     fn phi(&self, graph: &mut Graph, a: &Matrix, mu: &[Id]) -> Vec<Id> {
         let mut term = mu.to_vec();
         let mut sum = mu.to_vec();
-        for k in 1..=terms(self.reach, ROUNDING) {
+        for k in 1..=terms(REACH, ROUNDING) {
             let factor = graph.constant(1.0 / (k + 1) as f64);
             term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
             if term.iter().all(|&entry| graph.is_zero(entry)) {
@@ -131,7 +138,7 @@ impl Tables {
         let mut term = mu.to_vec();
         let mut slope = Matrix::zeros(graph, self.dim, self.dim);
         let mut sum = slope.clone();
-        for k in 1..=terms(self.reach, self.slope) {
+        for k in 1..=terms(REACH, self.slope) {
             let factor = graph.constant(1.0 / (k + 1) as f64);
             let carried = a.times(graph, &slope);
             let own = self.ad_slope(graph, &term);
@@ -148,7 +155,7 @@ impl Tables {
 
     /// exp X by its Taylor series in powers of a power (M. Paterson and L. Stockmeyer, SIAM J. Comput. 2, 1973).
     fn exponential(&self, graph: &mut Graph, x: &Matrix) -> Matrix {
-        let degree = terms(self.reach, ROUNDING) + 1;
+        let degree = terms(REACH, ROUNDING) + 1;
         let stride = (degree as f64).sqrt().round() as usize;
         let identity = self.identity(graph);
         let mut powers = vec![identity];
@@ -175,6 +182,32 @@ impl Tables {
             sum = Some(total);
         }
         sum.unwrap_or_else(|| self.identity(graph))
+    }
+
+    /// g·k; where elements are orthogonal, pulled back onto them to first order, so that rounding does not accumulate in
+    /// gᵀg over many steps.
+    fn product(&self, graph: &mut Graph, g: &Matrix, k: &Matrix) -> Vec<Id> {
+        let product = g.times(graph, k);
+        if !self.orthogonal {
+            return product.entries().to_vec();
+        }
+        let (half, three_halves) = (graph.constant(-0.5), graph.constant(1.5));
+        let gram = self.gram(graph, &product);
+        let correction = Matrix::new(self.size, self.size, |i, j| match i == j {
+            true => graph.times_plus(half, gram.at(i, j), three_halves),
+            false => graph.mul(half, gram.at(i, j)),
+        });
+        product.times(graph, &correction).entries().to_vec()
+    }
+
+    /// gᵀg
+    fn gram(&self, graph: &mut Graph, g: &Matrix) -> Matrix {
+        let column = |j: usize| (0..self.size).map(|i| g.at(i, j)).collect::<Vec<_>>();
+        let columns: Vec<Vec<Id>> = (0..self.size).map(column).collect();
+        Matrix::new(self.size, self.size, |i, j| {
+            let (i, j) = (i.min(j), i.max(j));
+            dot(graph, &columns[i], &columns[j])
+        })
     }
 
     fn identity(&self, graph: &mut Graph) -> Matrix {
@@ -372,7 +405,7 @@ impl Part for Tables {
                 let mu = mu.iter().zip(change).map(|(&mu, change)| graph.add(mu, change)).collect();
                 let x = self.represent(graph, x);
                 let increment = self.exponential(graph, &x);
-                Moved { g: own.times(graph, &increment).entries().to_vec(), mu }
+                Moved { g: self.product(graph, &own, &increment), mu }
             }
             Chart::Cayley => {
                 let x = self.represent(graph, x);
@@ -388,7 +421,7 @@ impl Part for Tables {
                 let w = self.functional(graph, mu);
                 let z = self.between(graph, &increment, &w, &inverse);
                 let mu = self.coordinates(graph, &z);
-                Moved { g: own.times(graph, &increment).entries().to_vec(), mu }
+                Moved { g: self.product(graph, &own, &increment), mu }
             }
         }
     }
@@ -462,7 +495,21 @@ impl Part for Tables {
     }
 
     fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
-        finite(graph, g)
+        let rest = finite(graph, g);
+        if !self.orthogonal {
+            return rest;
+        }
+        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        let (gram, one) = (self.gram(graph, &own), graph.constant(1.0));
+        let mut off = Vec::new();
+        for i in 0..self.size {
+            for j in i..self.size {
+                let unit = if i == j { one } else { graph.zero() };
+                off.push(graph.sub(gram.at(i, j), unit));
+            }
+        }
+        let largest = largest(graph, &off);
+        graph.add(largest, rest)
     }
 
     fn matrix(&self, _: &mut Graph, g: &[Id]) -> Matrix {

@@ -9,7 +9,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
@@ -159,7 +159,7 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
     let judge = Judge::of_problem(&problem, limit).expect("a judge");
     let velocity = problem.hamiltonian.gradient(dim);
     let integrator = Integrator::build(problem, limit).expect("an integrator");
-    let step = Step::build(&integrator, REACH).expect("a kernel");
+    let step = Step::build(&integrator).expect("a kernel");
     let group = matrix_group(&algebra).expect("a group");
     let stepper = OnceLock::new();
     let subject = Arc::new(Subject { integrator, step, group, backend, stepper });

@@ -10,7 +10,7 @@ use coadjoint::laws::{OrderError, measured_order, symplectic_defect_of};
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_program::{Kernel, Stepper, WIDTH};
 use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
@@ -45,7 +45,7 @@ impl Subject {
                     continue;
                 }
                 let integrator = integrator(group, hamiltonian, chart, TRUNCATION);
-                let step = Step::build(&integrator, REACH).unwrap();
+                let step = Step::build(&integrator).unwrap();
                 let group = matrix_group(&algebra).unwrap();
                 let name = format!("{hamiltonian} on {}, {chart}", algebra.name());
                 all.push(Self { name, integrator, step, group });

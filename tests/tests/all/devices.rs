@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{REACH, Step, StepError};
+use coadjoint_codegen::step::{Step, StepError};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_device::{Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
@@ -53,7 +53,7 @@ fn momentum(n: usize, size: f64, seed: usize) -> Vec<f64> {
 
 fn ready(text: &str, truncation: usize, h: f64, precision: Precision) -> Ready {
     let integrator = integrator(text, truncation);
-    let step = Step::build_in(&integrator, REACH, precision).unwrap();
+    let step = Step::build_in(&integrator, precision).unwrap();
     let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
     Ready { name: format!("{}, {precision}", integrator.problem.name), step, slots }
 }
@@ -320,7 +320,7 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
 #[test]
 fn a_comoving_frame_in_single_precision_is_refused() {
     let integrator = integrator(FRAMED, 7);
-    let refused = Step::build_in(&integrator, REACH, Precision::Single).unwrap_err();
+    let refused = Step::build_in(&integrator, Precision::Single).unwrap_err();
     assert_eq!(refused, StepError::SingleFrame);
 }
 

@@ -7,7 +7,7 @@ use coadjoint::{Cayley, Chart, Exponential, LieGroup, Phase, advance};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::{Scratch, Stepper, WIDTH};
 use coadjoint_tests::bridge::{matrix_group, series_function};
@@ -28,7 +28,7 @@ fn compare<G, C>(
     G: LieGroup<Scalar = f64, Vector = DVector<f64>>,
     C: Chart<G>,
 {
-    let step = Step::build(integrator, REACH).unwrap();
+    let step = Step::build(integrator).unwrap();
     let kernel = step.kernel();
     let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
     let n = kernel.dim();
@@ -67,7 +67,7 @@ fn compare<G, C>(
 fn momenta_beyond_the_radius_are_those_that_the_series_depends_on() {
     let steps = |hamiltonian: &str, first: f64, fourth: f64| {
         let integrator = integrator("SO3*R3", hamiltonian, "exponential", 7);
-        let step = Step::build(&integrator, REACH).unwrap();
+        let step = Step::build(&integrator).unwrap();
         let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 5.0);
         let mut g = step.element_of(DMatrix::<f64>::identity(7, 7).as_slice());
         let mut mu = [first, 0.5, 0.7, fourth, 1.0, 2.0];
@@ -170,7 +170,7 @@ fn programs_make_the_steps_of_the_runtime() {
 #[test]
 fn what_is_driven_too_hard_is_refused_and_stays() {
     let integrator = integrator("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", 5);
-    let step = Step::build(&integrator, REACH).unwrap();
+    let step = Step::build(&integrator).unwrap();
     let slots = step.slots(&integrator.coefficients.fold(0.5, &[]), f64::MAX);
     for start in [vec![1e9, 1e8, 1e9], vec![f64::NAN, 1.0, 1.0], vec![1.0, f64::INFINITY, 1.0]] {
         let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], start.clone());
@@ -198,7 +198,7 @@ fn a_frame_moves_as_far_as_it_spins() {
     let problem = read(text, options).unwrap().problem;
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
     assert!(!integrator.frame.is_empty());
-    let step = Step::build(&integrator, REACH).unwrap();
+    let step = Step::build(&integrator).unwrap();
     let advance = |h: f64, steps: u64| {
         let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
         let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.2, 1.0]);

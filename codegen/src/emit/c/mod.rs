@@ -22,7 +22,7 @@ mod template;
 pub use names::prefix;
 
 use crate::integrator::Integrator;
-use crate::step::{REACH, Step, StepError};
+use crate::step::{Step, StepError};
 use names::Names;
 
 /// The most operations of a step (first guess, one correction, acceptance, transport) that are written as C: about
@@ -93,7 +93,7 @@ pub enum HeaderError {
 /// # Errors
 /// [`HeaderError`] where there is no such header.
 pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String, HeaderError> {
-    let step = Step::build(integrator, REACH)?;
+    let step = Step::build(integrator)?;
     let programs = step.kernel().programs();
     let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
     let operations = list.iter().map(|program| program.cost().total()).sum();

@@ -1,0 +1,265 @@
+//! Programs as straight-line Rust: a statement for each operation.
+//!
+//! The compiler's time grows faster than the length of a function, so a program of many operations becomes several
+//! functions of bounded length, which hand values to each other through an array.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::graph::{Id, Node, Program};
+
+/// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride, and inlines into a step
+/// for lanes, which makes use of wider registers.
+const LARGE: usize = 1500;
+
+/// The most operations of one function of a program that is cut.
+const MOST_OPERATIONS: usize = 1000;
+
+/// A part of a program's inputs: an array of numbers `T` behind a reference, or a number.
+pub struct Field {
+    name: Ident,
+    len: Option<usize>,
+}
+
+impl Field {
+    /// An array of so many numbers.
+    pub fn array(name: &str, len: usize) -> Self {
+        Self { name: format_ident!("{name}"), len: Some(len) }
+    }
+
+    /// A single number.
+    pub fn number(name: &str) -> Self {
+        Self { name: format_ident!("{name}"), len: None }
+    }
+
+    /// `name: type`, as a parameter of a function.
+    pub fn parameter(&self) -> TokenStream {
+        let name = &self.name;
+        match self.len {
+            Some(len) => {
+                let len = Literal::usize_unsuffixed(len);
+                quote!(#name: &[T; #len])
+            }
+            None => quote!(#name: T),
+        }
+    }
+}
+
+/// Where a program stands: what its names stand for.
+pub struct Scope<'a> {
+    /// The path of the runtime crate.
+    pub krate: &'a TokenStream,
+    /// The inputs, in the order of their numbers.
+    pub inputs: Vec<Field>,
+    /// The length of `c`, a reference to an array of coefficients.
+    pub slots: usize,
+    /// Whether coefficients are of a type `C` of their own, to be lifted to `T`.
+    pub lifted: bool,
+}
+
+/// The statements of a program, and the expressions of its outputs.
+pub struct Body {
+    /// `let` statements, in order.
+    pub statements: TokenStream,
+    /// One expression per output.
+    pub outputs: Vec<TokenStream>,
+}
+
+/// Writes `program` down, in several functions where it is large.
+#[must_use]
+pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
+    let nodes = program.nodes();
+    let parts = parts(nodes);
+    let mut writer = Writer { program, scope, read: Vec::new(), statements: TokenStream::new() };
+    if parts.last().is_none_or(|&last| last == 0) {
+        (0..nodes.len()).for_each(|index| writer.write(index));
+        let outputs = program.outputs().iter().map(|&id| writer.value(id)).collect();
+        return Body { statements: writer.statements, outputs };
+    }
+    let handed = handed_on(program, &parts);
+    let places = Literal::usize_unsuffixed(handed.len());
+    let mut next_place = handed.iter().copied().enumerate().peekable();
+    let (generics, parameters, call) = scope.part();
+    let mut functions = TokenStream::new();
+    let mut calls = TokenStream::new();
+    for part in 0..=parts[nodes.len() - 1] {
+        while writer.read.len() < nodes.len() && parts[writer.read.len()] == part {
+            writer.write(writer.read.len());
+        }
+        let mut handed_here = Vec::new();
+        while let Some((place, index)) = next_place.next_if(|&(_, index)| index < writer.read.len())
+        {
+            let place = Literal::usize_unsuffixed(place);
+            let value = &writer.read[index];
+            writer.statements.extend(quote!(shared[#place] = #value;));
+            handed_here.push((index, quote!(shared[#place])));
+        }
+        for (index, place) in handed_here {
+            writer.read[index] = place;
+        }
+        let name = format_ident!("part{part}");
+        let statements = std::mem::take(&mut writer.statements);
+        functions.extend(quote! {
+            #[inline(never)]
+            fn #name #generics (#parameters, shared: &mut [T; #places]) { #statements }
+        });
+        calls.extend(quote!(#name(#call, &mut shared);));
+    }
+    let statements = quote! {
+        #functions
+        let mut shared = [T::of(0.0); #places];
+        #calls
+    };
+    Body { statements, outputs: program.outputs().iter().map(|&id| writer.value(id)).collect() }
+}
+
+impl Scope<'_> {
+    /// The generics and the parameters of a part of a program, and the arguments of a call.
+    fn part(&self) -> (TokenStream, TokenStream, TokenStream) {
+        let Self { krate, inputs, slots, lifted } = self;
+        let slots = Literal::usize_unsuffixed(*slots);
+        let parameters = inputs.iter().map(Field::parameter);
+        let names = inputs.iter().map(|field| &field.name);
+        let (generics, coefficient) = match lifted {
+            false => (quote!(T: #krate::Scalar), quote!(T)),
+            true => (quote!(C: #krate::Scalar, T: #krate::plumbing::Number<C>), quote!(C)),
+        };
+        let parameters = quote!(c: &[#coefficient; #slots], #(#parameters),*);
+        (quote!(<#generics>), parameters, quote!(c, #(#names),*))
+    }
+
+    /// How input number `index` is read.
+    fn input(&self, index: usize) -> TokenStream {
+        let mut left = index;
+        for Field { name, len } in &self.inputs {
+            match len {
+                Some(len) if left < *len => {
+                    let index = Literal::usize_unsuffixed(left);
+                    return quote!(#name[#index]);
+                }
+                None if left == 0 => return quote!(#name),
+                _ => left -= len.unwrap_or(1),
+            }
+        }
+        quote!(T::of(0.0))
+    }
+}
+
+/// Turns the nodes of a program into statements, one after the other.
+struct Writer<'a> {
+    program: &'a Program,
+    scope: &'a Scope<'a>,
+    /// How each node that is written is read.
+    read: Vec<TokenStream>,
+    statements: TokenStream,
+}
+
+impl Writer<'_> {
+    /// Writes the next node: an operation as a `let` statement; others are read in place.
+    fn write(&mut self, index: usize) {
+        let node = &self.program.nodes()[index];
+        let operand = |id: Id| &self.read[id.index()];
+        let krate = self.scope.krate;
+        let value = match *node {
+            Node::Zero => quote!(T::of(0.0)),
+            Node::Constant(bits) => {
+                let value = Literal::f64_unsuffixed(f64::from_bits(bits));
+                quote!(T::of(#value))
+            }
+            Node::Epsilon => quote!(<T as #krate::Scalar>::epsilon()),
+            Node::Slot(i) => {
+                let i = Literal::u32_unsuffixed(i);
+                if self.scope.lifted { quote!(T::lift(c[#i])) } else { quote!(c[#i]) }
+            }
+            Node::Input(i) => self.scope.input(i as usize),
+            Node::Add(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                quote!(#x + #y)
+            }
+            Node::Sub(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                quote!(#x - #y)
+            }
+            Node::Mul(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                quote!(#x * #y)
+            }
+            Node::TimesPlus(a, b, c) => {
+                let (x, y, z) = (operand(a), operand(b), operand(c));
+                quote!(#x.times_plus(#y, #z))
+            }
+            Node::Div(a, b) => {
+                let (x, y) = (operand(a), operand(b));
+                quote!(#x / #y)
+            }
+            Node::Neg(a) => {
+                let x = operand(a);
+                quote!(-#x)
+            }
+            Node::Abs(a) => {
+                let x = operand(a);
+                quote!(#x.simd_abs())
+            }
+            Node::Sqrt(a) => {
+                let x = operand(a);
+                quote!(#x.simd_sqrt())
+            }
+            Node::Round(a) => {
+                let x = operand(a);
+                quote!(#x.simd_round())
+            }
+            Node::Select(a, b, c, d) => {
+                let (w, x, y, z) = (operand(a), operand(b), operand(c), operand(d));
+                quote!(#y.select(#w.simd_le(#x), #z))
+            }
+        };
+        if node.operands().next().is_none() {
+            self.read.push(value);
+            return;
+        }
+        let name = format_ident!("t{index}");
+        self.statements.extend(quote!(let #name = #value;));
+        self.read.push(quote!(#name));
+    }
+
+    fn value(&self, id: Id) -> TokenStream {
+        self.read[id.index()].clone()
+    }
+}
+
+/// How many operations a program has.
+#[must_use]
+pub fn operations(program: &Program) -> usize {
+    program.nodes().iter().filter(|node| is_operation(node)).count()
+}
+
+fn is_operation(node: &Node) -> bool {
+    node.operands().next().is_some()
+}
+
+/// The part of every node: as many operations in each, in their order.
+fn parts(nodes: &[Node]) -> Vec<usize> {
+    let operations = nodes.iter().filter(|node| is_operation(node)).count();
+    let length = match operations {
+        0..=LARGE => operations.max(1),
+        _ => operations.div_ceil(operations.div_ceil(MOST_OPERATIONS)),
+    };
+    let mut seen = 0usize;
+    let part = nodes.iter().map(|node| {
+        seen += usize::from(is_operation(node));
+        seen.saturating_sub(1) / length
+    });
+    part.collect()
+}
+
+/// The operations whose values are read in another part or by the caller, in order.
+fn handed_on(program: &Program, parts: &[usize]) -> BTreeSet<usize> {
+    let nodes = program.nodes();
+    let read_elsewhere = nodes.iter().zip(parts).flat_map(|(node, part)| {
+        node.operands().map(|id| id.index()).filter(move |&operand| parts[operand] != *part)
+    });
+    let outputs = program.outputs().iter().map(|id| id.index());
+    read_elsewhere.chain(outputs).filter(|&index| is_operation(&nodes[index])).collect()
+}

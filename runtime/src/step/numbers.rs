@@ -1,0 +1,191 @@
+//! Group elements as the numbers that straight-line programs compute with.
+
+use nalgebra::{Isometry2, Isometry3, Translation2, Translation3};
+use nalgebra::{Quaternion, UnitComplex, UnitQuaternion, Vector3};
+
+use crate::group::LieGroup;
+use crate::group::heisenberg::Heisenberg;
+use crate::group::product::{Power, Product};
+use crate::group::se2::SE2;
+use crate::group::se3::SE3;
+use crate::group::so3::SO3;
+use crate::group::su2::SU2;
+use crate::number::scalar::Scalar;
+use crate::table::{StaticAlgebra, StaticMatrixGroup};
+
+/// A group whose elements the programs of a step read and write as a row of numbers; `coadjoint emit` says which.
+pub trait ElementNumbers: LieGroup {
+    /// How many numbers an element has.
+    const COUNT: usize;
+
+    /// Writes the numbers of g; `numbers` has [`ElementNumbers::COUNT`] places.
+    fn write(g: &Self::Element, numbers: &mut [Self::Scalar]);
+
+    /// The element with these numbers.
+    fn read(numbers: &[Self::Scalar]) -> Self::Element;
+}
+
+/// The numbers w, x, y, z.
+#[inline(always)]
+fn write_quaternion<T: Scalar>(q: &UnitQuaternion<T>, numbers: &mut [T]) {
+    let q = q.as_ref();
+    numbers[0] = q.w;
+    numbers[1] = q.i;
+    numbers[2] = q.j;
+    numbers[3] = q.k;
+}
+
+#[inline(always)]
+fn read_quaternion<T: Scalar>(n: &[T]) -> UnitQuaternion<T> {
+    UnitQuaternion::new_unchecked(Quaternion::new(n[0], n[1], n[2], n[3]))
+}
+
+/// Unit quaternions.
+macro_rules! quaternions {
+    ($($group:ident)*) => {$(
+        impl<T: Scalar> ElementNumbers for $group<T> {
+            const COUNT: usize = 4;
+
+            #[inline(always)]
+            fn write(g: &Self::Element, numbers: &mut [T]) {
+                write_quaternion(g, numbers);
+            }
+
+            #[inline(always)]
+            fn read(numbers: &[T]) -> Self::Element {
+                read_quaternion(numbers)
+            }
+        }
+    )*};
+}
+
+quaternions!(SO3 SU2);
+
+impl<T: Scalar> ElementNumbers for SE3<T> {
+    const COUNT: usize = 7;
+
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [T]) {
+        write_quaternion(&g.rotation, numbers);
+        for i in 0..3 {
+            numbers[4 + i] = g.translation.vector[i];
+        }
+    }
+
+    #[inline(always)]
+    fn read(n: &[T]) -> Self::Element {
+        let translation = Translation3::from(Vector3::new(n[4], n[5], n[6]));
+        Isometry3::from_parts(translation, read_quaternion(n))
+    }
+}
+
+impl<T: Scalar> ElementNumbers for SE2<T> {
+    const COUNT: usize = 4;
+
+    /// Cosine and sine of half the angle, then the translation.
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [T]) {
+        let (half, one) = (T::of(0.5), T::of(1.0));
+        let (cosine, sine) = (g.rotation.re, g.rotation.im);
+        // The larger of both by a root, the other one by sin θ = 2 sin(θ/2) cos(θ/2).
+        let large = (half + half * cosine.simd_abs()).simd_sqrt();
+        let small = half * sine / large;
+        let near = cosine.simd_ge(T::of(0.0));
+        let sign = one.select(sine.simd_ge(T::of(0.0)), -one);
+        numbers[0] = large.select(near, small * sign);
+        numbers[1] = small.select(near, large * sign);
+        numbers[2] = g.translation.vector.x;
+        numbers[3] = g.translation.vector.y;
+    }
+
+    #[inline(always)]
+    fn read(n: &[T]) -> Self::Element {
+        let (w, k) = (n[0], n[1]);
+        let rotation =
+            UnitComplex::new_unchecked(nalgebra::Complex::new((w - k) * (w + k), (w + w) * k));
+        Isometry2::from_parts(Translation2::new(n[2], n[3]), rotation)
+    }
+}
+
+impl<T: Scalar> ElementNumbers for Heisenberg<T> {
+    const COUNT: usize = 3;
+
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [T]) {
+        for i in 0..3 {
+            numbers[i] = g[i];
+        }
+    }
+
+    #[inline(always)]
+    fn read(n: &[T]) -> Self::Element {
+        Vector3::new(n[0], n[1], n[2])
+    }
+}
+
+/// The matrix, row by row.
+impl<A, const N: usize, const D: usize, T> ElementNumbers for StaticMatrixGroup<A, N, D, T>
+where
+    A: StaticAlgebra,
+    T: Scalar,
+{
+    const COUNT: usize = D * D;
+
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [T]) {
+        for i in 0..D {
+            for j in 0..D {
+                numbers[i * D + j] = g[(i, j)];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn read(numbers: &[T]) -> Self::Element {
+        let mut g = Self::Element::repeat(T::of(0.0));
+        for i in 0..D {
+            for j in 0..D {
+                g[(i, j)] = numbers[i * D + j];
+            }
+        }
+        g
+    }
+}
+
+impl<G, const COPIES: usize, const N: usize> ElementNumbers for Power<G, COPIES, N>
+where
+    G: ElementNumbers + Default,
+{
+    const COUNT: usize = COPIES * G::COUNT;
+
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [G::Scalar]) {
+        for (copy, numbers) in g.iter().zip(numbers.chunks_mut(G::COUNT)) {
+            G::write(copy, numbers);
+        }
+    }
+
+    #[inline(always)]
+    fn read(numbers: &[G::Scalar]) -> Self::Element {
+        core::array::from_fn(|copy| G::read(&numbers[copy * G::COUNT..]))
+    }
+}
+
+impl<A, B, const N: usize> ElementNumbers for Product<A, B, N>
+where
+    A: ElementNumbers + Default,
+    B: ElementNumbers<Scalar = A::Scalar> + Default,
+{
+    const COUNT: usize = A::COUNT + B::COUNT;
+
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [A::Scalar]) {
+        A::write(&g.0, numbers);
+        B::write(&g.1, &mut numbers[A::COUNT..]);
+    }
+
+    #[inline(always)]
+    fn read(numbers: &[A::Scalar]) -> Self::Element {
+        (A::read(numbers), B::read(&numbers[A::COUNT..]))
+    }
+}
