@@ -13,8 +13,9 @@ use crate::dependency;
 
 /// An attribute: how it reads a function, and what stands in where that fails.
 pub struct Attribute {
-    /// What is generated for the function, given the arguments but `crate`.
-    pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<TokenStream>,
+    /// What is generated for the function, given the arguments but `crate`; programs bind names with an underscore at their
+    /// ends.
+    pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<emit::Items>,
     /// What stands in for it, given the same.
     pub stand_in: fn(TokenStream, &ItemFn, &emit::Options) -> TokenStream,
 }
@@ -50,13 +51,15 @@ impl Attribute {
         let generated = generated.unwrap_or_else(|errors| {
             let errors = errors.into_compile_error();
             let stand_in = (self.stand_in)(arguments.others, &function, &options);
-            quote!(#errors #stand_in)
+            let struct_and_methods = quote!(#errors #stand_in);
+            emit::Items { struct_and_methods, programs: TokenStream::new() }
         });
         let kept = parameters(&function);
         let taken = emit::identifiers(function.to_token_stream());
-        let generated = emit::hygienic(generated, &kept, &taken);
+        let emit::Items { struct_and_methods, programs } = generated;
+        let items = emit::hygienic(struct_and_methods, &kept, &taken);
         // Many users only want what is generated; then the function is not dead code either.
-        quote!(#[allow(dead_code)] #function #generated)
+        quote!(#[allow(dead_code)] #function #items #programs)
     }
 }
 
@@ -69,6 +72,7 @@ fn options(function: &ItemFn, krate: TokenStream) -> emit::Options {
         visibility: function.vis.to_token_stream(),
         name: Ident::new(&emit::camel_case(&name.to_string()), name.span()),
         attributes: quote!(#(#docs)*),
+        suffix: "_",
     }
 }
 

@@ -18,16 +18,17 @@ fn generate(
     arguments: TokenStream,
     function: &ItemFn,
     options: &emit::Options,
-) -> syn::Result<TokenStream> {
+) -> syn::Result<emit::Items> {
     let potential = rust::potential(arguments, function).map_err(Diagnostics::into_syn_error)?;
-    Ok(emit::kick(&Kick::build(potential), options))
+    let struct_and_methods = emit::kick(&Kick::build(potential), options);
+    Ok(emit::Items { struct_and_methods, programs: TokenStream::new() })
 }
 
 /// The expansion for a potential that is at fault nowhere; if not even the signature or the group
 /// can be read, methods that take whatever they are given.
 fn stand_in(arguments: TokenStream, function: &ItemFn, options: &emit::Options) -> TokenStream {
     fallback::expansion(&arguments, function, |arguments, function| {
-        generate(arguments, function, options)
+        generate(arguments, function, options).map(|items| items.struct_and_methods)
     })
     .unwrap_or_else(|| fallback::potential(function, options))
 }

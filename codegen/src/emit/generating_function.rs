@@ -1,8 +1,9 @@
 //! The implementation of `coadjoint::GeneratingFunction`.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::options::Options;
 use super::program::{Body, Field, Scope, body};
 use super::types::Types;
 use crate::graph::Program;
@@ -12,34 +13,35 @@ use crate::integrator::{Integrator, Predictor};
 #[must_use]
 pub fn generating_function(
     integrator: &Integrator,
-    krate: &TokenStream,
-    name: &Ident,
+    options: &Options,
     types: &Types,
     slots: usize,
 ) -> TokenStream {
+    let Options { krate, name, .. } = options;
+    let [p, mu, c, motion] = ["p", "mu", "c", "motion"].map(|name| options.bound(name));
     let Types { dim, group, chart, vector, matrix, .. } = types;
-    let value = scalar_function(&integrator.value, krate, "p", slots);
-    let gradient = vector_function(&integrator.gradient, vector, krate, "p", slots);
+    let value = scalar_function(&integrator.value, options, "p", slots);
+    let gradient = vector_function(&integrator.gradient, vector, options, "p", slots);
     let n = Literal::usize_unsuffixed(*dim);
     let hessian = integrator.hessian.as_ref().map(|program| {
-        let function = hessian_function(program, types, krate, slots);
+        let function = hessian_function(program, types, options, slots);
         quote! {
             #[inline(never)]
-            fn gradient_and_hessian(&self, p: &#vector) -> (#vector, #matrix) {
-                let (p, c): (&[T; #n], _) = (&p.data.0[0], &self.coefficients);
+            fn gradient_and_hessian(&self, #p: &#vector) -> (#vector, #matrix) {
+                let (#p, #c): (&[T; #n], _) = (&#p.data.0[0], &self.coefficients);
                 #function
             }
         }
     });
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
-            let function = vector_function(program, vector, krate, "mu", slots);
+            let function = vector_function(program, vector, options, "mu", slots);
             quote!(#part => ::core::option::Option::Some({ #function }),)
         });
         quote! {
-            fn frame(&self, motion: usize, mu: &#vector) -> ::core::option::Option<#vector> {
-                let (mu, c): (&[T; #n], _) = (&mu.data.0[0], &self.coefficients);
-                match motion {
+            fn frame(&self, #motion: usize, #mu: &#vector) -> ::core::option::Option<#vector> {
+                let (#mu, #c): (&[T; #n], _) = (&#mu.data.0[0], &self.coefficients);
+                match #motion {
                     #(#parts)*
                     _ => ::core::option::Option::None,
                 }
@@ -54,12 +56,12 @@ pub fn generating_function(
                     self.radius
                 }
 
-                fn series_ratio(&self, p: &#vector) -> T {
+                fn series_ratio(&self, #p: &#vector) -> T {
                     #krate::plumbing::series_ratio::<T, #n>(
                         Self::table(),
                         &self.last,
                         Self::TRUNCATION,
-                        &p.data.0[0],
+                        &#p.data.0[0],
                     )
                 }
             }
@@ -74,13 +76,13 @@ pub fn generating_function(
                 const { &<#group>::new() }
             }
 
-            fn value(&self, p: &#vector) -> T {
-                let (p, c): (&[T; #n], _) = (&p.data.0[0], &self.coefficients);
+            fn value(&self, #p: &#vector) -> T {
+                let (#p, #c): (&[T; #n], _) = (&#p.data.0[0], &self.coefficients);
                 #value
             }
 
-            fn gradient(&self, p: &#vector) -> #vector {
-                let (p, c): (&[T; #n], _) = (&p.data.0[0], &self.coefficients);
+            fn gradient(&self, #p: &#vector) -> #vector {
+                let (#p, #c): (&[T; #n], _) = (&#p.data.0[0], &self.coefficients);
                 #gradient
             }
 
@@ -97,20 +99,21 @@ pub fn generating_function(
 #[must_use]
 pub fn without_programs(
     integrator: &Integrator,
-    krate: &TokenStream,
-    name: &Ident,
+    options: &Options,
     types: &Types,
     slots: usize,
 ) -> TokenStream {
+    let Options { krate, name, .. } = options;
+    let [at, mu, c, x, group] = ["at", "mu", "c", "x", "group"].map(|name| options.bound(name));
     let Types { vector, chart, dim, .. } = types;
     let n = Literal::usize_unsuffixed(*dim);
-    let guess = vector_function(&integrator.predictor, vector, krate, "mu", slots);
+    let guess = vector_function(&integrator.predictor, vector, options, "mu", slots);
     let guess = match integrator.plan.predictor {
         Predictor::Explicit(_) => guess,
         Predictor::Flow(_) => quote! {
-            let x = { #guess };
-            let group = #krate::GeneratingFunction::group(self);
-            #krate::Chart::pull_back(#chart, group, &x, at)
+            let #x = { #guess };
+            let #group = #krate::GeneratingFunction::group(self);
+            #krate::Chart::pull_back(#chart, #group, &#x, #at)
         },
     };
     let solver = match integrator.hessian {
@@ -123,28 +126,29 @@ pub fn without_programs(
                 #krate::solve::Solver::#solver
             }
 
-            fn predict(&self, at: &#vector) -> #vector {
-                let (mu, c): (&[T; #n], _) = (&at.data.0[0], &self.coefficients);
+            fn predict(&self, #at: &#vector) -> #vector {
+                let (#mu, #c): (&[T; #n], _) = (&#at.data.0[0], &self.coefficients);
                 #guess
             }
         }
     }
 }
 
-fn written(program: &Program, krate: &TokenStream, input: &str, slots: usize) -> Body {
-    let inputs = vec![Field::array(input, program.inputs())];
-    body(program, &Scope { krate, inputs, slots, lifted: false })
+fn written(program: &Program, options: &Options, input: &str, slots: usize) -> Body {
+    let inputs = vec![Field::array(options.bound(input), program.inputs())];
+    let Options { krate, suffix, .. } = options;
+    body(program, &Scope { krate, inputs, slots, lifted: false, suffix })
 }
 
 /// The body of a function with one output; it reads `input` and `c`.
 #[must_use]
 pub fn scalar_function(
     program: &Program,
-    krate: &TokenStream,
+    options: &Options,
     input: &str,
     slots: usize,
 ) -> TokenStream {
-    let Body { statements, outputs } = written(program, krate, input, slots);
+    let Body { statements, outputs } = written(program, options, input, slots);
     quote!(#statements #(#outputs)*)
 }
 
@@ -153,23 +157,23 @@ pub fn scalar_function(
 pub fn vector_function(
     program: &Program,
     vector: &TokenStream,
-    krate: &TokenStream,
+    options: &Options,
     input: &str,
     slots: usize,
 ) -> TokenStream {
-    let Body { statements, outputs } = written(program, krate, input, slots);
+    let Body { statements, outputs } = written(program, options, input, slots);
     quote!(#statements <#vector as From<_>>::from([#(#outputs),*]))
 }
 
 fn hessian_function(
     program: &Program,
     types: &Types,
-    krate: &TokenStream,
+    options: &Options,
     slots: usize,
 ) -> TokenStream {
     let Types { dim, vector, matrix, .. } = types;
     let dim = *dim;
-    let Body { statements, outputs } = written(program, krate, "p", slots);
+    let Body { statements, outputs } = written(program, options, "p", slots);
     let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
     // Entry (i, j) of an upper triangle, row by row.
     let entry = |i: usize, j: usize| triangle.get(i * dim - i * (i + 1) / 2 + j);
@@ -179,8 +183,6 @@ fn hessian_function(
     });
     quote! {
         #statements
-        let gradient: #vector = From::from([#(#gradient),*]);
-        let hessian: #matrix = From::from([#(#columns),*]);
-        (gradient, hessian)
+        (<#vector>::from([#(#gradient),*]), <#matrix>::from([#(#columns),*]))
     }
 }

@@ -13,10 +13,25 @@ use super::{allow, header};
 use crate::integrator::{Integrator, Products};
 use crate::step::Step;
 
+/// An integrator as items.
+pub struct Items {
+    /// The struct, and what users call.
+    pub struct_and_methods: TokenStream,
+    /// The programs and tables, which are long; the names they bind end with [`Options::suffix`].
+    pub programs: TokenStream,
+}
+
 /// The integrator as items: a struct and its implementations, tables last.
 #[must_use]
 pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
-    let Options { krate, visibility, name, attributes } = options;
+    let Items { struct_and_methods, programs } = items(integrator, options);
+    quote!(#struct_and_methods #programs)
+}
+
+/// The integrator as items, its programs and tables apart.
+#[must_use]
+pub fn items(integrator: &Integrator, options: &Options) -> Items {
+    let Options { krate, visibility, name, attributes, .. } = options;
     let types = Types::new(&integrator.problem.algebra, integrator.problem.chart, options);
     let Types { group, vector, definition, tables, aliases, .. } = &types;
     let step = match types.by_tables {
@@ -29,23 +44,24 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
     let count = integrator.coefficients.slots().len() + integrator.defect_len() + 1;
     let slots = Literal::usize_unsuffixed(count);
     let constructor = constructor(integrator, krate, group, count);
-    let generating = generating_function(integrator, krate, name, &types, count);
+    let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
-        Some(step) => programs(step, krate, name, group, count),
-        None => without_programs(integrator, krate, name, &types, count),
+        Some(step) => programs(step, options, group, count),
+        None => without_programs(integrator, options, &types, count),
     };
     let n = Literal::usize_unsuffixed(types.dim);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let last = integrator.coefficients.last_terms(integrator.problem.truncation);
     let last = Literal::usize_unsuffixed(last);
     let lanes = lanes(krate, name);
-    let energy = scalar_function(&integrator.energy, krate, "mu", count);
+    let energy = scalar_function(&integrator.energy, options, "mu", count);
     let table =
         table_item(krate, &integrator.coefficients, &Products::of(&integrator.coefficients));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     let allow = allow();
-    quote! {
+    let [mu, c] = ["mu", "c"].map(|name| options.bound(name));
+    let struct_and_methods = quote! {
         #definition
 
         #attributes
@@ -122,22 +138,28 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
                 ) -> ::core::result::Result<#vector, #krate::StepError> {
                     #krate::poisson_map(self, mu)
                 }
-
-                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
-                #[inline]
-                pub fn energy(&self, mu: &#vector) -> T {
-                    let (mu, c): (&[T; #n], _) = (&mu.data.0[0], &self.coefficients);
-                    #energy
-                }
             }
+
+            #lanes
+        };
+    };
+    let programs = quote! {
+        #allow
+        const _: () = {
+            #aliases
 
             #programs
 
             #generating
 
-            #lanes
+            impl<T: #krate::Scalar> #name<T> {
+                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
+                #[inline]
+                pub fn energy(&self, #mu: &#vector) -> T {
+                    let (#mu, #c): (&[T; #n], _) = (&#mu.data.0[0], &self.coefficients);
+                    #energy
+                }
 
-            impl<T> #name<T> {
                 fn table() -> &'static #krate::plumbing::Table {
                     &TABLE
                 }
@@ -147,7 +169,8 @@ pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
         };
 
         #tables
-    }
+    };
+    Items { struct_and_methods, programs }
 }
 
 /// `impl Lanes`: the coefficients in every lane.

@@ -16,7 +16,7 @@ use crate::lie::Chart;
 /// The potential as items: a struct and its implementation.
 #[must_use]
 pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
-    let Options { krate, visibility, name, attributes } = options;
+    let Options { krate, visibility, name, attributes, .. } = options;
     let potential = &kick.potential;
     let types = Types::new(&potential.algebra, Chart::default(), options);
     let Types { group, vector, definition, tables, aliases, .. } = &types;
@@ -35,8 +35,8 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let table = table_item(krate, &kick.coefficients, &all);
 
     let count = kick.coefficients.slots().len();
-    let energy = scalar_function(&kick.energy, krate, "g", count);
-    let torque = vector_function(&kick.torque, vector, krate, "g", count);
+    let energy = scalar_function(&kick.energy, options, "g", count);
+    let torque = vector_function(&kick.torque, vector, options, "g", count);
     let cost = kick.torque.cost();
     let summary = [
         format!(" Potential: `{}`", rust_comment(&potential.source)),
@@ -48,12 +48,13 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
             cost.additions
         ),
     ];
+    let [own, c] = ["g", "c"].map(|name| options.bound(name));
     let entries_of_g = quote! {
         let group = const { &<#group>::new() };
-        let g: [T; #entries] = ::core::array::from_fn(|k| {
+        let #own: [T; #entries] = ::core::array::from_fn(|k| {
             #krate::LieGroup::matrix_entry(group, g, k / #size, k % #size)
         });
-        let (g, c) = (&g, &self.coefficients);
+        let (#own, #c) = (&#own, &self.coefficients);
     };
     quote! {
         #definition

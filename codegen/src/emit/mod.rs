@@ -28,7 +28,7 @@ mod types;
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{fresh, hygienic, identifiers};
-pub use item::tokens;
+pub use item::{Items, items, tokens};
 pub use kick::kick;
 pub use limit::{MOST_TERMS, TooManyTerms, check_size};
 pub use options::{Options, camel_case, identifier};

@@ -14,9 +14,17 @@ pub struct Options {
     pub name: Ident,
     /// Attributes for the struct: the user's doc comments.
     pub attributes: TokenStream,
+    /// What the names that programs bind end with: an underscore where a constant of the user's might have one of these
+    /// names.
+    pub suffix: &'static str,
 }
 
 impl Options {
+    /// The name of something that a program binds.
+    pub(super) fn bound(&self, name: &str) -> Ident {
+        quote::format_ident!("{name}{}", self.suffix)
+    }
+
     /// Public, `::coadjoint`, named after the problem in camel case.
     #[must_use]
     pub fn for_problem(name: &str) -> Self {
@@ -25,6 +33,7 @@ impl Options {
             visibility: quote!(pub),
             name: identifier(&camel_case(name)),
             attributes: TokenStream::new(),
+            suffix: "",
         }
     }
 }

@@ -25,13 +25,13 @@ pub struct Field {
 
 impl Field {
     /// An array of so many numbers.
-    pub fn array(name: &str, len: usize) -> Self {
-        Self { name: format_ident!("{name}"), len: Some(len) }
+    pub fn array(name: Ident, len: usize) -> Self {
+        Self { name, len: Some(len) }
     }
 
     /// A single number.
-    pub fn number(name: &str) -> Self {
-        Self { name: format_ident!("{name}"), len: None }
+    pub fn number(name: Ident) -> Self {
+        Self { name, len: None }
     }
 
     /// `name: type`, as a parameter of a function.
@@ -57,6 +57,8 @@ pub struct Scope<'a> {
     pub slots: usize,
     /// Whether coefficients are of a type `C` of their own, to be lifted to `T`.
     pub lifted: bool,
+    /// What the names that are bound end with.
+    pub suffix: &'a str,
 }
 
 /// The statements of a program, and the expressions of its outputs.
@@ -82,6 +84,7 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
     let places = Literal::usize_unsuffixed(handed.len());
     let mut next_place = handed.iter().copied().enumerate().peekable();
     let (generics, parameters, call) = scope.part();
+    let shared = scope.bound("shared");
     let mut functions = TokenStream::new();
     let mut calls = TokenStream::new();
     for part in 0..=parts[nodes.len() - 1] {
@@ -93,8 +96,8 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
         {
             let place = Literal::usize_unsuffixed(place);
             let value = &writer.read[index];
-            writer.statements.extend(quote!(shared[#place] = #value;));
-            handed_here.push((index, quote!(shared[#place])));
+            writer.statements.extend(quote!(#shared[#place] = #value;));
+            handed_here.push((index, quote!(#shared[#place])));
         }
         for (index, place) in handed_here {
             writer.read[index] = place;
@@ -103,22 +106,28 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
         let statements = std::mem::take(&mut writer.statements);
         functions.extend(quote! {
             #[inline(never)]
-            fn #name #generics (#parameters, shared: &mut [T; #places]) { #statements }
+            fn #name #generics (#parameters, #shared: &mut [T; #places]) { #statements }
         });
-        calls.extend(quote!(#name(#call, &mut shared);));
+        calls.extend(quote!(#name(#call, &mut #shared);));
     }
     let statements = quote! {
         #functions
-        let mut shared = [T::of(0.0); #places];
+        let mut #shared = [T::of(0.0); #places];
         #calls
     };
     Body { statements, outputs: program.outputs().iter().map(|&id| writer.value(id)).collect() }
 }
 
 impl Scope<'_> {
+    /// The name of something that is bound here.
+    pub fn bound(&self, name: &str) -> Ident {
+        format_ident!("{name}{}", self.suffix)
+    }
+
     /// The generics and the parameters of a part of a program, and the arguments of a call.
     fn part(&self) -> (TokenStream, TokenStream, TokenStream) {
-        let Self { krate, inputs, slots, lifted } = self;
+        let Self { krate, inputs, slots, lifted, .. } = self;
+        let c = self.bound("c");
         let slots = Literal::usize_unsuffixed(*slots);
         let parameters = inputs.iter().map(Field::parameter);
         let names = inputs.iter().map(|field| &field.name);
@@ -126,8 +135,8 @@ impl Scope<'_> {
             false => (quote!(T: #krate::Scalar), quote!(T)),
             true => (quote!(C: #krate::Scalar, T: #krate::plumbing::Number<C>), quote!(C)),
         };
-        let parameters = quote!(c: &[#coefficient; #slots], #(#parameters),*);
-        (quote!(<#generics>), parameters, quote!(c, #(#names),*))
+        let parameters = quote!(#c: &[#coefficient; #slots], #(#parameters),*);
+        (quote!(<#generics>), parameters, quote!(#c, #(#names),*))
     }
 
     /// How input number `index` is read.
@@ -171,7 +180,8 @@ impl Writer<'_> {
             Node::Epsilon => quote!(<T as #krate::Scalar>::epsilon()),
             Node::Slot(i) => {
                 let i = Literal::u32_unsuffixed(i);
-                if self.scope.lifted { quote!(T::lift(c[#i])) } else { quote!(c[#i]) }
+                let c = self.scope.bound("c");
+                if self.scope.lifted { quote!(T::lift(#c[#i])) } else { quote!(#c[#i]) }
             }
             Node::Input(i) => self.scope.input(i as usize),
             Node::Add(a, b) => {
@@ -219,7 +229,7 @@ impl Writer<'_> {
             self.read.push(value);
             return;
         }
-        let name = format_ident!("t{index}");
+        let name = self.scope.bound(&format!("t{index}"));
         self.statements.extend(quote!(let #name = #value;));
         self.read.push(quote!(#name));
     }

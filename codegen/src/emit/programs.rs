@@ -1,8 +1,9 @@
 //! A kernel's programs as Rust: what the runtime's loop drives.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::options::Options;
 use super::program::{Body, Field, Scope, body, operations};
 use crate::graph::Program;
 use crate::step::Step;
@@ -23,13 +24,8 @@ pub fn step_operations(step: &Step) -> usize {
 
 /// `impl Programs for name`, and `impl Integrator`, which drives them; `slots` is the number of coefficients.
 #[must_use]
-pub fn programs(
-    step: &Step,
-    krate: &TokenStream,
-    name: &Ident,
-    group: &TokenStream,
-    slots: usize,
-) -> TokenStream {
+pub fn programs(step: &Step, options: &Options, group: &TokenStream, slots: usize) -> TokenStream {
+    let Options { krate, name, .. } = options;
     let kernel = step.kernel();
     let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
     let inline = match step_operations(step) {
@@ -43,7 +39,8 @@ pub fn programs(
                     outputs: &[Option<usize>]| {
         let name = format_ident!("{name}");
         let parameters: Vec<_> = inputs.iter().map(Field::parameter).collect();
-        let scope = Scope { krate, inputs, slots, lifted: true };
+        let c = options.bound("c");
+        let scope = Scope { krate, inputs, slots, lifted: true, suffix: options.suffix };
         let Body { statements, outputs: values } = body(program, &scope);
         let count = Literal::usize_unsuffixed(slots);
         let mut values = values.into_iter();
@@ -71,13 +68,14 @@ pub fn programs(
         };
         quote! {
             #inline
-            fn #name<T: #krate::plumbing::Number<C>>(c: &[C; #count], #(#parameters),*) -> #kind {
+            fn #name<T: #krate::plumbing::Number<C>>(#c: &[C; #count], #(#parameters),*) -> #kind {
                 #statements
                 #result
             }
         }
     };
-    let array = Field::array;
+    let array = |name: &str, len: usize| Field::array(options.bound(name), len);
+    let number = |name: &str| Field::number(options.bound(name));
     let state = || vec![array("g", m), array("mu", n)];
     let with = |mut fields: Vec<Field>, last: Field| {
         fields.push(last);
@@ -85,14 +83,15 @@ pub fn programs(
     };
     let moved = [Some(m), Some(n)];
     let frame = match &parts.frame {
-        Some(frame) => function("frame", frame, with(state(), Field::number("times")), &moved),
+        Some(frame) => function("frame", frame, with(state(), number("times")), &moved),
         None => {
             let (count, n, m) = (index(slots), index(n), index(m));
+            let (g, mu) = (options.bound("g"), options.bound("mu"));
             quote! {
                 fn frame<T: #krate::plumbing::Number<C>>(
-                    _: &[C; #count], g: &[T; #m], mu: &[T; #n], _: T,
+                    _: &[C; #count], #g: &[T; #m], #mu: &[T; #n], _: T,
                 ) -> ([T; #m], [T; #n]) {
-                    (*g, *mu)
+                    (*#g, *#mu)
                 }
             }
         }
@@ -108,7 +107,7 @@ pub fn programs(
         function(
             "accept",
             &parts.accept,
-            vec![array("mu", n), array("x", n), Field::number("left"), Field::number("way")],
+            vec![array("mu", n), array("x", n), number("left"), number("way")],
             &[None],
         ),
         function("transport", &parts.transport, with(state(), array("x", n)), &moved),
@@ -120,6 +119,7 @@ pub fn programs(
     let framed = parts.frame.is_some();
     let sizes = [n, m, k, slots].map(index);
     let sizes = quote!(#(#sizes),*);
+    let (phase, steps) = (options.bound("phase"), options.bound("steps"));
     quote! {
         impl<C: #krate::Scalar> #krate::plumbing::Programs<C, #sizes> for #name<C> {
             const NEAR: f64 = #near;
@@ -133,10 +133,10 @@ pub fn programs(
             #[inline(always)]
             fn drive(
                 &self,
-                phase: &mut #krate::Phase<#group>,
-                steps: u64,
+                #phase: &mut #krate::Phase<#group>,
+                #steps: u64,
             ) -> #krate::plumbing::DrivenOf<Self> {
-                #krate::plumbing::drive::<Self, Self, #sizes>(&self.coefficients, phase, steps)
+                #krate::plumbing::drive::<Self, Self, #sizes>(&self.coefficients, #phase, #steps)
             }
         }
     }
