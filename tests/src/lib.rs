@@ -8,6 +8,7 @@ pub mod elliptic;
 pub mod erased;
 pub mod golden;
 pub mod kernels;
+pub mod matrix_free;
 pub mod moments;
 pub mod reference;
 pub mod run;

@@ -6,9 +6,9 @@ use coadjoint::{
     lanes::Lanes, lanes::ensemble, solve::solve,
 };
 
+pub use crate::matrix_free::MatrixFree;
 pub use coadjoint::{
     Cayley, Exponential, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::Power, groups::SU3,
-    solve::MatrixFree,
 };
 
 /// By which function steps are made.

@@ -3,7 +3,6 @@
 #![allow(missing_docs)]
 
 mod allocation;
-mod at_once;
 mod attribute;
 mod backend_laws;
 mod catalogue;
@@ -14,14 +13,14 @@ mod devices;
 mod documents;
 mod front_ends;
 mod golden_files;
-mod golden_steps;
-mod in_parts;
+// mod golden_steps;
+mod long_series;
 mod inline_algebra;
 mod kernels;
 mod kicked;
 mod lanes;
 mod laws;
-mod learned_step;
+// mod learned_step;
 mod order;
 mod parts;
 mod potential;

@@ -2,8 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::solve::Predict;
-use coadjoint::{GeneratingFunction, Phase};
+use coadjoint::{GeneratingFunction, Integrator as _, Phase};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;

@@ -1,0 +1,140 @@
+//! Printed steps of long series in more than three dimensions: those of the reference, in every lane.
+
+use coadjoint::generating::VectorOf;
+use coadjoint::lanes::ensemble::advance_all;
+use coadjoint::lanes::{F64x8, Lanes};
+use coadjoint::nalgebra::{SVector, Vector6};
+use coadjoint::solve::Settings;
+use coadjoint::steps::advance_with;
+use coadjoint::{
+    Integrator, LieGroup, Phase, SE3, StepError, advance, advance_by, lie_poisson, poisson_map,
+};
+
+#[lie_poisson(group = SE3, truncation = 7)]
+fn fluid(mu: [f64; 6]) -> f64 {
+    let [a, b, c, u, v, w] = mu;
+    (a * a + b * b / 2.0 + c * c / 3.0 + u * u + v * v / 2.0 + w * w / 4.0) / 2.0
+}
+
+#[lie_poisson(group = SE3, truncation = 7, chart = cayley)]
+fn top(mu: [f64; 6]) -> f64 {
+    (mu[0] * mu[0] + mu[1] * mu[1]) / 4.0 + mu[2] * mu[2] / 2.0 + mu[3]
+}
+
+#[lie_poisson(group = SO3^2, truncation = 7)]
+fn spins(mu: [f64; 6]) -> f64 {
+    let [a, b, c, d, e, f] = mu;
+    a * d + b * e + c * f / 2.0
+}
+
+#[lie_poisson(group = Heisenberg^2, truncation = 7)]
+fn coupled(mu: [f64; 6]) -> f64 {
+    let [a, b, c, d, e, f] = mu;
+    (a * a + b * b) / 2.0 + (d * d + e * e) / 3.0 + a * a * d / 5.0 + c * f
+}
+
+/// Momenta in many directions, of this size.
+fn momenta<const N: usize>(size: f64) -> impl Iterator<Item = SVector<f64, N>> {
+    (0..20)
+        .map(move |k| SVector::from_fn(|i, _| size * (1.3 * f64::from(k) + 2.1 * i as f64).sin()))
+}
+
+/// The largest difference of the momentum after a step from that by Newton's method in loops, the reference.
+fn error<S, const N: usize>(step: &S, size: f64) -> Result<f64, StepError>
+where
+    S: Integrator,
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+    let (mut worst, mut made) = (0.0, 0);
+    for mu in momenta::<N>(size) {
+        let moved: VectorOf<S> = match poisson_map(step, &mu) {
+            // Few of the longest steps.
+            Err(StepError::SeriesDiverges { .. }) => continue,
+            moved => moved?,
+        };
+        made += 1;
+        let mut reference = Phase::<S::Group>::new(step.group().identity(), mu);
+        advance_with(step, &mut reference, Settings::default())?;
+        worst = f64::max(worst, (moved - reference.momentum).amax());
+    }
+    assert!(made >= 10, "{made} of 20 steps");
+    Ok(worst)
+}
+
+#[test]
+fn steps_are_those_of_the_reference() -> Result<(), StepError> {
+    for h in [1e-3, 0.05, 0.2, 0.5] {
+        let errors = [
+            error(&Fluid::new(h)?, 0.8)?,
+            error(&Top::new(h)?, 1.5)?,
+            error(&Spins::new(h)?, 0.7)?,
+            error(&Coupled::new(h)?, 0.7)?,
+        ];
+        assert!(errors.iter().all(|&e| e < 2e-14), "{h}: {errors:?}");
+    }
+    let long = error(&Fluid::new(1.6)?, 1.0)?;
+    assert!(long < 2e-14, "{long}");
+    Ok(())
+}
+
+#[test]
+fn many_steps_are_steps_one_by_one() -> Result<(), StepError> {
+    let start = Phase::<SE3>::at_identity(Vector6::new(1.0, 0.3, -0.4, 0.2, 0.8, -0.6));
+    for h in [0.02, 0.1, 0.3, 0.5, 0.8] {
+        let step = Fluid::new(h)?;
+        for steps in [1, 2, 3, 4, 9, 30] {
+            let (mut one, mut many) = (start.clone(), start.clone());
+            for _ in 0..steps {
+                advance(&step, &mut one)?;
+            }
+            let report = advance_by(&step, &mut many, steps)?;
+            let apart = (one.momentum - many.momentum).amax()
+                + one.group_element.rotation.angle_to(&many.group_element.rotation)
+                + (one.group_element.translation.vector - many.group_element.translation.vector)
+                    .amax();
+            assert!(apart < 1e-14 * (1.0 + steps as f64), "{h} {steps}: {apart:e}");
+            assert!(report.residual < 1e-15, "{report:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
+    let mut mu = Vector6::repeat(1.0);
+    mu[4] = f64::NAN;
+    assert_eq!(poisson_map(&Fluid::new(0.1)?, &mu).err(), Some(StepError::NonFiniteState));
+    assert!(poisson_map(&Fluid::new(0.1)?, &Vector6::zeros())?.amax() == 0.0);
+    Ok(())
+}
+
+/// Lanes of very different speed: some need one correction, some more; and in some packs a lane is refused, so that all of them go one by one.
+fn lanes_are_scalars<S>(step: &S) -> Result<(), StepError>
+where
+    S: Integrator<Group = SE3> + Lanes + Sync,
+    S::Over<F64x8>: Sync,
+{
+    let sizes = [0.05, 0.3, 1.0, 2.6, 0.0, 0.7, 1.7, 0.2];
+    let mut states: Vec<_> = momenta::<6>(1.0)
+        .zip(sizes)
+        .map(|(mu, size)| Phase::<SE3>::at_identity(mu * size))
+        .collect();
+    let mut alone = states.clone();
+    let failures = advance_all(step, &mut states, 10);
+    for (lane, (together, alone)) in states.iter().zip(&mut alone).enumerate() {
+        let stopped = advance_by(step, alone, 10).err();
+        let failed = failures.iter().find(|failure| failure.index == lane);
+        assert_eq!(failed.map(|f| (f.step, f.error)), stopped.map(|s| (s.steps, s.error)));
+        assert_eq!(together.momentum, alone.momentum, "lane {lane}");
+        assert_eq!(together.group_element, alone.group_element, "lane {lane}");
+    }
+    Ok(())
+}
+
+#[test]
+fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
+    for h in [0.05, 0.3, 0.8] {
+        lanes_are_scalars(&Fluid::new(h)?)?;
+    }
+    Ok(())
+}
