@@ -39,6 +39,18 @@ pub enum StepError {
         /// What is known of the step.
         at: Circumstances,
     },
+    /// The step turns farther than a series of so few terms can follow.
+    #[error(
+        "the step turns by {share:.2} of a half turn, and with so low a truncation at most {longest:.2} is accepted: raise the truncation, or take a smaller step; {at}"
+    )]
+    TooLong {
+        /// The length of x as a share of a half turn.
+        share: f64,
+        /// The largest share that is accepted.
+        longest: f64,
+        /// What is known of the step.
+        at: Circumstances,
+    },
     /// The series of the generating function has stopped to converge at this momentum.
     #[error("the series means nothing for so long a step: its last two terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
     SeriesDiverges {
@@ -115,6 +127,7 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
+            | Self::TooLong { at, .. }
             | Self::SeriesDiverges { at } => at.usable_step = Some(step),
             _ => {}
         }
@@ -128,6 +141,7 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
+            | Self::TooLong { at, .. }
             | Self::SeriesDiverges { at } => Some(at),
             _ => None,
         }

@@ -66,6 +66,14 @@ pub fn generating_function(
                 }
             }
         });
+    let longest = integrator.problem.longest_turn().map(|share| {
+        quote! {
+            #[inline(always)]
+            fn longest_turn(&self) -> f64 {
+                #share
+            }
+        }
+    });
     quote! {
         impl<T: #krate::Scalar> #krate::GeneratingFunction for #name<T> {
             type Group = #group;
@@ -91,6 +99,8 @@ pub fn generating_function(
             #frame
 
             #judged
+
+            #longest
         }
     }
 }

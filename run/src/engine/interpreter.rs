@@ -153,6 +153,10 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
         Scalar::of(self.radius)
     }
 
+    fn longest_turn(&self) -> f64 {
+        self.integrator.problem.longest_turn().unwrap_or(1.0)
+    }
+
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
         let terms = of_last(self.integrator, &self.last);
         let terms = terms.map(|(value, order, monomial)| (Scalar::of(value), order, monomial));

@@ -75,6 +75,13 @@ pub trait GeneratingFunction {
         Scalar::of(f64::MAX)
     }
 
+    /// The share of a half turn up to which steps are accepted; less than 1 where S is a series of so few terms that their
+    /// ratio tells too little.
+    #[inline(always)]
+    fn longest_turn(&self) -> f64 {
+        1.0
+    }
+
     /// Where S is a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by
     /// the sum of the absolute values of all monomials of its gradient. Steps are refused above ½, where the
     /// series has stopped to mean something. Zero for any other S.

@@ -35,6 +35,10 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
         self.0.radius()
     }
 
+    fn longest_turn(&self) -> f64 {
+        self.0.longest_turn()
+    }
+
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
         self.0.series_ratio(p)
     }

@@ -38,8 +38,9 @@ fn accept<S: GeneratingFunction + ?Sized>(
     let within = mu.pairing(mu).simd_le(radius * radius);
     let of = |share| ScalarOf::<S>::of(share);
     let is_series = radius.simd_lt(of(f64::MAX));
-    let inverse = 1.0 / <S::Group as LieGroup>::ESTIMATED;
-    let other = 1.0 / OF_OTHERS;
+    let longest = generating.longest_turn();
+    let inverse = 1.0 / <S::Group as LieGroup>::ESTIMATED.min(longest);
+    let other = 1.0 / OF_OTHERS.min(longest);
     let share = of(inverse * inverse).select(is_series, of(other * other));
     solved(candidate, settings) & (extent * share).simd_le(one) & within
 }
@@ -96,6 +97,12 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
         let extent = extent.simd_sqrt().largest_lane();
         let outside = |at| StepError::OutsideChart { extent, at };
         return Err(refuse(generating, mu, &candidate, outside));
+    }
+    let longest = generating.longest_turn();
+    if !extent.simd_le(ScalarOf::<S>::of(longest * longest)).all() && !settings.takes_any_ratio() {
+        let share = extent.simd_sqrt().largest_lane();
+        let too_long = |at| StepError::TooLong { share, longest, at };
+        return Err(refuse(generating, mu, &candidate, too_long));
     }
     let ratio = generating.series_ratio(&largest_p(generating, mu, &candidate.x));
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {

@@ -63,7 +63,9 @@ fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let square = square_of_series(&mut graph, integrator, group, &mu);
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
-    let (series, others) = (inverse_square(group.estimated()), inverse_square(OF_OTHERS));
+    let longest = integrator.problem.longest_turn().unwrap_or(1.0);
+    let series = inverse_square(group.estimated().min(longest));
+    let others = inverse_square(OF_OTHERS.min(longest));
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
