@@ -9,7 +9,7 @@ use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options as RustOptions, file, potential_items};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters, System};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 use tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
@@ -94,7 +94,7 @@ fn names_of_systems_and_algebras_stay_in_comments() {
         };
         let rust = file(&integrator, &style);
         let c = c::header(&integrator, &header(name)).unwrap();
-        let step = Step::build(&integrator, REACH).unwrap();
+        let step = Step::build(&integrator).unwrap();
         let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 1.0);
         let device = |language| device_unit(step.kernel(), &slots, language, name);
         (rust, kick, [c, device(DeviceLanguage::OpenCl), device(DeviceLanguage::Cuda)])

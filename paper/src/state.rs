@@ -4,7 +4,7 @@ use coadjoint::{Phase, SO3};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::step::{REACH, Step};
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, read};
 use coadjoint_learn::truth::{Quadratic, exact_flow};
 use coadjoint_learn::{DataGroup, MomentumFunction, matrix_of};
@@ -165,7 +165,7 @@ impl Steps {
         };
         let system = read(system, options).map_err(|e| e.render("system", system))?;
         let integrator = Integrator::build(system.problem, TermLimit::default())?;
-        Ok(Self { step: Step::build(&integrator, REACH)?, integrator })
+        Ok(Self { step: Step::build(&integrator)?, integrator })
     }
 
     /// The programs.
