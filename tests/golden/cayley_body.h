@@ -24,8 +24,8 @@
  * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
  * the solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 333 multiplications, 256 additions, 7 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 1888 multiplications, 1410 additions, 51 divisions and
+ * Cost of a step with one correction, as most have: 335 multiplications, 256 additions, 7 divisions and roots.
+ * Cost at most (12 corrections, and a look at the state): 1901 multiplications, 1410 additions, 52 divisions and
  * roots.
  * Data: 159 coefficients (1272 bytes) in a map, 56 bytes in a state.
  *
@@ -481,40 +481,42 @@ static inline void cayley_body_internal_correct(const double *CAYLEY_BODY_RESTRI
     const double t234 = CAYLEY_BODY_FMA(0.5, t233, t228);
     const double t235 = k[1] * t228;
     const double t236 = CAYLEY_BODY_FMA(t233, t234, t235);
-    const double t239 = (t228 <= 0.001) ? t236 : t228;
-    const double t240 = (t239 <= t228) ? t239 : t228;
-    const double t241 = (t228 <= 8.881784197001252e-16) ? t240 : t239;
+    const double t240 = 2.220446049250313e-16 * 4.0;
+    const double t241 = (t228 <= 0.001) ? t236 : t228;
+    const double t242 = (t241 <= t228) ? t241 : t228;
+    const double t243 = (t228 <= t240) ? t242 : t241;
     p_next[0] = t217;
     p_next[1] = t218;
     p_next[2] = t219;
     x[0] = t220;
     x[1] = t221;
     x[2] = t222;
-    *left = t241;
+    *left = t243;
     *moved = t228;
 }
 
 /* Internal: 1 where a step is right. */
 static inline void cayley_body_internal_accept(const double *CAYLEY_BODY_RESTRICT c, const double *CAYLEY_BODY_RESTRICT mu, const double *CAYLEY_BODY_RESTRICT x, double left, double way, double *CAYLEY_BODY_RESTRICT right)
 {
-    const double t11 = x[0] * x[0];
-    const double t12 = CAYLEY_BODY_FMA(x[1], x[1], t11);
-    const double t13 = CAYLEY_BODY_FMA(x[2], x[2], t12);
-    const double t15 = t13 * 0.25;
-    const double t16 = fabs(t15);
-    const double t19 = (t15 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t20 = t19 + t19;
-    const double t21 = t16 + t20;
-    const double t22 = mu[0] * mu[0];
-    const double t23 = CAYLEY_BODY_FMA(mu[1], mu[1], t22);
-    const double t24 = CAYLEY_BODY_FMA(mu[2], mu[2], t23);
-    const double t28 = (c[158] <= 1.7976931348623157e308) ? 4.0 : 9.0;
-    const double t29 = t21 * t28;
-    const double t30 = (t24 <= c[158]) ? 1.0 : 0.0;
-    const double t31 = (t29 <= 1.0) ? t30 : 0.0;
-    const double t32 = (way <= 0.05) ? t31 : 0.0;
-    const double t33 = (left <= 8.881784197001252e-16) ? t32 : 0.0;
-    *right = t33;
+    const double t10 = 2.220446049250313e-16 * 4.0;
+    const double t13 = x[0] * x[0];
+    const double t14 = CAYLEY_BODY_FMA(x[1], x[1], t13);
+    const double t15 = CAYLEY_BODY_FMA(x[2], x[2], t14);
+    const double t17 = t15 * 0.25;
+    const double t18 = fabs(t17);
+    const double t21 = (t17 <= 1.7976931348623157e308) ? 0.0 : 1.0;
+    const double t22 = t21 + t21;
+    const double t23 = t18 + t22;
+    const double t24 = mu[0] * mu[0];
+    const double t25 = CAYLEY_BODY_FMA(mu[1], mu[1], t24);
+    const double t26 = CAYLEY_BODY_FMA(mu[2], mu[2], t25);
+    const double t31 = (c[158] <= 3.4028234663852886e38) ? 4.938271604938272 : 9.0;
+    const double t32 = t23 * t31;
+    const double t33 = (t26 <= c[158]) ? 1.0 : 0.0;
+    const double t34 = (t32 <= 1.0) ? t33 : 0.0;
+    const double t35 = (way <= 0.05) ? t34 : 0.0;
+    const double t36 = (left <= t10) ? t35 : 0.0;
+    *right = t36;
 }
 
 /* Internal: the state moved by the increment x. */
@@ -614,8 +616,9 @@ static inline void cayley_body_internal_sound(const double *CAYLEY_BODY_RESTRICT
     const double t18 = mu[2] - mu[2];
     const double t19 = t17 + t18;
     const double t20 = t14 + t19;
-    const double t22 = (t20 <= 1.4901161193847656e-8) ? 1.0 : 0.0;
-    *right = t22;
+    const double t22 = sqrt(2.220446049250313e-16);
+    const double t23 = (t20 <= t22) ? 1.0 : 0.0;
+    *right = t23;
 }
 
 /* Internal: the matrix of a group element. */

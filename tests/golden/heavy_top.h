@@ -24,8 +24,8 @@
  * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
  * the solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 945 multiplications, 712 additions, 7 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 6295 multiplications, 4793 additions, 73 divisions and
+ * Cost of a step with one correction, as most have: 947 multiplications, 712 additions, 7 divisions and roots.
+ * Cost at most (12 corrections, and a look at the state): 6308 multiplications, 4793 additions, 74 divisions and
  * roots.
  * Data: 242 coefficients (1936 bytes) in a map, 104 bytes in a state.
  *
@@ -1112,9 +1112,10 @@ static inline void heavy_top_internal_correct(const double *HEAVY_TOP_RESTRICT c
     const double t710 = HEAVY_TOP_FMA(0.5, t694, t709);
     const double t711 = k[1] * t684;
     const double t712 = HEAVY_TOP_FMA(t694, t710, t711);
-    const double t715 = (t684 <= 0.001) ? t712 : t684;
-    const double t716 = (t715 <= t684) ? t715 : t684;
-    const double t717 = (t684 <= 8.881784197001252e-16) ? t716 : t715;
+    const double t716 = 2.220446049250313e-16 * 4.0;
+    const double t717 = (t684 <= 0.001) ? t712 : t684;
+    const double t718 = (t717 <= t684) ? t717 : t684;
+    const double t719 = (t684 <= t716) ? t718 : t717;
     p_next[0] = t662;
     p_next[1] = t663;
     p_next[2] = t664;
@@ -1127,39 +1128,40 @@ static inline void heavy_top_internal_correct(const double *HEAVY_TOP_RESTRICT c
     x[3] = t671;
     x[4] = t672;
     x[5] = c[0];
-    *left = t717;
+    *left = t719;
     *moved = t684;
 }
 
 /* Internal: 1 where a step is right. */
 static inline void heavy_top_internal_accept(const double *HEAVY_TOP_RESTRICT c, const double *HEAVY_TOP_RESTRICT mu, const double *HEAVY_TOP_RESTRICT x, double left, double way, double *HEAVY_TOP_RESTRICT right)
 {
-    const double t17 = x[0] * x[0];
-    const double t18 = HEAVY_TOP_FMA(x[1], x[1], t17);
-    const double t19 = HEAVY_TOP_FMA(x[2], x[2], t18);
-    const double t21 = t19 * 0.10132118364233778;
-    const double t22 = x[3] - x[3];
-    const double t23 = x[4] - x[4];
-    const double t24 = t22 + t23;
-    const double t25 = x[5] - x[5];
+    const double t16 = 2.220446049250313e-16 * 4.0;
+    const double t19 = x[0] * x[0];
+    const double t20 = HEAVY_TOP_FMA(x[1], x[1], t19);
+    const double t21 = HEAVY_TOP_FMA(x[2], x[2], t20);
+    const double t23 = t21 * 0.10132118364233778;
+    const double t24 = x[3] - x[3];
+    const double t25 = x[4] - x[4];
     const double t26 = t24 + t25;
-    const double t27 = t21 + t26;
-    const double t28 = fabs(t27);
-    const double t31 = (t27 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t32 = t31 + t31;
-    const double t33 = t28 + t32;
-    const double t34 = mu[0] * mu[0];
-    const double t35 = HEAVY_TOP_FMA(mu[1], mu[1], t34);
-    const double t36 = HEAVY_TOP_FMA(mu[2], mu[2], t35);
-    const double t37 = HEAVY_TOP_FMA(mu[3], mu[3], t36);
-    const double t38 = HEAVY_TOP_FMA(mu[4], mu[4], t37);
-    const double t39 = HEAVY_TOP_FMA(mu[5], mu[5], t38);
-    const double t42 = t33 * 9.0;
-    const double t43 = (t39 <= c[241]) ? 1.0 : 0.0;
-    const double t44 = (t42 <= 1.0) ? t43 : 0.0;
-    const double t45 = (way <= 0.05) ? t44 : 0.0;
-    const double t46 = (left <= 8.881784197001252e-16) ? t45 : 0.0;
-    *right = t46;
+    const double t27 = x[5] - x[5];
+    const double t28 = t26 + t27;
+    const double t29 = t23 + t28;
+    const double t30 = fabs(t29);
+    const double t33 = (t29 <= 1.7976931348623157e308) ? 0.0 : 1.0;
+    const double t34 = t33 + t33;
+    const double t35 = t30 + t34;
+    const double t36 = mu[0] * mu[0];
+    const double t37 = HEAVY_TOP_FMA(mu[1], mu[1], t36);
+    const double t38 = HEAVY_TOP_FMA(mu[2], mu[2], t37);
+    const double t39 = HEAVY_TOP_FMA(mu[3], mu[3], t38);
+    const double t40 = HEAVY_TOP_FMA(mu[4], mu[4], t39);
+    const double t41 = HEAVY_TOP_FMA(mu[5], mu[5], t40);
+    const double t44 = t35 * 9.0;
+    const double t45 = (t41 <= c[241]) ? 1.0 : 0.0;
+    const double t46 = (t44 <= 1.0) ? t45 : 0.0;
+    const double t47 = (way <= 0.05) ? t46 : 0.0;
+    const double t48 = (left <= t16) ? t47 : 0.0;
+    *right = t48;
 }
 
 /* Internal: the state moved by the increment x. */
@@ -1396,8 +1398,9 @@ static inline void heavy_top_internal_sound(const double *HEAVY_TOP_RESTRICT c, 
     const double t36 = mu[5] - mu[5];
     const double t37 = t35 + t36;
     const double t38 = t26 + t37;
-    const double t40 = (t38 <= 1.4901161193847656e-8) ? 1.0 : 0.0;
-    *right = t40;
+    const double t40 = sqrt(2.220446049250313e-16);
+    const double t41 = (t38 <= t40) ? 1.0 : 0.0;
+    *right = t41;
 }
 
 /* Internal: the matrix of a group element. */

@@ -24,8 +24,8 @@
  * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
  * the solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 487 multiplications, 408 additions, 4 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 3263 multiplications, 2673 additions, 37 divisions and
+ * Cost of a step with one correction, as most have: 489 multiplications, 408 additions, 4 divisions and roots.
+ * Cost at most (12 corrections, and a look at the state): 3276 multiplications, 2673 additions, 38 divisions and
  * roots.
  * Data: 228 coefficients (1824 bytes) in a map, 56 bytes in a state.
  *
@@ -623,40 +623,42 @@ static inline void rigid_body_internal_correct(const double *RIGID_BODY_RESTRICT
     const double t417 = RIGID_BODY_FMA(0.5, t408, t416);
     const double t418 = k[1] * t403;
     const double t419 = RIGID_BODY_FMA(t408, t417, t418);
-    const double t422 = (t403 <= 0.001) ? t419 : t403;
-    const double t423 = (t422 <= t403) ? t422 : t403;
-    const double t424 = (t403 <= 8.881784197001252e-16) ? t423 : t422;
+    const double t423 = 2.220446049250313e-16 * 4.0;
+    const double t424 = (t403 <= 0.001) ? t419 : t403;
+    const double t425 = (t424 <= t403) ? t424 : t403;
+    const double t426 = (t403 <= t423) ? t425 : t424;
     p_next[0] = t392;
     p_next[1] = t393;
     p_next[2] = t394;
     x[0] = t395;
     x[1] = t396;
     x[2] = t397;
-    *left = t424;
+    *left = t426;
     *moved = t403;
 }
 
 /* Internal: 1 where a step is right. */
 static inline void rigid_body_internal_accept(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT x, double left, double way, double *RIGID_BODY_RESTRICT right)
 {
-    const double t11 = x[0] * x[0];
-    const double t12 = RIGID_BODY_FMA(x[1], x[1], t11);
-    const double t13 = RIGID_BODY_FMA(x[2], x[2], t12);
-    const double t15 = t13 * 0.10132118364233778;
-    const double t16 = fabs(t15);
-    const double t19 = (t15 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t20 = t19 + t19;
-    const double t21 = t16 + t20;
-    const double t22 = mu[0] * mu[0];
-    const double t23 = RIGID_BODY_FMA(mu[1], mu[1], t22);
-    const double t24 = RIGID_BODY_FMA(mu[2], mu[2], t23);
-    const double t28 = (c[227] <= 1.7976931348623157e308) ? 4.0 : 9.0;
-    const double t29 = t21 * t28;
-    const double t30 = (t24 <= c[227]) ? 1.0 : 0.0;
-    const double t31 = (t29 <= 1.0) ? t30 : 0.0;
-    const double t32 = (way <= 0.05) ? t31 : 0.0;
-    const double t33 = (left <= 8.881784197001252e-16) ? t32 : 0.0;
-    *right = t33;
+    const double t10 = 2.220446049250313e-16 * 4.0;
+    const double t13 = x[0] * x[0];
+    const double t14 = RIGID_BODY_FMA(x[1], x[1], t13);
+    const double t15 = RIGID_BODY_FMA(x[2], x[2], t14);
+    const double t17 = t15 * 0.10132118364233778;
+    const double t18 = fabs(t17);
+    const double t21 = (t17 <= 1.7976931348623157e308) ? 0.0 : 1.0;
+    const double t22 = t21 + t21;
+    const double t23 = t18 + t22;
+    const double t24 = mu[0] * mu[0];
+    const double t25 = RIGID_BODY_FMA(mu[1], mu[1], t24);
+    const double t26 = RIGID_BODY_FMA(mu[2], mu[2], t25);
+    const double t30 = (c[227] <= 3.4028234663852886e38) ? 4.0 : 9.0;
+    const double t31 = t23 * t30;
+    const double t32 = (t26 <= c[227]) ? 1.0 : 0.0;
+    const double t33 = (t31 <= 1.0) ? t32 : 0.0;
+    const double t34 = (way <= 0.05) ? t33 : 0.0;
+    const double t35 = (left <= t10) ? t34 : 0.0;
+    *right = t35;
 }
 
 /* Internal: the state moved by the increment x. */
@@ -769,8 +771,9 @@ static inline void rigid_body_internal_sound(const double *RIGID_BODY_RESTRICT c
     const double t18 = mu[2] - mu[2];
     const double t19 = t17 + t18;
     const double t20 = t14 + t19;
-    const double t22 = (t20 <= 1.4901161193847656e-8) ? 1.0 : 0.0;
-    *right = t22;
+    const double t22 = sqrt(2.220446049250313e-16);
+    const double t23 = (t20 <= t22) ? 1.0 : 0.0;
+    *right = t23;
 }
 
 /* Internal: the matrix of a group element. */

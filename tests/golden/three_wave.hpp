@@ -24,8 +24,8 @@
  * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
  * the solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 1189 multiplications, 857 additions, 4 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 9681 multiplications, 6909 additions, 37 divisions and
+ * Cost of a step with one correction, as most have: 1191 multiplications, 857 additions, 4 divisions and roots.
+ * Cost at most (12 corrections, and a look at the state): 9694 multiplications, 6909 additions, 38 divisions and
  * roots.
  * Data: 41 coefficients (328 bytes) in a map, 56 bytes in a state.
  *
@@ -1455,16 +1455,17 @@ static inline void three_wave_internal_correct_1(const double *THREE_WAVE_RESTRI
     const double t1146 = THREE_WAVE_FMA(0.5, t1137, t1145);
     const double t1147 = k[1] * t1132;
     const double t1148 = THREE_WAVE_FMA(t1137, t1146, t1147);
-    const double t1151 = (t1132 <= 0.001) ? t1148 : t1132;
-    const double t1152 = (t1151 <= t1132) ? t1151 : t1132;
-    const double t1153 = (t1132 <= 8.881784197001252e-16) ? t1152 : t1151;
+    const double t1152 = 2.220446049250313e-16 * 4.0;
+    const double t1153 = (t1132 <= 0.001) ? t1148 : t1132;
+    const double t1154 = (t1153 <= t1132) ? t1153 : t1132;
+    const double t1155 = (t1132 <= t1152) ? t1154 : t1153;
     p_next[0] = t1121;
     p_next[1] = t1122;
     p_next[2] = t1123;
     x[0] = t1124;
     x[1] = t1125;
     x[2] = t1126;
-    *left = t1153;
+    *left = t1155;
     *moved = t1132;
 }
 
@@ -1478,52 +1479,53 @@ static inline void three_wave_internal_correct(const double *THREE_WAVE_RESTRICT
 /* Internal: 1 where a step is right. */
 static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT x, double left, double way, double *THREE_WAVE_RESTRICT right)
 {
-    const double t11 = x[0] - x[0];
-    const double t12 = x[1] - x[1];
-    const double t13 = t11 + t12;
-    const double t14 = x[2] - x[2];
+    const double t10 = 2.220446049250313e-16 * 4.0;
+    const double t13 = x[0] - x[0];
+    const double t14 = x[1] - x[1];
     const double t15 = t13 + t14;
-    const double t18 = x[0] * 2.0;
-    const double t20 = x[1] * (-2.0);
-    const double t21 = x[0] * (-2.0);
-    const double t22 = x[2] * 2.0;
-    const double t24 = fabs(t20);
-    const double t25 = fabs(t22);
-    const double t26 = t24 + t25;
-    const double t27 = fabs(x[2]);
-    const double t28 = fabs(t18);
-    const double t29 = t27 + t28;
-    const double t30 = fabs(x[1]);
-    const double t31 = fabs(t21);
-    const double t32 = t30 + t31;
-    const double t33 = fabs(t26);
-    const double t34 = fabs(t29);
-    const double t35 = (t34 <= t33) ? t33 : t34;
-    const double t36 = fabs(t32);
+    const double t16 = x[2] - x[2];
+    const double t17 = t15 + t16;
+    const double t20 = x[0] * 2.0;
+    const double t22 = x[1] * (-2.0);
+    const double t23 = x[0] * (-2.0);
+    const double t24 = x[2] * 2.0;
+    const double t26 = fabs(t22);
+    const double t27 = fabs(t24);
+    const double t28 = t26 + t27;
+    const double t29 = fabs(x[2]);
+    const double t30 = fabs(t20);
+    const double t31 = t29 + t30;
+    const double t32 = fabs(x[1]);
+    const double t33 = fabs(t23);
+    const double t34 = t32 + t33;
+    const double t35 = fabs(t28);
+    const double t36 = fabs(t31);
     const double t37 = (t36 <= t35) ? t35 : t36;
-    const double t38 = fabs(x[0]);
-    const double t39 = t30 + t38;
-    const double t40 = t27 + t38;
-    const double t41 = fabs(t39);
-    const double t42 = fabs(t40);
-    const double t43 = (t42 <= t41) ? t41 : t42;
-    const double t44 = (t43 <= t37) ? t37 : t43;
-    const double t45 = 0.3183098861837907 * t44;
-    const double t46 = t45 * t45;
-    const double t47 = t15 + t46;
-    const double t48 = fabs(t47);
-    const double t50 = (t47 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t51 = t50 + t50;
-    const double t52 = t48 + t51;
-    const double t53 = mu[0] * mu[0];
-    const double t54 = THREE_WAVE_FMA(mu[1], mu[1], t53);
-    const double t55 = THREE_WAVE_FMA(mu[2], mu[2], t54);
-    const double t58 = t52 * 9.0;
-    const double t59 = (t55 <= c[40]) ? 1.0 : 0.0;
-    const double t60 = (t58 <= 1.0) ? t59 : 0.0;
-    const double t61 = (way <= 0.05) ? t60 : 0.0;
-    const double t62 = (left <= 8.881784197001252e-16) ? t61 : 0.0;
-    *right = t62;
+    const double t38 = fabs(t34);
+    const double t39 = (t38 <= t37) ? t37 : t38;
+    const double t40 = fabs(x[0]);
+    const double t41 = t32 + t40;
+    const double t42 = t29 + t40;
+    const double t43 = fabs(t41);
+    const double t44 = fabs(t42);
+    const double t45 = (t44 <= t43) ? t43 : t44;
+    const double t46 = (t45 <= t39) ? t39 : t45;
+    const double t47 = 0.3183098861837907 * t46;
+    const double t48 = t47 * t47;
+    const double t49 = t17 + t48;
+    const double t50 = fabs(t49);
+    const double t52 = (t49 <= 1.7976931348623157e308) ? 0.0 : 1.0;
+    const double t53 = t52 + t52;
+    const double t54 = t50 + t53;
+    const double t55 = mu[0] * mu[0];
+    const double t56 = THREE_WAVE_FMA(mu[1], mu[1], t55);
+    const double t57 = THREE_WAVE_FMA(mu[2], mu[2], t56);
+    const double t60 = t54 * 9.0;
+    const double t61 = (t57 <= c[40]) ? 1.0 : 0.0;
+    const double t62 = (t60 <= 1.0) ? t61 : 0.0;
+    const double t63 = (way <= 0.05) ? t62 : 0.0;
+    const double t64 = (left <= t10) ? t63 : 0.0;
+    *right = t64;
 }
 
 /* Internal: the state moved by the increment x. */
@@ -2009,8 +2011,9 @@ static inline void three_wave_internal_sound(const double *THREE_WAVE_RESTRICT c
     const double t18 = mu[2] - mu[2];
     const double t19 = t17 + t18;
     const double t20 = t14 + t19;
-    const double t23 = (t20 <= 1.4901161193847656e-8) ? 1.0 : 0.0;
-    *right = t23;
+    const double t22 = sqrt(2.220446049250313e-16);
+    const double t24 = (t20 <= t22) ? 1.0 : 0.0;
+    *right = t24;
 }
 
 /* Internal: the matrix of a group element. */

@@ -225,11 +225,7 @@ impl<'f> Coder<'f> {
             Node::Sqrt(_) => self.builder.ins().sqrt(a),
             Node::Round(_) => self.builder.ins().nearest(a),
             Node::Select(..) => self.select([a, b, c, d]),
-            Node::Zero
-            | Node::Constant(_)
-            | Node::Epsilon
-            | Node::Input(_)
-            | Node::Slot(_) => a,
+            Node::Zero | Node::Constant(_) | Node::Epsilon | Node::Input(_) | Node::Slot(_) => a,
         }
     }
 }
