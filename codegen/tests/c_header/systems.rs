@@ -166,11 +166,24 @@ pub struct Built {
     pub step: f64,
     pub momentum: Vec<f64>,
     pub symbols: Vec<f64>,
-    /// Whether elements are matrices.
-    pub by_tables: bool,
+    /// Whether every matrix is an element, so far as steps can tell.
+    pub any_element: bool,
     pub file: String,
     pub header: String,
     prefix: String,
+}
+
+/// Whether a step finds nothing wrong with twice the neutral element.
+fn any_element(programs: &Step) -> bool {
+    let kernel = programs.kernel();
+    let matrix = programs.kernel().programs().matrix.outputs().len().isqrt();
+    let unit = |at: usize| if at / matrix == at % matrix { 1.0 } else { 0.0 };
+    let unit: Vec<f64> = (0..matrix * matrix).map(unit).collect();
+    let mut state: Vec<f64> = programs.element_of(&unit).iter().map(|entry| 2.0 * entry).collect();
+    state.extend(vec![0.1; kernel.dim()]);
+    let mut sound = [f64::NAN];
+    kernel.programs().sound.run(&state, &[], &mut Vec::new(), &mut sound);
+    sound[0] == 1.0
 }
 
 impl Built {
@@ -210,7 +223,7 @@ impl Built {
             step: run.step.unwrap(),
             momentum: run.momentum.unwrap(),
             symbols,
-            by_tables: !programs.inverted().is_empty(),
+            any_element: any_element(&programs),
             programs,
             file: format!("{prefix}.{ending}"),
             header,

@@ -229,6 +229,10 @@ impl Dialect for Device {
         self.c.single(name)
     }
 
+    fn epsilon(&self) -> String {
+        self.literal(self.precision.epsilon())
+    }
+
     fn constant(&self, value: f64) -> String {
         self.literal(value)
     }

@@ -154,7 +154,10 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
     }
 
     fn longest_turn(&self) -> f64 {
-        self.integrator.problem.longest_turn().unwrap_or(1.0)
+        // Where S₃ vanishes S₁ is all there is; at K = 1 nobody knows.
+        let problem = &self.integrator.problem;
+        let known = problem.truncation == 1 || self.radius < f64::MAX;
+        problem.longest_turn().filter(|_| known).unwrap_or(1.0)
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {

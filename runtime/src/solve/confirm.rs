@@ -4,7 +4,7 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
 use super::continuation::follow;
-use super::{CandidateOf, Integrator, Settings, propose};
+use super::{CandidateOf, Integrator, Settings, propose_scaled};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -76,7 +76,7 @@ pub(super) fn confirm<S: Integrator + ?Sized>(
     }
     if contracts {
         let one = ScalarOf::<S>::of(1.0);
-        let refined = propose(generating, mu, one, p, settings);
+        let refined = propose_scaled(generating, mu, one, p, settings);
         if refined.residual.simd_le(settings.tolerance()).all() {
             let moved = candidate.moved + refined.moved;
             return Ok(CandidateOf::<S> { moved, ..refined });

@@ -9,7 +9,7 @@
 use nalgebra::{SimdBool, SimdPartialOrd};
 
 use super::confirm::keeps_orientation;
-use super::{CandidateOf, Integrator, NEAR, Settings, propose};
+use super::{CandidateOf, Integrator, NEAR, Settings, propose_scaled};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -36,7 +36,7 @@ pub(super) fn follow<S: Integrator + ?Sized>(
         let way = ScalarOf::<S>::of(next - reached);
         let guess = VectorOf::<S>::from_entries(dim, |i| slope[i].times_plus(way, p[i]));
         let scale = ScalarOf::<S>::of(next);
-        let found = propose(generating, mu, scale, guess, settings);
+        let found = propose_scaled(generating, mu, scale, guess, settings);
         iterations += found.iterations;
         let near = found.moved.simd_le(ScalarOf::<S>::of(NEAR)).all();
         let solved = near && found.residual.simd_le(settings.tolerance()).all();

@@ -142,14 +142,27 @@ pub fn solve_from<S: Integrator + ?Sized>(
     guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let settings = Settings::default();
-    let candidate = propose(generating, mu, Scalar::of(1.0), guess, settings);
+    let candidate = propose(generating, mu, guess, settings);
     let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
     let p = S::Chart::default().pull_back(generating.group(), &x, mu);
     Ok(Solution { p, x, iterations, residual })
 }
 
-/// The solution for `scale`·S from this guess of p.
+/// The step that the method of solution proposes from this guess of p.
 pub(crate) fn propose<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    guess: VectorOf<S>,
+    settings: Settings<ScalarOf<S>>,
+) -> CandidateOf<S> {
+    match generating.solver() {
+        Solver::Newton => newton::newton(generating, mu, guess, settings),
+        Solver::FixedPoint => propose_scaled(generating, mu, Scalar::of(1.0), guess, settings),
+    }
+}
+
+/// The solution for `scale`·S from this guess of p, as a continuation asks for it; what is left of it is measured.
+fn propose_scaled<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     scale: ScalarOf<S>,
@@ -157,7 +170,7 @@ pub(crate) fn propose<S: Integrator + ?Sized>(
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     match generating.solver() {
-        Solver::Newton => newton::newton(generating, mu, scale, guess, settings),
+        Solver::Newton => newton::careful(generating, mu, scale, guess, settings),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess, settings),
     }
 }

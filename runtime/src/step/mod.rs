@@ -123,7 +123,7 @@ fn by_hand<S: Integrator + ?Sized>(
         Some(candidate) => rescue(generating, mu, candidate, settings)?,
         None => {
             let guess = generating.predict(mu);
-            let candidate = propose(generating, mu, Scalar::of(1.0), guess, settings);
+            let candidate = propose(generating, mu, guess, settings);
             judge(generating, mu, candidate, settings)?
         }
     };

@@ -65,7 +65,11 @@ fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     let longest = integrator.problem.longest_turn().unwrap_or(1.0);
     let series = inverse_square(group.estimated().min(longest));
-    let others = inverse_square(OF_OTHERS.min(longest));
+    // Where S₃ vanishes S₁ is all there is; at K = 1 nobody knows.
+    let others = match integrator.problem.truncation {
+        1 => inverse_square(OF_OTHERS.min(longest)),
+        _ => inverse_square(OF_OTHERS),
+    };
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
