@@ -70,7 +70,7 @@ fn way<'a>(
 /// Prints nanoseconds a step of single runs; the ratio is to `advance`.
 ///
 /// # Errors
-/// What could not be measured.
+/// An error if something could not be measured.
 pub fn single(command: &Path, backends: &[String], quick: bool, only: &str) -> Result<(), Failure> {
     println!("Nanoseconds a step, and the ratio to `advance`:\n");
     for system in SYSTEMS.iter().filter(|system| system.name.contains(only)) {
@@ -88,7 +88,7 @@ pub fn single(command: &Path, backends: &[String], quick: bool, only: &str) -> R
 /// Prints nanoseconds a step and trajectory; the ratio is to the attribute's lanes.
 ///
 /// # Errors
-/// What could not be measured.
+/// An error if something could not be measured.
 pub fn ensembles(
     command: &Path,
     given: &[Vec<String>],

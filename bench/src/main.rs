@@ -1,4 +1,4 @@
-//! What a step costs, and what other methods need for the same error.
+//! The cost of a step, and the cost of other methods for the same error.
 //!
 //! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work`
 

@@ -11,7 +11,7 @@ const IN_LANES: usize = 2;
 /// Prints nanoseconds a step; the ratio is to `advance`.
 ///
 /// # Errors
-/// What could not be measured.
+/// An error if something could not be measured.
 pub fn table(quick: bool, only: &str) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     println!("Nanoseconds a step (in lanes: of one trajectory), and the ratio to `advance`:\n");

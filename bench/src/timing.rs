@@ -65,7 +65,7 @@ impl<'a> Way<'a> {
 /// The median nanoseconds of a step of one trajectory, for each way over the rounds.
 ///
 /// # Errors
-/// What a way could not do.
+/// The first error of any of the ways.
 pub fn medians(ways: &mut [Way<'_>], rounds: usize) -> Result<Vec<f64>, Failure> {
     let counts = ways.iter_mut().map(Way::steps).collect::<Result<Vec<u64>, Failure>>()?;
     let mut samples = vec![Vec::with_capacity(rounds); ways.len()];

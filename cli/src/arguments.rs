@@ -24,7 +24,7 @@ use crate::reproduce::ReproduceOptions;
 #[derive(Debug, Parser)]
 #[command(name = "coadjoint", version)]
 pub struct Arguments {
-    /// What to do.
+    /// The verb to run.
     #[command(subcommand)]
     pub verb: Verb,
 }
@@ -49,7 +49,7 @@ pub fn parse() -> Arguments {
     })
 }
 
-/// What to do.
+/// The verb to run.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
     /// Print the exact series S₁ … S_K of the generating function
@@ -217,10 +217,10 @@ pub struct EmitOptions {
     /// Keep the parameters as arguments of the integrator instead of putting in their values; in Rust, C and C++
     #[arg(long)]
     pub keep_parameters: bool,
-    /// What to write
+    /// The language to write
     #[arg(long, value_enum, default_value_t)]
     pub language: LanguageName,
-    /// What all names in C and C++ begin with; from the system's name if not given
+    /// The prefix of all names in C and C++; from the system's name if not given
     #[arg(long, value_name = "NAME")]
     pub prefix: Option<String>,
     /// The step size h of a kernel in OpenCL or CUDA, which is fixed in it; instead of the file's. Other languages take h
@@ -268,7 +268,7 @@ impl LanguageName {
     }
 }
 
-/// What to run beside the integrator.
+/// A second method to run beside the integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Rival {
     /// The adaptive Runge–Kutta method of orders 4 and 5 of Dormand and Prince.
@@ -323,7 +323,7 @@ pub struct SimulateOptions {
     /// Keep the state in this file, so that the same command goes on where it was stopped
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
-    /// Write the checkpoint after so many seconds
+    /// Seconds between two checkpoints
     #[arg(long, value_name = "SECONDS", default_value_t = 20.0)]
     pub checkpoint_interval: f64,
     /// Draw the drift of energy, momentum and Casimirs
@@ -335,7 +335,7 @@ pub struct SimulateOptions {
     /// The relative and absolute tolerance of the method beside it
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
     pub compare_tolerance: f64,
-    /// What evaluates the steps
+    /// The backend that evaluates the steps
     #[arg(long, value_enum, default_value_t, conflicts_with = "model")]
     pub backend: BackendName,
     /// How to print
@@ -369,7 +369,7 @@ pub struct EnsembleOptions {
     /// Only share i of n of the rows, i from 1 to n: for job arrays
     #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
-    /// What evaluates the steps
+    /// The backend that evaluates the steps
     #[arg(long, value_enum, default_value_t)]
     pub backend: BackendName,
     /// Make the steps on a device, opencl, opencl:N, cuda or cuda:N. What it refuses --backend makes

@@ -2,10 +2,10 @@
 
 use coadjoint_run::Backend;
 
-/// What is to make the steps.
+/// The backend that makes the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum BackendName {
-    /// What is cheapest for this run: a short one never waits for a compiler
+    /// The cheapest for this run: a short one never waits for a compiler
     #[default]
     Auto,
     /// The interpreter of the programs, which is always there

@@ -47,7 +47,7 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
     }
 }
 
-/// What is to be written, and the file it is from.
+/// The source of the code to write, and the file it is from.
 fn source(options: &EmitOptions) -> Result<(std::path::PathBuf, Source), CliError> {
     if let Some(path) = &options.input.model {
         return Ok((path.clone(), Source::Model(Box::new(ModelFile::load(path)?))));

@@ -1,4 +1,4 @@
-//! What can go wrong, and the exit code it means.
+//! The errors of the command, and their exit codes.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};

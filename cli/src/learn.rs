@@ -29,7 +29,7 @@ pub enum ModelName {
     Hybrid,
 }
 
-/// What is minimised.
+/// The loss that is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Loss {
     /// Differences of chart coordinates.
@@ -39,7 +39,7 @@ pub enum Loss {
     Group,
 }
 
-/// What `learn` and `geometrize` share.
+/// The options that `learn` and `geometrize` share.
 #[derive(Args, Debug)]
 pub struct Fit {
     /// The chart
@@ -92,7 +92,7 @@ pub struct LearnOptions {
     /// The ridge of a polynomial of given degree
     #[arg(long, default_value_t = 0.0)]
     ridge: f64,
-    /// What is minimised
+    /// The loss that is minimised
     #[arg(long, value_enum, default_value_t)]
     loss: Loss,
     /// Widths of the hidden layers of a network
@@ -110,7 +110,7 @@ pub struct LearnOptions {
 }
 
 impl Fit {
-    /// What is asked for, of data in a file.
+    /// The request for data in a file.
     pub fn request(&self, data: PathBuf, group: String) -> Request {
         let chart = match self.chart {
             ChartName::Exp => "exp",

@@ -94,7 +94,7 @@ chapters! {
 fn every_block_is_run() {
     // Printed by the command, and compared with it in `groups.rs`; quoted messages, compared in `file_format.rs`.
     let elsewhere = ["groups", "file-format"];
-    // What has no output to compare: flags of a build, and programs that run for minutes.
+    // Commands without an output to compare: flags of a build, and programs that run for minutes.
     let long = [
         "RUSTFLAGS=",
         // For a machine with a card; `device.rs` runs it on OpenCL's processor.

@@ -158,7 +158,7 @@ fn shards_together_are_the_whole() {
     }
 }
 
-/// What is written in one format and read again is the same ensemble.
+/// An ensemble written in any format reads back the same.
 #[test]
 fn formats_agree() {
     let directory = TempDir::new().unwrap();
@@ -375,7 +375,7 @@ fn other_columns_are_carried_through_unchanged() {
             assert!(line.split(',').any(|cell| cell == number), "{line}\n{plain}");
         }
     }
-    // What is written is read again: the second run carries the same cells.
+    // The output can be read again: the second run carries the same cells.
     let again = at(&directory, "again.csv");
     ensemble(&out, &again, &["--time", "1"]);
     let again = String::from_utf8(bytes(&again)).unwrap();
@@ -410,7 +410,7 @@ fn a_run_without_a_single_end_state_fails() {
     assert_eq!(ensemble(&initial, &out, &[])["trajectories"], 0);
 }
 
-/// What `simulate` writes, `ensemble` reads: coordinates by their own names, matrices of products by their blocks.
+/// `ensemble` reads the output of `simulate`: coordinates by their own names, matrices of products by their blocks.
 #[test]
 fn records_of_runs_are_states() {
     let directory = TempDir::new().unwrap();

@@ -65,7 +65,7 @@ fn the_mistakes_of_the_page_are_reported_in_its_words() {
     }
 }
 
-/// What is known is learned from the complaints about a key that is not.
+/// The known keys are taken from the message about an unknown one.
 #[test]
 fn every_key_and_every_name_is_on_the_page() {
     let page = page();

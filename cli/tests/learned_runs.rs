@@ -112,7 +112,7 @@ fn reports_and_files_are_those_of_every_run() {
     assert!(code == 2 && error.contains("learned map"), "{error}");
 }
 
-/// What is not finite ends the run with the time, and the records up to there stay.
+/// A number that is not finite ends the run with the time, and the records up to there stay.
 #[test]
 fn what_is_not_finite_ends_the_run() {
     let place = Place::new();

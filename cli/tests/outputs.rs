@@ -100,7 +100,7 @@ fn an_output_is_never_an_input() {
     assert_eq!(place.names(), ["body.toml", "pairs.csv", "states.csv", "times"]);
 }
 
-/// The command in a shell that lets files grow to so many blocks of 512 bytes.
+/// The command in a shell that limits files to this number of blocks of 512 bytes.
 fn limited(place: &Place, blocks: u32, arguments: &str) -> Output {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" {arguments}");
     let mut command = Command::new("sh");

@@ -30,7 +30,7 @@ fn attributes(svg: &str, element: &str, attribute: &str) -> Vec<String> {
     elements.filter_map(value).collect()
 }
 
-/// What is written, with the place of its baseline, its size and where it stands relative to it.
+/// A text with the place of its baseline, its size, and its position relative to the baseline.
 struct Text {
     x: f64,
     y: f64,

@@ -88,7 +88,7 @@ fn json_has_the_keys_programs_rely_on() {
     assert!(run["energy"]["start"].is_f64() && run["energy"]["end"].is_f64());
 }
 
-/// What has no number has no key.
+/// A quantity without a number has no key.
 #[test]
 fn json_never_holds_null() {
     fn nulls(value: &Value) -> bool {
@@ -175,7 +175,7 @@ fn files_and_pictures_are_written() {
     assert!(error.contains(".csv or .npy"));
 }
 
-/// What the paper's figures show: the Runge–Kutta method loses the momentum, the integrator keeps it.
+/// As in the paper's figures: the Runge–Kutta method loses the momentum, the integrator keeps it.
 #[test]
 fn the_rival_drifts() {
     let runs =
@@ -379,7 +379,7 @@ fn the_scale_of_the_energy_is_the_energy_at_the_start() {
     }
 }
 
-/// What is not known or not conserved has no number, in no output.
+/// A quantity that is unknown or not conserved has no number in any output.
 #[test]
 fn an_unknown_drift_is_absent() {
     let directory = tempfile::tempdir().unwrap();

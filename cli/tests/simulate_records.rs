@@ -1,4 +1,4 @@
-//! What `simulate` records: when, in which columns, as it goes, and what is left of a run that fails.
+//! The records of `simulate`: times, columns, written as the run goes, and kept when it fails.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod support;
@@ -276,7 +276,7 @@ fn memory_does_not_grow_with_steps() {
     assert_eq!(read(&out).len(), 15_002);
 }
 
-/// What is being derived is said on a terminal.
+/// On a terminal, the command says what it is deriving.
 #[cfg(unix)]
 #[test]
 fn setup_shows_progress_on_a_terminal() {

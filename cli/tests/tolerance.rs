@@ -72,7 +72,7 @@ fn the_spin_ring() {
     meets("examples/heisenberg_spin_ring.toml", "5");
 }
 
-/// What was picked is said, also from the file; a region larger than the run asks for more.
+/// The report names the choice, also one in the file; a region larger than the run's asks for more.
 #[test]
 fn the_choice_is_told() {
     let told = |arguments: &[&str]| {

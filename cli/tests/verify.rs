@@ -222,7 +222,7 @@ fn what_cannot_be_judged_is_refused() {
     let text = read(&system).replace("I1 = 1.5", "I1 = 1.6") + "\n# another\n";
     std::fs::write(&system, text).unwrap();
     said(&[&out], 2, &["is not the system file of this run"]);
-    // What is no run at all, and a run without a row, are not right.
+    // A file that is no run, and a run without a row, are refused.
     std::fs::write(&out, "time,x,y,z\n").unwrap();
     said(&[&out], 2, &["does not say of which system it is"]);
     said(&[BODY, &out], 3, &["not verified", "the file has no rows"]);

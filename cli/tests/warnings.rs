@@ -1,4 +1,4 @@
-//! What a run says of itself: a series that hardly converges, steps that would work.
+//! The warnings of a run: a series that hardly converges, steps that would work.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod support;

@@ -55,7 +55,7 @@ pub enum BuildError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// `OUT_DIR` is not set.

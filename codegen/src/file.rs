@@ -97,7 +97,7 @@ pub fn is_sealed(text: &str) -> bool {
     parts.is_some_and(|(sum, rest)| sum == format!("{:08x}", crc32(rest.as_bytes())))
 }
 
-/// What tells a file from others, whatever links lead to it; of names without a file, the name in its folder.
+/// The identity of a file, whatever links lead to it; of a name without a file, the name in its folder.
 #[derive(PartialEq, Eq)]
 enum Identity {
     #[cfg(unix)]

@@ -38,7 +38,7 @@ fn bits(list: &[f64]) -> Vec<u64> {
     list.iter().map(|value| value.to_bits()).collect()
 }
 
-/// What the interpreter makes of the same: coefficients, end state, energies.
+/// The interpreter's results for the same: coefficients, end state, energies.
 fn compare(built: &Built, output: &str) {
     let name = built.system.name;
     let step = &built.programs;
@@ -88,7 +88,7 @@ fn compare(built: &Built, output: &str) {
     );
 }
 
-/// What is refused, and how.
+/// The refusals, and their messages.
 fn refusals(built: &Built, output: &str) {
     let name = built.system.name;
     let line = |start: &str| {

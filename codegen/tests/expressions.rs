@@ -133,7 +133,7 @@ fn the_state_at_the_start_is_given_as_people_have_it() {
     assert!((motion[0][0].powi(2) + motion[1][0].powi(2) - 1.0).abs() < 4e-16);
 }
 
-/// What is read by recursion has an end.
+/// Recursion in the parser is bounded.
 #[test]
 fn nesting_is_refused_where_it_would_overflow() {
     let many = 20_000;

@@ -1,4 +1,4 @@
-//! What is refused with the number and the limit, and mistakes that are told once, at their place.
+//! Refusals that name the number and the limit, and mistakes that are reported once, at their place.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_codegen::diagnostic::Diagnostics;

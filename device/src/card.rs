@@ -61,11 +61,11 @@ pub struct Refused<'a> {
     pub why: Status,
 }
 
-/// What makes the steps that threads have refused: it is given the rows, and the step that it has to move them to, or end
+/// Makes the steps that threads have refused: it is given the rows, and the step that it has to move them to, or end
 /// them.
 pub type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
 
-/// What [`Card::advance`] came to.
+/// The outcome of [`Card::advance`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Advanced {
     /// How often a thread refused a step that the caller was then given to make.
@@ -153,7 +153,7 @@ impl Card {
         self.device
     }
 
-    /// What it calls itself.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -171,7 +171,7 @@ impl Card {
         self.precision
     }
 
-    /// Takes no more rows at once than so many.
+    /// Limits the rows taken at once.
     pub fn limit(&mut self, rows: usize) {
         self.fits = self.fits.min(rows.max(1));
     }

@@ -147,7 +147,7 @@ impl Machine for Cuda {
         };
         let mut start = self.stream.launch_builder(&self.function);
         start.arg(element).arg(momentum).arg(done).arg(status).arg(&rows).arg(&target);
-        // SAFETY: the kernel takes four arrays and two numbers of 64 bits; the arrays are made for so many rows, and
+        // SAFETY: the kernel takes four arrays and two numbers of 64 bits; the arrays are made for this number of rows, and
         // threads beyond do nothing.
         let started = unsafe { start.launch(shape) };
         self.call.room("started the kernel", started)?;

@@ -17,7 +17,7 @@ pub enum DeviceError {
     NoLibrary {
         /// Which library.
         library: &'static str,
-        /// What brings it.
+        /// The package that installs it.
         install: &'static str,
     },
     /// There is no device of this number.
@@ -25,7 +25,7 @@ pub enum DeviceError {
     NoDevice {
         /// The device that was asked for.
         device: Device,
-        /// What there is.
+        /// The version found.
         found: String,
     },
     /// The device has no numbers of 64 bits.
@@ -33,7 +33,7 @@ pub enum DeviceError {
     NoDouble {
         /// The device.
         device: Device,
-        /// What it calls itself.
+        /// Its name.
         name: String,
     },
     /// Not even a small piece of the rows fits.
@@ -41,7 +41,7 @@ pub enum DeviceError {
     Memory {
         /// The device.
         device: Device,
-        /// What it calls itself.
+        /// Its name.
         name: String,
         /// The smallest number of rows that was tried.
         rows: usize,
@@ -51,7 +51,7 @@ pub enum DeviceError {
     Build {
         /// The device.
         device: Device,
-        /// What it calls itself.
+        /// Its name.
         name: String,
         /// The beginning of what its compiler said.
         log: String,
@@ -61,9 +61,9 @@ pub enum DeviceError {
     Failed {
         /// The device.
         device: Device,
-        /// What it was to do.
+        /// The operation.
         doing: &'static str,
-        /// What it said.
+        /// Its message.
         message: String,
     },
     /// The kernel came back with counts that no step makes.
@@ -73,7 +73,7 @@ pub enum DeviceError {
     Wrong {
         /// The device.
         device: Device,
-        /// What it calls itself.
+        /// Its name.
         name: String,
         /// The row, from 0.
         row: usize,

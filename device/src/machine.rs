@@ -1,4 +1,4 @@
-//! What a device has to be able to do.
+//! The interface of a device.
 
 use crate::error::DeviceError;
 
@@ -30,7 +30,7 @@ pub(crate) enum Room {
 
 /// A device with a compiled kernel, and arrays in its memory. Bytes are in the order of this machine.
 pub(crate) trait Machine: Send {
-    /// Makes arrays of so many bytes, never none, in place of those before.
+    /// Replaces the arrays by new ones of these sizes in bytes, none of them zero.
     fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room>;
 
     /// Writes an array from its beginning.
@@ -39,6 +39,6 @@ pub(crate) trait Machine: Send {
     /// Reads an array from its beginning.
     fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError>;
 
-    /// Moves so many rows, as many as the arrays were made for, to step `target`, and waits until they are there.
+    /// Moves all rows that the arrays were made for to step `target`, and waits until they are there.
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room>;
 }

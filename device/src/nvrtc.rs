@@ -1,6 +1,6 @@
 //! NVIDIA's compiler, which needs no card.
 //!
-//! What no type system can vouch for here are calls with a program that was made by the call before and is ended
+//! The type system cannot check here that calls are made with a program that was made by the call before and is ended
 //! by none but the last, and lengths that the library gives itself.
 #![allow(unsafe_code)]
 
@@ -18,7 +18,7 @@ use crate::error::head;
 pub struct Compiled {
     /// Machine code, as the driver loads it.
     pub code: Vec<u8>,
-    /// What the compiler said: registers, memory spilt.
+    /// The compiler's log: registers, memory spilt.
     pub log: String,
 }
 

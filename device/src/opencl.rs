@@ -32,7 +32,7 @@ use crate::device::Device;
 use crate::error::{DeviceError, head};
 use crate::machine::{Array, Machine, Room};
 
-/// Threads are a multiple of so many, which cards take together.
+/// The number of threads is a multiple of this, the number that cards run together.
 const GROUP: usize = 64;
 
 /// Opens a device and builds the kernel there.
@@ -214,7 +214,7 @@ impl Machine for OpenCl {
         };
         self.call.room("took arguments", set())?;
         let threads = (rows as usize).next_multiple_of(GROUP);
-        // SAFETY: the arrays are made for so many rows; threads beyond do nothing; the call below waits.
+        // SAFETY: the arrays are made for this number of rows; threads beyond do nothing; the call below waits.
         let started = unsafe {
             self.queue.enqueue_nd_range_kernel(
                 kernel.get(),

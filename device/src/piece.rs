@@ -108,7 +108,7 @@ pub(crate) fn advance(
     let going = rows.iter().filter(|row| !row.ended);
     let mut at = going.map(|row| row.made).min().unwrap_or(steps);
     let mut length = BLOCK;
-    // What failed before a step was made may be tried again with fewer rows; the caller's rows are still the first ones.
+    // A launch that failed before a step was made may be tried again with fewer rows; the caller's rows are unchanged.
     let mut begun = false;
     while at < steps {
         let target = steps.min(at.saturating_add(length));
@@ -186,7 +186,7 @@ pub(crate) fn advance(
     Ok(())
 }
 
-/// What a row's count on the device is.
+/// The count of a row on the device.
 fn counted(row: &Row) -> u64 {
     if row.ended { NEVER } else { row.made }
 }

@@ -141,7 +141,7 @@ pub fn peaks(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
     stretches(&points, columns).filter_map(|part| part.iter().max_by(by_value).copied()).collect()
 }
 
-/// What is finite.
+/// The finite points.
 fn points(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     let both = times.iter().zip(values).map(|(&time, &value)| (time, value));
     both.filter(|(time, value)| time.is_finite() && value.is_finite()).collect()

@@ -1,6 +1,6 @@
 //! Plots as SVG: labelled axes with units, curves that are told apart in grey print, light and dark.
 //!
-//! What is drawn is given as plain numbers, so that this crate knows neither groups nor integrators. [`Panel`] is a
+//! Data are plain numbers, so that this crate knows neither groups nor integrators. [`Panel`] is a
 //! pair of axes with what is between them, alone or in a picture of several; [`run`] draws what
 //! `coadjoint simulate --plot` draws.
 //!

@@ -19,7 +19,7 @@ const STROKE: f64 = 44.0;
 /// The size of a heading.
 const HEADING: f64 = 15.0;
 
-/// What stands for a name in a legend.
+/// The sample beside a name in a legend.
 #[derive(Clone, Copy, Debug)]
 pub enum Sample {
     /// A stroke of this style.
@@ -63,7 +63,7 @@ impl Curve {
         Self { name: name.into(), style, joined: false, marked: true, points }
     }
 
-    /// What stands for it in a legend.
+    /// Its sample in a legend.
     #[must_use]
     pub fn sample(&self) -> Sample {
         match (self.joined, self.marked) {
@@ -79,14 +79,14 @@ impl Curve {
 pub struct Mark {
     /// The value.
     pub at: f64,
-    /// What it is.
+    /// Its description.
     pub label: String,
 }
 
 /// A panel, ready to be placed.
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
-    /// What is drawn, with its unit: the label of the vertical axis, above it.
+    /// The quantity drawn, with its unit: the label of the vertical axis, above it.
     pub heading: String,
     /// Remarks, each on a line of its own.
     pub notes: Vec<String>,

@@ -3,7 +3,7 @@
 use crate::panel::{FONT, LINE, Panel, Place, RIGHT, WIDTH};
 use crate::svg::{Anchor, Svg, cut, width};
 
-/// A picture of panels one below the other, each so many pixels high between the ends of its axes, as the text of an
+/// A picture of panels one below the other, each of this height in pixels between the ends of its axes, as the text of an
 /// SVG file. `description` is for those who cannot see it.
 #[must_use]
 pub fn sheet(

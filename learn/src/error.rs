@@ -12,7 +12,7 @@ pub enum LearnError {
     File {
         /// The file concerned.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A file is not in the format its name promises.
@@ -22,7 +22,7 @@ pub enum LearnError {
         path: PathBuf,
         /// The format expected.
         format: &'static str,
-        /// What the reader said.
+        /// The reader's error.
         reason: String,
     },
     /// The ending of a file name names no format this build reads.
@@ -62,7 +62,7 @@ pub enum LearnError {
     /// The columns do not have the same length, or an array not the right shape.
     #[error("{what} has {found} entries where {expected} are needed")]
     Shape {
-        /// What has the wrong size.
+        /// The object of the wrong size.
         what: String,
         /// The size needed.
         expected: usize,
@@ -112,7 +112,7 @@ pub enum LearnError {
     /// The iteration of a fit could not begin or did not end.
     #[error("the fit did not converge: {reason}")]
     NotConverged {
-        /// What happened.
+        /// The reason.
         reason: String,
     },
     /// The catalogue has no such group.
@@ -140,7 +140,7 @@ pub enum LearnError {
         option: &'static str,
         /// The value given.
         value: String,
-        /// What it must be.
+        /// The values allowed.
         requirement: String,
     },
     /// A checkpoint of training cannot be gone on from.
@@ -151,7 +151,7 @@ pub enum LearnError {
     Checkpoint {
         /// The file concerned.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
     /// A model file is damaged or not one of ours.
@@ -159,7 +159,7 @@ pub enum LearnError {
     Model {
         /// The file concerned.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
 }
@@ -172,7 +172,7 @@ impl LearnError {
     }
 }
 
-/// What is wrong with one row of data.
+/// A defect of one row of data.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RowProblem {
@@ -240,7 +240,7 @@ impl fmt::Display for RowProblem {
 pub struct BadRow {
     /// The data row, from 1 (a header not counted).
     pub row: usize,
-    /// What is wrong.
+    /// The message.
     pub problem: RowProblem,
 }
 

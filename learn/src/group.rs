@@ -1,4 +1,4 @@
-//! What learning asks of a group beyond the runtime: reading elements from data.
+//! Reading group elements from data.
 
 use coadjoint::{Coordinates, LieGroup, SE3, SO3, groups::CayleyMatrixGroup, groups::MatrixGroup};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};

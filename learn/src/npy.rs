@@ -9,7 +9,7 @@ use std::io::Read;
 /// The longest header that is read; that of a plain array has about a hundred bytes.
 const LONGEST: u64 = 1 << 16;
 
-/// What stands before the numbers of an array of 64- or 32-bit floats.
+/// The header of an array of 64- or 32-bit floats.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NpyHeader {
     /// The lengths along each axis.

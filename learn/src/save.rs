@@ -24,7 +24,7 @@ pub struct TrainingRecord {
     pub samples: usize,
     /// The seed of everything random in the fit.
     pub seed: u64,
-    /// What was chosen, and why, in a sentence.
+    /// The choice and its reason, in a sentence.
     pub choice: String,
     /// The candidates of a cross-validation, if there was one.
     pub candidates: Vec<Candidate>,
@@ -109,7 +109,7 @@ impl ModelFile {
     /// [`LearnError::Model`] when it is damaged, of another version, or something else altogether.
     pub fn of_text(path: &Path, text: &str) -> Result<Self, LearnError> {
         let fail = |reason: String| LearnError::Model { path: path.into(), reason };
-        // What kind of file it is comes first, so that the message is about that.
+        // The kind of file is checked first, so that the message is about that.
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|e| fail(format!("it is not whole JSON: {e}")))?;
         if value.get("format").and_then(|f| f.as_str()) != Some(FORMAT) {

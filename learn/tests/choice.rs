@@ -56,7 +56,7 @@ fn auto_names_every_kind_it_compared() {
     }
     let networks = ["network [24, 24]", "hybrid of degree 2"];
     assert!(networks.iter().all(|kind| summary.choice.contains(kind)), "{}", summary.choice);
-    // What is first in the sentence is what was fitted.
+    // The first model in the sentence is the one that was fitted.
     let first = match summary.model.as_str() {
         "gp" => "Gaussian process",
         "hybrid" => "hybrid",

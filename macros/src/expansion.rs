@@ -1,4 +1,4 @@
-//! What both attributes do around their own work: read the function, keep it, report mistakes.
+//! The work that both attributes share: read the function, keep it, report mistakes.
 
 use std::collections::BTreeSet;
 
@@ -13,10 +13,10 @@ use crate::dependency;
 
 /// An attribute: how it reads a function, and what stands in where that fails.
 pub struct Attribute {
-    /// What is generated for the function, given the arguments but `crate`; programs bind names with an underscore at their
+    /// Generates the items for the function, given the arguments but `crate`; programs bind names with an underscore at their
     /// ends.
     pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<emit::Items>,
-    /// What stands in for it, given the same.
+    /// Generates its stand-in, given the same.
     pub stand_in: fn(TokenStream, &ItemFn, &emit::Options) -> TokenStream,
 }
 

@@ -1,4 +1,4 @@
-//! What stands in for the generated items when the function could not be read, so that the compiler
+//! Stand-ins for the generated items when the function could not be read, so that the compiler
 //! reports the mistakes themselves and not the absence of what is used elsewhere.
 //!
 //! Where the signature and the group can be read, it is the expansion for the first coordinate alone, which

@@ -51,7 +51,7 @@ impl Entry {
         Self { kernel: Arc::new(kernel.clone()), advance, lanes, _code: code }
     }
 
-    /// Whether slices are too short for so many trajectories.
+    /// Whether slices are too short for this number of trajectories.
     fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
         let kernel = &self.kernel;
         slots.len() < kernel.slots()

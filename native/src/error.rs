@@ -18,7 +18,7 @@ pub enum NativeError {
     Start {
         /// The command.
         compiler: String,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The compiler did not end in time and was ended.
@@ -56,7 +56,7 @@ pub enum NativeError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The library cannot be loaded.
@@ -64,7 +64,7 @@ pub enum NativeError {
     Load {
         /// The library.
         path: PathBuf,
-        /// What the system's loader says, or what is wrong with the library.
+        /// The message of the system's loader, or the defect of the library.
         message: String,
     },
 }

@@ -13,7 +13,7 @@ fn compiled(kernel: &Kernel) -> Entry {
     Native::by_c(kernel, &options).unwrap().entry
 }
 
-/// What a comparison has met, to know that it has met it.
+/// The cases a comparison has met, to check that they occurred.
 #[derive(Debug, Default)]
 struct Met {
     whole: usize,

@@ -9,7 +9,7 @@ async function openLibrary() {
 
 const byId = (id) => document.getElementById(id);
 
-// Calls `f` once things have been quiet for so many milliseconds.
+// Calls `f` once nothing has happened for the given number of milliseconds.
 function later(milliseconds, f) {
   let timer = 0;
   return (...list) => {

@@ -1,4 +1,4 @@
-//! What the page's script calls.
+//! The functions that the page's script calls.
 
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -42,7 +42,7 @@ pub struct Session {
     orbit: Option<Orbit>,
 }
 
-/// What a page shows of a system.
+/// The facts that a page shows of a system.
 #[derive(Serialize)]
 struct About<'a> {
     name: &'a str,
@@ -85,7 +85,7 @@ impl Session {
         Ok(Self { system, run, orbit: None })
     }
 
-    /// What a page shows of the system, as JSON.
+    /// The facts that a page shows of the system, as JSON.
     #[must_use]
     pub fn about(&self) -> String {
         let System { integrator, step, energy, factors, momentum, units, .. } = &self.system;
@@ -143,7 +143,7 @@ impl Session {
         }
     }
 
-    /// Up to so many steps; how many were made.
+    /// Makes up to `steps` steps; returns how many were made.
     pub fn advance(&mut self, steps: u32) -> u32 {
         self.run.advance(&self.system, steps)
     }

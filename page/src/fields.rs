@@ -1,4 +1,4 @@
-//! What a user fills in: a system and a run of it, field by field, as texts.
+//! The form that a user fills in: a system and a run of it, field by field, as texts.
 
 use std::ops::Range;
 

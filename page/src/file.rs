@@ -10,7 +10,7 @@ pub struct File {
     /// The text.
     pub text: String,
     pieces: Vec<Piece>,
-    /// What could not even be written as a file.
+    /// The fields that could not even be written as a file.
     pub unwritten: Vec<Unwritten>,
 }
 
@@ -29,9 +29,9 @@ pub struct Unwritten {
     pub field: &'static str,
     /// The bytes of the field.
     pub range: Range<usize>,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// What to write instead.
+    /// The correction.
     pub help: String,
 }
 

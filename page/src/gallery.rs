@@ -7,11 +7,11 @@ use crate::fields::Fields;
 /// A system of the gallery.
 #[derive(Clone, Debug, Serialize)]
 pub struct Entry {
-    /// What it is called in links.
+    /// Its name in links.
     pub id: &'static str,
-    /// What it is called on the page.
+    /// Its title on the page.
     pub title: &'static str,
-    /// What kind of system it is.
+    /// The family of systems it belongs to.
     pub family: &'static str,
     /// A sentence or two.
     pub about: &'static str,

@@ -14,9 +14,9 @@ pub struct Mistake {
     pub start: usize,
     /// One past the last byte.
     pub end: usize,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// What to write instead, where there is more to say.
+    /// A correction, where there is more to say.
     pub help: Option<String>,
 }
 

@@ -92,7 +92,7 @@ impl Run {
         run
     }
 
-    /// Up to so many steps; how many were made.
+    /// Makes up to `count` steps; returns how many were made.
     pub fn advance(&mut self, system: &System, count: u32) -> u32 {
         let kernel = system.step.kernel();
         let mut scratch = Vec::new();
@@ -241,7 +241,7 @@ impl Run {
     }
 }
 
-/// What is conserved of a state with this momentum and this spatial momentum.
+/// The conserved quantities of a state with this momentum and this spatial momentum.
 fn conserved(system: &System, mu: &[f64], spatial: &[f64]) -> Conserved {
     Conserved {
         momenta: spatial.to_vec(),

@@ -196,7 +196,7 @@ fn write(
     }
 }
 
-/// What a method is called on: of mere numbers the first one tells its type.
+/// The receiver of a method: of mere numbers the first one has its type written.
 fn receiver(text: String) -> String {
     let digit = |c: char| c.is_ascii_digit();
     if text.contains(|c: char| c.is_alphabetic() && c != 'e') {

@@ -18,7 +18,7 @@ const MOST_OPERATIONS: usize = 60_000;
 /// Series may become this large: beyond, a page would stand still.
 pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
 
-/// What a factor of the group is, for pictures.
+/// The kind of a factor of the group, for pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -35,7 +35,7 @@ pub enum Kind {
 /// A factor of the group.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Factor {
-    /// What it is.
+    /// Rotations, vectors or other.
     pub kind: Kind,
     /// Where its coordinates begin, and how many there are.
     pub coordinate: usize,
@@ -52,7 +52,7 @@ pub struct Factor {
 pub struct System {
     /// The text of its system file.
     pub file: String,
-    /// What the user filled in.
+    /// The form as the user filled it in.
     pub fields: Fields,
     /// The integrator, with numbers for the parameters.
     pub integrator: Integrator,

@@ -1,4 +1,4 @@
-//! What is copied means the system on the screen.
+//! Copied code describes the system on the screen.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::io::Write;

@@ -12,7 +12,7 @@ use crate::outcome::{Curve, Report};
 pub struct Group {
     curve: String,
     draw: Draw,
-    /// Only so many first records are drawn.
+    /// The number of first records that are drawn.
     first: Option<usize>,
     /// Larger values are left out.
     most: Option<f64>,

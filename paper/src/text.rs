@@ -19,14 +19,14 @@ pub struct Figure {
     pub ours: bool,
     pub settings: Vec<String>,
     pub shows: String,
-    /// What the paper leaves open, and what stands in its place.
+    /// The gaps in the paper, and the choices made here.
     pub silent: String,
-    /// What came out.
+    /// The results.
     pub out: String,
     /// Which of the experiment's tables are shown, from and to; all if not given.
     pub tables: Option<[usize; 2]>,
     pub judged: Vec<Judged>,
-    /// What is drawn.
+    /// The curves drawn.
     pub group: Vec<Group>,
 }
 
@@ -61,7 +61,7 @@ pub fn figure(id: &str) -> &'static Figure {
     figures().iter().find(|figure| figure.id == id).expect(id)
 }
 
-/// What is to be known of the numbers of an experiment.
+/// Notes on the numbers of an experiment.
 pub fn notes(experiment: &str) -> &'static [String] {
     TEXTS.notes.get(experiment).map_or(&[], Vec::as_slice)
 }

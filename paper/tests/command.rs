@@ -62,7 +62,7 @@ fn a_gallery_of_ones_own_and_mistakes_before_anything_is_run() {
     }
 }
 
-/// What is on disk is not computed again, unless it is damaged or of another seed.
+/// Results on disk are not computed again, unless they are damaged or of another seed.
 #[test]
 fn an_interrupted_run_goes_on_where_it_stopped() {
     let temporary = tempfile::tempdir().unwrap();

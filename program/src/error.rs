@@ -1,4 +1,4 @@
-//! What can be wrong with programs that are put together.
+//! The errors of assembling a kernel from programs.
 
 use core::fmt;
 

@@ -63,7 +63,7 @@ pub struct Kernel {
 
 impl Kernel {
     /// A step of these programs: n coordinates, m numbers in a group element. A solve ends where what is left is at most
-    /// `tolerance`; it is given up after so many corrections, or where it is farther than `near` from its guess.
+    /// `tolerance`; it is given up after this number of corrections, or where it is farther than `near` from its guess.
     ///
     /// # Errors
     /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for,
@@ -154,7 +154,7 @@ impl Kernel {
         self.slots
     }
 
-    /// What may be left of the equation of a solved step, relative to the largest coordinate of μ.
+    /// The largest residual of a solved step, relative to the largest coordinate of μ.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance

@@ -1,4 +1,4 @@
-//! What programs are evaluated in: numbers, and several numbers at once.
+//! The numbers that programs are evaluated in: scalars, and several at once.
 
 /// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
 pub trait Number: Copy {

@@ -21,8 +21,8 @@ impl Program {
     /// A program of these nodes.
     ///
     /// # Errors
-    /// [`ProgramError`] where an operand does not come before its user, an output is no node, or an input is not among
-    /// so many.
+    /// [`ProgramError`] where an operand does not come before its user, an output is no node, or an input is not below
+    /// `inputs`.
     pub fn new(inputs: usize, nodes: Vec<Node>, outputs: Vec<u32>) -> Result<Self, ProgramError> {
         for (at, node) in nodes.iter().enumerate() {
             if node.operands().any(|operand| operand.index() >= at) {

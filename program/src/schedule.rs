@@ -40,7 +40,7 @@ pub enum Variable {
     Tried,
 }
 
-/// What a variable holds.
+/// The kind of a variable's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// So many numbers.
@@ -74,7 +74,7 @@ impl Variable {
         Self::ALL[self as usize].1
     }
 
-    /// What it holds.
+    /// The kind of its contents.
     #[must_use]
     pub fn kind(self, kernel: &Kernel) -> Kind {
         match self {
@@ -124,7 +124,7 @@ impl Part {
         }
     }
 
-    /// What it reads and what it assigns, in order. All is read before anything is assigned.
+    /// The variables it reads and those it assigns, in order. All are read before any is assigned.
     #[must_use]
     pub fn variables(self) -> (&'static [Variable], &'static [Variable]) {
         use Variable::*;
@@ -139,7 +139,7 @@ impl Part {
     }
 }
 
-/// What a condition says.
+/// A condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Test {
     /// The trajectory moves on.
@@ -148,7 +148,7 @@ pub enum Test {
     Remaining,
     /// A count is less than this number.
     Below(Variable, u32),
-    /// What is left is more than the tolerance, and the way is at most as long as it may be.
+    /// The residual bound exceeds the tolerance, and the distance is within its limit.
     Open,
     /// [`Variable::Right`] is 1.
     Right,

@@ -1,4 +1,4 @@
-//! What makes steps.
+//! The trait for everything that makes steps.
 
 /// Trajectories that are made side by side.
 pub const WIDTH: usize = 8;
@@ -29,7 +29,7 @@ impl Trajectories {
     }
 }
 
-/// What driving a kernel came to.
+/// The outcome of driving a kernel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Steps made; fewer than asked for where the next one was refused.
@@ -40,10 +40,10 @@ pub struct Outcome {
     pub residual: f64,
 }
 
-/// What makes the steps of a [`Kernel`](crate::Kernel): its interpreter, which is the kernel itself, or machine code. Any
+/// Makes the steps of a [`Kernel`](crate::Kernel): its interpreter, which is the kernel itself, or machine code. Any
 /// two for the same kernel make the same bits.
 pub trait Stepper {
-    /// Makes up to so many steps from (g, μ) with these folded coefficients; the state is then that after the last
+    /// Makes up to `steps` steps from (g, μ) with these folded coefficients; the state is then that after the last
     /// step made.
     ///
     /// Of slices shorter than the kernel asks for nothing good can be made: the interpreter reads them as if filled up

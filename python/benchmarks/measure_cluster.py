@@ -30,7 +30,7 @@ def body():
 
 
 def states(rows: int, group: int = 1 << 20) -> str:
-    """A file of so many momenta, written in pieces."""
+    """A file of `count` momenta, written in pieces."""
     path = FOLDER / f"states-{rows}-{group}.parquet"
     if not path.exists():
         sink = None

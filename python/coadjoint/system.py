@@ -353,7 +353,7 @@ class System:
         steps: int = 1,
         backend: Backend = "jit",
     ) -> tuple[Floats, Floats]:
-        """The state after one step (or so many): the momentum (n,) and the group element (d, d).
+        """The state after one step (or `steps` of them): the momentum (n,) and the group element (d, d).
 
         The first call for a step size compiles it; the next ones take microseconds.
 

@@ -1,4 +1,4 @@
-//! What Python's arguments ask of a run.
+//! The options of a run, as Python passes them.
 
 use coadjoint_run::{Accuracy, Backend};
 use pyo3::prelude::*;
@@ -22,7 +22,7 @@ pub fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
     }
 }
 
-/// What both kinds of run say of the accuracy.
+/// The options of accuracy that both kinds of run share.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Asked {

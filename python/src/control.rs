@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_millis(40);
 /// A listener is told the progress this often.
 const TELL: Duration = Duration::from_millis(100);
 
-/// What the work and who waits for it say to each other.
+/// The channel between the work and the thread that waits for it.
 #[derive(Debug, Default)]
 pub struct Control {
     /// Set to end the work: it unwinds, where it does not look at this itself.
@@ -37,7 +37,7 @@ struct Shared<T> {
 /// of a second, with KeyboardInterrupt. `progress` is called with (done, total).
 ///
 /// # Errors
-/// What a signal handler or `progress` raised.
+/// An exception that a signal handler or `progress` raised.
 pub fn work<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

@@ -21,7 +21,7 @@ use crate::record::{Keeper, Table};
 /// Named columns of numbers.
 type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
 
-/// What to learn, and how.
+/// The options of a fit.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Settings {
@@ -138,7 +138,7 @@ impl ModelCore {
         made.map_err(|error| raised(py, &RunError::Learn(error)))
     }
 
-    /// What the model is.
+    /// Facts about the model.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let facts = PyDict::new(py);
         let algebra = algebra_of(&self.model).map_err(|error| raised(py, &error))?;

@@ -1,4 +1,4 @@
-//! What a run has come to, in Python's types.
+//! The result of a run, in Python's types.
 
 use coadjoint_run::simulate::{Block, Kind, Outcome, Schedule, split};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 
 use crate::record::Table;
 
-/// What a run has come to, as Python has it.
+/// The result of a run, as Python has it.
 pub fn result_of<'py>(
     py: Python<'py>,
     table: Table,

@@ -25,13 +25,13 @@ pub struct Table {
     pub blocks: Vec<(usize, usize)>,
     /// The names of all columns, as the command has them.
     pub columns: Vec<String>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 /// Keeps the records of a run, and hears whether it is to stop.
 pub struct Keeper<'a> {
-    /// What is kept.
+    /// The records.
     pub table: Table,
     /// Who may stop it.
     pub control: &'a Control,

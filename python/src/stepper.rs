@@ -26,13 +26,13 @@ pub struct Stepper {
 
 #[pymethods]
 impl Stepper {
-    /// What makes the steps.
+    /// The backend that makes the steps.
     #[getter]
     fn backend(&self) -> String {
         self.single.backend()
     }
 
-    /// The state after so many steps: momentum and matrix.
+    /// The state after `steps` steps: momentum and matrix.
     #[allow(clippy::type_complexity)]
     fn advance<'py>(
         &self,

@@ -39,7 +39,7 @@ const MANY: f64 = 1e9;
 pub struct Core {
     name: String,
     system: System,
-    /// What has been derived, by truncation, and whether it is for ensembles.
+    /// The integrators derived so far, by truncation, and whether they are for ensembles.
     derived: Cache,
 }
 
@@ -90,7 +90,7 @@ impl Core {
         Ok((system, choice))
     }
 
-    /// What a row can say.
+    /// The shape of a row.
     fn shape(&self) -> Shape {
         let algebra = &self.system.problem.algebra;
         let matrix_size = match self.system.potential {
@@ -193,7 +193,7 @@ impl Core {
             ..self.system.clone()
         };
         let here = Self { name: self.name.clone(), system, derived: Cache::default() };
-        // What is derived stays for the next run.
+        // Derived integrators stay for the next run.
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let (system, choice) = here.accurate(&accuracy)?;
@@ -324,7 +324,7 @@ impl Core {
         Ok((array, failed, facts))
     }
 
-    /// What rows of an ensemble may hold: the names of the columns with momenta alone, with matrices, and, for
+    /// The layouts of an ensemble's rows: the names of the columns with momenta alone, with matrices, and, for
     /// rotations, with quaternions.
     fn layouts(&self) -> Vec<Vec<String>> {
         let shape = self.shape();

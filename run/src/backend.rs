@@ -1,4 +1,4 @@
-//! What evaluates the programs of a step.
+//! The backend that evaluates the programs of a step.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -12,7 +12,7 @@ use coadjoint_program::{Kernel, Stepper, Trajectories};
 
 use crate::error::RunError;
 
-/// What is to make the steps.
+/// The backend that makes the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
     /// Whatever is cheapest for this run: it begins on the interpreter and never waits for a compiler.
@@ -63,7 +63,7 @@ const JIT_STARTS: f64 = 4e-3;
 #[cfg(feature = "jit")]
 const JIT_OPERATION: f64 = 8e-6;
 
-/// What made the steps of a run.
+/// The backends that made the steps of a run.
 #[derive(Clone, Debug)]
 pub struct Used {
     /// In a few words.
@@ -104,8 +104,8 @@ pub struct Code {
 const FEW: u64 = 256;
 
 impl Code {
-    /// By the backend asked for, to make about so many steps of trajectories one by one or side by side; what is not
-    /// asked for is interpreted.
+    /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side; trajectories not
+    /// asked for are interpreted.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
@@ -191,24 +191,24 @@ impl Code {
         if over { u64::MAX } else { FEW }
     }
 
-    /// What makes the steps now, in a few words.
+    /// The backend that makes the steps now, in a few words.
     pub fn maker(&self) -> &str {
         self.coming.made.get().map_or("interpreter", |made| &made.name)
     }
 
-    /// What has made the steps, for reports.
+    /// The backends that have made the steps, for reports.
     pub fn used(&self) -> Used {
         let first = self.is_machine_code() && self.interpreted.load(Ordering::Relaxed);
         let name = format!("{}{}", if first { "interpreter, then " } else { "" }, self.maker());
         Used { name, ready: self.coming.made.get().map(|made| made.ready) }
     }
 
-    /// What could not be had so far.
+    /// Notes on backends that are not available so far.
     pub fn notes(&self) -> Vec<String> {
         self.coming.notes.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What makes the next steps of this kernel, from which the code is.
+    /// The stepper for the next steps of this kernel, from which the code is.
     pub fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
         match self.coming.made.get() {
             Some(made) => &made.entry,
@@ -251,7 +251,7 @@ impl Backend {
     }
 }
 
-/// The backends that take less time for so many steps than the interpreter, the best one first.
+/// The backends that take less time for this number of steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
     let operations = operations(kernel) as f64;
     let pace = if trajectories == Trajectories::Lanes { LANES } else { ONE };

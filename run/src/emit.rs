@@ -17,7 +17,7 @@ use crate::engine::{Interpreter, device_text, whole_group};
 use crate::error::RunError;
 use crate::load::integrator;
 
-/// What is to be code.
+/// The source of emitted code.
 #[derive(Debug)]
 pub enum Source {
     /// A system, and what was chosen for its tolerance.
@@ -89,7 +89,7 @@ pub fn header(
     Ok(line.unwrap_or_default() + &text)
 }
 
-/// What was chosen, for a comment.
+/// The choice, for a comment.
 fn chosen(choice: &Choice) -> String {
     let Choice { tolerance, truncation, step, error, .. } = choice;
     format!(

@@ -1,4 +1,4 @@
-//! What can go wrong.
+//! The errors of a run.
 
 use std::path::PathBuf;
 

@@ -39,7 +39,7 @@ pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError>
 /// A system with its series as programs.
 #[derive(Debug)]
 pub struct Derived {
-    /// What the system is called in messages.
+    /// The name of the system in messages.
     pub file: PathBuf,
     /// The flow.
     pub integrator: Integrator,
@@ -47,7 +47,7 @@ pub struct Derived {
     pub energy: Energy,
     /// The kicks of a potential.
     pub forces: Option<Forces>,
-    /// What has been compiled so far.
+    /// The programs compiled so far.
     pub kept: Kept,
 }
 
@@ -77,7 +77,7 @@ impl Derived {
 /// Where a truncation is picked, series may become this large.
 const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
 
-/// What a step is asked for by.
+/// The accuracy asked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Accuracy {
     /// The step size.

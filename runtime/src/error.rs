@@ -15,7 +15,7 @@ pub enum StepError {
         iterations: u32,
         /// The largest remaining residual, relative to the largest momentum coordinate.
         residual: f64,
-        /// What is known of the step.
+        /// The circumstances of the step.
         at: Circumstances,
     },
     /// The solution of x = s ∂S/∂p could not be followed from s = 0, the identity, to s = 1.
@@ -25,7 +25,7 @@ pub enum StepError {
     NotFollowed {
         /// How far it was followed.
         reached: f64,
-        /// What is known of the step.
+        /// The circumstances of the step.
         at: Circumstances,
     },
     /// The step lies outside the chart.
@@ -36,7 +36,7 @@ pub enum StepError {
         /// The length of x as a multiple of the chart's reach: the square root of
         /// [`Chart::extent`](crate::chart::Chart::extent).
         extent: f64,
-        /// What is known of the step.
+        /// The circumstances of the step.
         at: Circumstances,
     },
     /// The step turns farther than a series of so few terms can follow.
@@ -48,13 +48,13 @@ pub enum StepError {
         share: f64,
         /// The largest share that is accepted.
         longest: f64,
-        /// What is known of the step.
+        /// The circumstances of the step.
         at: Circumstances,
     },
     /// The series of the generating function has stopped to converge at this momentum.
     #[error("the series means nothing for so long a step: its last two terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
     SeriesDiverges {
-        /// What is known of the step.
+        /// The circumstances of the step.
         at: Circumstances,
     },
     /// A coordinate of the momentum is infinite or not a number.
@@ -89,7 +89,7 @@ pub enum StepError {
     },
 }
 
-/// What is known of a step that was refused.
+/// The circumstances of a step that was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circumstances {
     /// The largest coordinate of the x that was found; it solves nothing where the step did not converge.
@@ -134,7 +134,7 @@ impl StepError {
         self
     }
 
-    /// What is known of the step, where the error is of the step and not of its data.
+    /// The circumstances of the step, where the error is of the step and not of its data.
     #[must_use]
     pub fn circumstances(&self) -> Option<&Circumstances> {
         match self {

@@ -1,4 +1,4 @@
-//! What generated code calls. Not part of the public interface; it may change at any time.
+//! The functions that generated code calls. Not part of the public interface; they may change at any time.
 
 use crate::error::StepError;
 use crate::generating::ScalarOf;

@@ -1,4 +1,4 @@
-//! What every front end produces: a Lie–Poisson system, ready for the derivation.
+//! The result of every front end: a Lie–Poisson system, ready for the derivation.
 
 use crate::comoving::Frame;
 use crate::expr::ParameterExpr;

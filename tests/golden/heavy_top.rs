@@ -2206,7 +2206,7 @@ const _: () = {
     };
 };
 
-// What programs read of S = Σ C(m) m, C(m) the coefficient of the monomial m:
+// The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:
 // c[0] = 2 C(p₁²), of S₁
 // c[1] = 2 C(p₁² p₃²), of S₃
 // c[2] = 2 C(p₁² p₂²), of S₃

@@ -2159,7 +2159,7 @@ const _: () = {
     };
 };
 
-// What programs read of S = Σ C(m) m, C(m) the coefficient of the monomial m:
+// The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:
 // c[0] = 2 C(p₁²), of S₁
 // c[1] = 2 C(p₁² p₂ p₃), of S₃
 // c[2] = 2 C(p₁² p₂² p₃²), of S₅

@@ -11,10 +11,10 @@ use coadjoint_program::Trajectories;
 use coadjoint_program::{Kernel, Stepper};
 use nalgebra::{DMatrix, DVector};
 
-/// What makes steps, from any thread.
+/// A stepper that any thread can use.
 pub type AnyStepper = Arc<dyn Stepper + Send + Sync>;
 
-/// What evaluates kernels.
+/// The backends that evaluate kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
     /// The interpreter of the programs.
@@ -46,7 +46,7 @@ impl Backend {
         }
     }
 
-    /// What makes the steps of a kernel; `None` where the machine has no C compiler.
+    /// The stepper of a kernel; `None` where the machine has no C compiler.
     ///
     /// # Panics
     /// Where a back end that is there fails.

@@ -1,4 +1,4 @@
-//! What the integration tests share.
+//! Helpers that the integration tests share.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 pub mod backends;

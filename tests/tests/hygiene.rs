@@ -1,4 +1,4 @@
-//! What the attributes emit means the same whatever names its surroundings have.
+//! The code that the attributes emit means the same whatever names its surroundings have.
 
 use coadjoint::{Phase, SE3, SO3, StepError};
 

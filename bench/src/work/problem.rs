@@ -66,7 +66,7 @@ pub fn matrix(q: &Quaternion) -> [Vector; 3] {
     ]
 }
 
-/// What moves: H = ½ Σ Πᵢ²/Iᵢ, and besides on se(3)\* …
+/// The Hamiltonian: H = ½ Σ Πᵢ²/Iᵢ, and besides on se(3)\* …
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// … nothing: a free body.

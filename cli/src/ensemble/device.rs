@@ -24,7 +24,7 @@ impl From<PrecisionName> for Precision {
     }
 }
 
-/// What the command line asks for.
+/// The device that the command line asks for.
 pub fn asked(options: &EnsembleOptions) -> Option<Asked> {
     let precision = options.precision.into();
     options.device.map(|device| Asked { device, precision })

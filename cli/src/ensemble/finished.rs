@@ -1,4 +1,4 @@
-//! What stays of a finished run with `--keep`: a note beside its file that says what the file is.
+//! The note that `--keep` leaves beside the file of a finished run: it says what the file is.
 
 use std::fs::File;
 use std::io::Read;
@@ -20,7 +20,7 @@ pub struct Finished {
     pub sha256: String,
     /// SHA-256 of the list of rejected rows, where there is one.
     pub rejected_sha256: Option<String>,
-    /// What the run was, and what it found.
+    /// The run and its findings.
     pub journal: Journal,
 }
 

@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 use super::note;
 use crate::error::CliError;
 
-/// What the run is, in words; a restart must agree in every one.
+/// The settings of the run, in words; a restart must agree in every one.
 pub type Identity = BTreeMap<String, String>;
 
 /// The state of a run. Everything it counts is on the disk before it is.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Journal {
-    /// What the run is.
+    /// The identity of the run.
     pub identity: Identity,
     /// Rows written.
     pub rows: u64,
@@ -44,7 +44,7 @@ pub struct Journal {
     /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
     #[serde(default)]
     pub ratio: u64,
-    /// What has made the steps so far. The bits are the same, but for what the identity says.
+    /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
     #[serde(default)]
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.

@@ -45,7 +45,7 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
     let asked = device::asked(options);
-    // What a device refuses is little.
+    // A device refuses few steps.
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
     let how = How { backend: options.backend.into(), work, device: asked };
     let engine = engine(path, &integrator, step, how, &Kept::default())?;

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 
 use crate::error::{CliError, unread, unwritten};
 
-/// What is noted at `path`, a `kind` of file in a word; `None` where there is none.
+/// The note at `path`, a `kind` of file in a word; `None` where there is none.
 pub fn read<T: DeserializeOwned>(path: &Path, kind: &str) -> Result<Option<T>, CliError> {
     let text = match read_text(path) {
         Ok(text) => text,

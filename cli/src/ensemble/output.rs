@@ -43,7 +43,7 @@ impl Form {
         }
     }
 
-    /// What stands before the first of `count` rows.
+    /// The bytes before the first of `count` rows.
     pub fn header(self, layout: &Layout, table: Option<&Table>, count: u64) -> Vec<u8> {
         match self {
             Self::Csv => {

@@ -1,4 +1,4 @@
-//! What an ensemble did, for people and for programs.
+//! The report of an ensemble, for people and for programs.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use serde_json::json;
 use super::run::Outcome;
 use crate::arguments::Format;
 
-/// What there is to be said of the series, if anything is.
+/// A warning about the series, if there is reason for one.
 pub fn warning(outcome: &Outcome) -> Option<String> {
     let ratio = outcome.drift.ratio;
     (ratio != 0.0).then(|| {
@@ -35,7 +35,7 @@ pub fn report(
     let drift = outcome.drift;
     let conserved = drift.conserved;
     if format == Format::Json {
-        // What is not known has no key.
+        // An unknown value has no key.
         let known =
             [("spatial_momentum", conserved.spatial_momentum), ("casimirs", conserved.casimirs)];
         let known: serde_json::Map<_, _> = known

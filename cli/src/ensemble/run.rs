@@ -18,7 +18,7 @@ use super::table::Piece;
 use crate::error::{CliError, unwritten};
 use crate::progress;
 
-/// What is on the disk is noted this often.
+/// The journal is brought up to date this often.
 const NOTED: Duration = Duration::from_millis(200);
 
 /// Rejected rows that are told at the end; all are in the list.
@@ -41,7 +41,7 @@ pub struct Job<'a> {
     pub range: Range<u64>,
     /// Steps of every trajectory.
     pub steps: u64,
-    /// What the run is.
+    /// The identity of the run.
     pub identity: Identity,
     /// Forget what an earlier run has done.
     pub restart: bool,
@@ -49,7 +49,7 @@ pub struct Job<'a> {
     pub keep: bool,
 }
 
-/// What a run did.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Rows of the output.
@@ -66,7 +66,7 @@ pub struct Outcome {
     pub list: Option<PathBuf>,
     /// The largest drifts.
     pub drift: Drift,
-    /// What has made the steps.
+    /// The backends that have made the steps.
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.
     pub redone: u64,
@@ -173,7 +173,7 @@ fn resume(open: &mut Open, files: &Files, journal: &Journal) -> Result<(), CliEr
     Ok(())
 }
 
-/// What a finished run has noted that is to be kept; `None` where the run is to be made.
+/// The journal of a finished run that is kept; `None` where the run has to be made.
 fn finished(job: &Job<'_>, files: &Files) -> Result<Option<Journal>, CliError> {
     if !job.keep || job.restart {
         return Ok(None);

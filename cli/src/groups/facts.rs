@@ -1,4 +1,4 @@
-//! What is known of a group, computed from its algebra.
+//! Facts about a group, computed from its algebra.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::error::CliError;
 
-/// Casimirs are looked for among at most so many monomials of one degree.
+/// The largest number of monomials of one degree among which Casimirs are looked for.
 const MONOMIALS: u128 = 1000;
 /// An algebra of more dimensions is described by its factors.
 pub const LARGEST: usize = 24;
@@ -18,7 +18,7 @@ pub const LARGEST: usize = 24;
 pub struct Facts {
     /// Its algebra.
     pub algebra: LieAlgebra,
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub summary: Option<String>,
     /// Whether the basis is written as complex matrices.
     pub complex: bool,

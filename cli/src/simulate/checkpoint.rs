@@ -14,7 +14,7 @@ use crate::error::{CliError, unread, unwritten};
 /// The state of a run. Records that it counts are on the disk before it is. Numbers are kept as bits.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Checkpoint {
-    /// What the run is; a run that goes on must agree in every entry.
+    /// The settings of the run; a run that resumes must agree in every entry.
     pub identity: BTreeMap<String, String>,
     /// Steps made.
     pub step: u64,

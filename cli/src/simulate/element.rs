@@ -4,7 +4,7 @@ use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Block, Kind, matrix, split};
 use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion};
 
-/// At most so many blocks are printed.
+/// The largest number of blocks that are printed.
 const MOST_BLOCKS: usize = 12;
 /// Blocks with more rows are not printed.
 const WIDEST: usize = 12;

@@ -1,4 +1,4 @@
-//! What a run is: everything needed to repeat it, for the heads of files, for reports, and to tell
+//! The settings of a run: everything needed to repeat it, for the heads of files, for reports, and to tell
 //! whether a checkpoint is of this run.
 
 use std::collections::BTreeMap;

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// What the signals set.
+/// The flags that signals set.
 struct Flags {
     /// A signal has come while a run was guarded.
     asked: Arc<AtomicBool>,

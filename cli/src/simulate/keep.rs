@@ -1,4 +1,4 @@
-//! What the command keeps of a run: records, pictures, checkpoints, and the user informed.
+//! The outputs of a run: records, pictures and checkpoints, and messages to the user.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,7 +22,7 @@ use super::trajectory::Trajectory;
 use crate::error::CliError;
 use crate::progress;
 
-/// What is kept of a run.
+/// The outputs of a run.
 pub struct Keeper<'a> {
     settings: &'a Settings,
     label: String,
@@ -250,7 +250,7 @@ impl<'a> Keeper<'a> {
         Ok(())
     }
 
-    /// What a checkpoint must agree in.
+    /// The settings in which a checkpoint must agree.
     fn identity(&self) -> BTreeMap<String, String> {
         let mut identity = self.header.identity();
         // It follows from the time and the step, whose names say more.

@@ -14,7 +14,7 @@ pub fn draw(path: &Path, inputs: &[&Path], picture: &Picture) -> Result<(), CliE
     file::write(path, inputs, render(picture).as_bytes()).map_err(unwritten(path))
 }
 
-/// What a picture says above its panels.
+/// The heading above a picture's panels.
 #[derive(Clone, Debug)]
 pub struct Heading {
     name: String,

@@ -1,4 +1,4 @@
-//! What a run did, for people and for programs.
+//! The report of a run, for people and for programs.
 
 use std::fmt::Write;
 
@@ -29,7 +29,7 @@ pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
     }
 }
 
-/// What there is no number for has no key: no value is null.
+/// A quantity without a number has no key: no value is null.
 fn object(run: &Trajectory, units: &Units) -> Value {
     let names = ["spatial_momentum", "casimirs", "energy"];
     let [spatial, casimirs, energy] = run.unknown.known();
@@ -128,7 +128,7 @@ fn with_unit(number: &str, unit: Option<&str>) -> String {
     unit.map_or_else(|| number.to_owned(), |unit| format!("{number} {unit}"))
 }
 
-/// What a reader of the drift with this number should know.
+/// A remark for readers of the drift with this number.
 fn remark(run: &Trajectory, number: usize) -> String {
     let mut remark = match number {
         0 if run.potential => {

@@ -105,7 +105,7 @@ fn matrix_of(group: &Group, x: &DVector<f64>) -> DMatrix<f64> {
     matrix
 }
 
-/// What is said of a run by a method beside ours.
+/// The entries of the head of a run by another method.
 const KNOWN: [&str; 7] = [
     "program",
     "system",
@@ -146,7 +146,7 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         }
         let n = self.last.momentum.len();
         let momentum = DVector::from_column_slice(&y[..n]);
-        // What has left the group is measured as it is, not put back on it.
+        // An element that has left the group is measured as it is, not projected back.
         let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
         self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
         match self.recorder.visit(time, &At { group: self.group, phase: &self.last }) {

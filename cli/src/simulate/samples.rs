@@ -4,7 +4,7 @@ use super::trajectory::{Drift, Record};
 
 /// So many first moments are all kept.
 const HEAD: usize = 512;
-/// Of the rest between half as many and so many are kept, unless they are large.
+/// Of the rest, between half of this number and all of it are kept, unless they are large.
 const MOST: usize = 4096;
 /// The fewest that are kept however large they are, an even number.
 const FEWEST: usize = 256;
@@ -90,7 +90,7 @@ impl Samples {
         std::iter::once(state).chain(self.records.iter().map(row)).chain(pending).collect()
     }
 
-    /// What [`Self::to_bits`] was made of; `None` where the bits are not of such.
+    /// The inverse of [`Self::to_bits`]; `None` where the bits are of something else.
     pub fn from_bits(dim: usize, bits: &[Vec<u64>]) -> Option<Self> {
         let ([stride, offered, pending], rows) = bits
             .split_first()

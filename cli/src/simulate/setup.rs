@@ -36,7 +36,7 @@ impl Settings {
     /// Puts the settings together, or says which one is missing.
     ///
     /// # Errors
-    /// What is missing or makes no sense.
+    /// An option that is missing or makes no sense.
     pub fn new(
         options: &SimulateOptions,
         hash: &str,

@@ -35,7 +35,7 @@ pub struct Target {
     pub form: Form,
     /// The kind of place.
     pub place: Place,
-    /// What the run reads.
+    /// The files that the run reads.
     pub inputs: Vec<PathBuf>,
 }
 

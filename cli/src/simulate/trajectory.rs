@@ -24,9 +24,9 @@ pub struct Record {
 /// A whole run.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
-    /// What made it, for tables and pictures.
+    /// The method, for tables and pictures.
     pub label: String,
-    /// What the run is.
+    /// The identity of the run.
     pub header: Header,
     /// K; `None` for a method beside ours.
     pub truncation: Option<usize>,
@@ -41,9 +41,9 @@ pub struct Trajectory {
     pub time: f64,
     /// A line about the step, where another was used than was asked for.
     pub announcement: Option<String>,
-    /// What the user should know of the run.
+    /// Warnings about the run.
     pub warnings: Vec<Warning>,
-    /// What made the steps, where they are programs.
+    /// The backends that made the steps, where they are programs.
     pub backend: Option<Used>,
     /// The momentum at the end.
     pub momentum: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What `simulate --format json` prints, as tables of two rows: the start and the end.
+//! The output of `simulate --format json`, as tables of two rows: the start and the end.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -169,7 +169,7 @@ impl Table {
         })
     }
 
-    /// What the head says under this name, as a number.
+    /// The entry of the head with this name, as a number.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.value(name)?.parse().ok()
     }

@@ -53,7 +53,7 @@ pub fn file_name<'a>(block: &Block<'a>) -> Option<&'a str> {
         .then_some(name)
 }
 
-/// What a page's commands did.
+/// The outcome of a page's commands.
 #[derive(Default)]
 pub struct Outcome {
     pub commands: usize,
@@ -137,7 +137,7 @@ fn commands(block: &str) -> Vec<(String, &str)> {
     commands
 }
 
-/// What the command prints, as a page shows it.
+/// The output of the command, as a page shows it.
 fn report(command: &str, folder: &Path) -> String {
     let (code, mut said) = execute(command, folder);
     if !said.is_empty() && !said.ends_with('\n') {

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::lie::{ChartError, LieAlgebraError};
 
-/// What is wrong with the input. The message is its `Display`; [`Mistake::help`] says what to
+/// A mistake in the input. The message is its `Display`; [`Mistake::help`] says what to
 /// write instead.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -222,7 +222,7 @@ impl Mistake {
         )
     }
 
-    /// What to write instead, where there is more to say than the message does.
+    /// A correction, where there is more to say than the message does.
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let text = match self {

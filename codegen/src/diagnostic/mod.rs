@@ -24,7 +24,7 @@ const MOST: usize = 100;
 /// One mistake at its place.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// What is wrong, and what to write instead.
+    /// The mistake.
     pub mistake: Mistake,
     /// Where.
     pub span: Span,

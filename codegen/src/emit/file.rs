@@ -16,7 +16,7 @@ pub fn file(integrator: &Integrator, options: &Options) -> String {
     result.push_str(&text(tokens(integrator, options)));
     let legend = legend::lines(&integrator.coefficients);
     if !legend.is_empty() {
-        let about = "What programs read of S = Σ C(m) m, C(m) the coefficient of the monomial m:";
+        let about = "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";
         result.push('\n');
         result.push_str(&comment(std::iter::once(about.to_owned()).chain(legend)));
     }

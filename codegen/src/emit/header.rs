@@ -1,4 +1,4 @@
-//! What a generated integrator says about itself.
+//! The documentation of a generated integrator.
 
 use coadjoint_program::quoting::rust_comment;
 

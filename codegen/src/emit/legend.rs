@@ -1,4 +1,4 @@
-//! What the folded coefficients of a program mean.
+//! The meaning of a program's folded coefficients.
 
 use super::subscript::{subscript, superscript};
 use crate::integrator::Coefficients;

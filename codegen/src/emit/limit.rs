@@ -1,4 +1,4 @@
-//! What is too large for the compiler.
+//! Limits on the size of emitted code.
 
 use crate::integrator::Integrator;
 

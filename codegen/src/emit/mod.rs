@@ -36,7 +36,7 @@ pub use options::{Options, camel_case, identifier};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// What lints may say of emitted code, which follows no style.
+/// Lints that emitted code turns off, since it follows no style.
 fn allow() -> TokenStream {
     quote! {
         #[allow(

@@ -14,7 +14,7 @@ pub struct Options {
     pub name: Ident,
     /// Attributes for the struct: the user's doc comments.
     pub attributes: TokenStream,
-    /// What the names that programs bind end with: an underscore where a constant of the user's might have one of these
+    /// The suffix of the names that programs bind: an underscore where a constant of the user's might have one of these
     /// names.
     pub suffix: &'static str,
 }

@@ -24,7 +24,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// An array of so many numbers.
+    /// An array of this length.
     pub fn array(name: Ident, len: usize) -> Self {
         Self { name, len: Some(len) }
     }
@@ -57,7 +57,7 @@ pub struct Scope<'a> {
     pub slots: usize,
     /// Whether coefficients are of a type `C` of their own, to be lifted to `T`.
     pub lifted: bool,
-    /// What the names that are bound end with.
+    /// The suffix of the names that are bound.
     pub suffix: &'a str,
 }
 

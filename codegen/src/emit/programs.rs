@@ -11,7 +11,7 @@ use crate::step::Step;
 /// Steps of more operations than this are not printed: the compiler would take minutes.
 pub const MOST_OPERATIONS: usize = 20_000;
 
-/// Steps of at most so many operations are inlined into the loop that drives them, whatever calls it.
+/// The largest number of operations of a step that is inlined into the loop that drives it, whatever calls it.
 const SHORT: usize = 1500;
 
 /// The operations of a whole step.

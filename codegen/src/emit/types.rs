@@ -25,7 +25,7 @@ pub struct Types {
     pub definition: TokenStream,
     /// Tables of the group, to stand at the end.
     pub tables: TokenStream,
-    /// What a block needs in which these types are used.
+    /// The aliases for a block that uses these types.
     pub aliases: TokenStream,
 }
 

@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::Function;
 use crate::number::Rational;
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Name {
     /// A coordinate of the momentum, counted from 0.
@@ -71,7 +71,7 @@ impl Names {
         }
     }
 
-    /// What the name stands for.
+    /// The meaning of the name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Name> {
         self.known.get(name)

@@ -153,7 +153,7 @@ pub(super) struct Form {
     pub index: String,
     /// The range of its values, unread.
     pub values: Range<usize>,
-    /// What is summed.
+    /// The summand.
     pub body: Range<usize>,
     /// Behind the closing parenthesis.
     pub end: usize,

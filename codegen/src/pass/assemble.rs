@@ -20,7 +20,7 @@ pub const DEFAULT_TRUNCATION: usize = 7;
 /// The largest truncation accepted.
 pub const MAX_TRUNCATION: usize = 63;
 
-/// What a front end has read. A field is `None` where the input was wrong, which has then been reported.
+/// The result of a front end. A field is `None` where the input was wrong, which has then been reported.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// The name of the system.
@@ -107,7 +107,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
     })
 }
 
-/// What a front end has read of a potential.
+/// The result of a front end for a potential.
 #[derive(Clone, Debug)]
 pub struct PotentialDraft {
     /// The name of the potential.

@@ -13,7 +13,7 @@ use crate::problem::Parameter;
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
 
-/// What the file says about the Hamiltonian.
+/// The Hamiltonian as the file gives it.
 pub(super) struct Written {
     pub coordinates: Vec<String>,
     pub coordinates_span: Span,

@@ -68,7 +68,7 @@ pub use units::Units;
 /// The system of a file that names none.
 const DEFAULT_NAME: &str = "system";
 
-/// What becomes of the parameters of a system file.
+/// The treatment of the parameters of a system file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Parameters {
     /// Their values are put into the Hamiltonian, exactly.
@@ -81,7 +81,7 @@ pub enum Parameters {
 /// How a system file is to be read.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// What becomes of the parameters.
+    /// The treatment of the parameters.
     pub parameters: Parameters,
     /// Replaces the truncation of the file.
     pub truncation: Option<usize>,
@@ -113,7 +113,7 @@ pub struct System {
 pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
-    // What a quote without a partner lets run on is read as nonsense: only the quote is told.
+    // After an unclosed quote the rest parses as nonsense: only the quote is reported.
     if let Some(at) = unclosed_quote(text).filter(|_| !errors.is_empty()) {
         diagnostics.report(Span::text(at..at + 1), Mistake::UnclosedQuote);
         return Err(diagnostics);
@@ -233,7 +233,7 @@ fn group(root: &Table<'_>, name: &str, diagnostics: &mut Diagnostics) -> Option<
     }
 }
 
-/// What `[integrator]` says of the method.
+/// The method that `[integrator]` gives.
 struct Chosen {
     truncation: Option<usize>,
     chart: (Chart, Span),

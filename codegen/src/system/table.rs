@@ -16,7 +16,7 @@ type Value<'a> = Spanned<DeValue<'a>>;
 #[derive(Clone, Debug)]
 pub(super) struct Table<'a> {
     entries: &'a DeTable<'a>,
-    /// What its numbers may use.
+    /// The constants its numbers may use.
     pub constants: &'a Names,
     name: String,
     pub span: Span,

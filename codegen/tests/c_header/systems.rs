@@ -271,7 +271,7 @@ impl Built {
         self.write(folder, "main.c", include_str!("main.c"))
     }
 
-    /// What the program prints as C++, where the class makes the same steps; nothing without a compiler.
+    /// The program's output as C++, where the class makes the same steps; nothing without a compiler.
     pub fn by_class(&self, folder: &Path) -> Vec<String> {
         let Some(compiler) = Tool::find("g++") else { return Vec::new() };
         let mut flags = FLAGS_CPP.to_vec();

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What C is compiled with.
+/// The flags of the C compiler.
 pub const FLAGS_C: [&str; 6] =
     ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Werror"];
 
-/// What C++ is compiled with.
+/// The flags of the C++ compiler.
 pub const FLAGS_CPP: [&str; 6] =
     ["-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Werror"];
 
@@ -54,7 +54,7 @@ impl Tool {
     }
 }
 
-/// What a program prints: one text, so that it can be compared with others.
+/// The output of a program: one text, so that it can be compared with others.
 pub fn output(program: &Path, arguments: &[&str]) -> Vec<String> {
     let tool = Tool(program.to_str().unwrap().to_owned());
     vec![tool.run(arguments)]

@@ -39,7 +39,7 @@ struct Fake {
     room: usize,
     /// The most rows there ever were.
     most: Arc<AtomicUsize>,
-    /// What it writes as a status and adds to counts.
+    /// The status it writes, and its additions to counts.
     status: u32,
     beyond: u64,
 }

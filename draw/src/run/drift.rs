@@ -11,7 +11,7 @@ const STRETCHES: usize = 260;
 /// The axis reaches at least this far up.
 const LOWEST_TOP: i32 = -14;
 
-/// What is said once about all panels of drifts.
+/// The note about all panels of drifts.
 pub const NOTE: &str = "Below: largest differences from the start in successive stretches of time, relative to the \
      start, on logarithmic axes. Zero and everything below 1e-17 is drawn at 1e-17.";
 

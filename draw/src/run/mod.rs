@@ -15,7 +15,7 @@ pub const FLOOR: i32 = -17;
 /// Stretches of time with two points of a curve each.
 const COLUMNS: usize = 400;
 
-/// What is drawn: runs of one system.
+/// The contents of a picture: runs of one system.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
     /// The name of the system.
@@ -31,7 +31,7 @@ pub struct Picture {
 /// A run, recorded at some times.
 #[derive(Clone, Debug, Default)]
 pub struct Run {
-    /// What made it, such as `K = 7, exp`.
+    /// The method, such as `K = 7, exp`.
     pub label: String,
     /// The times of the records.
     pub times: Vec<f64>,

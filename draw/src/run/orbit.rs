@@ -40,7 +40,7 @@ fn axes(x: (f64, f64), y: (f64, f64), aspect: f64) -> (Axis, Axis) {
     (around(x, wide), around(y, wide / aspect))
 }
 
-/// Every so many records, so that not too many are drawn.
+/// The stride between records drawn, so that not too many are drawn.
 fn some<T: Copy>(points: &[T]) -> Vec<T> {
     let stride = points.len().div_ceil(POINTS).max(1);
     let mut some: Vec<T> = points.iter().step_by(stride).copied().collect();

@@ -33,7 +33,7 @@ pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
     let mut columns = Vec::new();
     for name in names {
         let entry = archive.by_name(&format!("{name}.npy")).map_err(|e| damaged(path, &e))?;
-        // What the archive says of the size bounds what is read; the array must agree with it.
+        // The size in the archive bounds what is read; the array must agree with it.
         let total = entry.size();
         let array = read_array(path, entry, total)?;
         spread(&name, &array, &mut columns);

@@ -1,4 +1,4 @@
-//! What a data file says, before any group looks at it.
+//! The contents of a data file, before a group is involved.
 
 use nalgebra::DMatrix;
 

@@ -139,7 +139,7 @@ impl Tolerances {
     }
 }
 
-/// What to do with bad rows.
+/// The policy for bad rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RowPolicy {
     /// Refuse the data, naming the rows.

@@ -27,7 +27,7 @@ impl PoissonOptions {
         Self { degree, iteration }
     }
 
-    /// Refuses a degree that makes no sense for so many samples.
+    /// Refuses a degree that makes no sense for this number of samples.
     pub(crate) fn check(&self, dim: usize, samples: usize) -> Result<(), LearnError> {
         Basis::check_fit(dim, self.degree, samples)?;
         if self.degree == 0 {

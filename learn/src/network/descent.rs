@@ -1,4 +1,4 @@
-//! What lowers a loss: Adam with a schedule, then L-BFGS, with checkpoints.
+//! The optimisers: Adam with a schedule, then L-BFGS, with checkpoints.
 //!
 //! D. Kingma and J. Ba, *Adam: a method for stochastic optimization* (2015), with its usual
 //! constants; J. Nocedal and S. Wright, *Numerical Optimization*, 2nd edition, algorithms 7.4, 3.5

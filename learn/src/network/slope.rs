@@ -202,7 +202,7 @@ impl SlopeFit {
     }
 }
 
-/// What a forward pass leaves: per layer A, B and C, and slope minus the slope wanted.
+/// The results of a forward pass: per layer A, B and C, and slope minus the slope wanted.
 struct Passes {
     values: Vec<DMatrix<f64>>,
     aboves: Vec<DMatrix<f64>>,

@@ -14,7 +14,7 @@ pub struct PolynomialModel {
     coefficients: Vec<f64>,
 }
 
-/// What is written to disk: the basis follows from dimension and degree.
+/// The form on disk: the basis follows from dimension and degree.
 #[derive(Serialize, Deserialize)]
 struct Stored {
     degree: usize,

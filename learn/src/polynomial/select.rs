@@ -14,7 +14,7 @@ use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::function::MomentumFunction;
 
-/// What [`select_polynomial`] tries.
+/// The candidates of [`select_polynomial`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectionOptions {
     /// Total degrees to try.
@@ -44,7 +44,7 @@ impl Default for SelectionOptions {
 /// One candidate of a cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
-    /// What was tried, as a user would ask for it: `polynomial degree 6, ridge 0`.
+    /// The candidate, as a user would ask for it: `polynomial degree 6, ridge 0`.
     pub name: String,
     /// The total degree.
     pub degree: usize,

@@ -93,7 +93,7 @@ fn automatic(
     let ((p, rest_p), (x, rest_x)) = (split(&data.p, &held), split(&data.x, &held));
     let rest = ReducedData { x: rest_x, p: rest_p, momenta: data.momenta.clone() };
     let mut rivals: Vec<(Kind, String, f64)> = Vec::new();
-    // What cannot be fitted is no candidate.
+    // A model that cannot be fitted is no candidate.
     if let Ok(model) = fit_polynomial(&rest, best.degree, best.ridge) {
         rivals.push((Kind::Polynomial, best.name.clone(), gradient_error(&model, &p, &x)));
     }

@@ -1,4 +1,4 @@
-//! What `coadjoint learn` does: read, reduce, choose, fit, evaluate.
+//! A session of `coadjoint learn`: read, reduce, choose, fit, evaluate.
 
 mod choose;
 mod momenta;
@@ -53,7 +53,7 @@ impl Kind {
     }
 }
 
-/// What to learn from what.
+/// A request: the data and the model to fit to them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
     /// The file of training data: CSV, NPY, NPZ, or Parquet where the feature is built in.
@@ -90,12 +90,12 @@ pub struct Request {
     pub drift_steps: usize,
 }
 
-/// What came out.
+/// The results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// The kind of model.
     pub model: String,
-    /// What was chosen, and why.
+    /// The choice and its reason.
     pub choice: String,
     /// Errors on the training data.
     pub train: Figures,
@@ -105,7 +105,7 @@ pub struct Summary {
     pub drifts: Option<Drifts>,
     /// Rows left out of the training data, with the reason.
     pub dropped: Vec<(usize, String)>,
-    /// What the data hardly support.
+    /// Warnings, such as too few rows for the degree.
     #[serde(default)]
     pub warnings: Vec<String>,
     /// Columns of the training data that are neither a momentum nor an attitude.

@@ -34,7 +34,7 @@ impl Default for NetworkSettings {
     }
 }
 
-/// What a session may append to the name of a checkpoint.
+/// The endings that a session may append to the name of a checkpoint.
 const ENDINGS: [&str; 4] = [".network", ".hybrid", ".network.held-out", ".hybrid.held-out"];
 
 fn ending(base: &Path, ending: &str) -> PathBuf {

@@ -34,7 +34,7 @@ pub(super) struct Cache {
 const HASH: &str = "sha256";
 /// Entries that are kept.
 const ENTRIES: usize = 256;
-/// What writers that were killed have left is removed when it is as old as this.
+/// Files left by writers that were killed are removed at this age.
 const STALE: Duration = Duration::from_secs(24 * 3600);
 
 /// The name of an entry that depends on these texts.
@@ -137,7 +137,7 @@ impl Cache {
 
 const STAGE: &str = ".stage-";
 
-/// What makes folders for the user alone.
+/// A builder of folders for the user alone.
 fn private() -> fs::DirBuilder {
     #[allow(unused_mut)]
     let mut builder = fs::DirBuilder::new();

@@ -16,13 +16,13 @@ use crate::error::NativeError;
 pub(super) struct Compiler {
     program: OsString,
     arguments: Vec<OsString>,
-    /// What it says of its version.
+    /// Its version text.
     version: String,
     limit: Duration,
     stop: Arc<AtomicBool>,
 }
 
-/// What asking for the version may take.
+/// The time limit for asking the version.
 const VERSION_LIMIT: Duration = Duration::from_secs(10);
 
 /// The name of the library that a compiler writes.
@@ -69,7 +69,7 @@ impl Compiler {
         self.program.to_string_lossy().into_owned()
     }
 
-    /// What it says of itself: all that tells it from others.
+    /// Its version text, which tells it from other compilers.
     pub fn version(&self) -> &str {
         &self.version
     }

@@ -36,7 +36,7 @@ pub struct COptions {
     pub time_limit: Duration,
     /// Where compiled steps are kept.
     pub cache: CacheFolder,
-    /// What is compiled: either half takes about half the time.
+    /// The trajectories compiled for: either half takes about half the time.
     pub trajectories: Trajectories,
     /// Set it from another thread to end the compiler and all that it has started.
     pub stop: Arc<AtomicBool>,

@@ -64,7 +64,7 @@ impl Watcher {
         let mut command = Command::new("sh");
         command.args(["-c", "read _; kill -KILL \"-$1\"", "sh", &leader.to_string()]);
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
-        // What a terminal sends to this process must not end the watcher.
+        // Signals that a terminal sends to this process must not end the watcher.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         command.spawn().ok().map(Self)

@@ -55,7 +55,7 @@ fn sound() -> MemFlagsData {
 }
 
 impl<'f> Coder<'f> {
-    /// Begins a function of so many parameters, addresses and counts, the first being that of the folded coefficients;
+    /// Begins a function of addresses and counts, the first being that of the folded coefficients; returns it with
     /// the parameters.
     pub(super) fn new(
         mut builder: FunctionBuilder<'f>,
@@ -90,7 +90,7 @@ impl<'f> Coder<'f> {
         (place * self.form.bytes()) as i32
     }
 
-    /// What is at a place of the frame.
+    /// The value at a place of the frame.
     pub(super) fn load(&mut self, place: usize) -> Value {
         let offset = self.offset(place);
         self.builder.ins().load(self.form.kind(), sound(), self.base, offset)
@@ -180,7 +180,7 @@ impl<'f> Coder<'f> {
         self.builder.ins().jump(block, &[]);
     }
 
-    /// Copies g and μ from the caller's memory to the frame (`inwards`) or back; numbers there are so many apart.
+    /// Copies g and μ from the caller's memory to the frame (`inwards`) or back; `apart` numbers apart there.
     pub(super) fn exchange(&mut self, lists: [Value; 2], apart: usize, inwards: bool) {
         // The caller's numbers are aligned each by itself.
         let flags = MemFlagsData::new().with_notrap();

@@ -14,7 +14,7 @@ use super::coder::Coder;
 /// Registers given to values; the processor has sixteen or more.
 const REGISTERS: usize = 13;
 
-/// A value read from memory keeps its register where it is used again within so many operations.
+/// A value read from memory keeps its register if it is used again within this number of operations.
 const NEAR: usize = 16;
 
 /// When the values of a program are used.

@@ -39,7 +39,7 @@ impl Frame {
         Self { variables, start, size, scratch: size }
     }
 
-    /// The bytes it takes, numbers being of so many each.
+    /// Its size in bytes, for numbers of this size.
     pub(super) fn bytes(&self, each: usize) -> Result<u32, JitError> {
         let bytes = self.size.saturating_mul(each);
         match u32::try_from(bytes) {

@@ -15,7 +15,7 @@ pub(super) struct Assembled {
     pub(super) relocations: Vec<FinalizedMachReloc>,
 }
 
-/// What Cranelift knows of this processor, with the settings of steps.
+/// Cranelift's description of this processor, with the settings of steps.
 pub(super) fn isa() -> Result<OwnedTargetIsa, JitError> {
     let refuse = |reason: &dyn std::fmt::Display| JitError::Host(reason.to_string());
     let mut flags = settings::builder();

@@ -57,7 +57,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         self.spread(value)
     }
 
-    /// Runs the loop for so many steps of the trajectories that are live.
+    /// Runs the loop for `steps` steps of the trajectories that are live.
     pub(super) fn run(&mut self, steps: Value, live: Value) {
         self.coder.builder.def_var(self.live, live);
         // Counts are compared as signed numbers.

@@ -31,7 +31,7 @@ impl Draw {
 /// How many folded coefficients the kernels read at most.
 pub const SLOTS: usize = 5;
 
-/// A program with so many inputs, outputs and operations; its outputs are in (−1, 1), those listed in `sizes` in [0, 1).
+/// A program with these numbers of inputs, outputs and operations; its outputs are in (−1, 1), those listed in `sizes` in [0, 1).
 fn program(
     draw: &mut Draw,
     inputs: usize,
@@ -97,7 +97,7 @@ fn at_most(of: &Program, bound: f64) -> Program {
     graph.finish(of.inputs(), &[right])
 }
 
-/// A kernel with n coordinates, m numbers in an element and k constants, whose programs have about so many operations
+/// A kernel with n coordinates, m numbers in an element and k constants, whose programs have about this number of operations
 /// each. About one step in `1 / refusal` is refused, one block in ten is unsound.
 pub fn kernel(
     seed: u64,

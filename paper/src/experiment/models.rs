@@ -103,7 +103,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
         }
     }
 
-    /// A Gaussian process of at most so many samples.
+    /// A Gaussian process of at most this number of samples.
     pub fn gaussian_process<C: Chart<G>>(&self, largest: usize, table: &mut Table) -> Fallible<()> {
         eprintln!("  Gaussian process");
         let options = GaussianProcessOptions { largest, ..Default::default() };

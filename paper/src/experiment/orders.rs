@@ -27,7 +27,7 @@ const SINGLE: [f64; 10] = [0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2]
 /// Errors from which an order is read: above rounding, below where higher terms count.
 const READABLE: std::ops::Range<f64> = 1e-12..5e-2;
 
-/// The error after so many steps; NaN where a step is refused.
+/// The error after `count` steps; NaN where a step is refused.
 fn error(steps: &Steps, h: f64, count: usize, start: &[f64], exact: &State) -> f64 {
     let end = steps.walk(h, count, start).and_then(|(mut states, _)| states.pop());
     end.map_or(f64::NAN, |end| end.largest_difference(exact))

@@ -12,18 +12,18 @@ use crate::node::Node;
 /// reached by pointers, single inputs are values, single outputs are pointers.
 #[derive(Clone, Debug)]
 pub struct C {
-    /// What stands before a function: `static void`.
+    /// The head of a function: `static void`.
     pub head: String,
     /// The type of a number: `double`.
     pub number: String,
     /// The type of the array of folded coefficients: `const double *restrict`. Where it is empty functions are not given
     /// the array.
     pub slots: String,
-    /// What stands between the type of an array and its name: `*restrict `.
+    /// The text between the type of an array and its name: `*restrict `.
     pub pointer: String,
     /// The names of the functions a·b + c, √a, |a|, and the nearest integer, the even one of two.
     pub functions: [String; 4],
-    /// What ends a number: empty, or `f` for 32 bits.
+    /// The suffix of a number: empty, or `f` for 32 bits.
     pub suffix: String,
 }
 

@@ -17,10 +17,10 @@ use crate::quoting::c_comment;
 /// The name of the kernel in the text of [`device_unit`]. (`step` is a function of OpenCL.)
 pub const KERNEL_NAME: &str = "coadjoint_steps";
 
-/// What the names of the text's functions begin with.
+/// The prefix of the names of the text's functions.
 const PREFIX: &str = "coadjoint_";
 
-/// What stands before functions that become part of the kernel, and before those that are called.
+/// The heads of functions that are inlined into the kernel, and of those that are called.
 const INLINE: &str = "INLINE void";
 const CALLED: &str = "CALLED void";
 
@@ -170,7 +170,7 @@ impl Device {
         self.c.literal(self.precision.round(value))
     }
 
-    /// What the loop needs to know, as macros; arrays have one number at least.
+    /// The sizes that the loop uses, as macros; arrays have one number at least.
     fn sizes(&self, kernel: &Kernel) -> String {
         let (n, m) = (kernel.dim(), kernel.element());
         let literal = |value| self.literal(value);

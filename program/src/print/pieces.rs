@@ -11,7 +11,7 @@ use super::dialect::Dialect;
 use super::function::{function, leaf, output};
 use super::signature::Signature;
 
-/// The function of a signature in a dialect based on `c`, as pieces of at most so many operations and a function that
+/// The function of a signature in a dialect based on `c`, as pieces of a limited number of operations and a function that
 /// calls them. What a piece leaves for later ones is in an array `w`.
 #[must_use]
 pub fn pieces(dialect: &impl Dialect, c: &C, signature: &Signature<'_>, longest: usize) -> String {

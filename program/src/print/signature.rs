@@ -1,4 +1,4 @@
-//! What the programs of a kernel read and write, by name.
+//! The inputs and outputs of a kernel's programs, by name.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -18,7 +18,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// An array of so many numbers.
+    /// An array of this length.
     #[must_use]
     pub fn array(name: &str, len: usize) -> Self {
         Self { name: name.to_owned(), len: Some(len) }

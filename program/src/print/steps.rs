@@ -13,7 +13,7 @@ use crate::schedule::{Block, Kind, Part, Statement, Test, Variable, schedule};
 /// How a language writes the loop. The function around it has g, μ, `steps` and whatever `live` reads.
 #[derive(Clone, Debug)]
 pub struct LoopStyle {
-    /// What the names of programs begin with.
+    /// The prefix of the names of programs.
     pub prefix: String,
     /// The type of a count; `M`, a vector of whole numbers, where numbers, counts and masks are vectors of lanes.
     pub count: String,
@@ -215,7 +215,7 @@ impl<D: Dialect> Writer<'_, D> {
         let mut moves = Vec::new();
         for &output in outputs {
             let mut name = output.name().to_string();
-            // What the program reads, or what may not change in all lanes, is stored beside it first.
+            // A value that the program reads, or that may not change in all lanes, is stored beside it first.
             if inputs.contains(&output) || (self.lanes && !block.owns(output)) {
                 self.declare(output, "_next", None);
                 let next = format!("{name}_next");

@@ -11,7 +11,7 @@ use crate::node::Node;
 /// C on numbers of the type `V`, a GNU vector; coefficients are spread over the lanes where they are used.
 pub(super) struct Vectors(pub C);
 
-/// What the dialect needs: `V` of `W` numbers, `M` of as many integers, and operations that C has no operators for. Each
+/// The types and operations of the dialect: `V` of `W` numbers, `M` of as many integers, and operations that C lacks. Each
 /// is one instruction where the processor has it.
 pub(super) const PREAMBLE: &str = "\
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

@@ -160,7 +160,7 @@ class _Process:
 
 
 def engine(workers: int | None) -> Here | Processes:
-    """This process for one worker, else so many processes; as many as there are processors if not given."""
+    """This process for one worker, else a pool of processes; one for each processor if no number is given."""
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     workers = count(workers, "workers", 1)

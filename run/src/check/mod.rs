@@ -23,11 +23,11 @@ const DEFAULT_STEP: f64 = 0.1;
 pub struct Law {
     /// Its name.
     pub name: &'static str,
-    /// What it says.
+    /// Its statement.
     pub statement: &'static str,
-    /// What was measured: the largest relative violation, or the order of accuracy.
+    /// The value measured: the largest relative violation, or the order of accuracy.
     pub value: f64,
-    /// What it is compared with.
+    /// The bound it is compared with.
     pub bound: f64,
     /// Whether it holds.
     pub pass: bool,
@@ -51,7 +51,7 @@ impl Steep {
     }
 }
 
-/// What is tried: a step size, and random points.
+/// A trial: a step size, and random points.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// The step size.
@@ -209,7 +209,7 @@ fn worse(worst: f64, value: f64) -> f64 {
     if worst.is_nan() || value <= worst { worst } else { value }
 }
 
-/// From so many starts the order is measured.
+/// The number of starts from which the order is measured.
 const STARTS: usize = 5;
 /// Coordinates of random points differ from those given by up to this part of their size.
 const SPREAD: f64 = 0.1;

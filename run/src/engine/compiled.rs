@@ -25,7 +25,7 @@ pub struct Numbers {
     pub mu: Vec<f64>,
 }
 
-/// What has been compiled of one integrator, for whoever comes next: programs do not depend on the size of a step.
+/// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
 pub struct Kept {
     programs: OnceLock<Arc<Programs>>,
@@ -54,7 +54,7 @@ impl std::fmt::Debug for Kept {
 }
 
 impl Kept {
-    /// What serves: made by this backend, or, for [`Backend::Auto`], any machine code.
+    /// Usable code: made by this backend, or, for [`Backend::Auto`], any machine code.
     fn find(&self, backend: Backend, trajectories: Trajectories) -> Option<Arc<Code>> {
         // A thread that panicked has added whole codes, if any.
         let codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -144,7 +144,7 @@ impl Compiled {
         Ok(Some(Self { programs, slots, code, framed }))
     }
 
-    /// What makes the steps.
+    /// The backend that makes the steps.
     pub fn code(&self) -> &Code {
         &self.code
     }
@@ -173,7 +173,7 @@ impl Compiled {
         phase_of(group, &self.matrix_of(&numbers.g), &numbers.mu)
     }
 
-    /// Makes so many steps. What the programs refuse is made by `rescue`, which makes one step by other means (its
+    /// Makes `steps` steps. Steps that the programs refuse are made by `rescue`, which makes one step by other means (its
     /// iterations and residual), or says why there is none.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{Integrator, Predictor};
 use coadjoint_codegen::problem;
 
-/// What a program computed.
+/// The results of a program.
 struct Outputs<'s, T> {
     nodes: &'s [T],
     ids: &'s [Id],

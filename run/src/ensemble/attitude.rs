@@ -29,7 +29,7 @@ impl Attitudes {
     /// put on the group.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A description of the invalid attitude.
     pub fn read(
         self,
         attitude: Attitude,
@@ -69,7 +69,7 @@ impl Attitudes {
             Attitude::Matrix => columns.copy_from_slice(matrix),
             Attitude::Quaternion => {
                 let rotation = SO3::<f64>::new().element_from_matrix(|i, j| matrix[3 * i + j]);
-                // What is no rotation is no number, which a check of rows tells.
+                // A matrix that is no rotation becomes NaN, which a check of rows reports.
                 let wxyz = rotation.map_or([f64::NAN; 4], |q| [q.w, q.i, q.j, q.k]);
                 columns.copy_from_slice(&wxyz);
             }

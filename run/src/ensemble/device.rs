@@ -29,7 +29,7 @@ pub struct Asked {
 pub struct Use {
     /// Which.
     pub device: Device,
-    /// What it calls itself.
+    /// Its name.
     pub name: String,
     /// Its numbers.
     pub precision: Precision,
@@ -40,7 +40,7 @@ pub struct Use {
 }
 
 impl Use {
-    /// Of a device that has left so many rows to others.
+    /// The note on a device that has left this number of rows to others.
     pub fn of(card: &Card, redone: u64) -> Self {
         Self {
             device: card.device(),
@@ -69,7 +69,7 @@ pub fn open<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
     card(interpreter, asked.device, asked.precision)
 }
 
-/// What the trajectories came to.
+/// The outcome of the trajectories.
 #[derive(Debug)]
 pub struct Moved {
     /// Why those stopped that did, by their places.

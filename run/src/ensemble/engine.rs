@@ -1,4 +1,4 @@
-//! What advances rows of states.
+//! The trait for everything that advances rows of states.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +41,7 @@ impl Drift {
 
 /// Something that advances rows of states.
 pub trait Engine: Sync {
-    /// What rows may hold.
+    /// The shape of a row.
     fn shape(&self) -> Shape;
 
     /// How many Casimirs are watched.
@@ -63,10 +63,10 @@ pub trait Engine: Sync {
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
     fn device(&self) -> Option<Use>;
 
-    /// What else evaluates steps now, in a few words: it may change while a compiler works.
+    /// The backend that evaluates steps now, in a few words: it may change while a compiler works.
     fn backend(&self) -> String;
 
-    /// What could not be had so far.
+    /// Notes on backends that are not available so far.
     fn notes(&self) -> Vec<String>;
 }
 
@@ -85,10 +85,10 @@ impl Watch<'_> {
     }
 }
 
-/// What is to make the steps.
+/// The backend that makes the steps.
 #[derive(Clone, Copy, Debug)]
 pub struct How {
-    /// What evaluates programs.
+    /// The backend that evaluates programs.
     pub backend: Backend,
     /// About how many steps all lanes together make.
     pub work: f64,

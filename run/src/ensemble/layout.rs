@@ -18,7 +18,7 @@ pub enum Attitude {
     Quaternion,
 }
 
-/// What a group can say in a row.
+/// The shape of a group's rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// n, coordinates of the momentum.
@@ -32,7 +32,7 @@ pub struct Shape {
 /// The columns of a quaternion.
 const QUATERNION: [&str; 4] = ["q_w", "q_x", "q_y", "q_z"];
 
-/// What a system calls its own.
+/// The names that a system gives.
 #[derive(Clone, Debug)]
 pub struct Known {
     coordinates: Vec<String>,
@@ -75,7 +75,7 @@ pub fn matrix_size(algebra: &LieAlgebra) -> usize {
 /// Where named columns have the numbers of a state.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// What the state has.
+    /// The layout of the state.
     pub layout: Layout,
     /// The column of each number; none where the number is 0 in every element of the group.
     pub places: Vec<Option<usize>>,
@@ -88,7 +88,7 @@ pub struct Found {
 pub struct Layout {
     /// Of the group.
     pub shape: Shape,
-    /// What stands after the momentum.
+    /// The columns after the momentum.
     pub attitude: Attitude,
 }
 

@@ -11,19 +11,19 @@ use super::rows::Stopped;
 use super::steps::STRETCH;
 use crate::engine::{Compiled, Numbers};
 
-/// What makes a step that the programs have refused.
+/// Makes a step that the programs have refused.
 pub type Rescue<'a> = dyn Fn(&mut Numbers) -> Result<StepReport<f64>, StepError> + Sync + 'a;
 
-/// What evaluates the ratio of the last two terms of the series at a momentum.
+/// Evaluates the ratio of the last two terms of the series at a momentum.
 pub type Ratio<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 
 /// How steps are made.
 pub struct Manner<'a> {
     /// By these programs.
     pub compiled: &'a Compiled,
-    /// What they refuse.
+    /// Makes the steps that they refuse.
     pub rescue: &'a Rescue<'a>,
-    /// What is looked at after each stretch.
+    /// The ratio checked after each stretch.
     pub ratio: &'a Ratio<'a>,
     /// Where it is set, nothing more is made.
     pub stop: &'a AtomicBool,
@@ -75,7 +75,7 @@ impl Pack {
         }
     }
 
-    /// Makes so many steps after the first so many. What a lane cannot do with the others it does alone, so that no
+    /// Makes `steps` steps after the first `first`. A lane that cannot go on with the others goes on alone, so that no
     /// trajectory depends on its neighbours.
     fn advance(&mut self, manner: &Manner<'_>, first: u64, steps: u64) {
         let Manner { compiled, rescue, ratio, stop } = manner;

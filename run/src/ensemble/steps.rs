@@ -26,7 +26,7 @@ use crate::number::largest;
 use crate::rounding::{measured, nudge};
 
 /// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
-/// forgets everything at the end of so many steps, so that cutting a run there changes no bit.
+/// forgets everything after this number of steps, so that cutting a run there changes no bit.
 pub const STRETCH: u64 = 256;
 
 /// Steps of a system on a group.
@@ -166,7 +166,7 @@ where
         })
     }
 
-    /// What is conserved of a state.
+    /// The conserved quantities of a state.
     fn conserved(&self, state: &Numbers, scratch: &mut Scratch) -> Conserved {
         let group = self.stepper.group();
         let mut momenta = vec![0.0; state.mu.len()];

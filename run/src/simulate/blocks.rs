@@ -5,7 +5,7 @@ use std::ops::Range;
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, catalogue};
 use nalgebra::DMatrix;
 
-/// What a block of the matrix of a group element is.
+/// The kind of a block of a group element's matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A rotation of the plane.
@@ -31,7 +31,7 @@ pub enum Kind {
 pub struct Block {
     /// Its rows and columns.
     pub range: Range<usize>,
-    /// What it is.
+    /// The kind of its entries.
     pub kind: Kind,
 }
 

@@ -43,7 +43,7 @@ impl Pace {
     }
 }
 
-/// What a run asks of its steps besides.
+/// Further services that a run asks of its steps.
 pub struct Beside<'s, G: Restore> {
     /// Makes a step of another length.
     pub side: &'s SideStep<'s, G>,
@@ -53,13 +53,13 @@ pub struct Beside<'s, G: Restore> {
 
 /// A run on a group.
 pub struct March<'a, G> {
-    /// What is run.
+    /// The subject of the run.
     pub subject: &'a Subject<'a>,
     /// The group.
     pub group: &'a G,
 }
 
-/// What changes along a run.
+/// The state that changes along a run.
 struct State<'a, 'm, G: Restore> {
     /// Steps made.
     n: u64,
@@ -194,7 +194,7 @@ impl<'a, G: Restore> March<'a, G> {
         Ok(warning)
     }
 
-    /// Every so many steps the drift is looked at: at each record, or, where none are kept, at [`LOOKS`] moments.
+    /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
     fn interval(&self) -> u64 {
         let setup = self.subject.setup;
         let every = setup.every.unwrap_or(1);
@@ -204,7 +204,7 @@ impl<'a, G: Restore> March<'a, G> {
         }
     }
 
-    /// Whether the drift is looked at after so many steps.
+    /// Whether the drift is measured after this number of steps.
     fn watched(&self, n: u64) -> bool {
         n == self.subject.setup.schedule.steps || n.is_multiple_of(self.interval())
     }
@@ -322,7 +322,7 @@ impl<'a, G: Restore> March<'a, G> {
     }
 }
 
-/// What a run would need to go on from here.
+/// The data from which a run resumes here.
 fn kept<G: Restore>(state: &State<'_, '_, G>) -> Resume {
     Resume {
         step: state.n,

@@ -1,4 +1,4 @@
-//! What is on its way in a run: a state, and what makes its steps.
+//! The moving part of a run: a state, and the stepper that advances it.
 
 use std::cell::RefCell;
 
@@ -19,7 +19,7 @@ pub trait Seen {
     /// Ad\*_g μ.
     fn spatial_momentum(&self) -> DVector<f64>;
 
-    /// What is seen of the state with its numbers [nudged](nudge): μ, Ad\*_g μ, and the energy if it is known.
+    /// Observations of the state with its numbers [nudged](nudge): μ, Ad\*_g μ, and the energy if it is known.
     fn nudged(&self, energy: Option<&Energy>) -> (DVector<f64>, DVector<f64>, Option<f64>);
 
     /// The energy.
@@ -88,7 +88,7 @@ pub trait Mover<G: Group>: Seen {
     /// Puts a state in place of the one that there is; `own` are the numbers that [`Mover::own`] gave of it.
     fn place(&mut self, phase: Phase<G>, own: Option<Vec<f64>>);
 
-    /// Makes steps of the grid, so many after the first so many. The state that comes of them does not depend on how many
+    /// Makes `count` steps of the grid after the first `first`. The state that comes of them does not depend on how many
     /// are made at a time.
     ///
     /// # Errors
@@ -182,7 +182,7 @@ where
 pub struct ByPrograms<'a, 's, G: Restore, C> {
     compiled: &'a Compiled,
     interpreter: &'a Interpreter<'s, G, C>,
-    /// What is said of a step that there is not, and of the state before it.
+    /// Adds advice to the error of a refused step, given the state before it.
     advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
     state: Numbers,
     /// The same μ as the state's.

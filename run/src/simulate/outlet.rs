@@ -1,4 +1,4 @@
-//! What a run hands out on its way.
+//! The interface by which a run hands out its records.
 
 use super::blocks::Block;
 use super::recorder::{Drift, Moment, Scales, Tally};
@@ -7,7 +7,7 @@ use super::recorder::{Drift, Moment, Scales, Tally};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Halt;
 
-/// What is known of a run before its first step.
+/// The facts known of a run before its first step.
 #[derive(Clone, Copy, Debug)]
 pub struct Begun<'a> {
     /// The blocks of the group's matrices that records hold.
@@ -61,7 +61,7 @@ pub struct Standing<'a> {
     pub state: &'a dyn Fn() -> Resume,
 }
 
-/// What takes records, and is asked now and then whether to go on. What it does not care for it leaves out.
+/// Takes records, and is asked now and then whether to go on. Every method has a default that does nothing.
 pub trait Outlet {
     /// Where to go on, if not from the start: asked once, before anything else. `blocks` are those of the group's
     /// matrices.
@@ -102,7 +102,7 @@ pub trait Outlet {
     /// Something that the user should know at once.
     fn warn(&mut self, _text: &str) {}
 
-    /// What takes long now, before the first step; `None` when it is done.
+    /// The slow phase before the first step; `None` when it is done.
     fn phase(&mut self, _what: Option<&str>) {}
 }
 

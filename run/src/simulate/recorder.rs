@@ -1,4 +1,4 @@
-//! What is watched of a run: its state, and the largest drift of every invariant.
+//! The watch over a run: its state, and the largest drift of every invariant.
 
 use coadjoint::Phase;
 use coadjoint_codegen::lie::LieAlgebra;
@@ -15,7 +15,7 @@ use crate::engine::{Energy, Group, STEEP};
 use crate::number::{largest, maximum};
 use crate::rounding::measured;
 
-/// What is measured at a moment.
+/// The measurements at a moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// H_red(μ), plus V(g) where there is a potential; none where no energy is known.
@@ -33,16 +33,16 @@ pub struct Solver {
     pub max_residual: f64,
 }
 
-/// What a run has come to.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Steps made.
     pub steps: u64,
     /// The time reached.
     pub time: f64,
-    /// What the user should know of the run.
+    /// Warnings about the run.
     pub warnings: Vec<Warning>,
-    /// What made the steps, where they are programs.
+    /// The backends that made the steps, where they are programs.
     pub backend: Option<Used>,
     /// The momentum at the end.
     pub momentum: Vec<f64>,
@@ -81,7 +81,7 @@ impl Unknown {
     }
 }
 
-/// What is watched of a run.
+/// The quantities watched in a run.
 #[derive(Clone, Copy)]
 pub struct Watched<'a> {
     /// The algebra.
@@ -97,7 +97,7 @@ pub struct Watched<'a> {
 }
 
 impl Watched<'_> {
-    /// The drifts that there are not, with so many Casimirs.
+    /// Drifts that are all unknown, with this number of Casimirs.
     fn unknown(&self, casimirs: usize) -> Unknown {
         let potential = self.symmetries.is_some();
         let spatial = match self.symmetries {
@@ -198,7 +198,7 @@ impl<'a, G: Group> Recorder<'a, G> {
         if self.watched.attitude { &self.blocks } else { &[] }
     }
 
-    /// What a run is begun with.
+    /// The facts a run begins with.
     pub fn begun(&self) -> Begun<'_> {
         Begun {
             blocks: self.recorded(),
@@ -208,10 +208,10 @@ impl<'a, G: Group> Recorder<'a, G> {
         }
     }
 
-    /// Takes note of how the solves of so many steps went: the most iterations of one, and the largest residual.
+    /// Takes note of how the solves of some steps went: the most iterations of one, and the largest residual.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
         self.tally.iterations = self.tally.iterations.max(u64::from(iterations));
         let most = maximum(self.tally.residual.unwrap_or(0.0), residual);
@@ -233,7 +233,7 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Measures the moment of this time, and takes its drift into account.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn visit(&mut self, time: f64, state: &dyn Seen) -> Result<Moment, String> {
         let moment = self.measure(state)?;
         let drifts = moment.drift.numbers();
@@ -251,7 +251,7 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Measures this moment. A quantity has a drift until rounding of the state hides it.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn measure(&self, state: &dyn Seen) -> Result<Moment, String> {
         for (name, value) in self.watched.coordinates.iter().zip(state.momentum().iter()) {
             finite(&format_args!("the momentum {name}"), *value)?;

@@ -21,7 +21,7 @@ pub struct Setup {
     pub every: Option<u64>,
     /// Times recorded besides.
     pub at: Option<Times>,
-    /// What evaluates the programs of a step.
+    /// The backend that evaluates the programs of a step.
     pub backend: Backend,
     /// μ at the start.
     pub momentum: DVector<f64>,

@@ -56,7 +56,7 @@ impl<S: AsRef<Derived>> Single<S> {
         Ok(Self { system, group, step, compiled })
     }
 
-    /// What makes the steps.
+    /// The backend that makes the steps.
     pub fn backend(&self) -> String {
         let maker = |compiled: &Compiled| compiled.code().maker().to_owned();
         self.compiled.as_ref().map_or_else(|| "interpreter".to_owned(), maker)
@@ -86,7 +86,7 @@ impl<S: AsRef<Derived>> Single<S> {
         Ok(if far { found } else { matrix.to_vec() })
     }
 
-    /// Makes so many steps of the state with this matrix, row by row, and this momentum, in place. The matrix is not
+    /// Makes `steps` steps of the state with this matrix, row by row, and this momentum, in place. The matrix is not
     /// checked.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What is run, whatever makes its steps.
+//! The subject of a run, whatever makes its steps.
 
 use std::path::Path;
 
@@ -9,12 +9,12 @@ use super::warning::Warning;
 /// A run as its driver knows it: of a system, or of a learned map.
 #[derive(Clone)]
 pub struct Subject<'a> {
-    /// What the system is called in messages.
+    /// The name of the system in messages.
     pub file: &'a Path,
     /// From where, how far, in which steps.
     pub setup: &'a Setup,
-    /// What is watched.
+    /// The quantities watched.
     pub watched: Watched<'a>,
-    /// What is known to be worth telling before the first step.
+    /// Warnings known before the first step.
     pub warnings: Vec<Warning>,
 }

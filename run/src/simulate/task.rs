@@ -56,7 +56,7 @@ impl Derived {
         }
     }
 
-    /// What is watched in a run.
+    /// The quantities watched in a run.
     pub fn watched(&self) -> Watched<'_> {
         let symmetries = self.forces.as_ref().map(|forces| forces.symmetries.as_slice());
         let problem = &self.integrator.problem;
@@ -64,7 +64,7 @@ impl Derived {
         Watched { algebra, coordinates, energy: Some(&self.energy), attitude: true, symmetries }
     }
 
-    /// What makes a run, in a few words.
+    /// The method of a run, in a few words.
     pub fn label(&self) -> String {
         let problem = &self.integrator.problem;
         let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
@@ -78,7 +78,7 @@ impl Derived {
     }
 }
 
-/// What is run.
+/// The subject of the run.
 #[derive(Clone, Copy)]
 struct Task<'a> {
     system: &'a Derived,
@@ -180,7 +180,7 @@ fn at_start(source: StepError) -> RunError {
     RunError::Step { time: 0.0, source }
 }
 
-/// What the solve leaves of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
+/// The residual of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
 /// the step itself reports an estimate. NaN where anything is NaN.
 fn residual<G: Restore, C: Chart<G>>(
     step: &Interpreter<'_, G, C>,

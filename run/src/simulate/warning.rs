@@ -1,4 +1,4 @@
-//! What a user should know of a run that went to its end.
+//! Warnings about a run that went to its end.
 
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ pub struct Steep {
     pub ratio: f64,
 }
 
-/// What a user should know of a run.
+/// A warning about a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warning {
     /// The series hardly converges.

@@ -20,7 +20,7 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 const SLACK: f64 = 1e-6;
 /// Steps between two rows at most: beyond, the bound on what rounding does says nothing.
 const FARTHEST: u64 = 100_000;
-/// Up to so many steps the bounds on what rounding does are multiplied; over more of them that says nothing.
+/// The bounds on rounding are multiplied up to this number of steps; over more of them they say nothing.
 const PROVEN: u64 = 3;
 /// Where rounding may do more than this, relative to the numbers, nothing is said of them.
 const VAGUE: f64 = 1e-3;
@@ -39,7 +39,7 @@ pub struct Follower<'a> {
     told: &'a dyn Fn(u64),
 }
 
-/// Rows of a file that stand for all of them: so many, evenly spread, the last among them.
+/// The number of rows of a file that stand for all of them: evenly spread, the last among them.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// How many rows are judged.
@@ -61,7 +61,7 @@ impl Sample {
 /// A state of a file.
 type State = (Vec<f64>, Option<Vec<f64>>);
 
-/// What stops the judge of a step.
+/// A reason for which the judge of a step stops.
 enum Trouble {
     /// The step is wrong.
     Wrong(String),
@@ -182,7 +182,7 @@ impl<'a> Follower<'a> {
         Ok(found)
     }
 
-    /// What the file says of its end must be true.
+    /// Checks the statements of the file about its end.
     fn judge_end<T: Rows>(&self, table: &T, rows: u64, found: &mut Found) {
         found.part = table.value("part").map(str::to_owned);
         if let Some(said) = table.value("complete").and_then(|text| text.split(' ').next())
@@ -239,7 +239,7 @@ impl<'a> Follower<'a> {
         Ok(found)
     }
 
-    /// From one state to another in so many steps, and one more of another size if that is not 0.
+    /// From one state to another in `steps` steps, and one more of another size if that is not 0.
     fn judge_row(
         &self,
         place: &str,
@@ -306,7 +306,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// What must be conserved from one state to another by this motion. Rounding is relative to numbers that may be
+    /// Checks the quantities that this motion conserves from one state to another. Rounding is relative to numbers that may be
     /// larger on the way than what is left of them, by as much as the group's element stretches.
     fn judge_invariants(
         &self,
@@ -366,7 +366,7 @@ fn compare(
     let over = |error: f64, size: f64, bound: f64| match error {
         0.0 => Ok(0.0),
         _ if !(bound <= VAGUE) => {
-            Err(format!("rounding may do as much as {bound:.1e} in so many steps"))
+            Err(format!("rounding may do as much as {bound:.1e} in that many steps"))
         }
         error => Ok(error / (size * bound)),
     };

@@ -1,8 +1,8 @@
-//! What was found.
+//! The findings.
 
 use serde_json::{Map, Value, json};
 
-/// What was found.
+/// The findings.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// Rows that were reached from another.
@@ -25,9 +25,9 @@ pub struct Found {
     pub unjudged: u64,
     /// Why the first of them could not.
     pub why: Option<String>,
-    /// What the file says of its end, where it is a part.
+    /// The statement of the file about its end, where it is a part.
     pub part: Option<String>,
-    /// What is wrong with the first wrong row.
+    /// The defect of the first wrong row.
     pub wrong: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What a row must have in common with the row before: Casimirs and the spatial momentum; and its energy.
+//! The quantities a row shares with the row before: Casimirs and the spatial momentum; and its energy.
 
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, watched_casimirs};
 use coadjoint_codegen::poly::Polynomial;
@@ -8,7 +8,7 @@ use num_traits::ToPrimitive;
 
 use crate::engine::FloatPolynomial;
 
-/// What is conserved may drift by this much a step, relative to the sum of the absolute values of its terms.
+/// The drift allowed a step, relative to the sum of the absolute values of the invariant's terms.
 pub const DRIFT: f64 = 64.0 * f64::EPSILON;
 
 /// The invariants of a problem, computed from its exact data.
@@ -100,7 +100,7 @@ impl Factor {
         let element = DMatrix::from_fn(self.size, self.size, entry);
         let mu = DVector::from_column_slice(mu.get(self.first..self.first + self.dim)?);
         let inverse = element.clone().try_inverse()?;
-        // What rounding of g leaves of g⁻¹, entry by entry.
+        // The error of g⁻¹ from rounding g, entry by entry.
         let (size, back) = (element.abs(), inverse.abs());
         let rounded = &back * &size * &back;
         // Column j: the coordinates of Ad_{g⁻¹} e_j, and the sums of the absolute values of their terms.

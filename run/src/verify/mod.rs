@@ -32,7 +32,7 @@ pub trait Rows {
     /// Where it cannot be read.
     fn next_row(&mut self) -> Result<Option<Vec<f64>>, Self::Error>;
 
-    /// What is said under this name.
+    /// The entry of this name.
     fn value(&self, name: &str) -> Option<&str>;
 
     /// The numbers that are said under this name.
@@ -48,7 +48,7 @@ pub fn judge_of(file: &Path, problem: &Problem) -> Result<Judge, RunError> {
         .map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
 }
 
-/// What follows a motion in steps of this size, by the judge.
+/// A follower of a motion in steps of this size, by the judge.
 ///
 /// # Errors
 /// Where the step makes no sense.

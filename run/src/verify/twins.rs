@@ -25,7 +25,7 @@ pub struct Twins {
     turned: f64,
 }
 
-/// What rounding may do in many steps, relative to momentum and element.
+/// The bounds on rounding over many steps, relative to momentum and element.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     pub momentum: f64,
@@ -76,13 +76,13 @@ impl Twins {
             let turned = ratio((matrix(twin, end.element.len()) - &whole).norm(), whole.norm());
             self.growth = larger(self.growth, apart / *nearest);
             self.turned = larger(self.turned, turned / *nearest);
-            // What rounding leaves of a small distance is not one.
+            // A distance within rounding does not count.
             *nearest = if apart < *nearest { apart.max(BESIDE * 1e-3) } else { *nearest };
         }
         Ok(())
     }
 
-    /// What rounding may have done so far, for an element whose matrix and its inverse have norms with this product.
+    /// The bounds on rounding so far, for an element whose matrix and its inverse have norms with this product.
     pub fn bounds(&self, condition: f64) -> Bounds {
         Bounds {
             momentum: SAFETY * self.growth * self.momentum,

@@ -21,7 +21,7 @@ pub enum ElementError {
     Determinant {
         /// The determinant found.
         determinant: f64,
-        /// What the group asks of it.
+        /// The group's requirement.
         required: &'static str,
     },
     /// The columns are not orthonormal.
@@ -48,9 +48,9 @@ pub enum ElementError {
         row: usize,
         /// Column, counted from 0.
         column: usize,
-        /// What the group has there.
+        /// The group's value there.
         expected: f64,
-        /// What was given.
+        /// The value given.
         found: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! What a Lie group must offer: one trait, implemented once per group.
+//! The trait of Lie groups, implemented once per group.
 
 pub(crate) mod element_error;
 pub(crate) mod heisenberg;

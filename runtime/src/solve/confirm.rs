@@ -19,7 +19,7 @@ const SAME: f64 = 1e-6;
 /// How many times as large as p and μ, weighed with Hess S, the terms may be from which p is summed.
 const CANCELLED: f64 = 2.0;
 
-/// What is found of x: p = (d^R τ_x)ᵀ μ, whether x = ∂S(p) to rounding and the tolerance, and whether
+/// The findings at x: p = (d^R τ_x)ᵀ μ, whether x = ∂S(p) to rounding and the tolerance, and whether
 /// ‖∂p/∂x·Hess S‖ < 1, so that s ∂S∘p has no fold or fork at x for any s from 0 to 1.
 struct Findings<S: GeneratingFunction + ?Sized> {
     p: VectorOf<S>,

@@ -49,7 +49,7 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
         found.x = x.select(open, &found.x);
         found.moved = moved.select(open, found.moved);
         found.residual = left.select(open, found.residual);
-        // What is far from its guess is not going to be accepted; what is not a number neither.
+        // A point far from its guess will not be accepted, nor will NaN.
         open = open & !done & moved.simd_le(near) & left.simd_le(ScalarOf::<S>::of(f64::MAX));
         if open.none() {
             break;

@@ -83,7 +83,7 @@ pub struct Candidate<V, T> {
 /// A candidate for a step of `S`.
 pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
-/// What driving programs came to.
+/// The outcome of driving programs.
 #[derive(Clone, Debug)]
 pub struct Driven<V, T> {
     /// Steps made.
@@ -96,7 +96,7 @@ pub struct Driven<V, T> {
     pub refused: Option<Candidate<V, T>>,
 }
 
-/// What driving the programs of `S` came to.
+/// The outcome of driving the programs of `S`.
 pub type DrivenOf<S> = Driven<VectorOf<S>, ScalarOf<S>>;
 
 impl<V, T: Scalar> Driven<V, T> {

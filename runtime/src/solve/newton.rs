@@ -17,7 +17,7 @@ pub const MAX_ITERATIONS: u32 = 20;
 /// (tried by the program `stress`); beyond it, what is left is measured by another correction.
 const TRUSTED: f64 = 1e-3;
 
-/// What is left is told by shrinking steps down to this share of the estimate (tried by the program `stress`).
+/// Shrinking steps show the residual down to this share of the estimate (tested by the program `stress`).
 const BELOW_ESTIMATE: f64 = 1.0 / 64.0;
 
 /// The solution from this guess. A correction leaves about |μ| |δx|²/3 from the chart and |μ| |S‴ δp δp|/2 from S; from
@@ -63,7 +63,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let left = left.simd_min(relative).select(relative.simd_le(tolerance), left);
         previous = Some(relative + of(f64::from(f32::MIN_POSITIVE)));
         way += relative;
-        // What is far from its guess is not going to be accepted; what is not a number neither.
+        // A point far from its guess will not be accepted, nor will NaN.
         let open = left.simd_gt(tolerance) & way.simd_le(of(NEAR));
         if open.none() || iterations == MAX_ITERATIONS {
             return Candidate { x, moved: way, residual: left, iterations };

@@ -1,4 +1,4 @@
-//! What may be chosen about the solve of a step.
+//! The options of the solve of a step.
 
 use crate::number::scalar::Scalar;
 

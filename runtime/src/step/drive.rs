@@ -27,7 +27,7 @@ use crate::step::numbers::ElementNumbers;
 /// drift by rounding, to be the same in all of them.
 pub const BLOCK: u64 = 256;
 
-/// What may be left of the equation of a solved step, relative to the largest coordinate of μ, in units of rounding.
+/// The largest residual of a solved step, relative to the largest coordinate of μ, in units of rounding.
 const ROUNDINGS: f64 = 4.0;
 
 /// Numbers that programs compute with, `C` being the type of their coefficients.
@@ -68,14 +68,14 @@ pub trait Programs<C, const N: usize, const M: usize, const K: usize, const SLOT
         x: &[T; N],
     ) -> ([T; M], [T; N]);
 
-    /// The state moved on by the comoving frame of so many steps.
+    /// The state moved on by the comoving frame of `times` steps.
     fn frame<T: Number<C>>(c: &[C; SLOTS], g: &[T; M], mu: &[T; N], times: T) -> ([T; M], [T; N]);
 
     /// 1 if the state is finite and on the group, else 0.
     fn sound<T: Number<C>>(c: &[C; SLOTS], g: &[T; M], mu: &[T; N]) -> T;
 }
 
-/// Makes up to so many steps by the programs `P`, over lanes as long as all of them are right; `phase` is then the state
+/// Makes up to `steps` steps by the programs `P`, over lanes as long as all of them are right; `phase` is then the state
 /// after the last one made.
 #[inline(always)]
 pub fn drive<P, S, const N: usize, const M: usize, const K: usize, const SLOTS: usize>(
@@ -105,7 +105,7 @@ where
     driven
 }
 
-/// Up to so many steps, the frame and the check; whether all of them were made.
+/// Makes up to `length` steps, the frame and the check; returns whether all of them were made.
 #[inline(always)]
 fn block<P, T, const N: usize, const M: usize, const K: usize, const SLOTS: usize>(
     c: &[T; SLOTS],
@@ -189,7 +189,7 @@ where
             found.left = left.select(open, found.left);
             found.way = way.select(open, found.way);
         }
-        // What is far from its guess is not going to be accepted; what is not a number neither.
+        // A point far from its guess will not be accepted, nor will NaN.
         open = open & !found.left.simd_le(tolerance) & found.way.simd_le(near);
         if open.none() {
             break;

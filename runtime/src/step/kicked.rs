@@ -61,7 +61,7 @@ where
     /// its own, which may be negative; it is called once for each different length needed.
     ///
     /// # Errors
-    /// What `flow` returns.
+    /// The error of `flow`.
     pub fn new(
         step: ScalarOf<S>,
         torque: F,

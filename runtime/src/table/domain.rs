@@ -79,7 +79,7 @@ enum Agreement {
     None,
 }
 
-/// What the entry c at (k, j) of a matrix brings to its product with ad_b: −½ tr A B, or ½ ⟨skew A, skew B⟩.
+/// The contribution of the entry c at (k, j) of a matrix to its product with ad_b: −½ tr A B, or ½ ⟨skew A, skew B⟩.
 const fn share(n: usize, ad: &[f64], exact: bool, b: usize, j: usize, k: usize, c: f64) -> f64 {
     let same = ad[(b * n + k) * n + j];
     let crossed = ad[(b * n + j) * n + k];

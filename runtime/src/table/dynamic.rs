@@ -412,7 +412,7 @@ fn forms(
     (elliptic, cayley)
 }
 
-/// What [`domain::elliptic_form`] writes where no ideal is looked for, without the matrices ad_i: ½ ‖½(A − Aᵀ)‖² plus
+/// The form of [`domain::elliptic_form`] without a search for ideals and without the matrices ad_i: ½ ‖½(A − Aᵀ)‖² plus
 /// the square of the trace.
 fn large_form(dim: usize, structure: &[StructureConstant], form: &mut [f64]) {
     let mut traces = vec![0.0; dim];
@@ -462,7 +462,7 @@ fn gram(basis: &[DMatrix<f64>]) -> Result<(DMatrix<f64>, f64), TableError> {
 /// The entries of a matrix that are not zero, with their places column by column.
 type Entries = Vec<(usize, f64)>;
 
-/// The inverse Gram matrix of matrices with so many rows, which must be independent.
+/// The inverse Gram matrix of matrices of this size, which must be independent.
 fn gram_inverse(matrices: &[Entries], rows: usize) -> Result<DMatrix<f64>, TableError> {
     let dim = matrices.len();
     let dot = |a: &Entries, b: &[f64]| a.iter().map(|&(at, value)| value * b[at]).sum::<f64>();

@@ -72,7 +72,7 @@ impl<A, const N: usize, const D: usize, T> Debug for StaticTables<A, N, D, T> {
     }
 }
 
-/// What follows from a matrix basis and costs something to find out: found by the compiler.
+/// Facts that follow from a matrix basis and are costly: evaluated by the compiler.
 struct Derived<const N: usize> {
     gram_inverse: [[f64; N]; N],
     diagonal: bool,

@@ -4,7 +4,7 @@ use core::ops::IndexMut;
 
 use crate::number::scalar::Scalar;
 
-/// What the functions below need of a square matrix.
+/// The operations of a square matrix that the functions below need.
 pub trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}
 impl<T, M: Clone + IndexMut<(usize, usize), Output = T>> Square<T> for M {}
 

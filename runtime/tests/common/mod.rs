@@ -1,4 +1,4 @@
-//! What the group tests share: random vectors, and the laws of one group.
+//! Helpers that the group tests share: random vectors, and the laws of one group.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
 use coadjoint::{Coordinates, LieGroup, groups::CayleyGroup};

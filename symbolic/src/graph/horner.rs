@@ -125,7 +125,7 @@ pub(super) fn monomial(graph: &mut Graph, factors: &[(u32, u32)]) -> Option<Id> 
     product
 }
 
-/// What all terms have in common.
+/// The common factor of all terms.
 fn content(terms: &[SlotTerm]) -> Vec<(u32, u32)> {
     let Some((first, rest)) = terms.split_first() else { return Vec::new() };
     let mut content = first.factors.clone();

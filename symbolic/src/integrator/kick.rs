@@ -11,7 +11,7 @@ use crate::potential::Potential;
 /// coefficients as slots. The coefficients hold no power of the step size.
 #[derive(Clone, Debug)]
 pub struct Kick {
-    /// What was asked for.
+    /// The potential.
     pub potential: Potential,
     /// The coefficients of the torque and of the potential.
     pub coefficients: Coefficients,

@@ -121,7 +121,7 @@ pub struct DefectTerm {
     pub degree: u32,
 }
 
-/// What [`Gradient::with_hessian`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
+/// The part that [`Gradient::with_hessian`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
 /// |p| being the Euclidean norm.
 pub fn defect(
     coefficients: &mut Coefficients,

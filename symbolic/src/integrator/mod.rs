@@ -25,7 +25,7 @@ use crate::problem::{Problem, Solver};
 /// Programs read momenta as inputs and folded coefficients as slots.
 #[derive(Clone, Debug)]
 pub struct Integrator {
-    /// What was asked for.
+    /// The system.
     pub problem: Problem,
     /// S₁ … S_K.
     pub series: GeneratingSeries,

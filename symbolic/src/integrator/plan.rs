@@ -28,7 +28,7 @@ impl Predictor {
     }
 }
 
-/// What surrounds the exact gradient in a step. None of it changes the map, only its cost: the
+/// The choices around the exact gradient in a step. None of them changes the map, only its cost: the
 /// solve goes on until rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
@@ -134,7 +134,8 @@ impl Plan {
         if flows {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
-            for &degree in if best_guess { &degrees[possible.saturating_sub(1)..] } else { degrees } {
+            for &degree in if best_guess { &degrees[possible.saturating_sub(1)..] } else { degrees }
+            {
                 let program =
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
@@ -186,7 +187,7 @@ const COARSE: usize = 5;
 /// Corrections of x for one gradient, measured on SE(3).
 const CORRECTIONS: usize = 3;
 
-/// What steps cost, in operations.
+/// The cost of steps, in operations.
 struct Costs {
     solver: Solver,
     truncation: usize,

@@ -283,7 +283,7 @@ impl Step<'_> {
         }
     }
 
-    /// What rounding in double precision leaves of x − ∂S(p̂).
+    /// The part of x − ∂S(p̂) that is rounding in double precision.
     fn noise(&self, x: &[f64]) -> f64 {
         let Ok((p, _)) = self.geometry.pull_back_derivative(x, &self.double) else {
             return f64::INFINITY;

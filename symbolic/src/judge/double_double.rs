@@ -64,7 +64,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// What the nearest double leaves over.
+    /// The remainder after the nearest double.
     #[must_use]
     pub fn remainder(self) -> f64 {
         self.lo

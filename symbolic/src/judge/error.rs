@@ -1,4 +1,4 @@
-//! What keeps the judge from judging.
+//! The errors that keep the judge from judging.
 
 use crate::hamilton_jacobi::DeriveError;
 use crate::lie::ChartError;
@@ -24,7 +24,7 @@ pub enum JudgeError {
     /// A vector or a matrix has the wrong number of entries.
     #[error("{what} has {found} entries in place of {expected}")]
     Length {
-        /// What was given.
+        /// The value given.
         what: &'static str,
         /// Its number of entries.
         found: usize,
@@ -34,7 +34,7 @@ pub enum JudgeError {
     /// A number that must be finite is not.
     #[error("{what} is not finite")]
     NotFinite {
-        /// What was given.
+        /// The value given.
         what: &'static str,
     },
     /// A number leaves the range of doubles, or a sum loses more digits than doubled precision has to spare.

@@ -146,7 +146,7 @@ impl Plan {
         by_degree.into_iter().map(|(d, (g, h))| (d, norm(&g), norm(&h))).collect()
     }
 
-    /// What measures the gradient of the polynomial with these coefficients, of which many are zero.
+    /// A bound on the gradient of the polynomial with these coefficients, of which many are zero.
     pub(super) fn part(&self, coefficients: &[f64]) -> Part {
         let entries = self.first.iter().filter(|first| coefficients[first.monomial] != 0.0);
         let entries = entries

@@ -121,7 +121,7 @@ impl Series {
         let step = if self.counted { Wide::one() } else { Wide::of(step) };
         let powers: Vec<Wide> = (0..=largest).map(|k| step.power(k)).collect();
         let count = self.monomials.len();
-        // What cancels (in a spherical body, say) must not leave roundings of a double's size.
+        // Terms that cancel (in a spherical body, say) must not leave roundings of a double's size.
         let [mut exact, mut last, mut before] =
             [(); 3].map(|()| vec![DoubleDouble::default(); count]);
         let mut size = vec![0.0; count];

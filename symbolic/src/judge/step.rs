@@ -107,7 +107,7 @@ impl Step<'_> {
         self.at(x).ok()?.series_ratio(unit)
     }
 
-    /// What the residual at x may be, where p̂ and the terms of ∂S there are known; and ‖Hess S‖ there.
+    /// The bound on the residual at x, where p̂ and the terms of ∂S there are known; and ‖Hess S‖ there.
     pub(super) fn bound(&self, x: &[f64], p: &[f64], terms: &[f64], unit: f64) -> (f64, f64) {
         let hessian = self.hessian_norm(p);
         let momenta = norm(p) + norm(&self.double);
@@ -117,7 +117,7 @@ impl Step<'_> {
         (bound, hessian)
     }
 
-    /// What of x = ∂S(p̂) is lost where numbers next to nothing are so far apart.
+    /// The error of x = ∂S(p̂) where numbers near zero are spaced this far apart.
     pub(super) fn spaced(&self, n: usize, hessian: f64, spacing: f64) -> f64 {
         let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
         16.0 * n as f64 * spacing * (1.0 + unscaled)

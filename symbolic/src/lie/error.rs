@@ -1,4 +1,4 @@
-//! What can be wrong with the data of a Lie algebra.
+//! The errors in the data of a Lie algebra.
 
 use crate::number::Rational;
 

@@ -70,7 +70,7 @@ impl LieAlgebra {
                 row: rows.iter().copied().min().unwrap_or(if none { first } else { 0 }),
                 last_row: rows.iter().copied().max().unwrap_or(if none { last } else { 0 }),
             };
-            // What overlaps belongs together.
+            // Overlapping blocks are merged.
             while let Some(before) = blocks.pop_if(|before| {
                 before.last_element >= block.element || before.last_row >= block.row
             }) {

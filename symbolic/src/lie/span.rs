@@ -46,7 +46,7 @@ impl Span {
         rest.is_empty().then(|| used.into_iter().collect())
     }
 
-    /// What is left of a matrix after subtracting rows, and the combination subtracted.
+    /// The remainder of a matrix after subtracting rows, and the combination subtracted.
     fn reduce(&self, matrix: &RationalMatrix) -> (Vector, BTreeMap<usize, Rational>) {
         let mut rest: Vector = matrix.entries().map(|(i, j, v)| ((i, j), v.clone())).collect();
         let mut used = BTreeMap::new();

@@ -20,7 +20,7 @@ pub(crate) struct Packing {
 }
 
 impl Packing {
-    /// None if there are so many variables that fewer than four bits remain for each.
+    /// `None` for more variables than leave four bits for each.
     pub(crate) fn new(variables: usize) -> Option<Self> {
         let width = match variables {
             0 => 32,

@@ -160,7 +160,7 @@ impl Polynomial {
         }
     }
 
-    /// The same polynomial in so many variables, where it has fewer.
+    /// The same polynomial in `variables` variables, where it has fewer.
     #[must_use]
     pub fn widened(&self, variables: usize) -> Cow<'_, Self> {
         if variables <= self.variables {

@@ -1,4 +1,4 @@
-//! What a potential leaves conserved.
+//! The quantities that a potential leaves conserved.
 
 use std::collections::BTreeMap;
 

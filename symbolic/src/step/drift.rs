@@ -38,7 +38,7 @@ impl Drift {
     }
 }
 
-/// What is conserved, at one state; empty or `None` where nothing is known.
+/// The conserved quantities at one state; empty or `None` where nothing is known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conserved {
     /// The spatial momentum, or its components that are conserved.

@@ -112,7 +112,7 @@ impl Angle {
     }
 }
 
-/// What a function is for.
+/// The use of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
     /// The equation of a step, or what it conserves.
@@ -122,7 +122,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// What may be left out, relative to the first term.
+    /// The truncation error allowed, relative to the first term.
     pub fn left_out(self) -> f64 {
         match self {
             Self::Rounding => ROUNDING,

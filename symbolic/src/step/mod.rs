@@ -182,7 +182,7 @@ impl Step {
         self.group.inverted()
     }
 
-    /// What the numbers of a group element are, in words; those of factors one after the other.
+    /// A description of the numbers of a group element; those of factors one after the other.
     #[must_use]
     pub fn element_about(&self) -> String {
         self.group.about()

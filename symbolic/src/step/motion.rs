@@ -41,7 +41,7 @@ fn cayley_factor(graph: &mut Graph, omega: &V3) -> Id {
     graph.div(one, below)
 }
 
-/// What (d^R cay)ᵀ (Π, Γ) = (P, Q) is built of: Q = (1 + ω̂/2)⁻¹ Γ, r = ¼ Q×ω − ½ Q, s = Π + v×r,
+/// The parts of (d^R cay)ᵀ (Π, Γ) = (P, Q): Q = (1 + ω̂/2)⁻¹ Γ, r = ¼ Q×ω − ½ Q, s = Π + v×r,
 /// P = f·(s + ½ s×ω), f = 1/(1 + |ω|²/4).
 struct CayleyParts {
     f: Id,

@@ -58,7 +58,7 @@ pub trait Part: std::fmt::Debug + Send + Sync {
     /// The matrix of g.
     fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix;
 
-    /// What the numbers of an element are, in words.
+    /// A description of the numbers of an element.
     fn about(&self) -> String;
 
     /// The numbers of the element with this matrix, row by row.

@@ -22,7 +22,6 @@ const OF_OTHERS: f64 = 1.0 / 3.0;
 /// Corrections at most.
 const CORRECTIONS: u32 = 12;
 
-
 pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }

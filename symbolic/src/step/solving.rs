@@ -8,10 +8,10 @@ use super::vector::{Eliminated, Matrix, dot, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 
-/// What may be left of the equation, relative to the largest coordinate of μ, in units of rounding.
+/// The largest residual accepted, relative to the largest coordinate of μ, in units of rounding.
 pub const ROUNDINGS: f64 = 4.0;
 
-/// What may be left of the equation, relative to the largest coordinate of μ.
+/// The largest residual accepted, relative to the largest coordinate of μ.
 pub fn tolerance(graph: &mut Graph) -> Id {
     let (unit, many) = (graph.epsilon(), graph.constant(ROUNDINGS));
     graph.mul(many, unit)
@@ -20,7 +20,7 @@ pub fn tolerance(graph: &mut Graph) -> Id {
 /// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
 const TRUSTED: f64 = 1e-3;
 
-/// What the derivative of a chart may leave out for Newton's method, and where chords mend it.
+/// The truncation allowed in a chart's derivative for Newton's method, and where chords correct it.
 const NEWTON: f64 = 1e-10;
 const CHORD: f64 = 1e-3;
 
@@ -58,7 +58,7 @@ impl Scheme {
         }
     }
 
-    /// What the derivative of a chart may leave out, relative to it.
+    /// The truncation allowed in a chart's derivative, relative to it.
     pub fn slope(self) -> f64 {
         match self {
             Self::Newton => NEWTON,
@@ -200,7 +200,7 @@ fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
     graph.mul(square, quarter)
 }
 
-/// What is left: the estimate where the way from the place of the matrices is short, else the correction itself; the
+/// The residual bound: the estimate where the distance from the matrices' point is short, else the correction itself; the
 /// smaller of both where the correction is below rounding.
 fn left(graph: &mut Graph, (estimate, relative, way): (Id, Id, Id)) -> Id {
     let (trusted, tolerance) = (graph.constant(TRUSTED), tolerance(graph));

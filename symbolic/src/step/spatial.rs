@@ -13,7 +13,7 @@ pub struct Spatial {
     inverted: Vec<(usize, usize)>,
 }
 
-/// What is reused from one momentum to the next.
+/// Memory reused from one momentum to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     inputs: Vec<f64>,

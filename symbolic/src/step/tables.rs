@@ -11,7 +11,7 @@ use crate::step::vector::{Matrix, dot, finite, largest, solve};
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
 const REACH: f64 = std::f64::consts::FRAC_PI_2;
 
-/// What series may leave out: below rounding.
+/// The truncation allowed in series: below rounding.
 const ROUNDING: f64 = 1e-17;
 
 /// The entries of a matrix that are not 0, as (row, column, value).
@@ -29,7 +29,7 @@ pub struct Tables {
     basis: Vec<Entries>,
     /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ; none for adjoint matrices in the exponential chart, which need none.
     dual: Vec<Entries>,
-    /// What the derivative of φ may leave out.
+    /// The truncation allowed in the derivative of φ.
     slope: f64,
     /// Whether elements are orthogonal matrices.
     orthogonal: bool,

@@ -4,7 +4,7 @@ use crate::graph::{Graph, Id};
 use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, finite};
 
-/// The translations of so many dimensions. They commute, so that μ stays, both charts are the same, and a step may be of any
+/// The translations of n dimensions. They commute, so that μ stays, both charts are the same, and a step may be of any
 /// length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Translations {

@@ -1,4 +1,4 @@
-//! What the terms S_j would do to a run from a given state if they were left out: to first order,
+//! The effect on a run from a given state of leaving out the terms S_j: to first order,
 //! by the variational equations.
 //!
 //! A step whose generating function lacks t^j S_j is, to leading order, the exact flow followed by
@@ -16,7 +16,7 @@ use super::field::{Brackets, Gradient, largest, spectral_radius};
 /// The most steps of the equations; a longer run is taken to go on in proportion.
 const MOST_STEPS: usize = 20_000;
 
-/// What was seen along a run.
+/// The observations along a run.
 #[derive(Clone, Debug)]
 pub(super) struct Along {
     /// max ‖∂S_j‖ in the sense of [`rate`], for each j asked for.

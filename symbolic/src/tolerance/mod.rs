@@ -35,7 +35,7 @@ const MOST_STEPS: f64 = 1e10;
 /// K = 3 a tolerance of 1e-14 needs about 1e-4 of it.
 const SMALLEST: f64 = 1e-6;
 
-/// What is wanted.
+/// The accuracy wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// The error at the end of a run: of the momentum relative to its largest coordinate, of the
@@ -51,7 +51,7 @@ pub struct Target {
     pub truncation: Option<usize>,
 }
 
-/// What was picked.
+/// The choice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// The tolerance asked for.
@@ -84,7 +84,7 @@ impl fmt::Display for Choice {
     }
 }
 
-/// What a step was limited by.
+/// The limit of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bound {
@@ -168,7 +168,7 @@ pub enum ToleranceError {
         steps: f64,
         /// The time in which the group turns by 1.5 rad; infinite if it does not.
         scale: f64,
-        /// What the step is limited by.
+        /// The limit of the step.
         bound: Bound,
         /// Whether it was found along a run, not over a region.
         along_run: bool,

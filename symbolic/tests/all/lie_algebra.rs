@@ -1,4 +1,4 @@
-//! What is checked when a Lie algebra is built, and the charts it has.
+//! The checks when a Lie algebra is built, and the charts it has.
 
 use coadjoint_symbolic::lie::{
     Chart, ChartError, LieAlgebra, LieAlgebraError, RationalMatrix, catalogue,

@@ -1,2 +1,2 @@
-//! What the compiler says about mistakes under the attributes: `tests/ui` has a program and the expected messages for
+//! The compiler's messages for mistakes under the attributes: `tests/ui` has a program and the expected messages for
 //! each.

@@ -1,4 +1,4 @@
-//! What the compiler says about mistakes. `TRYBUILD=overwrite` rewrites the expected messages.
+//! The compiler's messages for mistakes. `TRYBUILD=overwrite` rewrites the expected messages.
 
 #[test]
 fn mistakes_are_reported_in_the_users_words() {

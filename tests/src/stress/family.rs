@@ -1,4 +1,4 @@
-//! What is stressed: families of systems, each with exact series and judges made once.
+//! The families of systems under stress, each with exact series and judges made once.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub struct Model {
 
 /// A Hamiltonian with its parameters.
 pub struct System {
-    /// What it is, for messages.
+    /// A description for messages.
     pub text: String,
     /// ∂H/∂μ.
     pub velocity: Vec<Polynomial>,

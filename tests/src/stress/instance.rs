@@ -15,10 +15,10 @@ const RAYS: usize = 16;
 const LONGEST: f64 = 10.0;
 /// Steps with less h|μ|/I, I the least moment of inertia, must be accepted where that is promised.
 const PROMISED: f64 = 1.5;
-/// One in so many right x is made wrong, to try the judge.
+/// One in this number of right x is made wrong, to test the judge.
 const SPOILT: usize = 64;
 
-/// What is being judged, for messages.
+/// The case being judged, for messages.
 struct Case<'a> {
     family: &'a str,
     seed: u64,
@@ -303,7 +303,7 @@ fn judge_increment(
     None
 }
 
-/// What is wrong with an x by itself.
+/// The defect of an x by itself.
 fn fault(point: &Point<'_>, inside: Inside, unit: f64) -> Option<(Wrong, String)> {
     let residual = point.residual(unit);
     if residual.relative() > 1.0 {

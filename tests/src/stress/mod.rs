@@ -18,7 +18,7 @@ use std::time::Instant;
 
 use family::Family;
 
-/// What to run.
+/// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Steps to make, about.
@@ -84,7 +84,7 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
 /// Families in the order of their instances, each as often as its weight says, spread evenly.
 fn schedule(families: &[Family], options: &Options) -> Vec<usize> {
     if options.even || options.instance.is_some() {
-        // What takes longest goes first, or it is waited for at the end.
+        // The longest family goes first, or all wait for it at the end.
         let mut order: Vec<_> = (0..families.len()).collect();
         order.sort_by_key(|&family| families[family].weight);
         return order;

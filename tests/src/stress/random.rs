@@ -35,7 +35,7 @@ impl Random {
         (self.bits() % count.max(1) as u64) as usize
     }
 
-    /// True in one of so many cases.
+    /// True in one of `count` cases.
     pub fn one_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
     }

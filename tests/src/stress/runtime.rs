@@ -39,7 +39,7 @@ impl State {
     }
 }
 
-/// What came of some steps.
+/// The outcome of some steps.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The state before.

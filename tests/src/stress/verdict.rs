@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// What can be wrong with a step.
+/// A way in which a step can be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wrong {
     /// It does not solve its equation.
@@ -41,7 +41,7 @@ pub const KINDS: [(Wrong, &str); 10] = [
     (Wrong::Missed, "missed"),
 ];
 
-/// What came of the steps of one family.
+/// The outcome of the steps of one family.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// Steps that were accepted.

@@ -67,7 +67,7 @@ impl Subject {
         Phase::<MatrixGroup>::new(self.group.exp(&x), mu)
     }
 
-    /// Makes so many steps of a state.
+    /// Makes `steps` steps of a state.
     fn advance(
         &self,
         stepper: &dyn Stepper,

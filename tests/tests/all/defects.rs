@@ -1,4 +1,4 @@
-//! What was once wrong in the library: steps that solved nothing, and more. Each is refused, or right.
+//! Regression tests of defects in the library: steps that solved nothing, and more. Each is refused, or right.
 
 #![allow(clippy::unwrap_used)]
 

@@ -1,6 +1,6 @@
 //! Steps on graphics cards: as texts, compiled without a card, and run on this processor by OpenCL (pocl).
 //!
-//! What needs OpenCL or NVIDIA's compiler says so and passes where there is none; with `COADJOINT_REQUIRE_TOOLS=1` it
+//! A test that needs OpenCL or NVIDIA's compiler says so and passes where there is none; with `COADJOINT_REQUIRE_TOOLS=1` it
 //! fails. `COADJOINT_BLESS=1` rewrites the golden files.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -361,7 +361,7 @@ fn the_texts_compile_for_cards_without_a_card() {
         let spilt = compiled.log.lines().find(|line| line.contains("spill")).unwrap_or_default();
         eprintln!("{}: {} ({})", ready.name, said.trim(), spilt.trim());
     }
-    // What does not compile says why in one line.
+    // The error of a kernel that does not compile is one line.
     let error = compile(list[0].kernel(), &list[0].slots, "sm_1").unwrap().unwrap_err();
     assert!(error.contains("arch") && !error.contains('\n'), "{error}");
 }

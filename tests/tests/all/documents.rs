@@ -52,7 +52,7 @@ fn links(page: &str) -> Vec<(String, String)> {
     parts.map(|(file, heading)| (file.to_owned(), heading.to_owned())).collect()
 }
 
-/// What links call the headings of a page.
+/// The anchors of a page's headings.
 fn headings(page: &str) -> Vec<String> {
     let prose = prose(page);
     let titles = prose.lines().filter(|line| line.starts_with('#'));
@@ -125,6 +125,47 @@ fn every_defect_has_its_test() {
         count += 1;
     }
     assert!(count > 50, "{count}");
+}
+
+/// Every file of Rust, outside folders of builds.
+fn sources() -> Vec<PathBuf> {
+    let (mut folders, mut sources) = (vec![root()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy();
+            if path.is_dir() {
+                let skipped = name.starts_with('.') || name == "target" || name == "node_modules";
+                folders.extend((!skipped).then_some(path));
+            } else if name.ends_with(".rs") {
+                sources.push(path);
+            }
+        }
+    }
+    sources
+}
+
+/// A comment begins with its subject: no more than 20 begin with "What".
+#[test]
+fn comments_begin_with_their_subject() {
+    let sources = sources();
+    assert!(sources.len() > 300, "{}", sources.len());
+    let (mut what, mut many) = (Vec::new(), Vec::new());
+    for path in sources {
+        let text = fs::read_to_string(&path).unwrap();
+        for (number, line) in text.lines().enumerate() {
+            let Some(comment) = line.trim_start().strip_prefix("//") else { continue };
+            let place = || format!("{}:{}: {line}", path.display(), number + 1);
+            if comment.trim_start_matches(['/', '!', ' ']).starts_with("What ") {
+                what.push(place());
+            }
+            if comment.contains(" so many ") {
+                many.push(place());
+            }
+        }
+    }
+    assert!(what.len() <= 20, "{what:#?}");
+    assert!(many.is_empty(), "{many:#?}");
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub fn opening(
     text.replace("/*VERSION*/", env!("CARGO_PKG_VERSION"))
 }
 
-/// Lines of at most so many columns; a line that begins with a space stays as it is.
+/// Lines of limited width; a line that begins with a space stays as it is.
 fn wrapped(paragraph: &str) -> Vec<String> {
     if paragraph.starts_with(' ') {
         return vec![paragraph.to_owned()];

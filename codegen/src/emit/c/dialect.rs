@@ -10,7 +10,7 @@ use super::names::Names;
 /// The dialect of headers.
 #[derive(Clone, Debug)]
 pub struct Portable {
-    /// What it is based on.
+    /// The header of C it is based on.
     pub c: C,
     /// The place of each coefficient that is read.
     pub places: BTreeMap<usize, usize>,

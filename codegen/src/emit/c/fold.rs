@@ -47,7 +47,7 @@ fn read(programs: &[&Program]) -> BTreeSet<usize> {
 }
 
 impl Fold {
-    /// What the programs of `step` read.
+    /// The coefficients that the programs of `step` read.
     ///
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].

@@ -69,7 +69,7 @@ static inline double @p@_internal_radius(const double *last, const double *befor
 }
 ";
 
-/// What the function says of itself.
+/// The documentation of the function.
 pub const ABOUT: &str = "
 /**
  * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or

@@ -44,7 +44,7 @@ pub enum Language {
 pub struct HeaderOptions {
     /// The language.
     pub language: Language,
-    /// What all names begin with; see [`prefix`].
+    /// The prefix of all names; see [`prefix`].
     pub prefix: String,
     /// The unit of time, for comments.
     pub time: Option<String>,

@@ -15,7 +15,7 @@ const KEYWORDS: &str = " alignas alignof and and_eq asm auto bitand bitor bool b
     switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void volatile \
     wchar_t while xor xor_eq asm fortran linux unix errno stdin stdout stderr near far small interface ";
 
-/// What the names of a system's header begin with: `rigid_body` for `rigid-body` and `RigidBody`'s words alike.
+/// The prefix of the names in a system's header: `rigid_body` for `rigid-body` and for `RigidBody`.
 #[must_use]
 pub fn prefix(name: &str) -> String {
     let name = identifier(name).to_lowercase();
@@ -50,9 +50,9 @@ fn is_macro(name: &str) -> bool {
 /// The names of a header.
 #[derive(Debug)]
 pub struct Names {
-    /// What functions and types begin with.
+    /// The prefix of functions and types.
     pub lower: String,
-    /// What macros and constants begin with.
+    /// The prefix of macros and constants.
     pub upper: String,
     /// The class of C++.
     pub class: String,

@@ -15,7 +15,7 @@ pub struct LastTerm {
     pub order: usize,
     /// The degree of its gradient.
     pub degree: u32,
-    /// What its coefficient counts with: a bound on the gradient over the unit sphere.
+    /// The weight of its coefficient: a bound on the gradient over the unit sphere.
     pub weight: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::problem::{FrameChoice, Solver};
 const KEYS: [&str; 6] = ["group", "truncation", "chart", "solver", "frame", "crate"];
 const OWNER: &str = "#[lie_poisson(…)]";
 
-/// What the arguments say; `None` where it was missing or wrong, which is reported.
+/// The values of the arguments; `None` where one was missing or wrong, which is reported.
 pub(super) struct Arguments {
     pub algebra: Option<LieAlgebra>,
     pub truncation: Option<usize>,

@@ -16,7 +16,7 @@ use crate::problem::Shape;
 pub(super) struct Callable {
     parameters: Vec<Pat>,
     body: Expr,
-    /// What was visible where it was written. (A function sees items only; the compiler checks.)
+    /// The names visible where it was written. (A function sees items only; the compiler checks.)
     scopes: Scopes,
 }
 

@@ -121,7 +121,7 @@ impl Function {
     }
 }
 
-/// What the user wrote, as far as the compiler tells.
+/// The user's source text, as far as the compiler tells.
 fn source(statement: &syn::Stmt) -> String {
     let tokens = statement.to_token_stream();
     let text = match Span::of(statement) {

@@ -9,7 +9,7 @@ use crate::diagnostic::{Mistake, Span};
 use crate::expr::Node;
 use crate::problem::{Parameter, Shape};
 
-/// What a function is of, besides the parameters: its first argument.
+/// The first argument of a function, besides the parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Variable {
     /// The momentum, an array or a vector.
@@ -42,7 +42,7 @@ impl Variable {
     }
 }
 
-/// What the signature says.
+/// The contents of the signature.
 pub(super) struct Signature {
     /// The shape of the first argument, the names of its entries, and where; `None` if it is not
     /// usable.

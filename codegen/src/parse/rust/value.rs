@@ -1,4 +1,4 @@
-//! What the variables of a function hold while it is read.
+//! The values of a function's variables while it is read.
 
 use std::rc::Rc;
 
@@ -29,7 +29,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// What it is, for messages.
+    /// A description for messages.
     pub(super) fn kind(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",

@@ -12,7 +12,7 @@ pub struct FormulaError {
     pub line: usize,
     /// The formula as written.
     pub formula: String,
-    /// What the reader of LaTeX says.
+    /// The error of the LaTeX parser.
     pub reason: String,
 }
 

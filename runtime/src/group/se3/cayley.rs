@@ -13,7 +13,7 @@ fn resolve<T: Scalar>(omega: &V<T>, y: &V<T>) -> V<T> {
     y + cross(y, omega) * T::of(0.5) + omega * (dot(omega, y) * T::of(0.25))
 }
 
-/// What (d^R cay)ᵀ (Π, Γ) = (P, Q) is built of: Q = (1 + ω̂/2)⁻¹ Γ, r = ¼ Q×ω − ½ Q,
+/// The parts of (d^R cay)ᵀ (Π, Γ) = (P, Q): Q = (1 + ω̂/2)⁻¹ Γ, r = ¼ Q×ω − ½ Q,
 /// s = Π + v×r, P = f·(s + ½ s×ω), f = 1/(1 + |ω|²/4).
 struct Parts<T: Scalar> {
     f: T,

@@ -24,9 +24,9 @@ pub enum CatalogueError {
     Syntax {
         /// The whole text.
         text: String,
-        /// What could stand there.
+        /// The alternatives there.
         expected: &'static str,
-        /// What stands there.
+        /// The text there.
         found: String,
     },
     /// The group has too many dimensions.
@@ -34,7 +34,7 @@ pub enum CatalogueError {
     TooLarge {
         /// The name.
         name: String,
-        /// What is limited.
+        /// The quantity limited.
         what: &'static str,
         /// The limit.
         limit: usize,
@@ -46,7 +46,7 @@ pub enum CatalogueError {
         group: String,
         /// The space.
         space: String,
-        /// What could be written instead.
+        /// A replacement.
         instead: String,
     },
 }

@@ -1,6 +1,6 @@
-//! What the groups of the catalogue are, in a few words.
+//! Descriptions of the groups of the catalogue, in a few words.
 
-/// What a group of the catalogue is, by its name in the form of [`names`](super::names): without
+/// The description of a group of the catalogue, by its name in the form of [`names`](super::names): without
 /// parentheses. `None` for products and for unknown names.
 ///
 /// ```

@@ -138,7 +138,7 @@ impl Module {
         if proper(&fixed) {
             return Some(fixed);
         }
-        // What one vector generates.
+        // The ideal that one vector generates.
         let mut looked = 0;
         for start in 0..self.dim {
             let mut space = Subspace::default();
@@ -283,7 +283,7 @@ impl Module {
             .all(|matrix| matrix.entries().all(|(i, j, value)| matrix.get(j, i) == -value))
     }
 
-    /// What acts as zero.
+    /// The vectors that act as zero.
     pub(super) fn kernel(&self) -> Subspace {
         let mut conditions: BTreeMap<(usize, usize), Vector> = BTreeMap::new();
         for (index, matrix) in self.matrices.iter().enumerate() {

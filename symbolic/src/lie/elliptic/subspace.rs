@@ -27,7 +27,7 @@ impl Subspace {
         self.rows.keys().copied().collect()
     }
 
-    /// What is left of a vector modulo the subspace: zero at every pivot.
+    /// The remainder of a vector modulo the subspace: zero at every pivot.
     pub(super) fn reduced(&self, vector: &Vector) -> Vector {
         let mut rest = vector.clone();
         for (at, value) in vector {
@@ -56,7 +56,7 @@ impl Subspace {
         true
     }
 
-    /// What all rows annihilate in ℚⁿ.
+    /// The annihilator of all rows in ℚⁿ.
     pub(super) fn annihilator(&self, n: usize) -> Self {
         let mut result = Self::default();
         for free in (0..n).filter(|at| !self.rows.contains_key(at)) {
