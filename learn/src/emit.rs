@@ -64,11 +64,8 @@ pub fn exact_polynomial(model: &PolynomialModel) -> Result<Polynomial, LearnErro
 /// [`LearnError::UnknownGroup`] and [`LearnError::NoChart`] for names out of the catalogue.
 pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
     let Model::Polynomial(model) = &file.model else {
-        return Err(LearnError::InvalidOption {
-            option: "model",
-            value: file.model.name().into(),
-            requirement: "only polynomial models can be emitted as code".into(),
-        });
+        let requirement = "only polynomial models can be emitted as code";
+        return Err(LearnError::option("model", file.model.name(), requirement));
     };
     let algebra = catalogue::lookup(&file.group).map_err(|e| LearnError::UnknownGroup {
         name: file.group.clone(),

@@ -1,7 +1,7 @@
 //! Everything that can go wrong in learning, with what to do about it.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why data could not be read, reduced, fitted, saved or loaded.
 #[derive(Debug, thiserror::Error)]
@@ -165,6 +165,25 @@ pub enum LearnError {
 }
 
 impl LearnError {
+    /// An option out of its range.
+    pub(crate) fn option(
+        option: &'static str,
+        value: impl fmt::Display,
+        requirement: impl Into<String>,
+    ) -> Self {
+        Self::InvalidOption { option, value: value.to_string(), requirement: requirement.into() }
+    }
+
+    /// Names the file for an error of the system.
+    pub(crate) fn file(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        move |source| Self::File { path: path.into(), source }
+    }
+
+    /// A file that is not in its format.
+    pub(crate) fn format(path: &Path, format: &'static str, reason: impl fmt::Display) -> Self {
+        Self::Format { path: path.into(), format, reason: reason.to_string() }
+    }
+
     /// Whether the mistake is in what was given (a file, an option), not in a computation.
     #[must_use]
     pub fn is_input(&self) -> bool {

@@ -41,25 +41,8 @@ impl<M: MomentumFunction + ?Sized> MomentumFunction for &M {
     }
 }
 
-impl<M: MomentumFunction + ?Sized> MomentumFunction for Box<M> {
-    fn dim(&self) -> usize {
-        (**self).dim()
-    }
-
-    fn value(&self, p: &[f64]) -> f64 {
-        (**self).value(p)
-    }
-
-    fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
-        (**self).gradient(p, gradient);
-    }
-
-    fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
-        (**self).gradient_and_hessian(p, gradient, hessian);
-    }
-}
-
-/// The function factor · f; with factor = Δt and f = H it is the trivial answer S = Δt·H.
+/// The function factor · f: with factor = Δt and f = H the trivial answer S = Δt·H, with factor = 0 that of the identity
+/// map.
 #[derive(Clone, Copy, Debug)]
 pub struct Scaled<M> {
     /// The factor.
@@ -85,32 +68,6 @@ impl<M: MomentumFunction> MomentumFunction for Scaled<M> {
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         self.function.gradient_and_hessian(p, gradient, hessian);
         gradient.iter_mut().chain(hessian).for_each(|entry| *entry *= self.factor);
-    }
-}
-
-/// The zero function; as a generating function it makes the identity map, the answer "x = 0, μ″ = μ′".
-#[derive(Clone, Copy, Debug)]
-pub struct Zero {
-    /// n, the number of coordinates.
-    pub dim: usize,
-}
-
-impl MomentumFunction for Zero {
-    fn dim(&self) -> usize {
-        self.dim
-    }
-
-    fn value(&self, _p: &[f64]) -> f64 {
-        0.0
-    }
-
-    fn gradient(&self, _p: &[f64], gradient: &mut [f64]) {
-        gradient.fill(0.0);
-    }
-
-    fn gradient_and_hessian(&self, _p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
-        gradient.fill(0.0);
-        hessian.fill(0.0);
     }
 }
 

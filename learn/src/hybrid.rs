@@ -2,31 +2,18 @@
 
 use nalgebra::DMatrix;
 
-use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::function::MomentumFunction;
 use crate::model::Model;
-use crate::network::{Progress, TrainingOptions, fit_network_to_gradients};
+use crate::network::{Progress, TrainingOptions, fit_network};
 use crate::polynomial::fit_gradients;
 
-/// Fits a polynomial of total degree `degree`, then a network to the normalised residual.
+/// Fits a polynomial of total degree `degree` to the gradients of a function at points, a sample per column, then a
+/// network to the normalised residual; also returns the network's loss after every evaluation.
 ///
 /// # Errors
-/// As [`fit_gradients`] and [`fit_network_to_gradients`].
+/// As [`fit_gradients`] and [`fit_network`].
 pub fn fit_hybrid(
-    data: &ReducedData,
-    degree: usize,
-    options: &TrainingOptions,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<(Model, Vec<f64>), LearnError> {
-    fit_hybrid_to_gradients(&data.p, &data.x, degree, options, progress)
-}
-
-/// As [`fit_hybrid`], for any function f of which ∂f/∂p is known at points: a sample per column.
-///
-/// # Errors
-/// As [`fit_hybrid`].
-pub fn fit_hybrid_to_gradients(
     points: &DMatrix<f64>,
     gradients: &DMatrix<f64>,
     degree: usize,
@@ -42,6 +29,6 @@ pub fn fit_hybrid_to_gradients(
             rest[(j, i)] -= s;
         }
     }
-    let (network, history) = fit_network_to_gradients(points, &rest, None, options, progress)?;
+    let (network, history) = fit_network(points, &rest, None, options, progress)?;
     Ok((Model::Hybrid { polynomial, network }, history))
 }

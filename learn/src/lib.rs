@@ -44,7 +44,6 @@ mod evaluate;
 mod function;
 mod gaussian_process;
 mod group;
-mod hamiltonian;
 mod hybrid;
 mod least_squares;
 mod model;
@@ -60,13 +59,12 @@ pub mod truth;
 pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
-pub use function::{Generating, MomentumFunction, Scaled, Zero};
+pub use function::{Generating, MomentumFunction, Scaled};
 pub use gaussian_process::{
     GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
 };
 pub use group::{DataGroup, matrix_of};
-pub use hamiltonian::fit_hamiltonian;
-pub use hybrid::{fit_hybrid, fit_hybrid_to_gradients};
+pub use hybrid::fit_hybrid;
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
 pub use npy::{NpyError, NpyHeader, npy_header};

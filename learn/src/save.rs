@@ -75,8 +75,8 @@ impl ModelFile {
     /// # Errors
     /// [`LearnError::File`] when the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), LearnError> {
-        let fail = |source| LearnError::File { path: path.into(), source };
-        file::write(path, &[], self.text().map_err(fail)?.as_bytes()).map_err(fail)
+        let fail = LearnError::file(path);
+        file::write(path, &[], self.text().map_err(&fail)?.as_bytes()).map_err(fail)
     }
 
     /// The model as JSON, as [`ModelFile::save`] writes it.
@@ -98,7 +98,7 @@ impl ModelFile {
                 path: path.into(),
                 reason: "it is not a text file; models are JSON".into(),
             },
-            _ => LearnError::File { path: path.into(), source },
+            _ => LearnError::file(path)(source),
         })?;
         Self::of_text(path, &text)
     }

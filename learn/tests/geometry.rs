@@ -126,9 +126,10 @@ fn trained_networks<G: DataGroup, C: Chart<G>>(group: &G, train: &ReducedData) {
         lbfgs_steps: 60,
         ..Default::default()
     };
-    let (network, _) = fit_network(train, &options, &mut |_| {}).unwrap();
+    let (network, _) = fit_network(&train.p, &train.x, None, &options, &mut |_| {}).unwrap();
     keeps_the_geometry::<G, C>(group, "trained network", &network);
-    let (hybrid, _) = coadjoint_learn::fit_hybrid(train, 2, &options, &mut |_| {}).unwrap();
+    let (hybrid, _) =
+        coadjoint_learn::fit_hybrid(&train.p, &train.x, 2, &options, &mut |_| {}).unwrap();
     keeps_the_geometry::<G, C>(group, "trained hybrid", &hybrid);
 }
 

@@ -32,10 +32,10 @@ fn plain_and_hybrid_networks_reach_their_bars() {
     let group = SO3::new();
     let (_, train) = sample(200, 1);
     let (rows, test) = sample(100, 2);
-    let (network, _) = fit_network(&train, &small(), &mut |_| {}).unwrap();
+    let (network, _) = fit_network(&train.p, &train.x, None, &small(), &mut |_| {}).unwrap();
     let plain = evaluate(&Generating::<_, Cayley, _>::new(group, &network), &group, &rows, &test);
     assert!(plain.mse.x.unwrap() <= 1e-6 && plain.mse.momentum.unwrap() <= 1e-5, "{plain:?}");
-    let (hybrid, _) = fit_hybrid(&train, 2, &small(), &mut |_| {}).unwrap();
+    let (hybrid, _) = fit_hybrid(&train.p, &train.x, 2, &small(), &mut |_| {}).unwrap();
     let hybrid = evaluate(&Generating::<_, Cayley, _>::new(group, &hybrid), &group, &rows, &test);
     assert!(hybrid.mse.x.unwrap() <= plain.mse.x.unwrap() / 20.0, "{hybrid:?}");
 }
@@ -44,10 +44,10 @@ fn plain_and_hybrid_networks_reach_their_bars() {
 fn the_same_seed_gives_the_same_bits() {
     let (_, train) = sample(50, 1);
     let options = TrainingOptions { adam_steps: 20, lbfgs_steps: 20, ..small() };
-    let once = fit_network(&train, &options, &mut |_| {}).unwrap();
-    assert_eq!(once, fit_network(&train, &options, &mut |_| {}).unwrap());
+    let once = fit_network(&train.p, &train.x, None, &options, &mut |_| {}).unwrap();
+    assert_eq!(once, fit_network(&train.p, &train.x, None, &options, &mut |_| {}).unwrap());
     let other = TrainingOptions { seed: 1, activation: Activation::Logistic, ..options };
-    assert_ne!(once, fit_network(&train, &other, &mut |_| {}).unwrap());
+    assert_ne!(once, fit_network(&train.p, &train.x, None, &other, &mut |_| {}).unwrap());
 }
 
 /// A training interrupted in the middle of Adam ends with the bits of one that was not. (The same
@@ -57,14 +57,16 @@ fn training_goes_on_from_a_checkpoint() {
     let (_, train) = sample(50, 1);
     let path = std::env::temp_dir().join(format!("coadjoint-neural-{}", std::process::id()));
     let plain = TrainingOptions { adam_steps: 80, lbfgs_steps: 60, ..small() };
-    let whole = fit_network(&train, &plain, &mut |_| {}).unwrap();
+    let whole = fit_network(&train.p, &train.x, None, &plain, &mut |_| {}).unwrap();
     let kept = TrainingOptions { checkpoint: Some(path.clone()), ..plain };
     let interrupted = std::panic::catch_unwind(|| {
-        fit_network(&train, &kept, &mut |now| assert!(now.step < 70, "killed"))
+        fit_network(&train.p, &train.x, None, &kept, &mut |now| assert!(now.step < 70, "killed"))
     });
     assert!(interrupted.is_err() && path.exists());
     let mut first = None;
-    let again = fit_network(&train, &kept, &mut |now| first = first.or(Some(now.step))).unwrap();
+    let again =
+        fit_network(&train.p, &train.x, None, &kept, &mut |now| first = first.or(Some(now.step)))
+            .unwrap();
     assert_eq!((again, first), (whole, Some(50)));
     std::fs::remove_file(path).unwrap();
 }

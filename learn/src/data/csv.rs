@@ -10,21 +10,15 @@ use crate::error::LearnError;
 
 /// Reads a CSV file; cells may have blanks around them, and columns that are not ours any text.
 pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
-    let format = |e: ::csv::Error| LearnError::Format {
-        path: path.into(),
-        format: "CSV",
-        reason: e.to_string(),
-    };
-    check_table(path).map_err(|source| LearnError::File { path: path.into(), source })?;
+    let format = |e: ::csv::Error| LearnError::format(path, "CSV", e);
+    check_table(path).map_err(LearnError::file(path))?;
+    let file = file::open_whole(path).map_err(LearnError::file(path))?;
     let mut reader =
-        ::csv::ReaderBuilder::new().trim(::csv::Trim::All).comment(Some(b'#')).from_reader(
-            file::open_whole(path)
-                .map_err(|source| LearnError::File { path: path.into(), source })?,
-        );
+        ::csv::ReaderBuilder::new().trim(::csv::Trim::All).comment(Some(b'#')).from_reader(file);
     let names: Vec<String> = reader.headers().map_err(format)?.iter().map(Into::into).collect();
     if !names.is_empty() && names.iter().all(|name| name.parse::<f64>().is_ok()) {
         let reason = "the first line holds numbers; it must name the columns: mu_1, mu_2 …";
-        return Err(LearnError::Format { path: path.into(), format: "CSV", reason: reason.into() });
+        return Err(LearnError::format(path, "CSV", reason));
     }
     let ours = |name: &str| ["mu_", "g_", "q_"].iter().any(|start| name.starts_with(start));
     let mut values = vec![Vec::new(); names.len()];

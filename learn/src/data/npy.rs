@@ -1,6 +1,5 @@
 //! NumPy files: `.npz` with named arrays, `.npy` with one plain matrix.
 
-use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
@@ -17,22 +16,34 @@ struct Array {
     values: Vec<f64>,
 }
 
+impl Array {
+    /// Its columns, one for each name.
+    fn columns(&self, names: Vec<String>) -> impl Iterator<Item = (String, Vec<f64>)> {
+        let width = names.len();
+        let column = move |c: usize| self.values.iter().skip(c).step_by(width).copied().collect();
+        names.into_iter().enumerate().map(move |(c, name)| (name, column(c)))
+    }
+}
+
 /// Reads a `.npz` file. An array of shape (N,) is the column of its name; an array `mu` of shape
 /// (N, n) is the columns `mu_1` … `mu_n`; an array `g` of shape (N, d, d) is `g_11` … `g_dd`; an
 /// array `q` of shape (N, 4) is `q_w`, `q_x`, `q_y`, `q_z`. The same with `_next`.
 pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
-    let file = open(path)?;
-    let mut archive = ZipArchive::new(BufReader::new(file)).map_err(|e| damaged(path, &e))?;
+    let file = file::open_whole(path).map_err(LearnError::file(path))?;
+    let mut archive =
+        ZipArchive::new(BufReader::new(file)).map_err(|e| LearnError::format(path, "NumPy", e))?;
     let mut names = Vec::new();
     for index in 0..archive.len() {
-        let entry = archive.by_index(index).map_err(|e| damaged(path, &e))?;
+        let entry = archive.by_index(index).map_err(|e| LearnError::format(path, "NumPy", e))?;
         let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
         names.extend(name.strip_suffix(".npy").map(String::from));
     }
     names.sort();
     let mut columns = Vec::new();
     for name in names {
-        let entry = archive.by_name(&format!("{name}.npy")).map_err(|e| damaged(path, &e))?;
+        let entry = archive
+            .by_name(&format!("{name}.npy"))
+            .map_err(|e| LearnError::format(path, "NumPy", e))?;
         // The size in the archive bounds what is read; the array must agree with it.
         let total = entry.size();
         let array = read_array(path, entry, total)?;
@@ -45,8 +56,8 @@ pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
 /// after the step, then nothing, or the attitude before and after as matrices row by row
 /// (2d² columns), or as quaternions w, x, y, z (8 columns). `dim` and `size` are n and d.
 pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, LearnError> {
-    let file = open(path)?;
-    let total = file.metadata().map_err(|source| unread(path, source))?.len();
+    let file = file::open_whole(path).map_err(LearnError::file(path))?;
+    let total = file.metadata().map_err(LearnError::file(path))?.len();
     let array = read_array(path, BufReader::new(file), total)?;
     let width = array.shape.get(1).copied().unwrap_or(0);
     let mut names = numbered("mu", dim);
@@ -67,23 +78,7 @@ pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, 
             return Err(LearnError::Shape { what, expected: 2 * dim, found: width });
         }
     }
-    let columns = names
-        .into_iter()
-        .enumerate()
-        .map(|(c, name)| (name, array.values.iter().skip(c).step_by(width).copied().collect()));
-    Columns::new(columns)
-}
-
-fn open(path: &Path) -> Result<File, LearnError> {
-    file::open_whole(path).map_err(|source| unread(path, source))
-}
-
-fn unread(path: &Path, source: std::io::Error) -> LearnError {
-    LearnError::File { path: path.into(), source }
-}
-
-fn damaged(path: &Path, error: &dyn std::fmt::Display) -> LearnError {
-    LearnError::Format { path: path.into(), format: "NumPy", reason: error.to_string() }
+    Columns::new(array.columns(names))
 }
 
 /// Bytes read at a time.
@@ -92,13 +87,14 @@ const PIECE: usize = 1 << 16;
 /// Reads an array of 64- or 32-bit floats that has `total` bytes with its header. Memory grows with
 /// what is there, not with what is claimed.
 fn read_array(path: &Path, mut reader: impl Read, total: u64) -> Result<Array, LearnError> {
-    let header = NpyHeader::read(&mut reader, total).map_err(|e| damaged(path, &e))?;
+    let header =
+        NpyHeader::read(&mut reader, total).map_err(|e| LearnError::format(path, "NumPy", e))?;
     let mut missing = header.count() * header.width;
     let mut values = Vec::new();
     let mut piece = vec![0; PIECE.min(missing)];
     while missing > 0 {
         let take = piece.len().min(missing);
-        reader.read_exact(&mut piece[..take]).map_err(|e| damaged(path, &e))?;
+        reader.read_exact(&mut piece[..take]).map_err(|e| LearnError::format(path, "NumPy", e))?;
         header.decode(&piece[..take], &mut values);
         missing -= take;
     }
@@ -132,10 +128,7 @@ fn spread(name: &str, array: &Array, columns: &mut Vec<(String, Vec<f64>)>) {
         ([_, rows, width], _) if rows == width => matrix(name, *rows),
         _ => return,
     };
-    let width = names.len();
-    for (c, name) in names.into_iter().enumerate() {
-        columns.push((name, array.values.iter().skip(c).step_by(width).copied().collect()));
-    }
+    columns.extend(array.columns(names));
 }
 
 /// `mu_1` … `mu_n`.

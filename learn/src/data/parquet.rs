@@ -19,13 +19,8 @@ use crate::error::LearnError;
 
 /// Reads every column of numbers; others are left out.
 pub(super) fn read(path: &Path) -> Result<Columns, LearnError> {
-    let format = |e: ParquetError| LearnError::Format {
-        path: path.into(),
-        format: "Parquet",
-        reason: e.to_string(),
-    };
-    let file =
-        file::open_whole(path).map_err(|source| LearnError::File { path: path.into(), source })?;
+    let format = |e: ParquetError| LearnError::format(path, "Parquet", e);
+    let file = file::open_whole(path).map_err(LearnError::file(path))?;
     let reader = SerializedFileReader::new(file).map_err(format)?;
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     for row in reader.get_row_iter(None).map_err(format)? {

@@ -24,8 +24,8 @@ pub fn read_columns(path: &Path, dim: usize, matrix_size: usize) -> Result<Colum
         Some("parquet") => super::parquet::read(path)?,
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => {
-            let reason = "this build cannot read it; build with --features parquet".into();
-            return Err(LearnError::Format { path: path.into(), format: "Parquet", reason });
+            let reason = "this build cannot read it; build with --features parquet";
+            return Err(LearnError::format(path, "Parquet", reason));
         }
         _ => return Err(LearnError::UnknownFormat { path: path.into() }),
     };

@@ -12,21 +12,13 @@ use coadjoint::Phase;
 
 /// Attitudes as they stand in a file: a sample per column.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Attitudes {
-    /// Matrices, row by row: d² rows.
-    Matrices {
-        /// The attitudes g′ before.
-        before: DMatrix<f64>,
-        /// The attitudes g″ after.
-        after: DMatrix<f64>,
-    },
-    /// Unit quaternions w, x, y, z: 4 rows.
-    Quaternions {
-        /// The attitudes g′ before.
-        before: DMatrix<f64>,
-        /// The attitudes g″ after.
-        after: DMatrix<f64>,
-    },
+pub struct Attitudes {
+    /// Whether they are unit quaternions w, x, y, z: 4 rows; else matrices, row by row: d² rows.
+    pub quaternions: bool,
+    /// The attitudes g′ before.
+    pub before: DMatrix<f64>,
+    /// The attitudes g″ after.
+    pub after: DMatrix<f64>,
 }
 
 /// Pairs of states as recorded: momenta before and after, and attitudes if there are any.
@@ -77,18 +69,16 @@ impl Recording {
             before: gather(&numbered("mu", dim))?,
             after: gather(&numbered("mu_next", dim))?,
         };
-        let attitudes = if columns.column("g_11").is_some() {
-            Some(Attitudes::Matrices {
-                before: gather(&matrix("g", matrix_size))?,
-                after: gather(&matrix("g_next", matrix_size))?,
-            })
-        } else if columns.column("q_w").is_some() {
-            Some(Attitudes::Quaternions {
-                before: gather(&quaternion("q"))?,
-                after: gather(&quaternion("q_next"))?,
-            })
-        } else {
+        let quaternions = columns.column("g_11").is_none();
+        let attitudes = if quaternions && columns.column("q_w").is_none() {
             None
+        } else {
+            let names = |name: &str| match quaternions {
+                true => quaternion(&format!("q{name}")).to_vec(),
+                false => matrix(&format!("g{name}"), matrix_size),
+            };
+            let (before, after) = (gather(&names(""))?, gather(&names("_next"))?);
+            Some(Attitudes { quaternions, before, after })
         };
         Ok(Self { momenta, attitudes, unused })
     }
@@ -104,12 +94,10 @@ impl Recording {
         group: &G,
         tolerance: f64,
     ) -> Result<PairRows<G>, LearnError> {
-        let Some(attitudes) = &self.attitudes else { return Err(LearnError::NoAttitude) };
-        let (before, after, quaternions) = match attitudes {
-            Attitudes::Matrices { before, after } => (before, after, false),
-            Attitudes::Quaternions { before, after } => (before, after, true),
+        let Some(Attitudes { quaternions, before, after }) = &self.attitudes else {
+            return Err(LearnError::NoAttitude);
         };
-        if quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
+        if *quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
             return Err(LearnError::AttitudeForm { form: "quaternions" });
         }
         let size = group.matrix_size();
@@ -117,7 +105,7 @@ impl Recording {
             if !column.iter().all(|v| v.is_finite()) {
                 return Err(RowProblem::NonFinite);
             }
-            let (found, distance) = if let (true, &[w, x, y, z]) = (quaternions, column) {
+            let (found, distance) = if let (true, &[w, x, y, z]) = (*quaternions, column) {
                 let norm = (w * w + x * x + y * y + z * z).sqrt();
                 (group.element_of_quaternion([w, x, y, z]), (norm - 1.0).abs())
             } else {

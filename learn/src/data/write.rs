@@ -50,17 +50,15 @@ pub fn write_pairs<G: LieGroup<Scalar = f64>>(
 /// As [`write_pairs`].
 pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let format = |format, reason| LearnError::Format { path: path.into(), format, reason };
     let bytes = match ending.as_deref() {
-        Some("csv") => csv(columns).map_err(|error| format("CSV", error.to_string()))?,
-        Some("npz") => npz(columns).map_err(|error| format("NumPy", error.to_string()))?,
+        Some("csv") => csv(columns).map_err(|error| LearnError::format(path, "CSV", error))?,
+        Some("npz") => npz(columns).map_err(|error| LearnError::format(path, "NumPy", error))?,
         #[cfg(feature = "parquet")]
-        Some("parquet") => {
-            super::parquet::bytes(columns).map_err(|error| format("Parquet", error.to_string()))?
-        }
+        Some("parquet") => super::parquet::bytes(columns)
+            .map_err(|error| LearnError::format(path, "Parquet", error))?,
         _ => return Err(LearnError::UnknownFormat { path: path.into() }),
     };
-    file::write(path, &[], &bytes).map_err(|source| LearnError::File { path: path.into(), source })
+    file::write(path, &[], &bytes).map_err(LearnError::file(path))
 }
 
 /// In the shortest decimal form that reads back to the same number.

@@ -31,12 +31,8 @@ impl PoissonOptions {
     pub(crate) fn check(&self, dim: usize, samples: usize) -> Result<(), LearnError> {
         Basis::check_fit(dim, self.degree, samples)?;
         if self.degree == 0 {
-            return Err(LearnError::InvalidOption {
-                option: "degree",
-                value: "0".into(),
-                requirement: "a generating function without terms moves nothing; give 2 or more"
-                    .into(),
-            });
+            let requirement = "a generating function without terms moves nothing; give 2 or more";
+            return Err(LearnError::option("degree", 0, requirement));
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use super::descent::Descent;
 use crate::error::LearnError;
 
 /// The first field of every checkpoint.
-const FORMAT: &str = "coadjoint-checkpoint-3";
+const FORMAT: &str = "coadjoint-checkpoint-4";
 
 /// The state between two evaluations of the loss: what is being done, and all losses so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,14 +31,14 @@ pub(super) enum Stage {
     Descent(Descent),
 }
 
+/// The first line: the state but for its numbers, which follow in lists of these lengths.
 #[derive(Serialize, Deserialize)]
 struct Header {
     format: String,
     task: u64,
-    unknowns: usize,
-    evaluations: usize,
-    /// L-BFGS: the pairs it remembers, and whether it is stuck.
-    descent: Option<(usize, bool)>,
+    lengths: Vec<usize>,
+    /// Whether L-BFGS is at work, and whether it is stuck.
+    descent: Option<bool>,
 }
 
 impl State {
@@ -49,24 +49,25 @@ impl State {
 
     /// Writes the state of the task with this fingerprint.
     pub(super) fn save(&self, path: &Path, task: u64) -> Result<(), LearnError> {
-        let fail = |source| LearnError::File { path: path.into(), source };
-        let (parts, descent): (Vec<&[f64]>, _) = match &self.stage {
+        let fail = LearnError::file(path);
+        let mut lists = vec![self.history.as_slice()];
+        let descent = match &self.stage {
             Stage::Adam { weights, moments: [first, second] } => {
-                (vec![weights, first, second], None)
+                lists.extend([weights.as_slice(), first, second]);
+                None
             }
             Stage::Descent(now) => {
-                let mut parts = vec![now.weights.as_slice(), now.gradient.as_slice()];
-                parts.extend(now.pairs.iter().flatten().map(|row| row.as_slice()));
-                parts.push(std::slice::from_ref(&now.loss));
-                (parts, Some((now.pairs.len(), now.stuck)))
+                lists.push(std::slice::from_ref(&now.loss));
+                let rows = [&now.weights, &now.gradient].into_iter();
+                lists.extend(rows.chain(now.pairs.iter().flatten()).map(|row| row.as_slice()));
+                Some(now.stuck)
             }
         };
-        let (unknowns, evaluations) = (parts[0].len(), self.history.len());
-        let header = Header { format: FORMAT.into(), task, unknowns, evaluations, descent };
+        let lengths = lists.iter().map(|list| list.len()).collect();
+        let header = Header { format: FORMAT.into(), task, lengths, descent };
         let mut bytes = serde_json::to_vec(&header).map_err(|e| fail(e.into()))?;
         bytes.push(b'\n');
-        let numbers = self.history.iter().chain(parts.into_iter().flatten());
-        bytes.extend(numbers.flat_map(|v| v.to_le_bytes()));
+        bytes.extend(lists.into_iter().flatten().flat_map(|v| v.to_le_bytes()));
         bytes.extend(file::crc32(&bytes).to_le_bytes());
         file::write(path, &[], &bytes).map_err(fail)
     }
@@ -76,7 +77,7 @@ impl State {
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(source) => return Err(LearnError::File { path: path.into(), source }),
+            Err(error) => return Err(LearnError::file(path)(error)),
         };
         let fail =
             |reason: &str| LearnError::Checkpoint { path: path.into(), reason: reason.into() };
@@ -92,22 +93,22 @@ impl State {
         if header.task != task {
             return Err(fail("it belongs to other data or other options"));
         }
-        let mut rest = &bytes[end + 1..];
-        let mut take = |count: usize| {
-            let cut = count.checked_mul(8).and_then(|length| rest.split_at_checked(length));
-            let (these, after) = cut.ok_or_else(|| fail("it is cut off"))?;
-            rest = after;
-            Ok(these.as_chunks().0.iter().map(|&c| f64::from_le_bytes(c)).collect::<Vec<f64>>())
-        };
-        let n = header.unknowns;
-        let (history, weights) = (take(header.evaluations)?, take(n)?);
+        let (numbers, _) = bytes[end + 1..].as_chunks();
+        if numbers.len() != header.lengths.iter().sum::<usize>() {
+            return Err(fail("it is cut off"));
+        }
+        let mut numbers = numbers.iter().map(|&c| f64::from_le_bytes(c));
+        let mut lists = header.lengths.iter().map(|&n| numbers.by_ref().take(n).collect());
+        let mut list = || lists.next().ok_or_else(|| fail("it is cut off"));
+        let history = list()?;
         let stage = match header.descent {
-            None => Stage::Adam { weights, moments: [take(n)?, take(n)?] },
-            Some((count, stuck)) => {
-                let (weights, gradient) = (DVector::from_vec(weights), take(n)?.into());
-                let pairs = (0..count).map(|_| Ok([take(n)?.into(), take(n)?.into()]));
-                let pairs = pairs.collect::<Result<_, _>>()?;
-                Stage::Descent(Descent { weights, loss: take(1)?[0], gradient, pairs, stuck })
+            None => Stage::Adam { weights: list()?, moments: [list()?, list()?] },
+            Some(stuck) => {
+                let loss = list()?.first().copied().ok_or_else(|| fail("it has no loss"))?;
+                let (weights, gradient) = (list()?.into(), list()?.into());
+                let rows: Vec<DVector<f64>> = lists.map(DVector::from_vec).collect();
+                let pairs = rows.as_chunks().0.iter().cloned().collect();
+                Stage::Descent(Descent { weights, loss, gradient, pairs, stuck })
             }
         };
         Ok(Some(Self { stage, history }))

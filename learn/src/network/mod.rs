@@ -9,4 +9,4 @@ mod train;
 
 pub use activation::Activation;
 pub use dense::{DenseNetwork, Layer};
-pub use train::{Progress, TrainingOptions, fit_network, fit_network_to_gradients};
+pub use train::{Progress, TrainingOptions, fit_network};

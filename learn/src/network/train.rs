@@ -9,7 +9,6 @@ use super::activation::Activation;
 use super::dense::DenseNetwork;
 use super::descent::{Watch, minimise};
 use super::slope::SlopeFit;
-use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::polynomial::Scaling;
 
@@ -78,26 +77,14 @@ pub struct Progress {
     pub validation: Option<f64>,
 }
 
-/// Fits S = mean·p + scale·N(u) to reduced data, min Σ|xᵢ − ∂S/∂p(pᵢ)|² with inputs and targets
-/// normalised; returns the network and the loss after every evaluation.
+/// Fits f = mean·p + scale·N(u) to the gradients of a function at points, a sample per column:
+/// min Σ|gᵢ − ∂f/∂p(pᵢ)|² with inputs and targets normalised. Returns the network and the loss after every evaluation.
+/// The loss on `validation` points and gradients is watched, not fitted.
 ///
 /// # Errors
 /// [`LearnError::InvalidOption`] for no hidden layer, [`LearnError::NotConverged`] when the loss
 /// is not finite.
 pub fn fit_network(
-    data: &ReducedData,
-    options: &TrainingOptions,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<(DenseNetwork, Vec<f64>), LearnError> {
-    fit_network_to_gradients(&data.p, &data.x, None, options, progress)
-}
-
-/// As [`fit_network`], for any function f of which ∂f/∂p is known at points: a sample per column.
-/// `validation` points and gradients are watched, not fitted.
-///
-/// # Errors
-/// As [`fit_network`].
-pub fn fit_network_to_gradients(
     points: &DMatrix<f64>,
     gradients: &DMatrix<f64>,
     validation: Option<(&DMatrix<f64>, &DMatrix<f64>)>,
@@ -105,11 +92,8 @@ pub fn fit_network_to_gradients(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(DenseNetwork, Vec<f64>), LearnError> {
     if options.widths.is_empty() || options.widths.contains(&0) {
-        return Err(LearnError::InvalidOption {
-            option: "widths",
-            value: format!("{:?}", options.widths),
-            requirement: "give at least one hidden layer of at least one neuron".into(),
-        });
+        let requirement = "give at least one hidden layer of at least one neuron";
+        return Err(LearnError::option("widths", format!("{:?}", options.widths), requirement));
     }
     if points.ncols() == 0 {
         return Err(LearnError::NoSamples);

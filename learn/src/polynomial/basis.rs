@@ -95,16 +95,14 @@ impl Basis {
     /// # Errors
     /// [`LearnError::InvalidOption`] with the number of terms and the limit.
     pub fn check_fit(dim: usize, degree: usize, samples: usize) -> Result<(), LearnError> {
-        let refused = |terms: String| LearnError::InvalidOption {
-            option: "degree",
-            value: degree.to_string(),
-            requirement: format!(
+        let refused = |terms: String| {
+            let most = LARGEST_FIT / samples.saturating_mul(dim).max(1);
+            let requirement = format!(
                 "in {dim} coordinates that is {terms} coefficients; with {samples} samples the fit \
-                 may have at most {} (its matrix {LARGEST_FIT} numbers), and the degree is at most \
-                 {}: give a lower degree",
-                LARGEST_FIT / samples.saturating_mul(dim).max(1),
-                u8::MAX
-            ),
+                 may have at most {most} (its matrix {LARGEST_FIT} numbers), and the degree is at most \
+                 255: give a lower degree"
+            );
+            LearnError::option("degree", degree, requirement)
         };
         let Some(terms) = Self::checked_size(dim, degree) else {
             return Err(refused(format!("more than {}", usize::MAX)));
@@ -196,9 +194,16 @@ impl Tables {
         }
     }
 
+    /// The product of a term, differentiated in the two coordinates given, which may be equal; coordinates out of range
+    /// stand for none.
+    pub(super) fn product(&self, term: &[u8], by: [usize; 2]) -> f64 {
+        let order = |i: usize| by.iter().filter(|j| **j == i).count();
+        term.iter().enumerate().map(|(i, &k)| self.at(i, order(i), k)).product()
+    }
+
     /// The derivative of order 0, 1 or 2 of T_k in the coordinate `index`.
     #[inline]
-    pub(super) fn at(&self, index: usize, order: usize, k: u8) -> f64 {
+    fn at(&self, index: usize, order: usize, k: u8) -> f64 {
         self.entries[(3 * index + order) * self.width + usize::from(k)]
     }
 }

@@ -99,17 +99,10 @@ impl PolynomialModel {
 
     /// ∂φ_k/∂p_j at `p` for every basis function: `row[k·n + j]`, `row` of length len·n.
     pub fn basis_gradients(&self, p: &[f64], row: &mut [f64]) {
-        let dim = self.basis.dim();
         let tables = self.tables(p);
-        for (term, out) in self.basis.terms().zip(row.chunks_exact_mut(dim)) {
+        for (term, out) in self.basis.terms().zip(row.chunks_exact_mut(self.basis.dim())) {
             for (j, entry) in out.iter_mut().enumerate() {
-                let mut product = tables.at(j, 1, term[j]) / self.scaling.half_width[j];
-                for (i, &k) in term.iter().enumerate() {
-                    if i != j && k != 0 {
-                        product *= tables.at(i, 0, k);
-                    }
-                }
-                *entry = product;
+                *entry = tables.product(term, [j, usize::MAX]) / self.scaling.half_width[j];
             }
         }
     }
@@ -118,7 +111,7 @@ impl PolynomialModel {
     pub fn basis_values(&self, p: &[f64], row: &mut [f64]) {
         let tables = self.tables(p);
         for (term, out) in self.basis.terms().zip(row) {
-            *out = term.iter().enumerate().map(|(i, &k)| tables.at(i, 0, k)).product();
+            *out = tables.product(term, [usize::MAX; 2]);
         }
     }
 
@@ -134,69 +127,37 @@ impl MomentumFunction for PolynomialModel {
 
     fn value(&self, p: &[f64]) -> f64 {
         let tables = self.tables(p);
-        let mut sum = 0.0;
-        for (term, c) in self.basis.terms().zip(&self.coefficients) {
-            let product: f64 = term.iter().enumerate().map(|(i, &k)| tables.at(i, 0, k)).product();
-            sum += c * product;
-        }
-        sum
+        let terms = self.basis.terms().zip(&self.coefficients);
+        terms.map(|(term, c)| c * tables.product(term, [usize::MAX; 2])).sum()
     }
 
     fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
         let tables = self.tables(p);
         gradient.fill(0.0);
         for (term, c) in self.basis.terms().zip(&self.coefficients) {
-            for (j, entry) in gradient.iter_mut().enumerate() {
-                if term[j] != 0 {
-                    let mut product = c * tables.at(j, 1, term[j]);
-                    for (i, &k) in term.iter().enumerate() {
-                        if i != j && k != 0 {
-                            product *= tables.at(i, 0, k);
-                        }
-                    }
-                    *entry += product;
-                }
+            for j in (0..term.len()).filter(|&j| term[j] != 0) {
+                gradient[j] += c * tables.product(term, [j, usize::MAX]);
             }
         }
-        for (entry, width) in gradient.iter_mut().zip(&self.scaling.half_width) {
-            *entry /= width;
-        }
+        gradient.iter_mut().zip(&self.scaling.half_width).for_each(|(entry, w)| *entry /= w);
     }
 
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         self.gradient(p, gradient);
-        let tables = self.tables(p);
-        let dim = self.basis.dim();
+        let (tables, dim) = (self.tables(p), self.basis.dim());
         let width = &self.scaling.half_width;
         hessian.fill(0.0);
         for (term, c) in self.basis.terms().zip(&self.coefficients) {
-            for a in 0..dim {
-                if term[a] == 0 {
-                    continue;
-                }
-                for b in 0..=a {
-                    if term[b] == 0 {
-                        continue;
-                    }
-                    let mut product = if a == b {
-                        c * tables.at(a, 2, term[a])
-                    } else {
-                        c * tables.at(a, 1, term[a]) * tables.at(b, 1, term[b])
-                    };
-                    for (i, &k) in term.iter().enumerate() {
-                        if i != a && i != b && k != 0 {
-                            product *= tables.at(i, 0, k);
-                        }
-                    }
-                    hessian[a * dim + b] += product;
+            for a in (0..dim).filter(|&a| term[a] != 0) {
+                for b in (0..=a).filter(|&b| term[b] != 0) {
+                    hessian[a * dim + b] += c * tables.product(term, [a, b]);
                 }
             }
         }
         for a in 0..dim {
             for b in 0..=a {
                 let entry = hessian[a * dim + b] / (width[a] * width[b]);
-                hessian[a * dim + b] = entry;
-                hessian[b * dim + a] = entry;
+                (hessian[a * dim + b], hessian[b * dim + a]) = (entry, entry);
             }
         }
     }

@@ -59,11 +59,8 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
     };
     if request.group_loss {
         let Model::Polynomial(start) = &model else {
-            return Err(LearnError::InvalidOption {
-                option: "loss",
-                value: "group".into(),
-                requirement: "the distance on the group is minimised for polynomials only".into(),
-            });
+            let requirement = "the distance on the group is minimised for polynomials only";
+            return Err(LearnError::option("loss", "group", requirement));
         };
         let options = crate::GaussNewton { iterations: 20, relative_decrease: 1e-6, ridge: 1e-15 };
         let (refined, history) = fit_group_loss::<G, C>(group, data, start, &options)?;

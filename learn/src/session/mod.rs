@@ -120,77 +120,65 @@ pub fn learn(
     request: &Request,
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<(ModelFile, Summary), LearnError> {
-    check(request)?;
-    visit(&request.group, &request.chart, Learner { request, given: None, progress })?
+    run(request, Source::Files, progress)
 }
 
 /// As [`learn`], from columns in memory that are named as those of files; `request.data` and `request.test` are not read.
 ///
 /// # Errors
-/// [`LearnError`] naming what is wrong with the data or the request.
+/// As [`learn`].
 pub fn learn_columns(
     request: &Request,
     data: &Columns,
     test: Option<&Columns>,
     progress: &mut dyn FnMut(usize, usize, f64),
 ) -> Result<(ModelFile, Summary), LearnError> {
-    check(request)?;
-    let given = Some((data, test));
-    visit(&request.group, &request.chart, Learner { request, given, progress })?
+    run(request, Source::Columns(data, test), progress)
 }
 
 /// Learns the Poisson map nearest to pairs of momenta made by any method; `request.data` and
 /// `request.test` are not read.
 ///
 /// # Errors
-/// [`LearnError`] naming what is wrong with the pairs or the request.
+/// As [`learn`].
 pub fn learn_momenta(
     request: &Request,
     pairs: &MomentumPairs,
 ) -> Result<(ModelFile, Summary), LearnError> {
-    struct Given<'a>(&'a Request, &'a MomentumPairs);
-    impl Visitor for Given<'_> {
-        type Output = Result<(ModelFile, Summary), LearnError>;
-
-        fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
-            momenta::learn::<G, C>(self.0, &group, self.1, None)
-        }
-    }
-    check(request)?;
-    visit(&request.group, &request.chart, Given(request, pairs))?
+    run(request, Source::Momenta(pairs), &mut |_, _, _| {})
 }
 
-/// Refuses numbers that make no sense, whatever the data.
-fn check(request: &Request) -> Result<(), LearnError> {
+/// Refuses numbers that make no sense, whatever the data, and learns.
+fn run(
+    request: &Request,
+    source: Source<'_>,
+    progress: &mut dyn FnMut(usize, usize, f64),
+) -> Result<(ModelFile, Summary), LearnError> {
     if !(request.step.is_finite() && request.step != 0.0) {
-        return Err(LearnError::InvalidOption {
-            option: "dt",
-            value: request.step.to_string(),
-            requirement: "give the time between the two states of a pair".into(),
-        });
+        let requirement = "give the time between the two states of a pair";
+        return Err(LearnError::option("dt", request.step, requirement));
     }
     let not_finite = |value: &&f64| !value.is_finite();
     if let Some(value) = request.start.iter().flatten().find(not_finite) {
-        return Err(LearnError::InvalidOption {
-            option: "start",
-            value: value.to_string(),
-            requirement: "every coordinate of the momentum must be a finite number".into(),
-        });
+        let requirement = "every coordinate of the momentum must be a finite number";
+        return Err(LearnError::option("start", value, requirement));
     }
     if !(request.ridge.is_finite() && request.ridge >= 0.0) {
-        return Err(LearnError::InvalidOption {
-            option: "ridge",
-            value: request.ridge.to_string(),
-            requirement: "give a finite number from 0".into(),
-        });
+        return Err(LearnError::option("ridge", request.ridge, "give a finite number from 0"));
     }
-    Ok(())
+    visit(&request.group, &request.chart, Learner { request, source, progress })?
+}
+
+/// The training and test data of a request.
+enum Source<'a> {
+    Files,
+    Columns(&'a Columns, Option<&'a Columns>),
+    Momenta(&'a MomentumPairs),
 }
 
 struct Learner<'a> {
     request: &'a Request,
-    /// Training and test data that are not in files.
-    given: Option<(&'a Columns, Option<&'a Columns>)>,
+    source: Source<'a>,
     progress: &'a mut dyn FnMut(usize, usize, f64),
 }
 
@@ -198,21 +186,23 @@ impl Visitor for Learner<'_> {
     type Output = Result<(ModelFile, Summary), LearnError>;
 
     fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
-        let Self { request, given, progress } = self;
+        let Self { request, source, progress } = self;
         let (dim, size) = (group.dim(), group.matrix_size());
+        if let Some(start) = &request.start
+            && start.len() != dim
+        {
+            let what = "the start".into();
+            return Err(LearnError::Shape { what, expected: dim, found: start.len() });
+        }
         let of = |columns: &Columns| Recording::from_columns(columns, dim, size);
         let read = |path: &PathBuf| of(&read_columns(path, dim, size)?);
-        let (recording, test) = match given {
-            Some((data, test)) => (of(data)?, test.map(of).transpose()?),
-            None => (read(&request.data)?, request.test.as_ref().map(read).transpose()?),
+        let (recording, test) = match source {
+            Source::Files => (read(&request.data)?, request.test.as_ref().map(read).transpose()?),
+            Source::Columns(data, test) => (of(data)?, test.map(of).transpose()?),
+            Source::Momenta(pairs) => {
+                return momenta::learn::<G, C>(request, &group, pairs, None);
+            }
         };
-        if let Some(start) = &request.start
-            && start.len() != group.dim()
-        {
-            let (expected, found) = (group.dim(), start.len());
-            let what = "the start".into();
-            return Err(LearnError::Shape { what, expected, found });
-        }
         if request.momenta_only || recording.attitudes.is_none() {
             let test = test.as_ref().map(|t| &t.momenta);
             let (file, summary) =

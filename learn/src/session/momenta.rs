@@ -1,6 +1,7 @@
 //! Learning from momenta alone.
 
 use coadjoint::{Chart, Coordinates, Phase};
+use nalgebra::DMatrix;
 
 use super::{Kind, Request, Summary, few_rows, named};
 use crate::data::{MomentumPairs, RowPolicy};
@@ -13,6 +14,9 @@ use crate::momentum::{PoissonOptions, fit_poisson};
 use crate::polynomial::{Basis, Candidate, folds};
 use crate::save::{ModelFile, TrainingRecord};
 
+/// The map that a model generates.
+type Map<'a, G, C> = Generating<G, C, &'a dyn MomentumFunction>;
+
 /// Momenta only: a polynomial with p eliminated, its degree by cross-validation if none is given.
 pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     request: &Request,
@@ -21,24 +25,15 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     test: Option<&MomentumPairs>,
 ) -> Result<(ModelFile, Summary), LearnError> {
     if !matches!(request.kind, Kind::Auto | Kind::Polynomial) {
-        return Err(LearnError::InvalidOption {
-            option: "model",
-            value: request.kind.name().into(),
-            requirement: "momenta alone are learned by polynomials; use auto or polynomial".into(),
-        });
+        let requirement = "momenta alone are learned by polynomials; use auto or polynomial";
+        return Err(LearnError::option("model", request.kind.name(), requirement));
     }
     if let Some(degree) = request.degree {
         PoissonOptions::degree(degree).check(group.dim(), pairs.len())?;
     }
+    let finite = |m: &DMatrix<f64>, i: usize| m.column(i).iter().all(|v| v.is_finite());
     let mut bad: Vec<BadRow> = (0..pairs.len())
-        .filter(|&i| {
-            !pairs
-                .before
-                .column(i)
-                .iter()
-                .chain(pairs.after.column(i).iter())
-                .all(|v| v.is_finite())
-        })
+        .filter(|&i| !(finite(&pairs.before, i) && finite(&pairs.after, i)))
         .map(|i| BadRow { row: i + 1, problem: RowProblem::NonFinite })
         .collect();
     let changes: Vec<f64> = (0..pairs.len()).map(|i| casimir_change(group, pairs, i)).collect();
@@ -71,10 +66,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         fit_poisson::<G, C>(group, pairs, &PoissonOptions::degree(degree))
     };
     let figures = |model: &Model, pairs: &MomentumPairs| {
-        evaluate_momenta(
-            &Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), model),
-            pairs,
-        )
+        evaluate_momenta(&Map::<'_, G, C>::new(group.clone(), model), pairs)
     };
     let mut candidates = Vec::new();
     let (degree, choice) = if let Some(degree) = request.degree {
@@ -113,7 +105,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let fitted = fit(degree, &pairs)?;
     let model = Model::Polynomial(fitted.model);
     let train = figures(&model, &pairs);
-    let map = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
+    let map = Map::<'_, G, C>::new(group.clone(), &model);
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
     let mut warnings = Vec::from_iter(few_rows(&model, pairs.len()));
     let largest = changes.iter().copied().fold(0.0, f64::max);

@@ -76,11 +76,7 @@ pub(super) fn train(
 ) -> Result<Trained, LearnError> {
     let settings = &request.network;
     if settings.evaluations == 0 {
-        return Err(LearnError::InvalidOption {
-            option: "evaluations",
-            value: "0".into(),
-            requirement: "a network is trained by at least one".into(),
-        });
+        return Err(LearnError::option("evaluations", 0, "a network is trained by at least one"));
     }
     let name = if kind == Kind::Network { "network" } else { "hybrid" };
     let adam_steps = settings.evaluations / 20;
@@ -99,11 +95,11 @@ pub(super) fn train(
     let mut tell = |p: Progress| progress(p.step, p.total, p.loss);
     let widths = &settings.widths;
     if kind == Kind::Network {
-        let (network, history) = fit_network(data, &options, &mut tell)?;
+        let (network, history) = fit_network(&data.p, &data.x, None, &options, &mut tell)?;
         Ok(Trained { model: Model::Network(network), name: format!("network {widths:?}"), history })
     } else {
         let degree = request.degree.unwrap_or(2);
-        let (model, history) = fit_hybrid(data, degree, &options, &mut tell)?;
+        let (model, history) = fit_hybrid(&data.p, &data.x, degree, &options, &mut tell)?;
         let name = format!("hybrid of degree {degree} and network {widths:?}");
         Ok(Trained { model, name, history })
     }

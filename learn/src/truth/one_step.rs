@@ -26,11 +26,7 @@ impl FromStr for OneStep {
             "euler" => Ok(Self::Euler),
             "heun" => Ok(Self::Heun),
             "rk4" => Ok(Self::Rk4),
-            _ => Err(LearnError::InvalidOption {
-                option: "map",
-                value: name.into(),
-                requirement: "use euler, heun or rk4".into(),
-            }),
+            _ => Err(LearnError::option("map", name, "use euler, heun or rk4")),
         }
     }
 }

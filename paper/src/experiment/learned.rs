@@ -3,7 +3,7 @@
 use coadjoint::{Cayley, Phase, SO3, advance};
 use coadjoint_learn::Generating;
 use coadjoint_learn::data::PairRows;
-use coadjoint_learn::network::{DenseNetwork, TrainingOptions, fit_network_to_gradients};
+use coadjoint_learn::network::{DenseNetwork, TrainingOptions, fit_network};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 use nalgebra::DMatrix;
 
@@ -25,7 +25,7 @@ pub fn watched(
 ) -> Fallible<(DenseNetwork, Vec<[f64; 3]>)> {
     let mut looks = Vec::new();
     let test = Some((&test.0, &test.1));
-    let (network, _) = fit_network_to_gradients(&train.0, &train.1, test, training, &mut |now| {
+    let (network, _) = fit_network(&train.0, &train.1, test, training, &mut |now| {
         looks.extend(now.validation.map(|loss| [now.step as f64, now.loss, loss]));
     })?;
     Ok((network, looks))
@@ -114,7 +114,7 @@ fn trajectory(options: &Options, report: &mut Report) -> Fallible<()> {
     };
     eprintln!("  networks for a trajectory");
     let [symmetric, plain] = samples(options, wide, 500, 11)?.map(|[train, _]| {
-        fit_network_to_gradients(&train.0, &train.1, None, &training, &mut |_| {}).map(|fit| fit.0)
+        fit_network(&train.0, &train.1, None, &training, &mut |_| {}).map(|fit| fit.0)
     });
     let (symmetric, plain) = (symmetric?, plain?);
     let exact = exact(START, STEP, steps);

@@ -5,8 +5,8 @@ use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce
 use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::{Basis, fit_polynomial};
 use coadjoint_learn::{
-    DataGroup, Figures, GaussianProcessOptions, Generating, MomentumFunction, Scaled, Zero,
-    evaluate, fit_gaussian_process, fit_hybrid,
+    DataGroup, Figures, GaussianProcessOptions, Generating, MomentumFunction, Scaled, evaluate,
+    fit_gaussian_process, fit_hybrid,
 };
 use serde_json::Value;
 
@@ -82,13 +82,14 @@ impl<'a, G: DataGroup> Task<'a, G> {
         let mut enter = |name: &str, function: &dyn MomentumFunction, paper: Option<f64>| {
             table.rows.push(row(name, &self.figures::<C>(function), paper));
         };
-        enter("x = 0, μ″ = μ′", &Zero { dim: self.group.dim() }, None);
+        enter("x = 0, μ″ = μ′", &Scaled { factor: 0.0, function: truth }, None);
         enter("S = Δt·H", &Scaled { factor: step, function: truth }, None);
         eprintln!("  network");
-        let network = fit_network(&self.train, &self.training("network", true), &mut |_| {})?.0;
+        let (p, x) = (&self.train.p, &self.train.x);
+        let network = fit_network(p, x, None, &self.training("network", true), &mut |_| {})?.0;
         enter("network, symmetric", &network, paper);
         eprintln!("  hybrid");
-        let hybrid = fit_hybrid(&self.train, 2, &self.training("hybrid", false), &mut |_| {})?.0;
+        let hybrid = fit_hybrid(p, x, 2, &self.training("hybrid", false), &mut |_| {})?.0;
         enter("hybrid, symmetric", &hybrid, None);
         Ok(())
     }

@@ -6,7 +6,7 @@ use coadjoint_learn::network::TrainingOptions;
 use coadjoint_learn::polynomial::{Scaling, SelectionOptions, select_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
 use coadjoint_learn::{
-    GaussianProcessOptions, MomentumFunction, Scaled, Zero, evaluate, fit_gaussian_process,
+    GaussianProcessOptions, MomentumFunction, Scaled, evaluate, fit_gaussian_process,
 };
 
 use super::Options;
@@ -43,7 +43,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
         let mut enter_row = |name: &str, function: &dyn MomentumFunction| {
             table.rows.push(row(name, &evaluate(&map(function), &group, &tests, &test), None));
         };
-        enter_row("x = 0", &Zero { dim: 3 });
+        enter_row("x = 0", &Scaled { factor: 0.0, function: &body });
         enter_row("S = Δt·H", &Scaled { factor: step, function: &body });
         let training = TrainingOptions {
             widths: options.pick(vec![500, 500], vec![64, 64]),

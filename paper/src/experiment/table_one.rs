@@ -2,10 +2,10 @@
 
 use coadjoint::{Cayley, Exponential, SO3};
 use coadjoint_learn::data::PairRows;
-use coadjoint_learn::network::fit_network_to_gradients;
+use coadjoint_learn::network::fit_network;
 use coadjoint_learn::polynomial::fit_gradients;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
-use coadjoint_learn::{MomentumFunction, evaluate_with, fit_hybrid_to_gradients};
+use coadjoint_learn::{MomentumFunction, evaluate_with, fit_hybrid};
 
 use super::models::{COLUMNS, Task, row};
 use super::{Options, type_two};
@@ -69,10 +69,10 @@ fn baseline(
         table.rows.push(row(format!("type II, not symmetric: {name}"), &figures, paper));
     };
     let training = task.training("baseline", true);
-    let (network, _) = fit_network_to_gradients(&points, &gradients, None, &training, &mut |_| {})?;
+    let (network, _) = fit_network(&points, &gradients, None, &training, &mut |_| {})?;
     enter("network", &network, Some(paper));
     let training = task.training("baseline-hybrid", false);
-    let (hybrid, _) = fit_hybrid_to_gradients(&points, &gradients, 2, &training, &mut |_| {})?;
+    let (hybrid, _) = fit_hybrid(&points, &gradients, 2, &training, &mut |_| {})?;
     enter("hybrid", &hybrid, None);
     for degree in [2, 4, 6] {
         // Six coordinates: degree 6 has 923 coefficients.

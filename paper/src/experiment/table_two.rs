@@ -4,7 +4,7 @@ use coadjoint::{Exponential, SO3, poisson_map};
 use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
 use coadjoint_learn::polynomial::PolynomialModel;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};
-use coadjoint_learn::{Generating, MomentumFunction, Scaled, Zero, evaluate_momenta};
+use coadjoint_learn::{Generating, MomentumFunction, Scaled, evaluate_momenta};
 
 use super::Options;
 use crate::outcome::{Curve, Fallible, Report, Table, row};
@@ -44,7 +44,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
             let unsolved = found.unsolved.len() as f64;
             table.rows.push(row![name, found.mse.momentum, found.max_error.momentum, unsolved]);
         };
-        enter("identity, μ″ = μ′".into(), &Zero { dim: 3 });
+        enter("identity, μ″ = μ′".into(), &Scaled { factor: 0.0, function: &body });
         enter("S = Δt·H".into(), &Scaled { factor: step, function: &body });
         let mut models = Vec::new();
         for degree in [2, 4, 6] {
