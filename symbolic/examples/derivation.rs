@@ -1,9 +1,7 @@
 //! Time and size of derivations as the truncation K and the number of variables n grow.
 //!
-//! `cargo run -p coadjoint-symbolic --example derivation` measures what a macro costs (macros are
-//! never optimised); with `--release` the figures compare with `derivation_flint.py` beside this
-//! file, which runs the same recurrence with FLINT. `--export` prints the cases for it; other
-//! arguments choose systems by parts of their names.
+//! `cargo run -p coadjoint-symbolic --example derivation` measures the cost within a macro (macros are never optimised).
+//! Arguments choose systems by parts of their names.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive, predictor};
 use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
@@ -23,9 +21,6 @@ struct Case {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let chosen: Vec<String> = std::env::args().skip(1).collect();
-    if chosen.iter().any(|argument| argument == "--export") {
-        return export();
-    }
     println!("{:<28} {:>4} {:>3} {:>12} {:>8} {:>9}", "system", "n", "K", "time", "S_K", "all S_k");
     for case in cases()? {
         if !chosen.is_empty() && !chosen.iter().any(|name| case.name.contains(name.as_str())) {
@@ -59,29 +54,6 @@ fn main() -> Result<(), Box<dyn Error>> {
                 format!("p t^{degree}"),
                 terms
             );
-        }
-    }
-    Ok(())
-}
-
-/// The cases as lines of words, for the script.
-fn export() -> Result<(), Box<dyn Error>> {
-    for case in cases()? {
-        println!("case {}", case.name);
-        println!("dim {}\nvariables {}", case.algebra.dim(), case.hamiltonian.variables());
-        let truncations: Vec<String> = case.truncations.iter().map(usize::to_string).collect();
-        println!("truncations {}", truncations.join(" "));
-        for c in case.algebra.structure() {
-            println!("c {} {} {} {}", c.i, c.j, c.k, c.value);
-        }
-        for (factors, value) in case.hamiltonian.factors() {
-            print!("h {value}");
-            for (variable, exponent) in factors {
-                for _ in 0..exponent {
-                    print!(" {variable}");
-                }
-            }
-            println!();
         }
     }
     Ok(())
