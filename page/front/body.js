@@ -81,7 +81,7 @@ function drawSolid(context, width, height, scene, about, now, start) {
     .filter((face) => face.both || dot(face.normal, eye) - 0.12 * dot(face.normal, face.points[0]) > 0)
     .sort((a, b) => a.depth - b.depth);
   drawTips(context, place, scene, eye, false);
-  drawUp(context, place);
+  arrow(context, place([0, 0, 0]), place([0, 0, 1.2]), colours.ours, 3);
   for (const face of visible) {
     const points = face.points.map(place);
     const shade = Math.max(dot(face.normal, light), face.both ? Math.abs(dot(face.normal, light)) : 0);
@@ -95,13 +95,7 @@ function drawSolid(context, width, height, scene, about, now, start) {
     context.fill();
     context.stroke();
   }
-  if (scene.kind === "top") {
-    const [x, y] = place([0, 0, 0]);
-    context.fillStyle = colours.ink;
-    context.beginPath();
-    context.arc(x, y, 3.5, 0, 7);
-    context.fill();
-  }
+  if (scene.kind === "top") disc(context, place([0, 0, 0]), 3.5, colours.ink);
   drawTips(context, place, scene, eye, true);
 }
 
@@ -158,21 +152,9 @@ function topFaces({ axis, across }) {
 // A disc below, for the eye to hold on to.
 function drawFloor(context, place) {
   for (const radius of [0.5, 1]) {
-    context.strokeStyle = colours.line;
-    context.lineWidth = 1;
-    context.beginPath();
-    for (let i = 0; i <= 72; i++) {
-      const [x, y] = place([radius * Math.cos((i / 36) * Math.PI), radius * Math.sin((i / 36) * Math.PI), 0]);
-      if (i) context.lineTo(x, y);
-      else context.moveTo(x, y);
-    }
-    context.stroke();
+    const angles = [...Array(73).keys()].map((i) => (i / 36) * Math.PI);
+    line(context, angles.map((a) => place([radius * Math.cos(a), radius * Math.sin(a), 0])), colours.line, 1);
   }
-}
-
-function drawUp(context, place) {
-  const [a, b] = [place([0, 0, 0]), place([0, 0, 1.2])];
-  arrow(context, a, b, colours.ours, 3);
 }
 
 function leaveTip(scene, tip) {
@@ -184,18 +166,13 @@ function leaveTip(scene, tip) {
 
 // Where the tip of an axis has been, on the sphere of directions: what is behind, or what is in front.
 function drawTips(context, place, scene, eye, inFront) {
-  context.lineWidth = 1.75;
   context.lineCap = "butt";
   const { tips } = scene;
   for (let i = 1; i < tips.length; i++) {
     if (dot(tips[i], eye) > 0 !== inFront) continue;
     if (size(plus(tips[i], scaled(tips[i - 1], -1))) > 0.3) continue;
-    const [a, b] = [place(tips[i - 1]), place(tips[i])];
-    context.strokeStyle = faint(colours.ours, ((inFront ? 0.75 : 0.3) * i) / tips.length);
-    context.beginPath();
-    context.moveTo(a[0], a[1]);
-    context.lineTo(b[0], b[1]);
-    context.stroke();
+    const colour = faint(colours.ours, ((inFront ? 0.75 : 0.3) * i) / tips.length);
+    line(context, [place(tips[i - 1]), place(tips[i])], colour, 1.75);
   }
 }
 
@@ -217,11 +194,7 @@ function drawSpins(context, width, height, scene, about, now) {
     const back = plus(foot, scaled(mu, -0.3 * length / largest));
     const along = dot(unit(mu), [0, 0, 1]);
     arrow(context, place(back), place(end), blend(colours["face-1"], colours.ours, 0.5 + 0.5 * along), 5);
-    const [x, y] = place(foot);
-    context.fillStyle = colours.ink;
-    context.beginPath();
-    context.arc(x, y, 3, 0, 7);
-    context.fill();
+    disc(context, place(foot), 3, colours.ink);
   }
 }
 
@@ -235,24 +208,12 @@ function drawPlane(context, width, height, scene, about, now) {
   if (scene.tips.length > 3000) scene.tips.shift();
   const unitLength = Math.min(width, height) * 0.13;
   const place = ([a, b]) => [width / 2 + (a - x) * unitLength, height / 2 - (b - y) * unitLength];
-  context.strokeStyle = colours.line;
-  context.lineWidth = 1;
   const reach = Math.ceil(width / unitLength / 2) + 1;
   for (let i = -reach; i <= reach; i++) {
     const [px, py] = place([Math.round(x) + i, Math.round(y) + i]);
-    context.beginPath();
-    context.moveTo(px, 0);
-    context.lineTo(px, height);
-    context.moveTo(0, py);
-    context.lineTo(width, py);
-    context.stroke();
+    line(context, [[px, 0], [px, height], null, [0, py], [width, py]], colours.line, 1);
   }
-  context.strokeStyle = faint(colours.ours, 0.8);
-  context.lineWidth = 2;
-  context.beginPath();
-  scene.tips.forEach((tip, i) => (i ? context.lineTo(...place(tip)) : context.moveTo(...place(tip))));
-  context.lineTo(width / 2, height / 2);
-  context.stroke();
+  line(context, [...scene.tips.map(place), [width / 2, height / 2]], faint(colours.ours, 0.8), 2);
   context.save();
   context.translate(width / 2, height / 2);
   context.rotate(-angle);
@@ -263,10 +224,7 @@ function drawPlane(context, width, height, scene, about, now) {
   context.ellipse(0, 0, unitLength * 0.9, unitLength * 0.32, 0, 0, 7);
   context.fill();
   context.stroke();
-  context.fillStyle = colours["face-1"];
-  context.beginPath();
-  context.arc(unitLength * 0.62, 0, unitLength * 0.1, 0, 7);
-  context.fill();
+  disc(context, [unitLength * 0.62, 0], unitLength * 0.1, colours["face-1"]);
   context.restore();
 }
 
@@ -285,16 +243,8 @@ function drawMatrix(context, width, height, scene, about, now) {
     context.fillStyle = faint(value >= 0 ? colours.ours : colours.rival, Math.abs(value) / largest);
     context.fillRect(x + 1, y + 1, side - 2, side - 2);
   });
-  context.strokeStyle = colours.soft;
-  context.lineWidth = 1.5;
-  const bracket = (x, way) => {
-    context.beginPath();
-    context.moveTo(x + way * 8, top - 6);
-    context.lineTo(x, top - 6);
-    context.lineTo(x, top + side * rows + 6);
-    context.lineTo(x + way * 8, top + side * rows + 6);
-    context.stroke();
-  };
-  bracket(left - 8, 1);
-  bracket(left + side * rows + 8, -1);
+  const [high, low] = [top - 6, top + side * rows + 6];
+  for (const [x, end] of [[left - 8, left], [left + side * rows + 8, left + side * rows]]) {
+    line(context, [[end, high], [x, high], [x, low], [end, low]], colours.soft, 1.5);
+  }
 }

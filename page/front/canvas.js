@@ -41,6 +41,33 @@ function blend(a, b, part) {
   return `rgb(${at(16)}, ${at(8)}, ${at(0)})`;
 }
 
+// A line through places on the screen, broken where one is missing.
+function line(context, places, colour, width, dash = []) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  let down = false;
+  for (const place of places) {
+    if (place) down ? context.lineTo(place[0], place[1]) : context.moveTo(place[0], place[1]);
+    down = Boolean(place);
+  }
+  context.stroke();
+  context.setLineDash([]);
+}
+
+// A disc, filled, and with an edge where it has a colour.
+function disc(context, [x, y], radius, fill, edge, width) {
+  context.fillStyle = fill;
+  context.beginPath();
+  context.arc(x, y, radius, 0, 7);
+  context.fill();
+  if (!edge) return;
+  context.strokeStyle = edge;
+  context.lineWidth = width;
+  context.stroke();
+}
+
 // An arrow from a to b on the screen.
 function arrow(context, a, b, colour, width = 2.5) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -48,13 +75,9 @@ function arrow(context, a, b, colour, width = 2.5) {
   if (length < 1) return;
   const [ux, uy] = [dx / length, dy / length];
   const head = Math.min(4 + 2.4 * width, length);
-  context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = width;
+  context.fillStyle = colour;
   context.lineCap = "round";
-  context.beginPath();
-  context.moveTo(a[0], a[1]);
-  context.lineTo(b[0] - ux * head * 0.8, b[1] - uy * head * 0.8);
-  context.stroke();
+  line(context, [a, [b[0] - ux * head * 0.8, b[1] - uy * head * 0.8]], colour, width);
   context.beginPath();
   context.moveTo(b[0], b[1]);
   context.lineTo(b[0] - ux * head - uy * head * 0.42, b[1] - uy * head + ux * head * 0.42);

@@ -17,14 +17,9 @@ function drawDrift(canvas, history, which, unit) {
   context.font = FONT.replace("14px", "13px");
   context.textBaseline = "middle";
   context.textAlign = "right";
-  context.lineWidth = 1;
   for (const [power, text] of [[0, "1"], [-8, "10⁻⁸"], [-16, "10⁻¹⁶"]]) {
     const at = Math.round(y(10 ** power)) + 0.5;
-    context.strokeStyle = colours.line;
-    context.beginPath();
-    context.moveTo(left, at);
-    context.lineTo(width - right, at);
-    context.stroke();
+    line(context, [[left, at], [width - right, at]], colours.line, 1);
     context.fillStyle = colours.soft;
     context.fillText(text, left - 8, at);
   }
@@ -36,24 +31,15 @@ function drawDrift(canvas, history, which, unit) {
   context.rect(left, 0, w + right, height);
   context.clip();
   for (const [offset, colour, dash] of [[4, colours.rival, [6, 4]], [1, colours.ours, []]]) {
-    context.strokeStyle = colour;
-    context.lineWidth = 2;
-    context.lineJoin = "round";
-    context.setLineDash(dash);
-    context.beginPath();
-    let down = false;
+    const places = [];
     for (let i = 0; i < rows; i++) {
       const drift = history[7 * i + offset + which];
       if (Number.isNaN(drift)) break;
       // The start, where nothing has drifted, is left out.
-      if (i === 0 && rows > 1) continue;
-      const [px, py] = [x(history[7 * i]), y(drift)];
-      if (down) context.lineTo(px, py);
-      else context.moveTo(px, py);
-      down = true;
+      if (i > 0 || rows === 1) places.push([x(history[7 * i]), y(drift)]);
     }
-    context.stroke();
+    context.lineJoin = "round";
+    line(context, places, colour, 2, dash);
   }
   context.restore();
-  context.setLineDash([]);
 }

@@ -83,31 +83,18 @@ function backdrop(canvas, about, frame) {
     const shade = context.createRadialGradient(width / 2 - r * 0.35, height / 2 - r * 0.45, r * 0.1, width / 2, height / 2, r);
     shade.addColorStop(0, colours["sphere-light"]);
     shade.addColorStop(1, colours["sphere-dark"]);
-    context.fillStyle = shade;
-    context.beginPath();
-    context.arc(width / 2, height / 2, r, 0, 7);
-    context.fill();
-    context.strokeStyle = colours.line;
-    context.lineWidth = 1.25;
-    context.stroke();
+    disc(context, [width / 2, height / 2], r, shade, colours.line, 1.25);
   }
   drawAxes(context, about, frame);
   for (const front of [false, true]) {
     for (const { points, own } of orbitScene.curves ?? []) {
-      context.strokeStyle = own ? faint(colours.ours, front ? 0.55 : 0.16) : faint(colours.level, front ? 0.6 : 0.16);
-      context.lineWidth = own ? 1.75 : 1;
-      context.beginPath();
-      let down = false;
+      const places = [];
       for (let i = 0; i < points.length; i += 6) {
-        const facing = points[i + 3] * rows[2][0] + points[i + 4] * rows[2][1] + points[i + 5] * rows[2][2];
-        if (facing >= 0 === front) {
-          const [x, y] = place([points[i], points[i + 1], points[i + 2]]);
-          if (down) context.lineTo(x, y);
-          else context.moveTo(x, y);
-          down = true;
-        } else down = false;
+        const facing = dot(points.subarray(i + 3, i + 6), rows[2]);
+        places.push(facing >= 0 === front && place(points.subarray(i, i + 3)));
       }
-      context.stroke();
+      const colour = own ? faint(colours.ours, front ? 0.55 : 0.16) : faint(colours.level, front ? 0.6 : 0.16);
+      line(context, places, colour, own ? 1.75 : 1);
     }
   }
   return picture;
@@ -127,12 +114,7 @@ function drawAxes(context, about, { radius, place, rows, width, height }) {
     // On a sphere only what stands out of it.
     const from = radius ? scaled(end, radius / length) : scaled(end, -1);
     const [a, b] = [place(from), place(end)];
-    context.strokeStyle = faint(colours.soft, away ? 0.45 : 0.9);
-    context.lineWidth = 1.25;
-    context.beginPath();
-    context.moveTo(a[0], a[1]);
-    context.lineTo(b[0], b[1]);
-    context.stroke();
+    line(context, [a, b], faint(colours.soft, away ? 0.45 : 0.9), 1.25);
     const [mx, my] = [b[0] - width / 2, b[1] - height / 2];
     const far = Math.hypot(mx, my) || 1;
     context.fillStyle = away ? colours.soft : colours.ink;
@@ -144,47 +126,28 @@ function drawAxes(context, about, { radius, place, rows, width, height }) {
 function drawTrail(context, { radius, place }, points, colour, dash) {
   if (points.length < 6) return;
   for (const front of radius ? [false, true] : [true]) {
-    context.strokeStyle = faint(colour, front ? 1 : 0.28);
-    context.lineWidth = 2.25;
-    context.lineJoin = context.lineCap = "round";
-    context.setLineDash(dash);
-    context.beginPath();
-    let down = false;
+    const places = [];
     for (let i = 0; i + 2 < points.length; i += 3) {
-      const [x, y, z] = place([points[i], points[i + 1], points[i + 2]]);
-      if (!Number.isFinite(x)) break;
-      if (!radius || z >= 0 === front) {
-        if (down) context.lineTo(x, y);
-        else context.moveTo(x, y);
-        down = true;
-      } else down = false;
+      const at = place(points.subarray(i, i + 3));
+      if (!Number.isFinite(at[0])) break;
+      places.push((!radius || at[2] >= 0 === front) && at);
     }
-    context.stroke();
+    context.lineJoin = context.lineCap = "round";
+    line(context, places, faint(colour, front ? 1 : 0.28), 2.25, dash);
   }
-  context.setLineDash([]);
 }
 
 // The momentum at the start: a ring, to be taken hold of.
 function ring(context, { radius, place }, p) {
-  const [x, y, z] = place(p);
-  const behind = radius && z < 0;
-  context.strokeStyle = faint(colours.ink, behind ? 0.35 : 1);
-  context.lineWidth = 2;
-  context.beginPath();
-  context.arc(x, y, 8, 0, 7);
-  context.stroke();
+  const at = place(p);
+  const behind = radius && at[2] < 0;
+  disc(context, at, 8, "transparent", faint(colours.ink, behind ? 0.35 : 1), 2);
 }
 
 function spot(context, { radius, place }, p) {
-  const [x, y, z] = place(p);
-  const behind = radius && z < 0;
-  context.fillStyle = faint(colours.ours, behind ? 0.35 : 1);
-  context.strokeStyle = faint(colours.sheet, behind ? 0.2 : 1);
-  context.lineWidth = 2;
-  context.beginPath();
-  context.arc(x, y, 6, 0, 7);
-  context.fill();
-  context.stroke();
+  const at = place(p);
+  const behind = radius && at[2] < 0;
+  disc(context, at, 6, faint(colours.ours, behind ? 0.35 : 1), faint(colours.sheet, behind ? 0.2 : 1), 2);
 }
 
 // Without a surface the picture is as large as what has been seen.

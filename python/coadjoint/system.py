@@ -337,11 +337,7 @@ class System:
             text = f"{len(failed)} of {len(rows)} rows have no end state and are NaN; the first is row {row}, {where}{reason}"
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         if facts["ratio"]:
-            text = (
-                f"the series hardly converges for some rows: its last two terms have the ratio {facts['ratio']:.3f}, "
-                "above 0.25; the motion may be inaccurate: take a smaller step"
-            )
-            warnings.warn(text, CoadjointWarning, stacklevel=2)
+            warnings.warn(hardly_converges(facts["ratio"]), CoadjointWarning, stacklevel=2)
         return found
 
     def step(
@@ -625,6 +621,14 @@ class Verdict:
     def __repr__(self) -> str:
         more = self.wrong or self.why
         return f"<Verdict: {self.text}{': ' + more if more else ''}; {self.rows} rows, {self.steps} steps>"
+
+
+def hardly_converges(ratio: float) -> str:
+    """The warning of an ensemble in which the last two terms of the series have this ratio."""
+    return (
+        f"the series hardly converges for some rows: its last two terms have the ratio {ratio:.3f}, above 0.25; "
+        "the motion may be inaccurate: take a smaller step"
+    )
 
 
 def _restored(kind: type[System], *parts: Any) -> System:

@@ -13,7 +13,7 @@ import pyarrow
 
 from .._arrays import Backend, Floats, text
 from .._core import Core, __version__
-from ..system import System
+from ..system import System, hardly_converges
 from .errors import InputError, ShardError
 
 #: What a run does, whatever its rows are.
@@ -78,10 +78,7 @@ def warnings(ratio: float, notes: list[str]) -> list[str]:
     """What should be known of a run."""
     found = list(dict.fromkeys(notes))
     if ratio != 0.0:
-        found.append(
-            f"the series hardly converges for some rows: its last two terms have the ratio {ratio:.3f}, above 0.25; "
-            "the motion may be inaccurate: take a smaller step"
-        )
+        found.append(hardly_converges(ratio))
     return found
 
 

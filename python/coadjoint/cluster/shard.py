@@ -22,9 +22,9 @@ from .manifest import seal, unseal
 from .plan import group_rows
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Task:
-    """Everything that a worker needs for one shard; pickles as text and numbers."""
+    """Everything that a worker needs for one shard; pickles as text and numbers, and hashes by identity."""
 
     shard: int
     start: int

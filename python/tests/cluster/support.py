@@ -10,6 +10,7 @@ import coadjoint as ca
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from coadjoint import cluster
 
 #: Rows of the input, rows of a shard, and the schedule: shards last long enough to be killed in.
 ROWS, PER_SHARD = 3000, 400
@@ -24,6 +25,14 @@ def body(inertia=(1.5, 2, 2.5)):
         coordinates="x y z",
         parameters=dict(zip(["I1", "I2", "I3"], inertia)),
     )
+
+
+def run(states, out, **options):
+    """A run of the body with the schedule above, in this process if no client is given."""
+    options = {"progress": False, "rows_per_shard": PER_SHARD} | SCHEDULE | options
+    if "client" not in options:
+        options.setdefault("workers", 1)
+    return cluster.run(options.pop("system", None) or body(), states=states, out=out, **options)
 
 
 def momenta(rows: int) -> np.ndarray:

@@ -8,11 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 import support
 from coadjoint import cluster
-
-
-def run(states, out, **options):
-    options = {"workers": 1, "progress": False, "rows_per_shard": support.PER_SHARD} | support.SCHEDULE | options
-    return cluster.run(options.pop("system", None) or support.body(), states=states, out=out, **options)
+from support import run
 
 
 def test_rows_end_where_one_call_of_the_package_ends_them(serial):

@@ -13,11 +13,7 @@ import pytest
 import support
 from coadjoint import cluster
 from coadjoint.cluster import manifest
-
-
-def run(states, out, **options):
-    options = {"workers": 1, "progress": False, "rows_per_shard": support.PER_SHARD} | support.SCHEDULE | options
-    return cluster.run(options.pop("system", None) or support.body(), states=states, out=out, **options)
+from support import run
 
 
 DRIVER = """
