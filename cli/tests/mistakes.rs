@@ -163,7 +163,7 @@ fn a_closed_pipe_is_no_failure_and_a_full_disk_is_one() {
     assert!(message.starts_with("error: standard output cannot be written"), "{message}");
 }
 
-/// Bytes that are no UTF-8 are told with their place, other encodings and separators by their names.
+/// The messages give the place of bytes that are not UTF-8, and name other encodings and separators.
 #[test]
 fn files_that_are_not_the_text_they_should_be_are_refused_with_the_reason() {
     let directory = tempfile::tempdir().unwrap();

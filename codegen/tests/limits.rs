@@ -77,7 +77,7 @@ fn a_missing_quote_is_one_mistake_at_the_quote_that_has_no_partner() {
             "{said}"
         );
     }
-    // Other mistakes are told as what they are.
+    // Other mistakes are reported as such.
     let said = rendered(&BODY.replacen("name =", "name", 1));
     assert!(said.contains("TOML") && !said.contains("partner"), "{said}");
 }

@@ -9,7 +9,7 @@ use crate::error::DeviceError;
 use crate::machine::Machine;
 use crate::piece;
 
-/// Rows that must fit: with fewer a device is not worth its while.
+/// The least number of rows that must fit: with fewer, a device does not pay.
 pub(crate) const FEWEST: usize = 1024;
 
 /// The state of a trajectory, and how far it is.
@@ -25,7 +25,7 @@ pub struct Row {
     pub ended: bool,
 }
 
-/// Why a trajectory came no farther.
+/// The reason for which a trajectory stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The equation of the next step was not solved.
@@ -101,7 +101,7 @@ impl std::fmt::Debug for Card {
 pub(crate) struct Opened {
     pub machine: Box<dyn Machine>,
     pub name: String,
-    /// Whether it is no card but this machine's processor.
+    /// Whether the device is this machine's processor.
     pub processor: bool,
     /// Bytes of all arrays together, and of one, that may be asked for.
     pub memory: (u64, u64),
@@ -159,7 +159,7 @@ impl Card {
         &self.name
     }
 
-    /// Whether it is no card but this machine's processor.
+    /// Whether the device is this machine's processor.
     #[must_use]
     pub fn is_processor(&self) -> bool {
         self.processor
@@ -181,10 +181,10 @@ impl Card {
     ///
     /// From time to time threads refuse a step. `redo` is then given these rows, why, and the step that all others have
     /// reached. It has to move them there by other means, or to end them.
-    /// `told` is told how many steps have been made on average.
+    /// `told` receives the average number of steps made.
     ///
     /// # Errors
-    /// [`DeviceError`] where there is no room for a thousand rows, or the device fails. The rows are then worth nothing.
+    /// [`DeviceError`] where there is no room for a thousand rows, or the device fails. The rows are then invalid.
     pub fn advance(
         &mut self,
         rows: &mut [Row],

@@ -1,6 +1,6 @@
 //! Devices of CUDA.
 //!
-//! Starting a kernel is what no type system can vouch for. What makes it sound stands at the call: the kernel is printed
+//! The type system cannot check that starting a kernel is sound. The reasons stand at the call: the kernel is printed
 //! from the [`Kernel`](coadjoint_program::Kernel) whose sizes the arrays have, and gets its arguments with the types of its
 //! text. Reads and writes are checked by their lengths.
 #![allow(unsafe_code)]

@@ -1,9 +1,9 @@
 //! Steps on graphics cards, and on whatever else OpenCL and CUDA drive: trajectories by the million.
 //!
 //! A [`Card`] is a [`Kernel`](coadjoint_program::Kernel) compiled for one [`Device`]. [`Card::advance`] moves rows of states,
-//! a thread each, many steps a launch; what a thread refuses is handed back on the way, to be made by other means.
+//! a thread each, many steps a launch. Rows that a thread refuses are returned to the caller, who makes these steps.
 //!
-//! Neither toolkit is needed to build this crate, nor a feature: what is missing when a device is opened is an error of
+//! Neither toolkit is needed to build this crate, nor a feature: a missing library is reported when a device is opened, in
 //! one line.
 
 mod card;

@@ -1,6 +1,6 @@
 //! Devices of OpenCL.
 //!
-//! The calls that hand memory to the device are what no type system can vouch for. What makes them sound stands here:
+//! The type system cannot check the calls that pass memory to the device. They are sound for these reasons:
 //! reads and writes wait until they are done and never pass the end of an array, since arrays are made for the very
 //! bytes they are read and written with; the kernel is printed from the [`Kernel`](coadjoint_program::Kernel) whose sizes
 //! the arrays have, gets its arguments with the types of its text, and is waited for.
@@ -80,7 +80,7 @@ fn options(found: &Found, precision: Precision) -> &'static str {
     }
 }
 
-/// Held while devices are looked for: pocl sets its own up when it is first asked, and not for two threads at once.
+/// Held while devices are enumerated: pocl initialises on the first call, and not safely from two threads at once.
 static LOOKING: Mutex<()> = Mutex::new(());
 
 /// The device of this number: cards first, platform by platform.

@@ -1,4 +1,4 @@
-//! Axes: their ranges, and the places and labels of their ticks.
+//! Axes: their ranges, and the positions and labels of their ticks.
 
 /// A tick: where it is, and what is written there.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,7 +105,7 @@ impl Axis {
         Self { low: 10f64.powi(low), high: 10f64.powi(high), logarithmic: true, ticks }
     }
 
-    /// The axis from which values below `floor` cannot be told, up to the largest of these.
+    /// The axis from `floor`, below which values are not distinguished, up to the largest of these.
     pub fn floored<'a>(
         values: impl IntoIterator<Item = &'a f64>,
         (floor, least_top): (i32, i32),

@@ -4,13 +4,13 @@
 
 use crate::run::Series;
 
-/// So many coordinates are drawn as lines with a name; the others as a band.
+/// The most coordinates drawn as lines with a name; the others are drawn as a band.
 pub const NAMED: usize = 8;
-/// A line with more turning points than this is a block of ink.
+/// A line with more turning points than this would be drawn as a solid block.
 const MOST_TURNS: usize = 80;
 /// How many turning points are shown then.
 const SHOWN_TURNS: usize = 40;
-/// So many turning points show how fast a motion is.
+/// The number of turning points that show how fast a motion is.
 const FEW_TURNS: usize = 4;
 /// Records from one turning point to the next that it takes to follow a motion.
 const RECORDS_A_TURN: f64 = 2.5;
@@ -42,7 +42,7 @@ pub fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) 
 /// How many records are shown, and whether they are dense enough to follow the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// So many records from the start on.
+    /// This number of records from the start on.
     pub records: usize,
     /// Whether there are at least some records from one turning point to the next.
     pub resolved: bool,

@@ -1,4 +1,4 @@
-//! Plots as SVG: labelled axes with units, curves that are told apart in grey print, light and dark.
+//! Plots as SVG: labelled axes with units, curves that differ in grey print too, in light and dark schemes.
 //!
 //! Data are plain numbers, so that this crate knows neither groups nor integrators. [`Panel`] is a
 //! pair of axes with what is between them, alone or in a picture of several; [`run`] draws what

@@ -1,6 +1,6 @@
 //! Points of a cost against an error.
 
-/// Of points (error, cost) those that no other beats in both, by growing error.
+/// The points (error, cost) that no other point beats in both, by growing error.
 #[must_use]
 pub fn unbeaten(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,4 +1,4 @@
-//! How curves are told apart: colour, dashes and markers, and the colours of a page, light and dark.
+//! The styles of curves: colour, dashes and markers, and the colours of a page, light and dark.
 
 use std::fmt::Write as _;
 

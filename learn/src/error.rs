@@ -143,9 +143,9 @@ pub enum LearnError {
         /// The values allowed.
         requirement: String,
     },
-    /// A checkpoint of training cannot be gone on from.
+    /// Training cannot resume from a checkpoint.
     #[error(
-        "cannot go on from the checkpoint {}: {reason}; delete it to begin anew",
+        "cannot resume from the checkpoint {}: {reason}; delete it to start again",
         path.display()
     )]
     Checkpoint {

@@ -77,7 +77,7 @@ fn a_polynomial_wins_on_the_free_body() {
     assert!(summary.choice.contains("networks not tried"), "{}", summary.choice);
 }
 
-/// A checkpoint left by another task is refused, not trained over; the right one is gone on from.
+/// A checkpoint left by another task is refused, not trained over; training resumes from the right one.
 #[test]
 fn checkpoints_of_a_session_belong_to_it() {
     let base: PathBuf = std::env::temp_dir().join(format!("coadjoint-base-{}", std::process::id()));

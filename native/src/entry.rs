@@ -1,7 +1,7 @@
 //! Calling machine code: the one place where it happens.
 //!
-//! A step that was compiled when the program runs is reached by a pointer, which no type system can vouch for. What
-//! makes it sound stands here: the code was printed or built from the same [`Kernel`] whose sizes are checked before each
+//! A step that was compiled at run time is reached by a pointer, which the type system cannot check. The call is sound
+//! for these reasons: the code was printed or built from the same [`Kernel`] whose sizes are checked before each
 //! call, it reads and writes nothing but these slices, and it stays loaded as long as the entry lives.
 #![allow(unsafe_code)]
 

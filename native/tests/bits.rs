@@ -81,7 +81,7 @@ fn thousands_of_steps_have_the_bits_of_the_interpreter() {
     thousands(&[(20, 600), (21, 600)]);
 }
 
-/// So many that they are printed in pieces.
+/// Programs long enough to be printed in pieces.
 #[test]
 fn thousands_of_operations_have_the_bits_of_the_interpreter() {
     thousands(&[(22, 4000)]);

@@ -44,7 +44,7 @@ fn main() -> ExitCode {
 
 fn all(arguments: Arguments) -> Fallible<()> {
     let Arguments { name, quick, seed, out, html, gallery } = arguments;
-    // Mistakes are told before anything is computed; the gallery takes seconds.
+    // Mistakes are reported before anything is computed; the gallery takes seconds.
     if let Some(html) = &html {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(html);
         file.map_err(|e| format!("--html {}: cannot write there: {e}", html.display()))?;

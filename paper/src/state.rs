@@ -155,7 +155,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Of a system, in this chart, with this truncation.
+    /// The steps of a system in this chart, with this truncation.
     pub fn new(system: &str, chart: Chart, truncation: usize) -> Fallible<Self> {
         let options = Options {
             parameters: Parameters::Substituted,
@@ -173,7 +173,7 @@ impl Steps {
         self.step.kernel()
     }
 
-    /// So many steps of size `h` from the identity and this momentum: the states, the start first, and how many
+    /// Makes `steps` steps of size `h` from the identity and this momentum; returns the states, the start first, and how many
     /// corrections were made. `None` where a step is refused.
     pub fn walk(&self, h: f64, steps: usize, start: &[f64]) -> Option<(Vec<State>, u64)> {
         // However large the momentum, the step is to be made: how far the series converges is what is looked at.

@@ -1,4 +1,4 @@
-//! The interpreter's loop, compiled for the processor at hand.
+//! The interpreter's loop, compiled for this processor.
 //!
 //! A fused product is one instruction on every processor of the last ten years, but on x86-64 a program compiled for
 //! all of them has to call a function for it. Here the same loop is compiled once more with the instructions of

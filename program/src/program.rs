@@ -41,7 +41,7 @@ impl Program {
         Ok(Self::of_graph(inputs, nodes, outputs.into_iter().map(Id).collect()))
     }
 
-    /// Of a graph, whose nodes are in order.
+    /// The program of a graph, whose nodes are in order.
     pub(crate) fn of_graph(inputs: usize, nodes: Vec<Node>, outputs: Vec<Id>) -> Self {
         let slot = |node: &Node| match node {
             Node::Slot(i) => *i as usize + 1,

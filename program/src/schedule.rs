@@ -43,7 +43,7 @@ pub enum Variable {
 /// The kind of a variable's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// So many numbers.
+    /// An array of this length.
     Array(usize),
     /// A number.
     Number,

@@ -46,7 +46,7 @@ pub trait Stepper {
     /// Makes up to `steps` steps from (g, μ) with these folded coefficients; the state is then that after the last
     /// step made.
     ///
-    /// Of slices shorter than the kernel asks for nothing good can be made: the interpreter reads them as if filled up
+    /// Slices must have the kernel's lengths. Given shorter ones, the interpreter reads them as if filled up
     /// with zeros, machine code makes no step.
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome;
 

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 const LOOK: Duration = Duration::from_millis(20);
 /// Work that is asked to stop is waited for this long; what has not come back by then ends unheard.
 const PATIENCE: Duration = Duration::from_millis(40);
-/// A listener is told the progress this often.
+/// The interval at which a listener is called.
 const TELL: Duration = Duration::from_millis(100);
 
 /// The channel between the work and the thread that waits for it.

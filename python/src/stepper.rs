@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::control::work;
 use crate::error::{raised, refused, stopped};
 
-/// So many steps at once are made without looking for signals.
+/// The most steps made at once without checking for signals.
 const FEW: u64 = 64;
 
 /// Steps of one size, ready to be made.
@@ -20,7 +20,7 @@ const FEW: u64 = 64;
 pub struct Stepper {
     /// The steps.
     pub single: Arc<Single<Arc<Derived>>>,
-    /// Of the algebra.
+    /// The dimension of the algebra.
     pub dimension: usize,
 }
 

@@ -26,7 +26,7 @@ pub enum Source {
     Model(Box<ModelFile>),
 }
 
-/// The Rust module. Of a learned polynomial: built with the model's step it is the model.
+/// The Rust module. That of a learned polynomial, built with the model's step, is the model.
 ///
 /// # Errors
 /// Where the series is too large, or the model is no polynomial.

@@ -56,7 +56,7 @@ pub fn parts<T: Scalar, const POWERS: usize, const PRODUCTS: usize, const PARTS:
     let step = powers::<T, POWERS>(step);
     let mut products = [T::of(1.0); PRODUCTS];
     for (n, &(of, symbol)) in table.products.iter().enumerate() {
-        // No index reaches its array's end; the compiler is told.
+        // Tells the compiler that no index reaches its array's end.
         let product = products[(of as usize).min(PRODUCTS - 1)] * symbols[symbol as usize];
         products[(n + 1).min(PRODUCTS - 1)] = product;
     }
@@ -101,7 +101,7 @@ pub fn slots<T: Scalar, const PARTS: usize, const BASES: usize>(
         start = end as usize;
     }
     for (slot, &(base, scale)) in slots.iter_mut().zip(table.slots) {
-        // No index reaches its array's end; the compiler is told.
+        // Tells the compiler that no index reaches its array's end.
         *slot = bases[(base as usize).min(BASES.saturating_sub(1))] * T::of(f64::from(scale));
     }
 }

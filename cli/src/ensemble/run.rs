@@ -21,7 +21,7 @@ use crate::progress;
 /// The journal is brought up to date this often.
 const NOTED: Duration = Duration::from_millis(200);
 
-/// Rejected rows that are told at the end; all are in the list.
+/// The number of rejected rows named at the end; all are in the list.
 const TOLD: usize = 5;
 
 /// The names of the columns of the list of rejected rows.

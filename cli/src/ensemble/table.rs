@@ -15,7 +15,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Of a header, in which the layout's columns are at `places`.
+    /// The table of a header in which the layout's columns are at `places`.
     pub fn new(header: Vec<String>, places: &[Option<usize>]) -> Self {
         let mut own = vec![None; header.len()];
         for (column, &place) in places.iter().enumerate() {

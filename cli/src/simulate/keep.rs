@@ -48,7 +48,7 @@ pub struct Keeper<'a> {
 }
 
 impl<'a> Keeper<'a> {
-    /// Of a run with this description and these coordinates.
+    /// The keeper of a run with this description and these coordinates.
     pub fn new(
         settings: &'a Settings,
         label: String,

@@ -26,7 +26,7 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// Of a system; the steps of its runs are added by [`Heading::step`].
+    /// The heading of a system; [`Heading::step`] adds the steps of its runs.
     pub fn new(system: &System) -> Self {
         let System { problem, units, .. } = system;
         Self {

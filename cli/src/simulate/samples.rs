@@ -2,7 +2,7 @@
 
 use super::trajectory::{Drift, Record};
 
-/// So many first moments are all kept.
+/// The number of first moments that are all kept.
 const HEAD: usize = 512;
 /// Of the rest, between half of this number and all of it are kept, unless they are large.
 const MOST: usize = 4096;

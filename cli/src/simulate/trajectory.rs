@@ -74,7 +74,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Of what a run has come to; whoever made it adds the rest.
+    /// The trajectory of an outcome; the caller adds the rest.
     pub fn of(outcome: Outcome, label: String, header: Header, coordinates: &[String]) -> Self {
         let Outcome { steps, time, warnings, backend, momentum, blocks, .. } = outcome;
         let Outcome { element, energy, drift, casimirs, potential, momenta, solver, .. } = outcome;

@@ -92,7 +92,7 @@ pub fn time_label(unit: Option<&str>) -> String {
     unit.map_or("time".to_owned(), |unit| format!("time ({unit})"))
 }
 
-/// The picture in words, for those who cannot see it.
+/// The picture in words, for readers who cannot see it.
 fn description(picture: &Picture) -> String {
     let mut text = format!(
         "{} ({}). First panel: the body momentum over time. Further panels, on logarithmic axes: the \

@@ -112,7 +112,7 @@ pub struct Summary {
     pub unused: Vec<String>,
 }
 
-/// Learns, and says how well it went. `progress` is told (step, of, loss) by iterative fits.
+/// Learns, and reports the errors. Iterative fits call `progress` with (step, of, loss).
 ///
 /// # Errors
 /// [`LearnError`] naming what is wrong with the data or the request.

@@ -1,8 +1,8 @@
 //! Compiled steps kept from run to run, by their content.
 //!
 //! An entry is a folder named by a hash of all that the library depends on. It holds the library and a hash of it. It is
-//! written beside its place and renamed, so that what is there is whole; what is not (a disk that failed, a file that
-//! somebody changed) does not have its hash and is never loaded. The folder belongs to the user alone.
+//! written beside its place and renamed, so that every entry is whole. A damaged one (a disk that failed, a file that
+//! somebody changed) does not match its hash and is never loaded. The folder belongs to the user alone.
 
 use std::fs;
 use std::io::{self, Write};
@@ -89,7 +89,7 @@ impl Cache {
         (hash(&fs::read(&library).ok()?) == expected).then_some(library)
     }
 
-    /// Keeps a library; its place in the cache. What is there already and whole stays, what is damaged gives way.
+    /// Keeps a library and returns its place in the cache. A whole one that is already there stays, a damaged one is replaced.
     pub fn put(&self, key: &str, library: &Path) -> io::Result<PathBuf> {
         self.clean();
         let bytes = fs::read(library)?;
@@ -109,7 +109,7 @@ impl Cache {
         Ok(entry.join(LIBRARY))
     }
 
-    /// Removes what killed writers left, and the oldest entries where there are too many. What cannot be removed stays.
+    /// Removes files of killed writers, and the oldest entries where there are too many. Files that cannot be removed stay.
     fn clean(&self) {
         let Ok(entries) = fs::read_dir(&self.folder) else {
             return;

@@ -1,8 +1,8 @@
-//! Which processor this is: code for one may not run on another that shares the folder.
+//! The identity of the processor: code for one may not run on another that shares the folder.
 
 use std::collections::BTreeSet;
 
-/// A description of the processor and what it can do, the same for equal processors; `None` where the system does not
+/// A description of the processor and its instructions, the same for equal processors; `None` where the system does not
 /// tell.
 pub(super) fn processor() -> Option<String> {
     #[cfg(any(target_os = "linux", target_os = "android"))]

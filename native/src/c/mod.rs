@@ -1,7 +1,7 @@
 //! Steps compiled by the system's C compiler.
 //!
-//! The text of a kernel is compiled in a private folder, loaded, and kept by content. Whatever is wrong with the cache,
-//! the step is compiled all the same.
+//! The text of a kernel is compiled in a private folder, loaded, and cached by content. If the cache cannot be used,
+//! the step is compiled anyway.
 
 mod cache;
 mod compiler;
@@ -54,7 +54,7 @@ impl Default for COptions {
     }
 }
 
-/// A step as machine code, and where it is from.
+/// A step as machine code, and its origin.
 #[derive(Clone, Debug)]
 pub struct Native {
     /// The step.

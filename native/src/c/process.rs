@@ -13,9 +13,9 @@ pub(super) enum Fault {
     Start(std::io::Error),
     /// Its output cannot be kept.
     Output(std::io::Error),
-    /// It did not end in time; it and what it had started were ended.
+    /// It exceeded its time limit; it and the processes it had started were ended.
     TimedOut,
-    /// The same, because somebody asked for it.
+    /// It was stopped on request, with the processes it had started.
     Stopped,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Finished {
     pub errors: String,
 }
 
-/// Runs a command to its end, at most so long and until `stop` is set. It and what it starts do not outlive this process.
+/// Runs a command until it ends, the time limit passes or `stop` is set. Neither it nor its children outlive this process.
 /// Its outputs go through files in `folder`: a pipe would stay open as long
 /// as anything that the command started.
 pub(super) fn run(
@@ -56,7 +56,7 @@ pub(super) fn run(
 struct Watcher(Child);
 
 impl Watcher {
-    /// Of the group that this process leads. None where there are no groups or there is no shell.
+    /// The watcher of the group that this process leads; `None` where there are no groups or no shell.
     fn new(leader: u32) -> Option<Self> {
         if !cfg!(unix) {
             return None;

@@ -1,4 +1,4 @@
-//! Where the numbers of a step lie in memory: one frame on the stack of the function that runs the loop.
+//! The places of a step's numbers in memory: one frame on the stack of the function that runs the loop.
 
 use std::ops::Range;
 

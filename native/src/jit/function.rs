@@ -54,7 +54,7 @@ fn one<'f>(mut of: Loop<'f, '_>, state: [Value; 2], steps: Value, report: Value)
     of.coder
 }
 
-/// The steps of all pairs, one after the other: trajectories know nothing of each other.
+/// The steps of all pairs, one after the other: trajectories are independent.
 fn pairs<'f>(
     mut of: Loop<'f, '_>,
     state: [Value; 2],

@@ -1,4 +1,4 @@
-//! The processor at hand, and its code for a function.
+//! The processor of this machine, and its code for a function.
 
 use cranelift_codegen::ir::Function;
 use cranelift_codegen::isa::OwnedTargetIsa;

@@ -41,7 +41,7 @@ pub enum JitError {
     Compile(String),
 }
 
-/// The kernel's functions that are asked for as machine code for the processor at hand; the interpreter makes the steps
+/// The kernel's functions that are asked for as machine code for this processor; the interpreter makes the steps
 /// of the other one.
 ///
 /// # Errors

@@ -5,7 +5,7 @@
 //!   program in it, one operation a line, and [`pieces`] a long one as several functions.
 //! - [`LoopStyle`] is how a language writes the loop of a kernel, which [`steps`] prints.
 //! - [`C`] is the dialect of C and of languages like it; [`native_unit`] is a kernel as a unit of C to be compiled for
-//!   the machine at hand.
+//!   this machine.
 //! - [`device_unit`] is a kernel as a text in OpenCL C or CUDA C++, a thread a trajectory.
 
 mod c;

@@ -1,4 +1,4 @@
-//! A kernel as a unit of C for the machine at hand: the loop of a trajectory, and that of lanes side by side.
+//! A kernel as a unit of C for this machine: the loop of a trajectory, and that of lanes side by side.
 
 use alloc::format;
 use alloc::string::String;

@@ -13,8 +13,8 @@ const SLACK: f64 = 0.3;
 
 /// The median over these starts, from one of which the leading term of the error may happen to cancel.
 ///
-/// Runs h, h/2 and h/4 over the same time; the differences shrink by 2^order. Of the steps
-/// h·2^j tried the smallest is taken whose differences are above rounding: there the leading term
+/// Runs h, h/2 and h/4 over the same time; the differences shrink by 2^order. Among the steps
+/// h·2^j tried, it takes the smallest whose differences are above rounding, where the leading term
 /// of the error dominates best. Where all differences are rounding the map is exact, and the order
 /// counts as infinite.
 pub fn measure<G: Group>(

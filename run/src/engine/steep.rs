@@ -16,7 +16,7 @@ pub struct Steepness<'s, S> {
 }
 
 impl<'s, 'a, G: LieGroup<Scalar = f64>, C: Chart<G>> Steepness<'s, Interpreter<'a, G, C>> {
-    /// Of the steps of an interpreter.
+    /// For the steps of an interpreter.
     pub fn new(step: &'s Interpreter<'a, G, C>) -> Self {
         let truncation = step.integrator.problem.truncation;
         // One half is the ratio that a radius is of: with the last term doubled, a quarter.

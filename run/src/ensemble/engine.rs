@@ -20,7 +20,7 @@ use crate::error::RunError;
 /// The largest drifts over an ensemble, each row's relative to its own [scales](coadjoint_codegen::step::Scales).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of what is known to be conserved; of energies none is measured.
+    /// The drifts of the quantities known to be conserved; energies are not measured.
     pub conserved: step::Drift,
     /// Rows at whose end rounding of large numbers hides a drift.
     pub unmeasured: u64,

@@ -35,7 +35,7 @@ pub fn piece(width: usize, steps: u64, card: bool) -> u64 {
     (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
 }
 
-/// Advances all rows in place. Rows that fail become NaN and are told. The watch is told the steps of all rows together.
+/// Advances all rows in place. Rows that fail become NaN and are reported. The watch receives the steps of all rows together.
 ///
 /// # Errors
 /// As [`Engine::advance`].

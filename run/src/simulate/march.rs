@@ -1,4 +1,4 @@
-//! The steps of a run, one after the other: measured, and handed out.
+//! The steps of a run: they are made one after the other, measured, and passed to the outlet.
 
 use std::time::{Duration, Instant};
 
@@ -17,7 +17,7 @@ use crate::error::RunError;
 /// A step of another length, from the time given: (time, length, state).
 type SideStep<'s, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 's;
 
-/// The drift is looked at so often in a run of which no records are kept.
+/// The number of measurements of the drift in a run without records.
 const LOOKS: u64 = 10_000;
 
 /// How many steps are made at a time: few enough to come back every ten milliseconds.
@@ -34,7 +34,7 @@ impl Pace {
         self.0
     }
 
-    /// So many steps took so long.
+    /// Records the time of some steps.
     fn took(&mut self, steps: u64, time: Duration) {
         const GOAL: f64 = 0.005;
         let each = time.as_secs_f64().max(1e-9) / steps.max(1) as f64;

@@ -89,7 +89,7 @@ impl Found {
         given.collect()
     }
 
-    /// Takes note of something wrong; the first is told.
+    /// Records a defect; the first one is reported.
     pub fn blame(&mut self, what: String) {
         self.wrong.get_or_insert(what);
     }

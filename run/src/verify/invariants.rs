@@ -35,7 +35,7 @@ struct Basis {
 }
 
 impl Invariants {
-    /// Of a problem whose parameters are put in.
+    /// The invariants of a problem whose parameters have values.
     pub fn new(problem: &Problem) -> Self {
         let dim = problem.algebra.dim();
         Self {

@@ -4,11 +4,11 @@
 /// not conserved, or cannot be measured: an unknown drift is never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of the coordinates of the spatial momentum J_L, or of its components that a potential leaves conserved.
+    /// The drift of the spatial momentum J_L, or of its components that a potential leaves conserved.
     pub spatial_momentum: Option<f64>,
-    /// Of the Casimirs.
+    /// The drift of the Casimirs.
     pub casimirs: Option<f64>,
-    /// Of the energy.
+    /// The drift of the energy.
     pub energy: Option<f64>,
 }
 

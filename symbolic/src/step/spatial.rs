@@ -21,7 +21,7 @@ pub struct Scratch {
 }
 
 impl Spatial {
-    /// Of the states of this step.
+    /// For the states of this step.
     #[must_use]
     pub fn new(step: &Step) -> Self {
         Self { program: step.spatial(), inverted: step.inverted() }

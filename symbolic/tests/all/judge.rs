@@ -197,7 +197,7 @@ fn a_solution_beyond_a_fork_is_told() {
     assert!(seen[0] > 5 && seen[1] > 0, "{seen:?}");
 }
 
-/// An x off the right one in any direction by more than rounding is told, on several groups and charts.
+/// The judge notices an x that is off the right one in any direction by more than rounding, on several groups and charts.
 #[test]
 fn spoilt_steps_are_told() {
     for (group, chart, truncation) in [

@@ -68,7 +68,7 @@ pub struct Tally {
     pub examples: Vec<(Wrong, String)>,
 }
 
-/// A residual is told of from this share of its bound on.
+/// The share of its bound from which a residual is reported.
 const REMARKABLE: f64 = 0.25;
 
 /// Examples kept of each kind.

@@ -159,7 +159,7 @@ fn comments_begin_with_their_subject() {
             if comment.trim_start_matches(['/', '!', ' ']).starts_with("What ") {
                 what.push(place());
             }
-            if comment.contains(" so many ") {
+            if comment.to_lowercase().contains("so many ") {
                 many.push(place());
             }
         }

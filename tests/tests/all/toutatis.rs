@@ -6,7 +6,7 @@ use coadjoint_tests::toutatis::{
     Geometry, LongAxisMode, MEASURED, PRECESSION, ROTATION, light_curve, spectrum,
 };
 
-/// Of the measured frequencies.
+/// The largest error of the measured frequencies.
 const UNCERTAINTY: f64 = 0.008;
 
 fn mode() -> LongAxisMode {

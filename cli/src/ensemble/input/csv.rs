@@ -45,7 +45,7 @@ impl CsvInput {
         Ok(Self { path: path.into(), reader, layout, places, table, total, next: 0, record })
     }
 
-    /// Adds the numbers of the record at hand, or says which cell is none.
+    /// Adds the numbers of the current record, or names the cell that is none.
     fn numbers(&self, values: &mut Vec<f64>) -> Result<(), String> {
         let cells = self.table.header.len();
         if self.record.len() != cells {
