@@ -207,3 +207,10 @@ pub fn advise<S: Integrator>(
 
 /// Shorter steps that are tried to advise one.
 const MOST_HALVINGS: u32 = 24;
+
+/// `c` in the lanes where a ≤ b, else `d`.
+#[inline(always)]
+#[must_use]
+pub fn select<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
+    c.select(a.simd_le(b), d)
+}
