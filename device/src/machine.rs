@@ -16,7 +16,7 @@ pub(crate) enum Array {
 }
 
 impl Array {
-    pub const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
+    pub(crate) const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
 }
 
 /// Why there is no room.

@@ -9,7 +9,7 @@ const PIECE: usize = 1 << 27;
 /// A least-squares problem min |A c − b|², reduced once to its triangle R by Householder QR, so
 /// that many ridge weights are cheap.
 #[derive(Clone, Debug)]
-pub struct Reduced {
+pub(crate) struct Reduced {
     triangle: DMatrix<f64>,
     right: DVector<f64>,
     /// The mean squared norm of a column of A: the unit of the ridge.
@@ -19,7 +19,7 @@ pub struct Reduced {
 impl Reduced {
     /// Reduces the problem min |A c − b|² with A = `matrix` and b = `right`.
     #[must_use]
-    pub fn new(matrix: DMatrix<f64>, right: DVector<f64>) -> Self {
+    pub(crate) fn new(matrix: DMatrix<f64>, right: DVector<f64>) -> Self {
         let (rows, columns) = matrix.shape();
         let scale = matrix.norm_squared() / columns.max(1) as f64;
         if rows <= columns {
@@ -47,13 +47,17 @@ impl Reduced {
     ///
     /// `None` where the minimiser is not unique to rounding (take a larger ridge) or not finite.
     #[must_use]
-    pub fn solve(&self, ridge: f64) -> Option<DVector<f64>> {
+    pub(crate) fn solve(&self, ridge: f64) -> Option<DVector<f64>> {
         self.solve_near(ridge, None)
     }
 
     /// As [`Reduced::solve`], with the ridge pulling to `anchor` in place of 0.
     #[must_use]
-    pub fn solve_near(&self, ridge: f64, anchor: Option<&DVector<f64>>) -> Option<DVector<f64>> {
+    pub(crate) fn solve_near(
+        &self,
+        ridge: f64,
+        anchor: Option<&DVector<f64>>,
+    ) -> Option<DVector<f64>> {
         cancel::check();
         let columns = self.triangle.ncols();
         if ridge <= 0.0 {

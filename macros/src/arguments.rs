@@ -4,7 +4,7 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 
 /// The path of the runtime crate, as far as the user says, and the other arguments.
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The path after `crate =`.
     pub krate: Option<TokenStream>,
     /// The other arguments as they are.
@@ -13,7 +13,7 @@ pub struct Arguments {
 
 impl Arguments {
     /// The path of the runtime crate.
-    pub fn krate(&self) -> TokenStream {
+    pub(crate) fn krate(&self) -> TokenStream {
         self.krate.clone().unwrap_or_else(|| quote!(::coadjoint))
     }
 }
@@ -22,7 +22,7 @@ impl Arguments {
 ///
 /// # Errors
 /// If it is there twice, or what stands after the equals sign is no path.
-pub fn split(tokens: TokenStream) -> syn::Result<Arguments> {
+pub(crate) fn split(tokens: TokenStream) -> syn::Result<Arguments> {
     let mut krate = None;
     let mut others: Vec<TokenTree> = Vec::new();
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();

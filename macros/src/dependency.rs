@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// The correction where the crate being compiled has no dependency called `coadjoint`; `None`
 /// where it has one, or where nothing is known about its dependencies.
-pub fn help() -> Option<String> {
+pub(crate) fn help() -> Option<String> {
     advice(std::env::args())
 }
 

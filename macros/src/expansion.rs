@@ -12,7 +12,7 @@ use crate::arguments::{self, Arguments};
 use crate::dependency;
 
 /// An attribute: how it reads a function, and what stands in where that fails.
-pub struct Attribute {
+pub(crate) struct Attribute {
     /// Generates the items for the function, given the arguments but `crate`; programs bind names with an underscore at their
     /// ends.
     pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<emit::Items>,
@@ -22,7 +22,7 @@ pub struct Attribute {
 
 impl Attribute {
     /// The function itself, followed by what is generated for it, or by the errors and a stand-in.
-    pub fn expand(&self, arguments: TokenStream, item: TokenStream) -> TokenStream {
+    pub(crate) fn expand(&self, arguments: TokenStream, item: TokenStream) -> TokenStream {
         let function: ItemFn = match syn::parse2(item.clone()) {
             Ok(function) => function,
             Err(error) => {

@@ -14,7 +14,7 @@ use syn::{Block, FnArg, ItemFn, Type, parse_quote};
 
 /// The expansion that succeeds for the function with its first coordinate for its body, which is at
 /// fault nowhere; `None` if not even the signature or the group can be read.
-pub fn expansion(
+pub(crate) fn expansion(
     arguments: &TokenStream,
     function: &ItemFn,
     generate: impl Fn(TokenStream, &ItemFn) -> syn::Result<TokenStream>,
@@ -68,7 +68,7 @@ fn types(function: &ItemFn) -> Vec<&Type> {
 }
 
 /// In place of a potential.
-pub fn potential(function: &ItemFn, options: &Options) -> TokenStream {
+pub(crate) fn potential(function: &ItemFn, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, .. } = options;
     let types = types(function);
     quote! {
@@ -96,7 +96,7 @@ pub fn potential(function: &ItemFn, options: &Options) -> TokenStream {
 }
 
 /// In place of an integrator.
-pub fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
+pub(crate) fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
     let Options { krate, visibility, name, .. } = options;
     let types = types(function);
     let result = quote!(::core::result::Result);

@@ -13,7 +13,7 @@ use crate::expansion::Attribute;
 use crate::fallback;
 
 /// The attribute.
-pub const ATTRIBUTE: Attribute = Attribute { generate, stand_in };
+pub(crate) const ATTRIBUTE: Attribute = Attribute { generate, stand_in };
 
 fn generate(
     arguments: TokenStream,

@@ -59,7 +59,7 @@ fn hash(bytes: &[u8]) -> String {
 
 impl Cache {
     /// The folder, made where there is none. None where it cannot be made or is not this user's alone.
-    pub fn open(choice: &CacheFolder) -> Option<Self> {
+    pub(crate) fn open(choice: &CacheFolder) -> Option<Self> {
         let folder = match choice {
             CacheFolder::User => user_folder()?,
             CacheFolder::At(folder) => folder.clone(),
@@ -71,7 +71,7 @@ impl Cache {
     }
 
     /// The library of an entry that is whole and ours.
-    pub fn get(&self, key: &str) -> Option<PathBuf> {
+    pub(crate) fn get(&self, key: &str) -> Option<PathBuf> {
         let entry = self.folder.join(key);
         let library = entry.join(LIBRARY);
         let mark = entry.join(HASH);
@@ -90,7 +90,7 @@ impl Cache {
     }
 
     /// Keeps a library and returns its place in the cache. A whole one that is already there stays, a damaged one is replaced.
-    pub fn put(&self, key: &str, library: &Path) -> io::Result<PathBuf> {
+    pub(crate) fn put(&self, key: &str, library: &Path) -> io::Result<PathBuf> {
         self.clean();
         let bytes = fs::read(library)?;
         let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(&self.folder)?;

@@ -31,7 +31,7 @@ pub(super) const LIBRARY: &str = if cfg!(windows) { "step.dll" } else { "step.so
 impl Compiler {
     /// The compiler that was named, or that of the environment variable CC, else the first of `cc`, `gcc` and `clang`
     /// that answers.
-    pub fn find(options: &COptions, folder: &Path) -> Result<Self, NativeError> {
+    pub(crate) fn find(options: &COptions, folder: &Path) -> Result<Self, NativeError> {
         let named = options.compiler.as_deref();
         let environment = std::env::var_os("CC").filter(|command| !command.is_empty());
         if let Some(command) = named.map(OsStr::to_owned).or(environment) {
@@ -65,18 +65,18 @@ impl Compiler {
     }
 
     /// The name it was called by.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.program.to_string_lossy().into_owned()
     }
 
     /// Its version text, which tells it from other compilers.
-    pub fn version(&self) -> &str {
+    pub(crate) fn version(&self) -> &str {
         &self.version
     }
 
     /// The arguments it is given, but those that name files. Nothing may be contracted or reordered; long straight-line
     /// programs gain nothing from the vectoriser, and operations are in a good order already.
-    pub fn flags() -> &'static [&'static str] {
+    pub(crate) fn flags() -> &'static [&'static str] {
         &[
             "-std=gnu99",
             "-O1",
@@ -98,7 +98,7 @@ impl Compiler {
     }
 
     /// Compiles a unit in a folder of its own; the library.
-    pub fn compile(&self, text: &str, folder: &Path) -> Result<PathBuf, NativeError> {
+    pub(crate) fn compile(&self, text: &str, folder: &Path) -> Result<PathBuf, NativeError> {
         let (unit, library) = (folder.join("step.c"), folder.join(LIBRARY));
         std::fs::write(&unit, text)
             .map_err(|source| NativeError::Write { path: unit.clone(), source })?;
