@@ -48,6 +48,15 @@ async function open(hash = "", options = {}) {
   };
 }
 
+// A test on a page that `open` opens with these arguments.
+function onPage(name, given, body) {
+  test(name, async () => {
+    const { tab, done } = await open(...given);
+    await body(tab);
+    await done();
+  });
+}
+
 const text = (tab, id) => tab.locator(`#${id}`).textContent();
 const state = (tab) => tab.evaluate(() => JSON.parse(JSON.stringify(page.state)));
 const frames = (tab, count = 3) => tab.evaluate((count) => new Promise((done) => {
@@ -55,8 +64,7 @@ const frames = (tab, count = 3) => tab.evaluate((count) => new Promise((done) =>
   next();
 }), count);
 
-test("opens from disk, moves, and says nothing to the console", async () => {
-  const { tab, done } = await open();
+onPage("opens from disk, moves, and says nothing to the console", [], async (tab) => {
   assert.equal(await text(tab, "play"), "Pause");
   await tab.waitForFunction(() => page.session().steps() > 10);
   const before = await tab.evaluate(() => page.session().steps());
@@ -69,11 +77,9 @@ test("opens from disk, moves, and says nothing to the console", async () => {
   const size = readFileSync(new URL(url)).length;
   console.log(`first picture after ${first.toFixed(0)} ms, ${(size / 1000).toFixed(0)} kB; a frame every ${frame.toFixed(1)} ms, of which drawing ${draw.toFixed(1)} ms`);
   assert.ok(size < 3_000_000);
-  await done();
 });
 
-test("every system of the gallery can be chosen and runs", async () => {
-  const { tab, done } = await open();
+onPage("every system of the gallery can be chosen and runs", [], async (tab) => {
   const ids = await tab.locator("#gallery option").evaluateAll((list) => list.map((option) => option.value));
   assert.ok(ids.length >= 22);
   for (const id of ids) {
@@ -83,11 +89,9 @@ test("every system of the gallery can be chosen and runs", async () => {
     assert.equal(await tab.locator(".mistake").count(), 0, id);
     await frames(tab);
   }
-  await done();
 });
 
-test("every control does what it says", async () => {
-  const { tab, done } = await open("#system=rigid-body&paused=1");
+onPage("every control does what it says", ["#system=rigid-body&paused=1"], async (tab) => {
   const steps = () => tab.evaluate(() => page.session().steps());
   assert.equal(await text(tab, "play"), "Play");
   await tab.click("#single");
@@ -140,11 +144,9 @@ test("every control does what it says", async () => {
   await tab.selectOption("#gallery", "manakov-so4");
   await tab.selectOption("#axis-1", "5");
   assert.deepEqual((await state(tab)).axes, [0, 5, 2]);
-  await done();
 });
 
-test("the momentum at the start is dragged over its sphere, by hand and by keys", async () => {
-  const { tab, done } = await open("#system=rigid-body&paused=1");
+onPage("the momentum at the start is dragged over its sphere, by hand and by keys", ["#system=rigid-body&paused=1"], async (tab) => {
   const canvas = tab.locator("#orbit");
   const box = await canvas.boundingBox();
   const place = await tab.evaluate(() => orbitFrame(orbitCanvas, about, start).place(start));
@@ -172,11 +174,9 @@ test("the momentum at the start is dragged over its sphere, by hand and by keys"
   await tab.mouse.move(box.x + 90, box.y + 50, { steps: 4 });
   await tab.mouse.up();
   assert.notDeepEqual((await state(tab)).view, view);
-  await done();
 });
 
-test("on a phone a finger drags the ring, and scrolls elsewhere", async () => {
-  const { tab, done } = await open("#system=rigid-body&paused=1", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+onPage("on a phone a finger drags the ring, and scrolls elsewhere", ["#system=rigid-body&paused=1", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }], async (tab) => {
   await tab.locator("#orbit").scrollIntoViewIfNeeded();
   const client = await tab.context().newCDPSession(tab);
   const touch = (type, points) => client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
@@ -197,11 +197,9 @@ test("on a phone a finger drags the ring, and scrolls elsewhere", async () => {
   await drag([box.x + 20, box.y + box.height - 20], [box.x + 20, box.y + box.height - 220]);
   assert.notEqual(await tab.evaluate(() => scrollY), scrolled);
   assert.deepEqual(await tab.evaluate(() => [...start]), now);
-  await done();
 });
 
-test("a system of one's own is typed: a gyrostat with three wheels", async () => {
-  const { tab, done } = await open();
+onPage("a system of one's own is typed: a gyrostat with three wheels", [], async (tab) => {
   await tab.fill("#hamiltonian", "(x - a)^2/(2*I1) + (y - b)^2/(2*I2) + (z - c)^2/(2*I3)");
   await tab.fill("#parameters", "I1 = 3\nI2 = 4\nI3 = 5\na = 0.3\nb = -1/3\nc = 0.5");
   await tab.fill("#momentum", "1 2 3");
@@ -216,11 +214,9 @@ test("a system of one's own is typed: a gyrostat with three wheels", async () =>
   await tab.fill("#hamiltonian", "x^2/2 + y^2/3 + z^2/5");
   await tab.waitForFunction(() => page.about().factors[0].kind === "matrix" && page.session().steps() > 5);
   assert.equal(await tab.locator(".mistake").count(), 0);
-  await done();
 });
 
-test("mistakes are shown at their places, and the last system stays", async () => {
-  const { tab, done } = await open();
+onPage("mistakes are shown at their places, and the last system stays", [], async (tab) => {
   const steps = await tab.evaluate(() => page.session().steps());
   await tab.fill("#hamiltonian", "x^2/(2*I1) + y^2/(2*I2) + zz^2/(2*I3)");
   await tab.waitForSelector("#hamiltonian-mistakes .mistake");
@@ -242,7 +238,6 @@ test("mistakes are shown at their places, and the last system stays", async () =
   assert.equal(await tab.locator("#hamiltonian").getAttribute("aria-invalid"), null);
   await tab.fill("#group", "SO4");
   await tab.waitForSelector("#coordinates-mistakes .mistake");
-  await done();
 });
 
 test("what a page cannot do it refuses in words", async () => {
@@ -254,8 +249,7 @@ test("what a page cannot do it refuses in words", async () => {
   await done();
 });
 
-test("a refused step is told, with one that can be made", async () => {
-  const { tab, done } = await open("#system=rigid-body");
+onPage("a refused step is told, with one that can be made", ["#system=rigid-body"], async (tab) => {
   await tab.fill("#step", "1.9");
   await tab.waitForSelector("#refusal:not([hidden])");
   assert.match(await text(tab, "refusal"), /was refused. Beyond the chart/);
@@ -264,7 +258,6 @@ test("a refused step is told, with one that can be made", async () => {
   await tab.click("#usable");
   await tab.waitForFunction(() => page.about().step < 1.9 && page.session().steps() > 3);
   assert.equal(await tab.locator("#refusal").isVisible(), false);
-  await done();
 });
 
 test("a link holds the whole state", async () => {
@@ -294,8 +287,7 @@ test("a link holds the whole state", async () => {
   await second.done();
 });
 
-test("the numbers are those of the command", async () => {
-  const { tab, done } = await open("#system=rigid-body&paused=1");
+onPage("the numbers are those of the command", ["#system=rigid-body&paused=1"], async (tab) => {
   await tab.selectOption("#truncation", "3");
   await tab.fill("#step", "0.25");
   await tab.waitForFunction(() => page.about().step === 0.25);
@@ -320,15 +312,12 @@ test("the numbers are those of the command", async () => {
   await tab.click("#tab-python");
   const python = spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], { input: await text(tab, "text"), encoding: "utf8" });
   assert.equal(python.status, 0, python.stderr);
-  await done();
 });
 
-test("nothing moves by itself where the user asks for calm", async () => {
-  const { tab, done } = await open("", { reducedMotion: "reduce" });
+onPage("nothing moves by itself where the user asks for calm", ["", { reducedMotion: "reduce" }], async (tab) => {
   await frames(tab, 10);
   assert.equal(await tab.evaluate(() => page.session().steps()), 0);
   assert.equal(await text(tab, "play"), "Play");
-  await done();
 });
 
 for (const [scheme, width] of [["light", 1280], ["dark", 1280], ["light", 390], ["dark", 390]]) {
