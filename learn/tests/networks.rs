@@ -51,7 +51,7 @@ fn the_same_seed_gives_the_same_bits() {
 }
 
 /// A training interrupted in the middle of Adam ends with the bits of one that was not. (The same
-/// for a killed process: `cli/tests/resume.rs`.)
+/// for a killed process: `cli/tests/all/resume.rs`.)
 #[test]
 fn training_goes_on_from_a_checkpoint() {
     let (_, train) = sample(50, 1);

@@ -1,5 +1,4 @@
-//! Running the binary. Each test file uses its share.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+//! Running the binary.
 
 use std::path::{Path, PathBuf};
 

@@ -1,15 +1,12 @@
 //! Compilers that hang or fail do not keep a run waiting.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used)]
-
-mod support;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use support::{coadjoint, root};
+use crate::support::{coadjoint, root};
 
 /// A compiler that tells its version, and for everything else runs this script.
 fn compiler(folder: &Path, script: &str) -> String {

@@ -1,14 +1,11 @@
 //! The files that the command writes: never over an input, whole or not there, and known to be what was written.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used)]
-
-mod support;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use support::{coadjoint, root, run};
+use crate::support::{coadjoint, root, run};
 
 const BODY: &str = "examples/rigid_body.toml";
 

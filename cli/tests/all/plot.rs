@@ -1,12 +1,9 @@
 //! `simulate --plot`: what the picture says, and that it can be read.
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
 
 use std::collections::BTreeSet;
 
+use crate::support::{file, json, root, run};
 use coadjoint_codegen::system::{Options, read};
-use support::{file, json, root, run};
 
 /// The picture of a run.
 fn picture(arguments: &[&str]) -> String {

@@ -1,10 +1,7 @@
 //! The warnings of a run: a series that hardly converges, steps that would work.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::run;
 use serde_json::Value;
-use support::run;
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";

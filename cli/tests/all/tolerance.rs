@@ -1,10 +1,7 @@
 //! `--tolerance`: the error at the end of a run is below what was asked for, and not far below.
-#![allow(clippy::unwrap_used)]
 
-mod support;
-
+use crate::support::{file, json, numbers, run};
 use serde_json::Value;
-use support::{file, json, numbers, run};
 
 /// The estimate is made for the worst moment of the run and used up to a half; at a given moment the
 /// error may happen to be smaller.
@@ -47,7 +44,8 @@ fn the_free_body_a() {
 #[test]
 fn the_free_body_b() {
     let directory = tempfile::TempDir::new().unwrap();
-    let text = std::fs::read_to_string(support::root().join("examples/rigid_body.toml")).unwrap();
+    let text =
+        std::fs::read_to_string(crate::support::root().join("examples/rigid_body.toml")).unwrap();
     let text = text.replace("[2.0, 0.5, 1.0]", "[1.2, 2.5, 0.6]");
     meets(&file(&directory, &text), "40");
 }
@@ -91,7 +89,7 @@ fn the_choice_is_told() {
     assert!(region_step < run_step);
 
     let directory = tempfile::TempDir::new().unwrap();
-    let text = std::fs::read_to_string(support::root().join(body)).unwrap();
+    let text = std::fs::read_to_string(crate::support::root().join(body)).unwrap();
     let system = text.replace("step = 0.1", "tolerance = 1e-9\nregion = 4");
     let (_, step) = told(&["simulate", &file(&directory, &system)]);
     assert_eq!(step, region_step);

@@ -1,8 +1,5 @@
 //! Nothing that the default build compiles is C: whoever builds the command needs no C compiler, and
 //! does not wait for one.
-#![allow(clippy::unwrap_used)]
-
-mod support;
 
 /// Crates that compile C, C++ or assembly, or look for such libraries, while building.
 const COMPILERS: [&str; 7] =
@@ -11,7 +8,7 @@ const COMPILERS: [&str; 7] =
 #[test]
 fn nothing_in_the_default_build_compiles_c() {
     let output = std::process::Command::new(env!("CARGO"))
-        .current_dir(support::root())
+        .current_dir(crate::support::root())
         .args(["tree", "--offline", "--locked", "-p", "coadjoint-cli", "-p", "coadjoint-learn"])
         .args(["-e", "normal,build", "--prefix", "none", "-f", "{p}"])
         .output()

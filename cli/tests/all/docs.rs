@@ -1,10 +1,7 @@
 //! The pages are run as they stand: README.md, the command's own README, and every chapter of the manual
 //! (`docs/book/src`), each in a folder of its own with the examples (`support/page.rs`).
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-use support::page::{Block, blocks, file_name, run, with_examples};
-
-mod support;
+use crate::support::page::{Block, blocks, file_name, run, with_examples};
 
 #[test]
 fn the_two_commands_of_the_readme_stand_there() {
@@ -15,7 +12,7 @@ fn the_two_commands_of_the_readme_stand_there() {
         commands,
         "cargo run --release -- simulate examples/rigid_body.toml\ncargo test --workspace\n"
     );
-    let (code, out, err) = support::run(&["simulate", "examples/rigid_body.toml"]);
+    let (code, out, err) = crate::support::run(&["simulate", "examples/rigid_body.toml"]);
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("drift"), "{out}");
 }
@@ -33,7 +30,7 @@ fn the_commands_own_readme() {
 #[test]
 fn readme_and_other_pages() {
     let mut paths = vec!["README.md".to_owned()];
-    for entry in std::fs::read_dir(support::root().join("docs")).unwrap() {
+    for entry in std::fs::read_dir(crate::support::root().join("docs")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         paths.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
     }
@@ -132,7 +129,7 @@ fn every_block_is_run() {
 /// The chapters by name, with their text.
 fn chapters() -> Vec<(String, String)> {
     let mut chapters = Vec::new();
-    for entry in std::fs::read_dir(support::root().join("docs/book/src")).unwrap() {
+    for entry in std::fs::read_dir(crate::support::root().join("docs/book/src")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         if let Some(stem) = name.strip_suffix(".md") {
             chapters.push((stem.to_owned(), page(&format!("docs/book/src/{name}"))));
@@ -144,5 +141,5 @@ fn chapters() -> Vec<(String, String)> {
 }
 
 fn page(path: &str) -> String {
-    std::fs::read_to_string(support::root().join(path)).unwrap()
+    std::fs::read_to_string(crate::support::root().join(path)).unwrap()
 }

@@ -1,15 +1,12 @@
 //! A run that is killed or interrupted goes on from its checkpoint to the same bits.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
+use crate::support::root;
 use rustix::process::{Pid, Signal, kill_process};
-use support::root;
 
 /// A folder with a system file and the runs of it.
 struct Place(tempfile::TempDir);

@@ -1,19 +1,16 @@
 //! A learned map is run by the driver of all other runs: parts, checkpoints, formats, no number that is not finite.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
 
 use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
+use crate::support::run;
 use coadjoint::SO3;
 use coadjoint_learn::data::write_pairs;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
-use support::run;
 
 /// A folder with a learned map and its runs.
 struct Place(tempfile::TempDir);

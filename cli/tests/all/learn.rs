@@ -1,5 +1,4 @@
 //! `learn`, `simulate --model`, `emit --model`, `geometrize`, and where `reproduce` has gone.
-#![allow(clippy::unwrap_used)]
 
 use assert_cmd::Command;
 use coadjoint::SO3;

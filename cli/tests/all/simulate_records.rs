@@ -1,12 +1,9 @@
 //! The records of `simulate`: times, columns, written as the run goes, and kept when it fails.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-mod support;
 
 use std::path::Path;
 use std::process::Stdio;
 
-use support::{file, json, root, run};
+use crate::support::{file, json, root, run};
 
 const BODY: &str = "examples/rigid_body.toml";
 

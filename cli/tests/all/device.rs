@@ -2,16 +2,13 @@
 //!
 //! Runs need OpenCL (pocl will do) and a command built for it; where there is none they say so, and fail with
 //! `COADJOINT_REQUIRE_TOOLS=1`.
-#![allow(clippy::unwrap_used)]
-
-mod support;
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use crate::support::{json, root, run};
 use serde_json::Value;
-use support::{json, root, run};
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";

@@ -1,14 +1,11 @@
 //! `ensemble`: the end states of `simulate`, whatever the threads, shards, formats and accidents.
-#![allow(clippy::unwrap_used)]
-
-mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use crate::support::{json, root, run};
 use serde_json::Value;
-use support::{json, root, run};
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
@@ -75,9 +72,9 @@ fn a_row_ends_where_simulate_ends() {
     assert_eq!(header, names);
     let end: Vec<f64> = end.trim().split(',').map(|cell| cell.parse().unwrap()).collect();
     let single = json(&["simulate", BODY, "--format", "json"]);
-    let mut expected = support::numbers(&single["momentum"]);
+    let mut expected = crate::support::numbers(&single["momentum"]);
     for row in single["group_element"].as_array().unwrap() {
-        expected.extend(support::numbers(row));
+        expected.extend(crate::support::numbers(row));
     }
     for (a, b) in end.iter().zip(&expected) {
         assert!((a - b).abs() < 1e-11, "{end:?}\n{expected:?}");
@@ -116,7 +113,7 @@ fn every_kind_of_group_and_chart_runs() {
             end.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
         let mut arguments = vec!["simulate", file, "--format", "json"];
         arguments.extend(common);
-        let expected = support::numbers(&json(&arguments)["momentum"]);
+        let expected = crate::support::numbers(&json(&arguments)["momentum"]);
         assert_eq!(end.len(), expected.len());
         let size = expected.iter().fold(1.0, |a: f64, b| a.max(b.abs()));
         for (a, b) in end.iter().zip(&expected) {

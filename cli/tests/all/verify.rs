@@ -1,13 +1,10 @@
 //! `verify`: right files are found right, and whatever was changed in them is found, by time or row.
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
 
 #[cfg(not(feature = "parquet"))]
 use std::path::Path;
 
+use crate::support::{file, json, root, run};
 use serde_json::Value;
-use support::{file, json, root, run};
 use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";

@@ -1,9 +1,6 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
-#![allow(clippy::unwrap_used)]
 
-mod support;
-
-use support::{file, json, run};
+use crate::support::{file, json, run};
 
 /// The largest difference from tests/reference/satellite.json, made by tests/reference/satellite.py.
 fn error(step: &str) -> (f64, serde_json::Value) {

@@ -1,5 +1,4 @@
 //! A killed training goes on where it was and ends with the same bits.
-#![allow(clippy::unwrap_used)]
 
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -1,10 +1,8 @@
 //! `simulate`: the reference end state, the keys programs rely on, and the files it writes.
 
-mod support;
-
+use crate::support::{file, json, numbers, root, run};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use support::{file, json, numbers, root, run};
 
 /// The paper's rigid body at T = 100, 25 digits by a separate implementation
 /// (`end_states.json`, "rigid-body (paper)"), rounded to f64.

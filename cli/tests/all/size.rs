@@ -1,9 +1,6 @@
 //! Spin chains of 64 and 256 sites: conservation, order, and what is too large to emit.
-#![allow(clippy::unwrap_used)]
 
-mod support;
-
-use support::{file, json, numbers, root, run};
+use crate::support::{file, json, numbers, root, run};
 
 fn chain(sites: usize) -> String {
     let text = std::fs::read_to_string(root().join("examples/spin_chain_64.toml")).unwrap();

@@ -1,9 +1,6 @@
 //! Systems that once ran to a wrong end with a good report: each is refused with the time, or right to the end.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
-use support::{file, run};
+use crate::support::{file, run};
 use tempfile::TempDir;
 
 const MANAKOV: &str = "group = \"SO4\"\nhamiltonian = \"mu[0]^2/6 + mu[1]^2/8 + mu[2]^2/10 + mu[3]^2/10 + \

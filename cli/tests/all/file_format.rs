@@ -1,14 +1,11 @@
 //! docs/book/src/file-format.md: every example on the page is a file that works, and no key is forgotten.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::{file, root, run};
 use coadjoint_codegen::expr::Function;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{FrameChoice, Solver};
 use coadjoint_codegen::system::{Options, Splitting, read};
-use support::{file, root, run};
 
 fn page() -> String {
     std::fs::read_to_string(root().join("docs/book/src/file-format.md")).unwrap()

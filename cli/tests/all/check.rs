@@ -1,8 +1,6 @@
 //! `check`: laws that hold, and one that does not.
 
-mod support;
-
-use support::{file, json, run};
+use crate::support::{file, json, run};
 
 #[test]
 fn the_laws_hold_for_the_examples() {

@@ -1,11 +1,8 @@
 //! `groups`: what is printed is what the integrators use, and docs/book/src/groups.md is what is printed.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::{json, root, run};
 use coadjoint::{LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg};
 use coadjoint_codegen::lie::catalogue;
-use support::{json, root, run};
 
 /// Numbers without a pattern, so that no wrong sign cancels.
 fn numbers_of(n: usize, seed: f64) -> Vec<f64> {

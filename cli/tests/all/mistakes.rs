@@ -1,8 +1,6 @@
 //! Bad input: exit code 2, the file, the line, and what to write instead.
 
-mod support;
-
-use support::{file, run};
+use crate::support::{file, run};
 
 const GOOD: &str = r#"
 group = "SO3"
@@ -142,7 +140,7 @@ fn a_closed_pipe_is_no_failure_and_a_full_disk_is_one() {
     let start = |arguments: &[&str], output: Stdio| {
         Command::new(env!("CARGO_BIN_EXE_coadjoint"))
             .args(arguments)
-            .current_dir(support::root())
+            .current_dir(crate::support::root())
             .stdout(output)
             .stderr(Stdio::piped())
             .spawn()

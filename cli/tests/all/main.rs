@@ -1,0 +1,28 @@
+//! Tests of the command, each subject in a module of its own: one program, which is linked once.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod check;
+mod compilers;
+mod derive_and_emit;
+mod device;
+mod docs;
+mod ensemble;
+mod file_format;
+mod groups;
+mod learn;
+mod learned_runs;
+mod mistakes;
+mod no_c;
+mod outputs;
+mod plot;
+mod potential;
+mod refused;
+mod resume;
+mod simulate;
+mod simulate_records;
+mod simulate_resume;
+mod size;
+mod support;
+mod tolerance;
+mod verify;
+mod warnings;
