@@ -3,18 +3,21 @@
 use std::path::PathBuf;
 
 use clap::error::{ContextKind, ErrorKind};
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use coadjoint_codegen::emit::c::Language;
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_device::Device;
-use coadjoint_program::print::DeviceLanguage;
+use coadjoint_program::Precision;
+use coadjoint_run::Backend;
 
-use crate::backend::BackendName;
-use crate::ensemble::{PrecisionName, Shard};
+use crate::derive::{FORMS, Form};
+use crate::ensemble::Shard;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
+use crate::named::{
+    BACKENDS, CHARTS, FORMATS, Format, LANGUAGES, PRECISIONS, SOLVERS, Target, named,
+};
 use crate::reproduce::ReproduceOptions;
 
 /// Momentum-preserving integrators from a Hamiltonian.
@@ -79,84 +82,36 @@ pub enum Verb {
     Reproduce(ReproduceOptions),
 }
 
-/// A chart by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ChartName {
-    /// The exponential.
-    Exp,
-    /// The Cayley map.
-    Cayley,
-}
-
-impl From<ChartName> for Chart {
-    fn from(name: ChartName) -> Self {
-        match name {
-            ChartName::Exp => Self::Exponential,
-            ChartName::Cayley => Self::Cayley,
-        }
-    }
-}
-
-/// A solver by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SolverName {
-    /// Newton's method, with the Hessian.
-    Newton,
-    /// The accelerated fixed point, with the gradient alone.
-    #[value(name = "fixed_point", alias = "fixed-point")]
-    FixedPoint,
-}
-
-impl From<SolverName> for Solver {
-    fn from(name: SolverName) -> Self {
-        match name {
-            SolverName::Newton => Self::Newton,
-            SolverName::FixedPoint => Self::FixedPoint,
-        }
-    }
-}
-
-/// For people or for programs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For people.
-    #[default]
-    Text,
-    /// For programs.
-    Json,
-}
-
-/// Formats of a series.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum SeriesFormat {
-    /// One line per term.
-    #[default]
-    Text,
-    /// One object with group, chart and S.
-    Json,
-    /// An aligned display.
-    Latex,
+/// Settings that replace those of a system file.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Instead {
+    /// Use this chart instead of the file's
+    #[arg(long, value_parser = named(CHARTS))]
+    pub chart: Option<Chart>,
+    /// Solve each step this way instead of the file's
+    #[arg(long, value_parser = named(SOLVERS))]
+    pub solver: Option<Solver>,
 }
 
 /// A system file and what replaces its settings.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Source {
     /// The system file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Use this chart instead of the file's
-    #[arg(long)]
-    pub chart: Option<ChartName>,
-    /// Solve each step this way instead of the file's
-    #[arg(long)]
-    pub solver: Option<SolverName>,
+    /// Settings that replace the file's.
+    #[command(flatten)]
+    pub instead: Instead,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
 }
 
 impl Source {
     /// How the file is to be read.
-    pub fn options(&self, truncation: Option<usize>, parameters: Parameters) -> Options {
-        let (chart, solver) = (self.chart.map(Into::into), self.solver.map(Into::into));
-        Options { parameters, truncation, chart, solver }
+    pub fn options(&self, parameters: Parameters) -> Options {
+        let Instead { chart, solver } = self.instead;
+        Options { parameters, truncation: self.truncation, chart, solver }
     }
 }
 
@@ -166,12 +121,9 @@ pub struct Input {
     /// The system file
     #[arg(value_name = "FILE", required_unless_present = "model")]
     pub file: Option<PathBuf>,
-    /// Use this chart instead of the file's
-    #[arg(long)]
-    pub chart: Option<ChartName>,
-    /// Solve each step this way instead of the file's
-    #[arg(long)]
-    pub solver: Option<SolverName>,
+    /// Settings that replace the file's.
+    #[command(flatten)]
+    pub instead: Instead,
     /// A model learned by `coadjoint learn`, instead of a system file
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "truncation"])]
     pub model: Option<PathBuf>,
@@ -179,12 +131,9 @@ pub struct Input {
 
 impl Input {
     /// The system file; clap has seen to it that there is one without a model.
-    pub fn source(&self) -> Source {
-        Source {
-            file: self.file.clone().unwrap_or_default(),
-            chart: self.chart,
-            solver: self.solver,
-        }
+    pub fn source(&self, truncation: Option<usize>) -> Source {
+        let file = self.file.clone().unwrap_or_default();
+        Source { file, instead: self.instead, truncation }
     }
 }
 
@@ -194,12 +143,9 @@ pub struct DeriveOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
-    /// Keep S₁ … S_K, K odd; instead of the file's
-    #[arg(long, value_name = "K")]
-    pub truncation: Option<usize>,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
-    pub format: SeriesFormat,
+    #[arg(long, value_parser = named(FORMS), default_value = "text")]
+    pub format: Form,
 }
 
 /// Options of `emit`.
@@ -218,8 +164,8 @@ pub struct EmitOptions {
     #[arg(long)]
     pub keep_parameters: bool,
     /// The language to write
-    #[arg(long, value_enum, default_value_t)]
-    pub language: LanguageName,
+    #[arg(long, value_parser = named(LANGUAGES), default_value = "rust")]
+    pub language: Target,
     /// The prefix of all names in C and C++; from the system's name if not given
     #[arg(long, value_name = "NAME")]
     pub prefix: Option<String>,
@@ -228,51 +174,8 @@ pub struct EmitOptions {
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// The numbers of a kernel in OpenCL or CUDA
-    #[arg(long, value_enum, default_value_t)]
-    pub precision: PrecisionName,
-}
-
-/// A language to emit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum LanguageName {
-    /// A Rust module
-    #[default]
-    Rust,
-    /// One header of C99, for embedded and flight software
-    C,
-    /// The same with a class of C++11
-    Cpp,
-    /// A kernel in OpenCL C, a thread a trajectory
-    Opencl,
-    /// A kernel in CUDA C++, a thread a trajectory
-    Cuda,
-}
-
-impl LanguageName {
-    /// The language of a header, if it is one.
-    pub fn of_header(self) -> Option<Language> {
-        match self {
-            Self::C => Some(Language::C),
-            Self::Cpp => Some(Language::Cpp),
-            _ => None,
-        }
-    }
-
-    /// The language of a kernel for devices, if it is one.
-    pub fn of_device(self) -> Option<DeviceLanguage> {
-        match self {
-            Self::Opencl => Some(DeviceLanguage::OpenCl),
-            Self::Cuda => Some(DeviceLanguage::Cuda),
-            _ => None,
-        }
-    }
-}
-
-/// A second method to run beside the integrator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Rival {
-    /// The adaptive Runge–Kutta method of orders 4 and 5 of Dormand and Prince.
-    Rk45,
+    #[arg(long, value_parser = named(PRECISIONS), default_value = "double")]
+    pub precision: Precision,
 }
 
 /// A step size, or what it is picked by.
@@ -330,16 +233,16 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,
     /// Run another method beside it
-    #[arg(long, value_enum, conflicts_with = "model")]
-    pub compare: Option<Rival>,
+    #[arg(long, value_parser = ["rk45"], conflicts_with = "model")]
+    pub compare: Option<String>,
     /// The relative and absolute tolerance of the method beside it
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
     pub compare_tolerance: f64,
     /// The backend that evaluates the steps
-    #[arg(long, value_enum, default_value_t, conflicts_with = "model")]
-    pub backend: BackendName,
+    #[arg(long, value_parser = named(BACKENDS), default_value = "auto", conflicts_with = "model")]
+    pub backend: Backend,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
 
@@ -357,9 +260,6 @@ pub struct EnsembleOptions {
     /// fails is NaN there and listed in FILE.rejected.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Keep S₁ … S_K, K odd; instead of the file's
-    #[arg(long, value_name = "K")]
-    pub truncation: Option<usize>,
     /// The step, or the tolerance.
     #[command(flatten)]
     pub accuracy: Accuracy,
@@ -370,14 +270,14 @@ pub struct EnsembleOptions {
     #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
     /// The backend that evaluates the steps
-    #[arg(long, value_enum, default_value_t)]
-    pub backend: BackendName,
+    #[arg(long, value_parser = named(BACKENDS), default_value = "auto")]
+    pub backend: Backend,
     /// Make the steps on a device, opencl, opencl:N, cuda or cuda:N. What it refuses --backend makes
     #[arg(long, value_name = "DEVICE")]
     pub device: Option<Device>,
     /// The numbers that the device computes with
-    #[arg(long, value_enum, default_value_t, requires = "device")]
-    pub precision: PrecisionName,
+    #[arg(long, value_parser = named(PRECISIONS), default_value = "double", requires = "device")]
+    pub precision: Precision,
     /// How many threads; all processors if not given. The result is the same
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,
@@ -389,7 +289,7 @@ pub struct EnsembleOptions {
     #[arg(long)]
     pub keep: bool,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
 
@@ -416,10 +316,10 @@ pub struct VerifyOptions {
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
     /// The chart, where the output does not say
-    #[arg(long)]
-    pub chart: Option<ChartName>,
+    #[arg(long, value_parser = named(CHARTS))]
+    pub chart: Option<Chart>,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
 
@@ -429,9 +329,6 @@ pub struct CheckOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
-    /// Keep S₁ … S_K, K odd; instead of the file's
-    #[arg(long, value_name = "K")]
-    pub truncation: Option<usize>,
     /// The step size h; the file's, or else 0.1, if not given
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
@@ -442,7 +339,7 @@ pub struct CheckOptions {
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
 
@@ -456,7 +353,7 @@ pub struct CasimirOptions {
     #[arg(long, value_name = "d", default_value_t = 3)]
     pub degree: u32,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
 
@@ -470,7 +367,7 @@ pub struct GroupOptions {
     #[arg(long, value_name = "d", default_value_t = 0, hide_default_value = true)]
     pub degree: u32,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
     /// The same as --format json
     #[arg(long)]

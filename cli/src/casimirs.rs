@@ -7,9 +7,10 @@ use coadjoint_codegen::system;
 use coadjoint_run::series::polynomial;
 use serde_json::json;
 
-use crate::arguments::{CasimirOptions, Format};
+use crate::arguments::CasimirOptions;
 use crate::error::CliError;
 use crate::load;
+use crate::named::Format;
 
 /// Prints generators of the Casimirs up to the degree asked for.
 pub fn run(options: &CasimirOptions) -> Result<(), CliError> {

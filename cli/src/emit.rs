@@ -1,27 +1,34 @@
 //! `coadjoint emit`: the integrator as a Rust module, as a header of C, or as a kernel for devices.
 
+use std::path::PathBuf;
+
 use coadjoint_codegen::file;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
+use coadjoint_program::Precision;
 use coadjoint_run::emit::{Source, header, kernel, rust};
 
 use crate::arguments::EmitOptions;
-use crate::ensemble::PrecisionName;
 use crate::error::{CliError, unwritten};
+use crate::named::Target;
 use crate::{load, progress};
 
 /// Writes the code to `--out` or the standard output.
 pub fn run(options: &EmitOptions) -> Result<(), CliError> {
-    let language = options.language;
-    if language.of_header().is_none() && options.prefix.is_some() {
-        return Err(CliError::Option("--prefix is for --language c and cpp alone".into()));
-    }
-    if language.of_device().is_none() {
-        check_unused(options)?;
-    } else if options.keep_parameters {
-        return Err(CliError::Option(
-            "--keep-parameters: the coefficients of a kernel are folded; leave it out".into(),
-        ));
+    let (step, precision) = (options.step, options.precision);
+    let is_kernel = matches!(options.language, Target::Kernel(_));
+    let header_only = "--prefix is for --language c and cpp alone";
+    let kernel_only = |option| format!("{option} is for --language opencl and cuda alone");
+    let folded = "--keep-parameters: the coefficients of a kernel are folded; leave it out";
+    for (unfit, what) in [
+        (options.prefix.is_some() && !matches!(options.language, Target::Header(_)), header_only),
+        (step.is_some() && !is_kernel, &kernel_only("--step")),
+        (precision == Precision::Single && !is_kernel, &kernel_only("--precision")),
+        (options.keep_parameters && is_kernel, folded),
+    ] {
+        if unfit {
+            return Err(CliError::Option(what.to_owned()));
+        }
     }
     let (path, source) = source(options)?;
     let path = path.as_path();
@@ -30,12 +37,10 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
         file::check(out, &[path]).map_err(unwritten(out))?;
     }
     let phase = progress::phase("deriving S and writing it");
-    let text = if let Some(language) = language.of_device() {
-        kernel(path, source, options.step, options.precision.into(), language)?
-    } else if let Some(language) = language.of_header() {
-        header(path, source, language, options.prefix.clone())?
-    } else {
-        rust(path, source)?
+    let text = match options.language {
+        Target::Rust => rust(path, source)?,
+        Target::Header(language) => header(path, source, language, options.prefix.clone())?,
+        Target::Kernel(language) => kernel(path, source, step, precision, language)?,
     };
     drop(phase);
     match &options.out {
@@ -47,24 +52,14 @@ pub fn run(options: &EmitOptions) -> Result<(), CliError> {
     }
 }
 
-/// The source of the code to write, and the file it is from.
-fn source(options: &EmitOptions) -> Result<(std::path::PathBuf, Source), CliError> {
+/// The system or the model to be written, and the file it is from.
+fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     if let Some(path) = &options.input.model {
         return Ok((path.clone(), Source::Model(Box::new(ModelFile::load(path)?))));
     }
-    let source = options.input.source();
+    let source = options.input.source(options.truncation);
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
-    let (system, choice) = load::settled(&source, options.truncation, options.step, parameters)?;
+    let (system, choice) = load::settled(&source, options.step, parameters)?;
     Ok((source.file, Source::System(Box::new(system), choice)))
-}
-
-/// Refuses options that mean something for kernels alone.
-fn check_unused(options: &EmitOptions) -> Result<(), CliError> {
-    let unused = match (options.step, options.precision) {
-        (Some(_), _) => "--step",
-        (None, PrecisionName::Single) => "--precision",
-        (None, PrecisionName::Double) => return Ok(()),
-    };
-    Err(CliError::Option(format!("{unused} is for --language opencl and cuda alone")))
 }

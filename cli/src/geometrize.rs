@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use coadjoint::Chart;
 use coadjoint_codegen::lie::catalogue;
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::problem::{Problem, values};
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_learn::catalogue::{Visitor, visit};
 use coadjoint_learn::data::MomentumPairs;
@@ -16,21 +16,17 @@ use coadjoint_learn::{DataGroup, Kind, Request, learn, learn_momenta};
 use crate::error::CliError;
 use crate::learn::Fit;
 use crate::load;
+use crate::named::{Names, named};
 
 /// The most pairs that are made.
 const MOST_SAMPLES: usize = 100_000;
 
 /// Methods that keep no geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum MapName {
-    /// Forward Euler.
-    #[default]
-    Euler,
-    /// Heun's method, of order 2.
-    Heun,
-    /// The classical Runge–Kutta method of order 4.
-    Rk4,
-}
+const MAPS: &Names<OneStep> = &[
+    ("euler", "Forward Euler", OneStep::Euler),
+    ("heun", "Heun's method, of order 2", OneStep::Heun),
+    ("rk4", "The classical Runge–Kutta method of order 4", OneStep::Rk4),
+];
 
 /// Options of `geometrize`.
 #[derive(Args, Debug)]
@@ -44,8 +40,8 @@ pub struct GeometrizeOptions {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["data", "test", "group"])]
     system: Option<PathBuf>,
     /// The method
-    #[arg(long, value_enum, default_value_t, requires = "system")]
-    map: MapName,
+    #[arg(long, value_parser = named(MAPS), default_value = "euler", requires = "system")]
+    map: OneStep,
     /// How many pairs to make
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "system")]
     samples: usize,
@@ -129,22 +125,15 @@ impl Visitor for Pairs<'_> {
                 options.samples
             )));
         }
-        let method = match options.map {
-            MapName::Euler => OneStep::Euler,
-            MapName::Heun => OneStep::Heun,
-            MapName::Rk4 => OneStep::Rk4,
-        };
         let dim = group.dim();
-        let slopes: Vec<Polynomial> = (0..dim).map(|i| problem.hamiltonian.derivative(i)).collect();
-        let symbols: Vec<f64> =
-            problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+        let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+        let slopes = energy.gradient(dim);
         let gradient = |mu: &[f64], out: &mut [f64]| {
-            let point: Vec<f64> = mu.iter().chain(&symbols).copied().collect();
-            out.iter_mut().zip(&slopes).for_each(|(o, slope)| *o = slope.evaluate(&point));
+            out.iter_mut().zip(&slopes).for_each(|(o, slope)| *o = slope.value(mu));
         };
         let (step, seed) = (options.fit.dt(), options.fit.seed());
         Ok(momentum_pairs(&group, MomentumBox { low, high }, options.samples, seed, |mu| {
-            method.advance(&group, gradient, mu, step)
+            options.map.advance(&group, gradient, mu, step)
         }))
     }
 }

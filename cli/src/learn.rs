@@ -2,49 +2,39 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use coadjoint_codegen::file;
+use coadjoint_codegen::lie::Chart;
 use coadjoint_learn::data::{RowPolicy, Tolerances};
 use coadjoint_learn::{
     Errors, Figures, Kind, ModelFile, NetworkSettings, Request, Summary, learn, remove_checkpoints,
 };
 
-use crate::arguments::{ChartName, Format};
 use crate::error::{CliError, unwritten};
+use crate::named::{CHARTS, FORMATS, Format, Names, named};
 use crate::progress;
 
 /// Kinds of models.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum ModelName {
-    /// Whichever cross-validates best.
-    #[default]
-    Auto,
-    /// A polynomial by least squares.
-    Polynomial,
-    /// A Gaussian process.
-    Gp,
-    /// A network.
-    Network,
-    /// A quadratic polynomial and a network.
-    Hybrid,
-}
+const MODELS: &Names<Kind> = &[
+    ("auto", "Whichever cross-validates best", Kind::Auto),
+    ("polynomial", "A polynomial by least squares", Kind::Polynomial),
+    ("gp", "A Gaussian process", Kind::GaussianProcess),
+    ("network", "A network", Kind::Network),
+    ("hybrid", "A quadratic polynomial and a network", Kind::Hybrid),
+];
 
-/// The loss that is minimised.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Loss {
-    /// Differences of chart coordinates.
-    #[default]
-    Chart,
-    /// Distances on the group.
-    Group,
-}
+/// What is minimised; whether these are distances on the group.
+const LOSSES: &Names<bool> = &[
+    ("chart", "Differences of chart coordinates", false),
+    ("group", "Distances on the group", true),
+];
 
 /// The options that `learn` and `geometrize` share.
 #[derive(Args, Debug)]
 pub struct Fit {
     /// The chart
-    #[arg(long, value_enum, default_value = "exp")]
-    chart: ChartName,
+    #[arg(long, value_parser = named(CHARTS), default_value = "exp")]
+    chart: Chart,
     /// The time between the two states of a pair
     #[arg(long, value_name = "dt", allow_negative_numbers = true)]
     dt: f64,
@@ -67,7 +57,7 @@ pub struct Fit {
     #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
     /// How to print
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     format: Format,
 }
 
@@ -87,14 +77,14 @@ pub struct LearnOptions {
     #[arg(long, default_value = "SO3")]
     group: String,
     /// The kind of model
-    #[arg(long, value_enum, default_value_t)]
-    model: ModelName,
+    #[arg(long, value_parser = named(MODELS), default_value = "auto")]
+    model: Kind,
     /// The ridge of a polynomial of given degree
     #[arg(long, default_value_t = 0.0)]
     ridge: f64,
     /// The loss that is minimised
-    #[arg(long, value_enum, default_value_t)]
-    loss: Loss,
+    #[arg(long, value_parser = named(LOSSES), default_value = "chart")]
+    loss: bool,
     /// Widths of the hidden layers of a network
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [500, 500])]
     widths: Vec<usize>,
@@ -112,15 +102,11 @@ pub struct LearnOptions {
 impl Fit {
     /// The request for data in a file.
     pub fn request(&self, data: PathBuf, group: String) -> Request {
-        let chart = match self.chart {
-            ChartName::Exp => "exp",
-            ChartName::Cayley => "cayley",
-        };
         Request {
             data,
             test: None,
             group,
-            chart: chart.into(),
+            chart: self.chart.name().into(),
             step: self.dt,
             kind: Kind::Auto,
             degree: self.degree,
@@ -179,13 +165,6 @@ impl Fit {
 
 /// Learns the map behind pairs of states.
 pub fn run(options: &LearnOptions) -> Result<(), CliError> {
-    let kind = match options.model {
-        ModelName::Auto => Kind::Auto,
-        ModelName::Polynomial => Kind::Polynomial,
-        ModelName::Gp => Kind::GaussianProcess,
-        ModelName::Network => Kind::Network,
-        ModelName::Hybrid => Kind::Hybrid,
-    };
     let inputs: Vec<&PathBuf> = std::iter::once(&options.data).chain(&options.test).collect();
     options.fit.check(&inputs)?;
     let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
@@ -202,10 +181,10 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         checkpoint: checkpoint.clone(),
     };
     let request = Request {
-        kind,
+        kind: options.model,
         test: options.test.clone(),
         ridge: options.ridge,
-        group_loss: options.loss == Loss::Group,
+        group_loss: options.loss,
         tolerances,
         network,
         ..options.fit.request(options.data.clone(), options.group.clone())

@@ -23,12 +23,8 @@ pub fn file(path: &Path, options: Options) -> Result<System, CliError> {
 }
 
 /// Reads the system of a command.
-pub fn source(
-    source: &Source,
-    truncation: Option<usize>,
-    parameters: Parameters,
-) -> Result<System, CliError> {
-    file(&source.file, source.options(truncation, parameters))
+pub fn source(source: &Source, parameters: Parameters) -> Result<System, CliError> {
+    file(&source.file, source.options(parameters))
 }
 
 /// Picks truncation and step where a tolerance is asked for, on the command line or in the file,
@@ -49,17 +45,14 @@ pub fn meet_tolerance(
 }
 
 /// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
-/// for, as a run of the file has them; what was chosen is said on the error stream. `truncation` and `step` are what the
-/// command line gives.
+/// for, as a run of the file has them; the choice is told on the error stream. `step` is given on the command line.
 pub fn settled(
     given: &Source,
-    truncation: Option<usize>,
     step: Option<f64>,
     parameters: Parameters,
 ) -> Result<(System, Option<Choice>), CliError> {
-    let mut system = source(given, truncation, Parameters::Substituted)?;
+    let mut system = source(given, Parameters::Substituted)?;
     let run = &system.run;
-    let asked = run.tolerance.is_some() && step.is_none();
     let missing = if run.time.is_none() {
         Some("`[run] time`")
     } else if run.momentum.is_none() && run.region.is_none() {
@@ -68,7 +61,7 @@ pub fn settled(
         None
     };
     let choice = match missing {
-        Some(key) if asked && truncation.is_none() => {
+        Some(key) if run.tolerance.is_some() && step.is_none() && given.truncation.is_none() => {
             return Err(CliError::Option(format!(
                 "{}: `tolerance` picks the truncation, which needs {key}: add it, or give --truncation",
                 given.file.display()
@@ -77,6 +70,7 @@ pub fn settled(
         // Without a run there is no error at its end, by which a step could be picked.
         Some(_) => None,
         None => {
+            let truncation = given.truncation;
             let asked = coadjoint_run::Accuracy { step, truncation, ..Default::default() };
             meet(&given.file, &mut system, &asked)?
         }
@@ -87,7 +81,8 @@ pub fn settled(
     if parameters == Parameters::Substituted {
         return Ok((system, choice));
     }
-    let mut kept = source(given, Some(system.problem.truncation), parameters)?;
+    let truncation = Some(system.problem.truncation);
+    let mut kept = source(&Source { truncation, ..given.clone() }, parameters)?;
     kept.run.step = system.run.step;
     Ok((kept, choice))
 }

@@ -8,7 +8,6 @@
 mod output;
 
 mod arguments;
-mod backend;
 mod casimirs;
 mod check;
 mod derive;
@@ -19,6 +18,8 @@ mod geometrize;
 mod groups;
 mod learn;
 mod load;
+mod named;
+mod note;
 mod progress;
 mod reproduce;
 mod simulate;

@@ -116,7 +116,7 @@ impl Session {
                 .casimirs
                 .iter()
                 .enumerate()
-                .map(|(i, (exact, _))| {
+                .map(|(i, exact)| {
                     formula::equation(
                         &format!("<msub><mi>C</mi><mn>{}</mn></msub>", i + 1),
                         exact,
@@ -227,10 +227,11 @@ impl Session {
         let energy = &self.system.energy;
         // Where the momentum is dragged over its sphere only its own curve is another.
         if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
-            self.orbit = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
-                ([(_, casimir)], 3, 3) => Orbit::new(energy, casimir, momentum),
-                _ => None,
-            };
+            self.orbit =
+                match (&self.system.invariants.casimirs[..], self.system.dim(), momentum.len()) {
+                    ([casimir], 3, 3) => Orbit::new(energy, casimir, momentum),
+                    _ => None,
+                };
         }
         let Some(Orbit { surface, spread, .. }) = &self.orbit else { return Vec::new() };
         let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(momentum)));

@@ -10,7 +10,6 @@ pub mod gallery;
 pub mod history;
 pub mod mistakes;
 pub mod orbit;
-pub mod polynomial;
 pub mod refusal;
 pub mod rival;
 pub mod run;

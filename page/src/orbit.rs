@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::polynomial::Numeric;
+use coadjoint_codegen::poly::Numeric;
 
 /// How often the triangles of a sphere are parted in four.
 const FINENESS: u32 = 5;

@@ -4,11 +4,10 @@
 //! counted in the same operations.
 
 use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::{Graph, Id, Program};
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
-
-use crate::polynomial::Numeric;
 
 /// A step of the method, and how its states are read.
 #[derive(Debug)]

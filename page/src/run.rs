@@ -1,8 +1,6 @@
 //! A run: our steps and the rival's side by side, and how far each has drifted.
 
-use coadjoint_codegen::step::{
-    Conserved, Scales, Scratch, Spatial, Start, casimir_scale, energy_scale,
-};
+use coadjoint_codegen::step::{Scratch, Spatial, Start};
 use coadjoint_program::{Program, Stepper};
 
 use crate::history::{History, Sample};
@@ -63,15 +61,7 @@ impl Run {
         let mut rate = vec![0.0; n];
         system.rival.rate(momentum, &mut Vec::new(), &mut rate);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
-        let conserved = conserved(system, momentum, momentum);
-        let energy = system.energy.value(momentum);
-        let size = |i: usize| casimir_scale(|mu| system.casimirs[i].1.value(mu), momentum);
-        let scales = Scales {
-            spatial_momentum: momentum.iter().fold(0.0, |largest, mu| mu.abs().max(largest)),
-            casimirs: (0..system.casimirs.len()).map(size).collect(),
-            energy: energy_scale(energy, system.energy.magnitude(momentum)),
-        };
-        let start = Start { conserved, scales };
+        let start = system.invariants.start(momentum, momentum, Vec::new);
         let mut run = Self {
             h: system.h,
             substeps: 1,
@@ -229,7 +219,7 @@ impl Run {
     /// Of energy, spatial momentum and Casimirs; NaN where there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
         let [momentum, casimirs, energy] =
-            self.start.drift(&conserved(system, mu, spatial)).numbers();
+            self.start.drift(&system.invariants.conserved(mu, spatial, Vec::new)).numbers();
         [energy, momentum, casimirs]
     }
 
@@ -238,15 +228,6 @@ impl Run {
         let mut momentum = vec![0.0; mu.len()];
         self.spatial.momentum(g, mu, &mut Scratch::default(), &mut momentum);
         momentum
-    }
-}
-
-/// The conserved quantities of a state with this momentum and this spatial momentum.
-fn conserved(system: &System, mu: &[f64], spatial: &[f64]) -> Conserved {
-    Conserved {
-        momenta: spatial.to_vec(),
-        casimirs: system.casimirs.iter().map(|(_, casimir)| casimir.value(mu)).collect(),
-        energy: Some(system.energy.value(mu)),
     }
 }
 

@@ -3,14 +3,14 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
-use coadjoint_codegen::problem::{Parameter, Problem, Solver};
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::poly::{Numeric, Polynomial};
+use coadjoint_codegen::problem::{Parameter, Problem, Solver, values};
+use coadjoint_codegen::step::{Invariants, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
 use crate::fields::Fields;
 use crate::file::File;
 use crate::mistakes::{Mistake, of_file};
-use crate::polynomial::Numeric;
 use crate::rival::Rival;
 
 /// Steps of more operations than this are too slow for a page.
@@ -68,8 +68,10 @@ pub struct System {
     pub momentum: Vec<f64>,
     /// H.
     pub energy: Numeric,
-    /// Casimirs of low degree, exact and as numbers.
-    pub casimirs: Vec<(coadjoint_codegen::poly::Polynomial, Numeric)>,
+    /// The Casimirs of low degree.
+    pub casimirs: Vec<Polynomial>,
+    /// The conserved quantities, as numbers.
+    pub invariants: Invariants,
     /// The factors of the group.
     pub factors: Vec<Factor>,
     /// Runge and Kutta's method of order four for the same equations.
@@ -124,15 +126,9 @@ impl System {
         }
         let slots = fold(&integrator, &step, h);
         let algebra = &integrator.problem.algebra;
-        let symbols = &integrator.problem.symbols;
-        let energy = Numeric::new(&integrator.problem.hamiltonian, dim, symbols);
-        let casimirs = lie::watched_casimirs(algebra)
-            .into_iter()
-            .map(|exact| {
-                let numeric = Numeric::new(&exact, dim, &[]);
-                (exact, numeric)
-            })
-            .collect();
+        let invariants = Invariants::new(&integrator.problem, None);
+        let energy = invariants.hamiltonian.clone().unwrap_or_default();
+        let casimirs = lie::watched_casimirs(algebra);
         let factors = factors(algebra);
         let rival = Rival::new(algebra, &energy);
         Ok(Self {
@@ -146,6 +142,7 @@ impl System {
             momentum,
             energy,
             casimirs,
+            invariants,
             factors,
             rival,
             units: read.units,
@@ -180,8 +177,7 @@ fn kept(fields: &Fields) -> Option<Problem> {
 /// The coefficients for a step size, and with them the radius of the series.
 #[must_use]
 pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
-    let symbols: Vec<f64> =
-        integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+    let symbols = values(&integrator.problem.symbols);
     let coefficients = &integrator.coefficients;
     let truncation = integrator.problem.truncation;
     let parts = coefficients.fold_parts(h, &symbols);

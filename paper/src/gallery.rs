@@ -7,7 +7,7 @@ use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
 use coadjoint_draw::run::{FLOOR, Picture, Run, Series, drift, motion, orbit};
 use coadjoint_draw::{Axis, Panel, Style, escaped};
-use coadjoint_run::simulate::{self, Drift, Moment, Outlet, Schedule, Setup};
+use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_with};
 
 use crate::outcome::{Fallible, brief};
@@ -26,7 +26,7 @@ pub const BOUND: f64 = 1e-11;
 #[derive(Default)]
 struct Looks(Vec<(f64, Vec<f64>, Drift)>);
 
-impl Outlet for Looks {
+impl Sink for Looks {
     fn look(&mut self, time: f64, momentum: &[f64], moment: &Moment) {
         self.0.push((time, momentum.to_vec(), moment.drift));
     }

@@ -168,9 +168,7 @@ impl ModelCore {
             control.total.store(schedule.steps, Ordering::Relaxed);
             let setup =
                 Setup { recording: true, every: Some(every), ..Setup::new(schedule, momentum) };
-            let names: Vec<String> =
-                (0..setup.momentum.len()).map(|i| format!("mu[{i}]")).collect();
-            let mut keeper = Keeper { table: Table::default(), control, coordinates: &names };
+            let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run_model(Path::new(&name), &model, &setup, &mut keeper)?;
             let label = format!("learned {}, {}", model.model.name(), model.chart);
             Ok((keeper.table, outcome, schedule, label))

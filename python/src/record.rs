@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use coadjoint_run::simulate::{Begun, Block, Halt, Outlet, Record, Standing, columns};
+use coadjoint_run::simulate::{Begun, Block, Halt, Record, Resume, Sink, Standing};
 
 use crate::control::Control;
 
@@ -35,16 +35,14 @@ pub struct Keeper<'a> {
     pub table: Table,
     /// Who may stop it.
     pub control: &'a Control,
-    /// Names of the momentum's coordinates.
-    pub coordinates: &'a [String],
 }
 
-impl Outlet for Keeper<'_> {
-    fn begin(&mut self, begun: &Begun<'_>) -> Result<(), Halt> {
+impl Sink for Keeper<'_> {
+    fn begin(&mut self, begun: &Begun<'_>) -> Result<Option<Resume>, Halt> {
         let place = |block: &Block| (block.range.start, block.range.len());
-        self.table.columns = columns(self.coordinates, begun);
+        self.table.columns = begun.columns();
         self.table.blocks = begun.blocks.iter().map(place).collect();
-        Ok(())
+        Ok(None)
     }
 
     fn record(&mut self, record: &Record<'_>) -> Result<(), Halt> {
@@ -56,8 +54,8 @@ impl Outlet for Keeper<'_> {
             element.extend(entries);
             spatial.extend((record.spatial_momentum)());
         }
-        energy.push(record.energy.unwrap_or(f64::NAN));
-        drift.extend(record.drift.numbers());
+        energy.push(record.moment.energy.unwrap_or(f64::NAN));
+        drift.extend(record.moment.drift.numbers());
         Ok(())
     }
 

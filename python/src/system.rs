@@ -5,9 +5,10 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
+use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::System;
 use coadjoint_codegen::tolerance::Choice;
-use coadjoint_run::engine::FloatPolynomial;
 use coadjoint_run::ensemble::{
     self, Attitude, Found, How, Known, Layout, Shape, Watch, matrix_size,
 };
@@ -219,8 +220,7 @@ impl Core {
             let truncation = system.problem.truncation;
             let derived = derive(&cache, &here.name, system, false)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
-            let coordinates = &derived.integrator.problem.coordinates;
-            let mut keeper = Keeper { table: Table::default(), control, coordinates };
+            let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
             Ok((keeper.table, outcome, schedule, truncation, choice, derived.label()))
         })?;
@@ -373,14 +373,13 @@ impl Core {
         if width != dim {
             return Err(refused(py, format!("momenta have {width} numbers; {dim} are needed")));
         }
-        let numbers = |polynomial| FloatPolynomial::new(polynomial, dim, &problem.symbols);
-        let (energy, gradient) = (numbers(&problem.hamiltonian), problem.hamiltonian.gradient(dim));
-        let gradient: Vec<FloatPolynomial> = gradient.iter().map(numbers).collect();
+        let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+        let gradient = energy.gradient(dim);
         let momenta: Vec<f64> = momenta.as_array().iter().copied().collect();
         let rows = momenta.chunks_exact(dim.max(1));
-        let energies: Vec<f64> = rows.clone().map(|mu| energy.evaluate(mu)).collect();
+        let energies: Vec<f64> = rows.clone().map(|mu| energy.value(mu)).collect();
         let velocities: Vec<f64> =
-            rows.flat_map(|mu| gradient.iter().map(move |part| part.evaluate(mu))).collect();
+            rows.flat_map(|mu| gradient.iter().map(move |part| part.value(mu))).collect();
         Ok((energies.into_pyarray(py), velocities.into_pyarray(py).reshape([count, dim])?))
     }
 
@@ -391,9 +390,9 @@ impl Core {
         let dimension = self.system.problem.algebra.dim();
         let made = work(py, None, move |_| {
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
-            let step = step.or(system.run.step).ok_or_else(|| {
-                RunError::Option("--step is missing: give --step 0.1".to_owned())
-            })?;
+            let step = step
+                .or(system.run.step)
+                .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
             let derived = derive(&cache, &here.name, system, false)?;
             Single::new(derived, step, backend, MANY)
         })?;

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod backend;
+pub mod bits;
 pub mod check;
 pub mod emit;
 pub mod engine;
@@ -8,7 +9,6 @@ pub mod ensemble;
 mod error;
 mod load;
 pub mod number;
-mod rounding;
 pub mod series;
 pub mod simulate;
 pub mod verify;

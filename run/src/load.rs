@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
-use crate::engine::{Energy, Forces, Kept};
+use crate::engine::{Forces, Kept};
 use crate::error::RunError;
 
 /// Reads the text of a system file as it stands; `name` is what mistakes call it.
@@ -43,8 +44,8 @@ pub struct Derived {
     pub file: PathBuf,
     /// The flow.
     pub integrator: Integrator,
-    /// The energy.
-    pub energy: Energy,
+    /// The conserved quantities.
+    pub invariants: Invariants,
     /// The kicks of a potential.
     pub forces: Option<Forces>,
     /// The programs compiled so far.
@@ -67,10 +68,10 @@ impl Derived {
     /// Where the series cannot be derived, or is too large.
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, .. } = system;
-        let energy = Energy::new(&problem, potential.as_ref().map(|(potential, _)| potential));
+        let invariants = Invariants::new(&problem, potential.as_ref().map(|(kicks, _)| kicks));
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
         let integrator = integrator(file, problem)?;
-        Ok(Self { file: file.to_owned(), integrator, energy, forces, kept: Kept::default() })
+        Ok(Self { file: file.to_owned(), integrator, invariants, forces, kept: Kept::default() })
     }
 }
 

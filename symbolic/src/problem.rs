@@ -15,6 +15,12 @@ pub struct Symbol {
     pub text: String,
 }
 
+/// The values of symbols in which no parameter is left, such as sqrt(2).
+#[must_use]
+pub fn values(symbols: &[Symbol]) -> Vec<f64> {
+    symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect()
+}
+
 /// The type of a parameter in Rust.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {

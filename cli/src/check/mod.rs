@@ -13,8 +13,7 @@ use crate::load;
 /// Tries all laws, prints them, and fails if one does not hold.
 pub fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let (system, _) =
-        load::settled(&options.source, options.truncation, options.step, Parameters::Substituted)?;
+    let (system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
     let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;
     let system = Derived::of_file(path, system)?;
     let (laws, warning) = check(&system, &trial)?;

@@ -6,7 +6,7 @@ use coadjoint_codegen::problem::Problem;
 use coadjoint_run::check::{Law, Steep, Trial};
 use serde_json::{Value, json};
 
-use crate::arguments::Format;
+use crate::named::Format;
 
 /// The text to print.
 pub fn report(

@@ -7,9 +7,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::journal::Journal;
-use super::note;
+use super::journal::{ANEW, Journal};
 use crate::error::CliError;
+use crate::note;
 
 /// A finished run, for the same command started again and for whatever joins shards.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -33,7 +33,7 @@ impl Finished {
 
     /// The note at `path`; `None` where there is none.
     pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
-        note::read(path, "note")
+        note::read(path, "note", ANEW)
     }
 
     /// Writes the note: all of it or nothing.

@@ -1,6 +1,5 @@
 //! How far a run has come: what a restart needs.
 
-use std::collections::BTreeMap;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -9,11 +8,12 @@ use coadjoint_codegen::step;
 use coadjoint_run::ensemble::{Drift, Engine};
 use serde::{Deserialize, Serialize};
 
-use super::note;
 use crate::error::CliError;
+use crate::note;
+pub use crate::note::Identity;
 
-/// The settings of the run, in words; a restart must agree in every one.
-pub type Identity = BTreeMap<String, String>;
+/// The way to forget an earlier run.
+pub const ANEW: &str = "begin anew with --restart";
 
 /// The state of a run. Everything it counts is on the disk before it is.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -59,7 +59,7 @@ pub struct Journal {
 impl Journal {
     /// The journal at `path`; `None` where there is none.
     pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
-        note::read(path, "journal")
+        note::read(path, "journal", ANEW)
     }
 
     /// Writes it: the old journal or the new one, never a piece.
@@ -79,21 +79,8 @@ impl Journal {
 
     /// Refuses to go on with a run that is another.
     pub fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
-        for key in self.identity.keys().chain(identity.keys()) {
-            let [was, is] = [&self.identity, identity].map(|i| i.get(key));
-            if was != is {
-                let said =
-                    |value: Option<&String>| value.map_or("nothing", String::as_str).to_owned();
-                return Err(CliError::Option(format!(
-                    "{} is of a run with another {key}: {} then, {} now; go on as then, or begin \
-                     anew with --restart",
-                    path.display(),
-                    said(was),
-                    said(is)
-                )));
-            }
-        }
-        Ok(())
+        let advice = format!("go on as then, or {ANEW}");
+        note::agree(path, &self.identity, identity, &advice)
     }
 
     /// The largest drifts so far.

@@ -1,11 +1,9 @@
 //! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
 //! states.
 
-mod device;
 mod finished;
 mod input;
 mod journal;
-mod note;
 mod output;
 #[cfg(feature = "parquet")]
 mod parquet_file;
@@ -14,14 +12,13 @@ mod run;
 mod shard;
 mod table;
 
-pub use device::PrecisionName;
 pub use shard::Shard;
 
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::engine::Kept;
-use coadjoint_run::ensemble::{How, Known, Use, engine, problem_of};
+use coadjoint_run::ensemble::{Asked, How, Known, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -32,9 +29,9 @@ use run::Job;
 /// Reads, advances and writes.
 pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let mut system = load::source(&options.source, options.truncation, Parameters::Substituted)?;
+    let mut system = load::source(&options.source, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
-    load::meet_tolerance(path, &mut system, accuracy, options.truncation, options.time)?;
+    load::meet_tolerance(path, &mut system, accuracy, options.source.truncation, options.time)?;
     let run = system.run.clone();
     let known = Known::of(&system.problem, &system.parameters);
     let problem = problem_of(system)?;
@@ -44,10 +41,11 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let form = output::Form::of(&options.out)?;
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
-    let asked = device::asked(options);
+    let precision = options.precision;
+    let asked = options.device.map(|device| Asked { device, precision });
     // A device refuses few steps.
     let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
-    let how = How { backend: options.backend.into(), work, device: asked };
+    let how = How { backend: options.backend, work, device: asked };
     let engine = engine(path, &integrator, step, how, &Kept::default())?;
     let input = input::open(&options.initial, engine.shape(), &known)?;
     let range = options.shard.rows(input.total());

@@ -9,7 +9,7 @@ use coadjoint_run::ensemble::Engine;
 use serde_json::json;
 
 use super::run::Outcome;
-use crate::arguments::Format;
+use crate::named::Format;
 
 /// A warning about the series, if there is reason for one.
 pub fn warning(outcome: &Outcome) -> Option<String> {

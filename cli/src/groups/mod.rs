@@ -8,8 +8,9 @@ mod text;
 
 use coadjoint_codegen::lie::catalogue;
 
-use crate::arguments::{Format, GroupOptions};
+use crate::arguments::GroupOptions;
 use crate::error::CliError;
+use crate::named::Format;
 use facts::Facts;
 
 /// Prints the list of groups, or one group.

@@ -1,8 +1,6 @@
 //! The settings of a run: everything needed to repeat it, for the heads of files, for reports, and to tell
 //! whether a checkpoint is of this run.
 
-use std::collections::BTreeMap;
-
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::system::Splitting;
 use coadjoint_learn::ModelFile;
@@ -12,6 +10,7 @@ use coadjoint_run::simulate::Scales;
 use serde_json::{Map, Value, json};
 
 use super::setup::Settings;
+use crate::note::Identity;
 
 /// Names and values, in order.
 #[derive(Clone, Debug, Default)]
@@ -20,60 +19,58 @@ pub struct Header(Vec<(&'static str, Value)>);
 impl Header {
     /// The description of a run of this problem.
     pub fn new(settings: &Settings, problem: &Problem, splitting: Option<Splitting>) -> Self {
-        let setup = &settings.setup;
-        let schedule = &setup.schedule;
         let solver = match problem.solver() {
             Solver::Newton => Solver::NAMES[0],
             Solver::FixedPoint => Solver::NAMES[1],
         };
-        let mut list = vec![
-            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
-            ("system", json!(settings.file.display().to_string())),
-            ("system_sha256", json!(settings.hash)),
+        let mut own = vec![
             ("name", json!(problem.name)),
             ("group", json!(problem.algebra.name())),
             ("truncation", json!(problem.truncation)),
             ("chart", json!(problem.chart.name())),
             ("frame", json!(if problem.comoving.is_some() { "comoving" } else { "fixed" })),
             ("solver", json!(solver)),
-            ("step", json!(schedule.step)),
-            ("step_asked", json!(schedule.asked)),
-            ("steps", json!(schedule.steps)),
-            ("time", json!(schedule.end)),
-            ("initial_momentum", json!(setup.momentum.as_slice())),
         ];
-        if let Some(rows) = &setup.group_element {
-            list.push(("initial_group_element", json!(rows.concat())));
-        }
-        if let Some(splitting) = splitting {
-            list.push(("splitting", json!(splitting.name())));
-        }
-        if let Some(every) = setup.every {
-            list.push(("every", json!(every)));
-        }
-        if let Some(times) = &setup.at {
-            list.push(("at", json!(times.text())));
-        }
-        Self(list)
+        own.extend(splitting.map(|splitting| ("splitting", json!(splitting.name()))));
+        Self::of(settings, ["system", "system_sha256"], own)
     }
 
     /// The description of a run of a learned map.
     pub fn of_model(settings: &Settings, model: &ModelFile) -> Self {
-        let setup = &settings.setup;
-        let schedule = &setup.schedule;
-        Self(vec![
-            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
-            ("model", json!(settings.file.display().to_string())),
-            ("model_sha256", json!(settings.hash)),
+        let own = vec![
             ("kind", json!(model.model.name())),
             ("group", json!(model.group)),
             ("chart", json!(model.chart)),
+        ];
+        Self::of(settings, ["model", "model_sha256"], own)
+    }
+
+    /// The entries of its own of a run, between those that every run has.
+    fn of(
+        settings: &Settings,
+        [file, hash]: [&'static str; 2],
+        own: Vec<(&'static str, Value)>,
+    ) -> Self {
+        let setup = &settings.setup;
+        let schedule = &setup.schedule;
+        let mut list = vec![
+            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
+            (file, json!(settings.file.display().to_string())),
+            (hash, json!(settings.hash)),
+        ];
+        list.extend(own);
+        list.extend([
             ("step", json!(schedule.step)),
+            ("step_asked", json!(schedule.asked)),
             ("steps", json!(schedule.steps)),
             ("time", json!(schedule.end)),
-            ("initial_momentum", json!(setup.momentum.as_slice())),
-            ("every", json!(setup.every)),
-        ])
+            ("initial_momentum", json!(setup.momentum)),
+        ]);
+        let element = setup.group_element.as_ref();
+        list.extend(element.map(|rows| ("initial_group_element", json!(rows.concat()))));
+        list.extend(setup.every.map(|every| ("every", json!(every))));
+        list.extend(setup.at.as_ref().map(|times| ("at", json!(times.text()))));
+        Self(list)
     }
 
     /// Only the entries with these names.
@@ -117,7 +114,7 @@ impl Header {
     }
 
     /// By name, to be compared with another run.
-    pub fn identity(&self) -> BTreeMap<String, String> {
+    pub fn identity(&self) -> Identity {
         self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
     }
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use coadjoint_codegen::system::Units;
 use coadjoint_learn::{LearnError, ModelFile};
-use coadjoint_run::simulate::{Outlet, Setup, algebra_of, run_model, schedule_of};
+use coadjoint_run::simulate::{Setup, Sink, algebra_of, run_model, schedule_of};
 use coadjoint_run::text_hash;
 
 use super::header::Header;
-use super::keep::Keeper;
-use super::setup::{Settings, check_names, checkpoint, every, inputs};
+use super::keep::keep;
+use super::setup::{Settings, check_names, every};
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
 use crate::load;
@@ -38,25 +38,14 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
         return Err(CliError::Option(format!("--start: {bad} is no finite number")));
     }
     let schedule = schedule_of(time, model.step)?;
-    let settings = Settings {
-        file: path.into(),
-        hash: text_hash(&text),
-        inputs: inputs(options),
-        setup: Setup {
-            recording: out.is_some(),
-            every: Some(every(options.every.unwrap_or(1))?),
-            ..Setup::new(schedule, options.start.clone())
-        },
-        out,
-        sampled: false,
-        checkpoint: checkpoint(options)?,
-    };
+    let every = Some(every(options.every.unwrap_or(1))?);
+    let setup = Setup { every, ..Setup::new(schedule, options.start.clone()) };
+    let settings = Settings::new(options, (path, &text_hash(&text)), out, setup)?;
     let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
     let label = format!("learned {}, {}", model.model.name(), model.chart);
     let header = Header::of_model(&settings, &model);
-    let keeper = Keeper::new(&settings, label, header, &coordinates);
-    let drive = |outlet: &mut dyn Outlet| run_model(path, &model, &settings.setup, outlet);
-    let trajectory = keeper.follow(drive)?;
+    let drive = |sink: &mut dyn Sink| run_model(path, &model, &settings.setup, sink);
+    let trajectory = keep(&settings, label, header, &coordinates, drive)?;
     super::print(&[trajectory], &Units::default(), options, settings.out.as_ref());
     Ok(())
 }

@@ -7,25 +7,25 @@ mod interrupt;
 mod keep;
 mod learned;
 mod plot;
+mod records;
 mod report;
 mod rival;
 mod samples;
 mod setup;
-mod sink;
 mod target;
 mod trajectory;
 
 use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
-use coadjoint_run::simulate::{Outlet, Schedule};
+use coadjoint_run::simulate::{Schedule, Sink};
 use coadjoint_run::{Derived, text_hash};
 
-use crate::arguments::SimulateOptions;
+use crate::arguments::{SimulateOptions, Source};
 use crate::error::CliError;
 use crate::{load, progress};
 use header::Header;
-use keep::Keeper;
+use keep::keep;
 use setup::Settings;
 use target::{Place, Target};
 use trajectory::Trajectory;
@@ -55,13 +55,14 @@ struct Runs {
 
 /// Runs every truncation asked for, and the rival.
 fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliError> {
-    let source = options.input.source();
+    let source = options.input.source(None);
     let path = &source.file;
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = load::text(path)?;
     let hash = text_hash(&text);
     let read = |truncation| {
-        let options = source.options(truncation, Parameters::Substituted);
+        let source = Source { truncation, ..source.clone() };
+        let options = source.options(Parameters::Substituted);
         coadjoint_run::read_with(&path.display().to_string(), &text, options)
     };
     let systems: Vec<System> = if options.truncation.is_empty() {
@@ -79,8 +80,8 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         drop(phase);
-        let dim = system.problem.algebra.dim();
-        let settings = Settings::new(options, &hash, out, &system.run, dim)?;
+        let setup = setup::setup(options, path, &system)?;
+        let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         heading.step(setup.schedule.step);
         let announcement = setup.schedule.announcement();
@@ -95,11 +96,9 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
         let splitting = system.forces.as_ref().map(|forces| forces.splitting);
         let header = Header::new(&settings, problem, splitting);
         let (label, coordinates) = (system.label(), &problem.coordinates);
-        let keeper = Keeper::new(&settings, label, header.clone(), coordinates);
-        let drive = |outlet: &mut dyn Outlet| coadjoint_run::simulate::run(&system, setup, outlet);
-        let trajectory =
-            Trajectory { truncation: Some(problem.truncation), ..keeper.follow(drive)? };
-        runs.push(trajectory);
+        let drive = |sink: &mut dyn Sink| coadjoint_run::simulate::run(&system, setup, sink);
+        let made = keep(&settings, label, header.clone(), coordinates, drive)?;
+        runs.push(Trajectory { truncation: Some(problem.truncation), ..made });
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
             runs.insert(0, rival::rk45(&system, &settings, header, options.compare_tolerance)?);

@@ -54,7 +54,7 @@ impl Heading {
         steps.dedup();
         settings.push(format!("h = {}{unit}", steps.join(", ")));
         if let Some(run) = runs.first() {
-            settings.push(format!("T = {}{unit}", brief(run.time)));
+            settings.push(format!("T = {}{unit}", brief(run.outcome.time)));
         }
         if let Some((run, k)) = ours().next() {
             let usual = format!("K = {k}, {}", self.chart);
@@ -97,13 +97,13 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
         unit: None,
         values: run.records.iter().map(|record| record.drift.numbers()[which]).collect(),
     };
-    let [spatial, casimirs, energy] = run.unknown.known();
+    let [spatial, casimirs, energy] = run.outcome.unknown.known();
     let mut drifts = Vec::new();
     if energy {
         drifts.push(drift("energy", 2));
     }
     if spatial {
-        let name = match (run.potential, run.momenta) {
+        let name = match (run.outcome.potential, run.outcome.momenta) {
             (false, _) => "spatial momentum".to_owned(),
             (true, 1) => "spatial momentum, the one component that is conserved".to_owned(),
             (true, count) => {

@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use coadjoint_codegen::system::Units;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Block, Warning, matrix, split};
+use coadjoint_run::simulate::{Block, Outcome, Warning, split};
 use serde_json::{Value, json};
 
 use super::element::lines;
 use super::plot::brief;
 use super::trajectory::Trajectory;
-use crate::arguments::Format;
+use crate::named::Format;
 
 /// Larger group elements are given by their blocks only.
 const WIDEST: usize = 12;
@@ -31,37 +31,38 @@ pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
 
 /// A quantity without a number has no key: no value is null.
 fn object(run: &Trajectory, units: &Units) -> Value {
+    let end = &run.outcome;
     let names = ["spatial_momentum", "casimirs", "energy"];
-    let [spatial, casimirs, energy] = run.unknown.known();
-    let drifts = [run.drift.spatial_momentum, run.drift.casimirs, run.drift.energy];
+    let [spatial, casimirs, energy] = end.unknown.known();
+    let drifts = [end.drift.spatial_momentum, end.drift.casimirs, end.drift.energy];
     let drifts = names.iter().zip(drifts).filter_map(|(name, drift)| Some((*name, json!(drift?))));
     let scales = [
-        (spatial, json!(run.scales.spatial_momentum)),
-        (casimirs, json!(run.scales.casimirs)),
-        (energy, json!(run.scales.energy)),
+        (spatial, json!(end.scales.spatial_momentum)),
+        (casimirs, json!(end.scales.casimirs)),
+        (energy, json!(end.scales.energy)),
     ];
     let scales = names.iter().zip(scales);
     let scales = scales.filter_map(|(name, (known, scale))| known.then_some((*name, scale)));
     let mut object = json!({
         "method": run.label,
         "run": run.header.object(),
-        "steps": run.steps,
-        "time": run.time,
+        "steps": end.steps,
+        "time": end.time,
         "coordinates": run.coordinates,
-        "momentum": run.momentum,
-        "group_element_blocks": blocks(run),
+        "momentum": end.momentum,
+        "group_element_blocks": blocks(end),
         "drift": object_of(drifts),
         "drift_scale": object_of(scales),
-        "conserved_momenta": run.momenta,
-        "conserved_casimirs": run.casimirs,
-        "warnings": run.warnings.iter().map(Warning::object).collect::<Vec<_>>(),
+        "conserved_momenta": end.momenta,
+        "conserved_casimirs": end.casimirs,
+        "warnings": end.warnings.iter().map(Warning::object).collect::<Vec<_>>(),
     });
-    if run.unmeasured.iter().any(Option::is_some) {
-        let times = names.iter().zip(run.unmeasured);
+    if end.unmeasured.iter().any(Option::is_some) {
+        let times = names.iter().zip(end.unmeasured);
         let times = times.filter_map(|(name, time)| Some((*name, json!(time?))));
         object["drift_not_measurable_after"] = object_of(times);
     }
-    if let Some([start, end]) = run.energy {
+    if let Some([start, end]) = end.energy {
         object["energy"] = json!({ "start": start, "end": end });
     }
     let mut given = serde_json::Map::new();
@@ -77,17 +78,17 @@ fn object(run: &Trajectory, units: &Units) -> Value {
             object[name] = value.clone();
         }
     }
-    let size = run.blocks.last().map_or(0, |block| block.range.end);
+    let size = end.blocks.last().map_or(0, |block| block.range.end);
     if (1..=WIDEST).contains(&size) {
-        object["group_element"] = json!(dense(run, size));
+        object["group_element"] = json!(dense(end, size));
     }
-    if let Some(solver) = run.solver {
+    if let Some(solver) = end.solver {
         object["solver"] = json!({
             "most_iterations": solver.most_iterations,
             "max_residual": solver.max_residual,
         });
     }
-    if let Some(used) = &run.backend {
+    if let Some(used) = &end.backend {
         object["backend"] = json!(used.name);
     }
     if let Some((path, rows)) = &run.out {
@@ -101,25 +102,19 @@ fn object_of<'a>(list: impl Iterator<Item = (&'a str, Value)>) -> Value {
 }
 
 /// The blocks of the group element with the number, from 0, of the first row and column of each.
-fn blocks(run: &Trajectory) -> Value {
+fn blocks(end: &Outcome) -> Value {
     let block = |(block, entries): (&Block, &[f64])| {
         let rows: Vec<&[f64]> = entries.chunks(block.range.len().max(1)).collect();
         json!({ "first_row": block.range.start, "matrix": rows })
     };
-    split(&run.blocks, &run.element).map(block).collect()
+    split(&end.blocks, &end.element).map(block).collect()
 }
 
 /// The whole matrix of the group element.
-fn dense(run: &Trajectory, size: usize) -> Vec<Vec<f64>> {
+fn dense(end: &Outcome, size: usize) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; size]; size];
-    for (block, entries) in split(&run.blocks, &run.element) {
-        let g = matrix(block, entries);
-        for (i, row) in block.range.clone().enumerate() {
-            for (j, column) in block.range.clone().enumerate() {
-                rows[row][column] = g[(i, j)];
-            }
-        }
-    }
+    let places = end.blocks.iter().flat_map(Block::places);
+    places.zip(&end.element).for_each(|((i, j), entry)| rows[i][j] = *entry);
     rows
 }
 
@@ -129,15 +124,15 @@ fn with_unit(number: &str, unit: Option<&str>) -> String {
 }
 
 /// A remark for readers of the drift with this number.
-fn remark(run: &Trajectory, number: usize) -> String {
+fn remark(end: &Outcome, number: usize) -> String {
     let mut remark = match number {
-        0 if run.potential => {
-            let count = run.momenta;
+        0 if end.potential => {
+            let count = end.momenta;
             format!(" ({count} of its components; the potential breaks the other symmetries)")
         }
         _ => String::new(),
     };
-    if let Some(time) = run.unmeasured[number] {
+    if let Some(time) = end.unmeasured[number] {
         let time = brief(time);
         remark.push_str(&format!(
             ", not measurable after t = {time}: rounding of large numbers hides it"
@@ -147,52 +142,53 @@ fn remark(run: &Trajectory, number: usize) -> String {
 }
 
 fn text(run: &Trajectory, units: &Units) -> String {
+    let end = &run.outcome;
     let mut out = String::new();
     // Writing into a string cannot fail.
-    let time = with_unit(&shortest(run.time), units.time.as_deref());
-    let _ = writeln!(out, "{}: {} steps to time {time}", run.label, run.steps);
+    let time = with_unit(&shortest(end.time), units.time.as_deref());
+    let _ = writeln!(out, "{}: {} steps to time {time}", run.label, end.steps);
     if let Some(line) = &run.announcement {
         let _ = writeln!(out, "  {line}");
     }
-    for warning in &run.warnings {
+    for warning in &end.warnings {
         let _ = writeln!(out, "  warning: {}", warning.text());
     }
-    for (i, (name, value)) in run.coordinates.iter().zip(&run.momentum).enumerate() {
+    for (i, (name, value)) in run.coordinates.iter().zip(&end.momentum).enumerate() {
         let value = with_unit(&format!("{:>24}", shortest(*value)), units.coordinate(i));
         let _ = writeln!(out, "  {name:<10} {value}");
     }
-    for line in lines(&run.blocks, &run.element) {
+    for line in lines(&end.blocks, &end.element) {
         let _ = writeln!(out, "  {line}");
     }
-    if let Some([_, energy]) = run.energy {
+    if let Some([_, energy]) = end.energy {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
     }
     let _ = writeln!(out, "  largest relative drift");
-    let casimirs = match run.casimirs {
+    let casimirs = match end.casimirs {
         0 => "Casimirs".to_owned(),
         count => format!("Casimirs ({count})"),
     };
-    let drifts = [run.drift.spatial_momentum, run.drift.casimirs, run.drift.energy];
+    let drifts = [end.drift.spatial_momentum, end.drift.casimirs, end.drift.energy];
     let names = ["spatial momentum", &casimirs, "energy"];
     for (i, (name, drift)) in names.iter().zip(drifts).enumerate() {
-        let _ = match (run.unknown.0[i], drift) {
+        let _ = match (end.unknown.0[i], drift) {
             // Learned maps have no energy, of which nothing is said.
             (Some(_), _) if i == 2 => Ok(()),
             (Some(why), _) => writeln!(out, "    {name:<16} {why}"),
             (None, None) => writeln!(out, "    {name:<16} not measurable"),
             (None, Some(drift)) => {
-                writeln!(out, "    {name:<16} {drift:>10.1e}{}", remark(run, i))
+                writeln!(out, "    {name:<16} {drift:>10.1e}{}", remark(end, i))
             }
         };
     }
-    if let Some(solver) = run.solver {
+    if let Some(solver) = end.solver {
         let _ = writeln!(
             out,
             "  solver: at most {} iterations a step, largest residual {:.1e}",
             solver.most_iterations, solver.max_residual
         );
     }
-    if let Some(used) = &run.backend
+    if let Some(used) = &end.backend
         && let Some(ready) = used.ready
     {
         let milliseconds = ready.as_secs_f64() * 1e3;

@@ -1,10 +1,10 @@
 //! An adaptive Runge–Kutta method on the same equations, as the paper's figures have it.
 
-use coadjoint::{LieGroup, Phase, groups::DirectProduct, groups::MatrixGroup};
-use coadjoint_codegen::problem::Problem;
+use coadjoint::{LieGroup, groups::DirectProduct, groups::MatrixGroup};
+use coadjoint_codegen::poly::Numeric;
 use coadjoint_run::Derived;
-use coadjoint_run::engine::{FloatPolynomial, Restore, Torque};
-use coadjoint_run::simulate::{At, Moment, Recorder};
+use coadjoint_run::engine::{Numbers, Restore, Torque};
+use coadjoint_run::simulate::{Matrices, Moment, Recorder};
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
 };
@@ -33,42 +33,38 @@ pub fn rk45(
         let what = "--compare-tolerance must be finite and positive; try 1e-6";
         return Err(CliError::Option(what.to_owned()));
     }
-    let (integrator, setup) = (&system.integrator, &settings.setup);
+    let (problem, setup) = (&system.integrator.problem, &settings.setup);
     let group = &system.group()?;
     let torque = system.forces.as_ref().map(|forces| Torque::new(&forces.kick, group.clone()));
-    let (n, size) = (integrator.problem.algebra.dim(), group.matrix_size());
-    let Problem { hamiltonian, symbols, .. } = &integrator.problem;
-    let gradient: Vec<FloatPolynomial> =
-        (0..n).map(|i| FloatPolynomial::new(&hamiltonian.derivative(i), n, symbols)).collect();
-    let start = Phase::<Group>::new(setup.element(&system.file, group)?, setup.momentum.clone());
-    let mut state: Vec<f64> = start.momentum.iter().copied().collect();
-    // The matrix of g column by column, as nalgebra keeps it.
-    let matrix = |g: &_| DMatrix::from_fn(size, size, |i, j| group.matrix_entry(g, i, j));
-    state.extend(matrix(&start.group_element).iter());
+    let (n, size) = (problem.algebra.dim(), group.matrix_size());
+    let hamiltonian = system.invariants.hamiltonian.as_ref();
+    let gradient: Vec<Numeric> = hamiltonian.map(|h| h.gradient(n)).unwrap_or_default();
+    let start = setup.start(&system.file, group)?;
+    // μ, and the matrix of g row by row.
+    let state: Vec<f64> = start.mu.iter().chain(&start.g).copied().collect();
 
     // μ̇ = ad*_ξ μ + τ(g) and ġ = g·ξ with ξ = ∂H_red/∂μ.
     let flow = |_t: f64, y: &Vec<f64>, rate: &mut Vec<f64>| {
         let mu = DVector::from_column_slice(&y[..n]);
-        let g = DMatrix::from_column_slice(size, size, &y[n..]);
-        let xi =
-            DVector::from_iterator(n, gradient.iter().map(|slope| slope.evaluate(mu.as_slice())));
+        let g = DMatrix::from_row_slice(size, size, &y[n..]);
+        let xi = DVector::from_iterator(n, gradient.iter().map(|slope| slope.value(&y[..n])));
         let mut force = group.ad_star(&xi, &mu);
         if let Some(torque) = &torque {
             force += torque.torque(&group.restore(&|i, j| g[(i, j)]));
         }
         rate[..n].copy_from_slice(force.as_slice());
         let moved = g * matrix_of(group, &xi);
-        rate[n..].copy_from_slice(moved.as_slice());
+        rate[n..].copy_from_slice(moved.transpose().as_slice());
     };
     let end = setup.schedule.end;
     let name = format!("RK45, tolerance {tolerance:e}");
-    let seen = At { group, phase: &start };
-    let mut recorder = Recorder::new(group, system.watched(), &start, &seen);
-    let mut samples = Samples::new(n);
+    let space = Matrices(group);
+    let mut recorder = Recorder::new(system.watched(), &space, &start);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
-    let moment = recorder.visit(0.0, &seen).map_err(|what| failed(0.0, what))?;
-    samples.offer(0.0, start.momentum.as_slice(), moment.energy.unwrap_or(0.0), moment.drift);
-    let mut watch = Watch { group, recorder, samples, last: start, moment, size, failure: None };
+    let moment = recorder.visit(0.0, &space, &start).map_err(|what| failed(0.0, what))?;
+    let mut samples = Samples::new(n);
+    samples.offer(0.0, &start.mu, moment.drift);
+    let mut watch = Watch { space, recorder, samples, last: start, moment, failure: None };
     let _phase = progress::phase("integrating with RK45");
     let solution = IVP::ode_from_fn(flow, 0.0, end, state)
         .method(ExplicitRungeKutta::dopri5().max_steps(usize::MAX))
@@ -80,16 +76,18 @@ pub fn rk45(
         return Err(failed(time, what));
     }
     let solution = solution.map_err(|error| CliError::Rival(format!("{error:?}")))?;
-    let header = header.only(&KNOWN).with("method", json!(name));
-    let steps = solution.steps.accepted as u64;
-    let Watch { recorder, samples, last, moment, .. } = watch;
-    let outcome = recorder.finish((steps, end), &last, &moment);
-    let coordinates = &integrator.problem.coordinates;
-    let mut trajectory = Trajectory::of(outcome, name, header, coordinates);
-    if settings.sampled {
-        trajectory.records = samples.finish();
-    }
-    Ok(trajectory)
+    let Watch { space, recorder, samples, last, moment, .. } = watch;
+    let outcome = recorder.finish((solution.steps.accepted as u64, end), &space, &last, &moment);
+    Ok(Trajectory {
+        header: header.only(&KNOWN).with("method", json!(name)),
+        label: name,
+        truncation: None,
+        coordinates: problem.coordinates.clone(),
+        records: if settings.sampled { samples.finish() } else { Vec::new() },
+        announcement: None,
+        outcome,
+        out: None,
+    })
 }
 
 /// The matrix of an element of the algebra.
@@ -118,13 +116,11 @@ const KNOWN: [&str; 7] = [
 
 /// Looks at the method's own steps as they are made; none are kept.
 struct Watch<'a> {
-    group: &'a Group,
-    recorder: Recorder<'a, Group>,
+    space: Matrices<'a, Group>,
+    recorder: Recorder<'a>,
     samples: Samples,
-    last: Phase<Group>,
+    last: Numbers,
     moment: Moment,
-    /// Rows of the group's matrices.
-    size: usize,
     failure: Option<(f64, String)>,
 }
 
@@ -144,15 +140,12 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         if time == 0.0 {
             return ControlFlag::Continue;
         }
-        let n = self.last.momentum.len();
-        let momentum = DVector::from_column_slice(&y[..n]);
-        // An element that has left the group is measured as it is, not projected back.
-        let element = DMatrix::from_column_slice(self.size, self.size, &y[n..]);
-        self.last = Phase::new(self.group.restore(&|i, j| element[(i, j)]), momentum);
-        match self.recorder.visit(time, &At { group: self.group, phase: &self.last }) {
+        // What has left the group is measured as it is, not put back on it.
+        let (mu, g) = y.split_at(self.last.mu.len());
+        self.last = Numbers { g: g.to_vec(), mu: mu.to_vec() };
+        match self.recorder.visit(time, &self.space, &self.last) {
             Ok(moment) => {
-                let energy = moment.energy.unwrap_or(0.0);
-                self.samples.offer(time, self.last.momentum.as_slice(), energy, moment.drift);
+                self.samples.offer(time, mu, moment.drift);
                 self.moment = moment;
                 ControlFlag::Continue
             }

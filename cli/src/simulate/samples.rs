@@ -1,6 +1,9 @@
 //! A bounded choice of the moments of a run, for pictures.
 
-use super::trajectory::{Drift, Record};
+use coadjoint_run::simulate::Drift;
+use serde::{Deserialize, Serialize};
+
+use super::trajectory::Record;
 
 /// The number of first moments that are all kept.
 const HEAD: usize = 512;
@@ -13,7 +16,7 @@ const NUMBERS: usize = 1 << 18;
 
 /// The first moments of a run, and every 2^k-th of the rest with the largest drift since the one before,
 /// so that thinning hides no peak.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Samples {
     records: Vec<Record>,
     most: usize,
@@ -32,11 +35,11 @@ impl Samples {
     }
 
     /// Offers the next moment.
-    pub fn offer(&mut self, time: f64, momentum: &[f64], energy: f64, mut drift: Drift) {
+    pub fn offer(&mut self, time: f64, momentum: &[f64], mut drift: Drift) {
         if let Some(pending) = &self.pending {
             drift.raise(pending.drift);
         }
-        let record = || Record { time, momentum: momentum.to_vec(), energy, drift };
+        let record = || Record { time, momentum: momentum.to_vec(), drift };
         if self.records.len() < HEAD {
             self.records.push(record());
             return;
@@ -77,35 +80,9 @@ impl Samples {
         self.records
     }
 
-    /// All of it as bits.
-    pub fn to_bits(&self) -> Vec<Vec<u64>> {
-        let row = |record: &Record| {
-            let Record { time, momentum, energy, drift } = record;
-            let numbers =
-                [*time, *energy].into_iter().chain(drift.numbers()).chain(momentum.iter().copied());
-            numbers.map(f64::to_bits).collect()
-        };
-        let pending = self.pending.iter().map(row);
-        let state = vec![self.stride, self.offered, u64::from(self.pending.is_some())];
-        std::iter::once(state).chain(self.records.iter().map(row)).chain(pending).collect()
-    }
-
-    /// The inverse of [`Self::to_bits`]; `None` where the bits are of something else.
-    pub fn from_bits(dim: usize, bits: &[Vec<u64>]) -> Option<Self> {
-        let ([stride, offered, pending], rows) = bits
-            .split_first()
-            .and_then(|(state, rows)| Some((<[u64; 3]>::try_from(state.as_slice()).ok()?, rows)))?;
-        let record = |row: &Vec<u64>| {
-            let numbers: Vec<f64> = row.iter().copied().map(f64::from_bits).collect();
-            let (&[time, energy, spatial_momentum, casimirs, lost], momentum) =
-                numbers.split_first_chunk::<5>()?;
-            let drift = Drift::of_numbers([spatial_momentum, casimirs, lost]);
-            let fits = momentum.len() == dim;
-            fits.then(|| Record { time, momentum: momentum.to_vec(), energy, drift })
-        };
-        let mut records = rows.iter().map(record).collect::<Option<Vec<_>>>()?;
-        let pending = if pending == 0 { None } else { Some(records.pop()?) };
-        (stride > 0).then(|| Self { records, stride, offered, pending, ..Self::new(dim) })
+    /// Whether all momenta have this dimension, as those of a file need not.
+    pub fn fits(&self, dim: usize) -> bool {
+        self.stride > 0 && self.records.iter().chain(&self.pending).all(|r| r.momentum.len() == dim)
     }
 }
 
@@ -121,12 +98,12 @@ mod tests {
         for n in 0..=last {
             let energy = Some(if n == 777_777 { 1.0 } else { 0.1 });
             let drift = Drift { energy, ..Drift::default() };
-            samples.offer(n as f64, &[1.0, 2.0, 3.0], 0.5, drift);
+            samples.offer(n as f64, &[1.0, 2.0, 3.0], drift);
             assert!(samples.records.len() <= HEAD + MOST);
         }
-        let copy = Samples::from_bits(3, &samples.to_bits()).unwrap();
-        let (records, copied) = (samples.finish(), copy.finish());
-        assert_eq!(records, copied);
+        let text = serde_json::to_string(&samples).unwrap();
+        assert_eq!(serde_json::from_str::<Samples>(&text).unwrap(), samples);
+        let records = samples.finish();
         assert!(records.windows(2).all(|pair| pair[0].time < pair[1].time));
         assert_eq!(records.last().unwrap().time, last as f64);
         assert!(records.len() > HEAD + MOST / 2);

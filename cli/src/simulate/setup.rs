@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use coadjoint_codegen::file;
-use coadjoint_codegen::system::Run;
+use coadjoint_codegen::system::System;
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{Schedule, Setup, Times};
-use nalgebra::DVector;
 
-use super::target::Target;
+use super::target::{Place, Target};
 use crate::arguments::SimulateOptions;
 use crate::error::{CliError, unwritten};
 
@@ -33,50 +32,31 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Puts the settings together, or says which one is missing.
+    /// Puts the settings of a run of `file` together.
     ///
     /// # Errors
-    /// An option that is missing or makes no sense.
+    /// Where the interval of checkpoints is no duration.
     pub fn new(
         options: &SimulateOptions,
-        hash: &str,
+        (file, hash): (&Path, &str),
         out: Option<Target>,
-        run: &Run,
-        dim: usize,
+        setup: Setup,
     ) -> Result<Self, CliError> {
-        let file = options.input.source().file;
-        let schedule = Schedule::new(&file, options.accuracy.step, options.time, run)?;
-        let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
-            file: file.clone(),
-            key: "[initial] momentum",
-            example: "momentum = [2.0, 0.5, 1.0]",
-            option: "another file",
-        })?;
-        let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
-        // Times alone are recorded alone; a step count in the file is then no request.
-        let every = match (options.every, &at) {
-            (None, Some(_)) => None,
-            (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
+        let what = "--checkpoint-interval must be a number of seconds, 0 or more";
+        let interval = Duration::try_from_secs_f64(options.checkpoint_interval);
+        let checkpoint = match (options.checkpoint.clone(), interval) {
+            (None, _) => None,
+            (Some(path), Ok(interval)) => Some((path, interval)),
+            (Some(_), Err(_)) => return Err(CliError::Option(what.to_owned())),
         };
-        if momentum.len() != dim {
-            return Err(CliError::Option("the momentum does not fit the group".to_owned()));
-        }
         Ok(Self {
-            file,
+            file: file.to_owned(),
             hash: hash.to_owned(),
             inputs: inputs(options),
-            setup: Setup {
-                schedule,
-                recording: out.is_some(),
-                every,
-                at,
-                backend: options.backend.into(),
-                momentum: DVector::from_vec(momentum),
-                group_element: run.group_element.clone(),
-            },
+            setup: Setup { recording: out.is_some(), ..setup },
             out,
             sampled: options.plot.is_some(),
-            checkpoint: checkpoint(options)?,
+            checkpoint,
         })
     }
 
@@ -86,10 +66,33 @@ impl Settings {
     }
 }
 
+/// The run of a system, by the options, else by the file, or which setting is missing.
+///
+/// # Errors
+/// A setting that is missing or makes no sense.
+pub fn setup(options: &SimulateOptions, file: &Path, system: &System) -> Result<Setup, CliError> {
+    let run = &system.run;
+    let schedule = Schedule::new(file, options.accuracy.step, options.time, run)?;
+    let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
+        file: file.into(),
+        key: "[initial] momentum",
+        example: "momentum = [2.0, 0.5, 1.0]",
+        option: "another file",
+    })?;
+    let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
+    // Times alone are recorded alone; a step count in the file is then no request.
+    let every = match (options.every, &at) {
+        (None, Some(_)) => None,
+        (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
+    };
+    let (backend, group_element) = (options.backend, run.group_element.clone());
+    Ok(Setup { every, at, backend, group_element, ..Setup::new(schedule, momentum) })
+}
+
 /// Everything a run reads.
 pub fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
     let times = options.at.iter().map(PathBuf::from);
-    let system = options.input.model.clone().unwrap_or_else(|| options.input.source().file);
+    let system = options.input.model.clone().unwrap_or_else(|| options.input.source(None).file);
     std::iter::once(system).chain(times).collect()
 }
 
@@ -102,19 +105,6 @@ pub fn every(steps: usize) -> Result<u64, CliError> {
         0 => Err(CliError::Option("--every counts steps from 1; try --every 1".to_owned())),
         steps => Ok(steps as u64),
     }
-}
-
-/// Where the state is kept, and how often, if it is.
-///
-/// # Errors
-/// Where the interval is no duration.
-pub fn checkpoint(options: &SimulateOptions) -> Result<Option<(PathBuf, Duration)>, CliError> {
-    let Some(path) = options.checkpoint.clone() else { return Ok(None) };
-    let interval = Duration::try_from_secs_f64(options.checkpoint_interval).map_err(|_| {
-        let what = "--checkpoint-interval must be a number of seconds, 0 or more";
-        CliError::Option(what.to_owned())
-    })?;
-    Ok(Some((path, interval)))
 }
 
 /// Refuses names of files that cannot be what they are to be, before anything is computed.
@@ -147,7 +137,7 @@ pub fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError
     if options.truncation.len() > 1 {
         return refuse("--checkpoint is of one run: give one --truncation".to_owned());
     }
-    if let Some(out) = out.as_ref().filter(|out| out.place != super::target::Place::File) {
+    if let Some(out) = out.as_ref().filter(|out| out.place != Place::File) {
         return refuse(format!(
             "--checkpoint: what was written to {} cannot be continued; write to a file",
             out.path.display()

@@ -14,8 +14,9 @@ use coadjoint_run::verify::{Columns, Found, Rows, Sample, follower, judge_of};
 use coadjoint_run::{RunError, read_with, text_hash};
 use serde_json::Value;
 
-use crate::arguments::{Format, VerifyOptions};
+use crate::arguments::VerifyOptions;
 use crate::error::CliError;
+use crate::named::Format;
 use crate::{load, progress};
 
 use table::Table;
@@ -91,7 +92,7 @@ fn judge(
         "cayley" => Chart::Cayley,
         _ => Chart::Exponential,
     });
-    let chart = options.chart.map(Into::into).or(said);
+    let chart = options.chart.or(said);
     let read = Options { truncation, chart, ..Options::default() };
     let System { problem, potential, run, .. } =
         read_with(&system.display().to_string(), &text, read)?;

@@ -8,11 +8,9 @@ use coadjoint::{
 };
 use coadjoint_codegen::graph;
 use coadjoint_codegen::integrator::{Integrator, Kick};
-use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::system::Splitting;
 use nalgebra::DVector;
-use num_traits::ToPrimitive;
 
 use super::{Group, Interpreter};
 
@@ -23,20 +21,15 @@ pub struct Forces {
     pub kick: Kick,
     /// How kicks and flows are composed.
     pub splitting: Splitting,
-    /// The ξ with ⟨J_L, ξ⟩ conserved.
-    pub symmetries: Vec<DVector<f64>>,
 }
 
 /// A step, from the time given.
 pub type Step<'a, G> = Box<dyn Fn(&mut Phase<G>, f64) -> Result<(), StepError> + 'a>;
 
 impl Forces {
-    /// Derives the torque and finds the symmetry that is left.
+    /// Derives the torque.
     pub fn new(potential: Potential, splitting: Splitting) -> Self {
-        let float = |x: &Rational| x.to_f64().unwrap_or(f64::NAN);
-        let vector = |xi: Vec<Rational>| DVector::from_iterator(xi.len(), xi.iter().map(float));
-        let symmetries = potential.symmetries().into_iter().map(vector).collect();
-        Self { kick: Kick::build(potential), splitting, symmetries }
+        Self { kick: Kick::build(potential), splitting }
     }
 
     /// The order of the splitting.

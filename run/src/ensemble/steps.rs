@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Conserved, Scales, Scratch, Start, casimir_scale};
+use coadjoint_codegen::step::{Conserved, Invariants, Scratch, nudge};
 use coadjoint_device::Card;
 use coadjoint_program::{Precision, Trajectories};
 use nalgebra::DVector;
@@ -22,8 +22,6 @@ use crate::engine::{
     Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
 };
 use crate::error::RunError;
-use crate::number::largest;
-use crate::rounding::{measured, nudge};
 
 /// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
 /// forgets everything after this number of steps, so that cutting a run there changes no bit.
@@ -40,6 +38,7 @@ pub struct Steps<'a, G, C> {
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
     attitudes: Attitudes,
+    invariants: Invariants,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
     step: f64,
@@ -85,6 +84,7 @@ where
             card: card.map(Mutex::new),
             redone: AtomicU64::new(0),
             attitudes,
+            invariants: Invariants::of(&integrator.problem.algebra),
             identity,
             step,
             shorter: Mutex::default(),
@@ -166,43 +166,31 @@ where
         })
     }
 
-    /// The conserved quantities of a state.
-    fn conserved(&self, state: &Numbers, scratch: &mut Scratch) -> Conserved {
-        let group = self.stepper.group();
-        let mut momenta = vec![0.0; state.mu.len()];
+    fn spatial_momentum(&self, state: &Numbers, scratch: &mut Scratch) -> Vec<f64> {
+        let mut momentum = vec![0.0; state.mu.len()];
         match &self.compiled {
-            Some(compiled) => compiled.spatial_momentum(state, scratch, &mut momenta),
+            Some(compiled) => compiled.spatial_momentum(state, scratch, &mut momentum),
             None => {
-                let found = self.phase(state).spatial_momentum(group);
-                momenta.copy_from_slice(found.as_slice());
+                let found = self.phase(state).spatial_momentum(self.stepper.group());
+                momentum.copy_from_slice(found.as_slice());
             }
         }
-        let mu = DVector::from_column_slice(&state.mu);
-        let casimirs = (0..group.casimir_count()).map(|index| group.casimir(index, &mu)).collect();
-        Conserved { momenta, casimirs, energy: None }
+        momentum
     }
 
     /// The drifts of one row.
     fn drift(&self, scratch: &mut Scratch, before: &Numbers, after: &Numbers) -> Drift {
-        let group = self.stepper.group();
-        let conserved = self.conserved(before, scratch);
-        let casimir = |index| {
-            let value = |mu: &[f64]| group.casimir(index, &DVector::from_column_slice(mu));
-            casimir_scale(value, &before.mu)
+        let invariants = &self.invariants;
+        let start = invariants.start(&before.mu, &self.spatial_momentum(before, scratch), Vec::new);
+        let mut conserved = |state: &Numbers| -> Conserved {
+            invariants.conserved(&state.mu, &self.spatial_momentum(state, scratch), Vec::new)
         };
-        let scales = Scales {
-            spatial_momentum: largest(conserved.momenta.iter().copied()),
-            casimirs: (0..group.casimir_count()).map(casimir).collect(),
-            energy: 0.0,
-        };
-        let start = Start { conserved, scales };
         let mut beside = after.clone();
         nudge(&mut beside.g);
         nudge(&mut beside.mu);
-        let beside = self.conserved(&beside, scratch);
-        let conserved = measured(&start, &self.conserved(after, scratch), beside);
+        let conserved = start.measured(&conserved(after), conserved(&beside));
         let hidden = conserved.spatial_momentum.is_none()
-            || group.casimir_count() > 0 && conserved.casimirs.is_none();
+            || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
         Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
     }
 
@@ -307,7 +295,7 @@ where
     }
 
     fn casimirs(&self) -> usize {
-        self.stepper.group().casimir_count()
+        self.invariants.casimirs.len()
     }
 
     fn device(&self) -> Option<Use> {

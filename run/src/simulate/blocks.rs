@@ -35,8 +35,16 @@ pub struct Block {
     pub kind: Kind,
 }
 
-/// The blocks of elements: one for each factor of the algebra, or those that the group knows.
-pub fn blocks(algebra: &LieAlgebra, known: Vec<Range<usize>>) -> Vec<Block> {
+impl Block {
+    /// The places of its entries in the whole matrix, row by row, from 0.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let range = self.range.clone();
+        self.range.clone().flat_map(move |i| range.clone().map(move |j| (i, j)))
+    }
+}
+
+/// The blocks of elements that are matrices of `size` rows: one for each factor of the algebra, or all in one.
+pub fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
     let factors = algebra.factors();
     let mut found: Vec<Block> = Vec::with_capacity(factors.len());
     let mut end = 0;
@@ -50,11 +58,11 @@ pub fn blocks(algebra: &LieAlgebra, known: Vec<Range<usize>>) -> Vec<Block> {
         found.push(Block { range: end..end + rows, kind });
         end += rows;
     }
-    if known.last().is_some_and(|last| last.end == end) {
+    if end == size {
         return found;
     }
     let kind = if algebra.basis().is_some() { Kind::Real } else { Kind::Adjoint };
-    known.into_iter().map(|range| Block { range, kind }).collect()
+    vec![Block { range: 0..size, kind }]
 }
 
 fn kind(factor: &LieAlgebra) -> Kind {

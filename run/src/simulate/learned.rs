@@ -4,15 +4,15 @@ use std::path::Path;
 
 use coadjoint::{Cayley, Chart, Exponential, StepError, advance};
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
+use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, ModelFile};
 
-use super::march::{Beside, March};
-use super::mover::{Made, OneByOne};
-use super::outlet::Outlet;
+use super::march::Subject;
+use super::motion::{OneByOne, Steps};
 use super::recorder::{Outcome, Watched};
 use super::schedule::Schedule;
 use super::setup::Setup;
-use super::subject::Subject;
+use super::sink::Sink;
 use super::warning::Warning;
 use crate::engine::Restore;
 use crate::engine::{cayley_group, product_group};
@@ -43,7 +43,7 @@ pub fn run_model(
     file: &Path,
     model: &ModelFile,
     setup: &Setup,
-    outlet: &mut dyn Outlet,
+    sink: &mut dyn Sink,
 ) -> Result<Outcome, RunError> {
     let algebra = algebra_of(model)?;
     let (expected, found) = (algebra.dim(), setup.momentum.len());
@@ -51,20 +51,15 @@ pub fn run_model(
         return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
     }
     let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
-    let watched = Watched {
-        algebra: &algebra,
-        coordinates: &coordinates,
-        energy: None,
-        attitude: model.attitude,
-        symmetries: None,
-    };
-    let warnings = if model.attitude { Vec::new() } else { vec![Warning::NoAttitude] };
-    warnings.iter().for_each(|warning| outlet.warn(&warning.text()));
+    let (invariants, attitude) = (Invariants::of(&algebra), model.attitude);
+    let watched =
+        Watched { algebra: &algebra, coordinates: &coordinates, invariants: &invariants, attitude };
+    let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
     let subject = Subject { file, setup, watched, warnings };
     let group = product_group(file, &algebra)?;
     match model.chart.as_str() {
-        "cayley" => follow::<_, Cayley>(cayley_group(file, &group)?, &subject, model, outlet),
-        _ => follow::<_, Exponential>(group, &subject, model, outlet),
+        "cayley" => follow::<_, Cayley>(cayley_group(file, &group)?, &subject, model, sink),
+        _ => follow::<_, Exponential>(group, &subject, model, sink),
     }
 }
 
@@ -93,17 +88,21 @@ fn follow<G: Restore, C: Chart<G>>(
     group: G,
     subject: &Subject<'_>,
     model: &ModelFile,
-    outlet: &mut dyn Outlet,
+    sink: &mut dyn Sink,
 ) -> Result<Outcome, RunError> {
     let map = Generating::<G, C, _>::new(group.clone(), &model.model);
-    let mut mover = OneByOne::new(&group, &subject.setup.schedule, |_, phase: &mut _| {
+    let step = |_, phase: &mut _| {
         let report = advance(&map, phase)?;
-        Ok(Made { solve: Some((report.iterations, report.residual)) })
-    });
-    let beside = Beside {
+        Ok(Some((report.iterations, report.residual)))
+    };
+    let steps = Steps {
+        group: &group,
+        schedule: &subject.setup.schedule,
+        step: &step,
         // Times between steps are refused: a learned map has one step.
         side: &|_, part, _| Err(StepError::InvalidStep { step: part }),
         ratio: &|_| 0.0,
     };
-    March { subject, group: &group }.run(&mut mover, &beside, outlet)
+    let start = subject.setup.start(subject.file, &group)?;
+    subject.run(&mut OneByOne::new(steps, start), sink)
 }

@@ -1,19 +1,18 @@
 //! The watch over a run: its state, and the largest drift of every invariant.
 
-use coadjoint::Phase;
 use coadjoint_codegen::lie::LieAlgebra;
-pub use coadjoint_codegen::step::{Conserved, Drift, Scales};
-use coadjoint_codegen::step::{Start, casimir_scale, energy_scale};
-use nalgebra::DVector;
+pub use coadjoint_codegen::step::{Drift, Scales};
+use coadjoint_codegen::step::{Invariants, Start, nudge};
+use serde::{Deserialize, Serialize};
 
 use super::blocks::{Block, blocks};
-use super::mover::Seen;
-use super::outlet::Begun;
+use super::motion::Space;
+use super::sink::Begun;
 use super::warning::{Steep, Warning};
 use crate::backend::Used;
-use crate::engine::{Energy, Group, STEEP};
-use crate::number::{largest, maximum};
-use crate::rounding::measured;
+use crate::bits;
+use crate::engine::{Numbers, STEEP};
+use crate::number::maximum;
 
 /// The measurements at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -25,11 +24,12 @@ pub struct Moment {
 }
 
 /// The solves of a run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Solver {
     /// The most Newton iterations, or evaluations of the fixed point, of a step.
     pub most_iterations: u64,
     /// The largest residual left, relative to the momentum.
+    #[serde(with = "bits")]
     pub max_residual: f64,
 }
 
@@ -58,7 +58,7 @@ pub struct Outcome {
     pub scales: Scales,
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
     pub unmeasured: [Option<f64>; 3],
-    /// Why a drift is `None`.
+    /// The reasons for drifts that are `None`.
     pub unknown: Unknown,
     /// How many Casimirs were watched.
     pub casimirs: usize,
@@ -70,7 +70,7 @@ pub struct Outcome {
     pub solver: Option<Solver>,
 }
 
-/// Why a drift is `None`: in the order spatial momentum, Casimirs, energy.
+/// The reasons for drifts that are `None`: of the spatial momentum, the Casimirs, the energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unknown(pub [Option<&'static str>; 3]);
 
@@ -81,67 +81,58 @@ impl Unknown {
     }
 }
 
-/// The quantities watched in a run.
+/// The quantities that are watched in a run.
 #[derive(Clone, Copy)]
 pub struct Watched<'a> {
     /// The algebra.
     pub algebra: &'a LieAlgebra,
     /// Names of the momentum's coordinates.
     pub coordinates: &'a [String],
-    /// The energy, where it is known.
-    pub energy: Option<&'a Energy>,
+    /// The conserved quantities.
+    pub invariants: &'a Invariants,
     /// Whether attitudes mean something; maps learned from momenta alone have none.
     pub attitude: bool,
-    /// Where a potential breaks the symmetry, the ξ with ⟨J_L, ξ⟩ conserved.
-    pub symmetries: Option<&'a [DVector<f64>]>,
 }
 
 impl Watched<'_> {
-    /// Drifts that are all unknown, with this number of Casimirs.
-    fn unknown(&self, casimirs: usize) -> Unknown {
-        let potential = self.symmetries.is_some();
-        let spatial = match self.symmetries {
+    /// Whether a potential breaks the symmetry.
+    fn potential(&self) -> bool {
+        self.invariants.potential.is_some()
+    }
+
+    /// The reasons for drifts that there are not.
+    fn unknown(&self) -> Unknown {
+        let Invariants { directions, casimirs, hamiltonian, .. } = self.invariants;
+        let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
             Some([]) => Some("not conserved: the potential breaks the symmetry"),
             _ => None,
         };
-        let casimirs = match (casimirs, potential) {
-            (0, false) => Some("none known"),
-            (0, true) => Some("none that the kicks keep"),
-            _ => None,
-        };
-        let energy = self.energy.is_none().then_some("not known: a learned map has no Hamiltonian");
+        let none = if self.potential() { "none that the kicks keep" } else { "none known" };
+        let energy = "not known: a learned map has no Hamiltonian";
+        let (casimirs, energy) =
+            (casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy));
         Unknown([spatial, casimirs, energy])
-    }
-
-    /// The components of a spatial momentum that are conserved, each relative to the largest component of its ξ.
-    fn conserved(&self, spatial: &DVector<f64>) -> Vec<f64> {
-        match self.symmetries {
-            _ if !self.attitude => Vec::new(),
-            None => spatial.as_slice().to_vec(),
-            Some(list) => list.iter().map(|xi| xi.dot(spatial) / xi.amax()).collect(),
-        }
     }
 }
 
 /// The maxima and sums so far.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Tally {
     /// The largest drifts.
+    #[serde(with = "bits")]
     pub drift: Drift,
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
+    #[serde(with = "bits")]
     pub unmeasured: [Option<f64>; 3],
-    /// The most iterations of a step.
-    pub iterations: u64,
-    /// The largest residual, where residuals were measured.
-    pub residual: Option<f64>,
+    /// How the solves went, where residuals were measured.
+    pub solver: Option<Solver>,
     /// The first step before which the last terms of the series had a ratio worth a warning.
     pub steep: Option<Steep>,
 }
 
 /// Watches a run.
-pub struct Recorder<'a, G: Group> {
-    group: &'a G,
+pub struct Recorder<'a> {
     watched: Watched<'a>,
     blocks: Vec<Block>,
     start: Start,
@@ -150,60 +141,31 @@ pub struct Recorder<'a, G: Group> {
     pub tally: Tally,
 }
 
-/// The conserved quantities of a state with this momentum, spatial momentum and energy.
-fn conserved<G: Group>(
-    group: &G,
-    watched: &Watched<'_>,
-    momentum: &DVector<f64>,
-    spatial: &DVector<f64>,
-    energy: Option<f64>,
-) -> Conserved {
-    let casimir = |index| group.casimir(index, momentum);
-    let casimirs = (0..group.casimir_count()).map(casimir).collect();
-    Conserved { momenta: watched.conserved(spatial), casimirs, energy }
-}
-
-impl<'a, G: Group> Recorder<'a, G> {
-    /// Measures drifts against `phase`, which is `seen` as all that come after it are.
-    pub fn new(group: &'a G, watched: Watched<'a>, phase: &Phase<G>, seen: &dyn Seen) -> Self {
-        let (spatial, energy) = (seen.spatial_momentum(), watched.energy.map(|e| seen.energy(e)));
-        let conserved = conserved(group, &watched, seen.momentum(), &spatial, energy);
-        let casimir = |index| {
-            let value = |mu: &[f64]| group.casimir(index, &DVector::from_column_slice(mu));
-            casimir_scale(value, phase.momentum.as_slice())
-        };
-        let magnitude = watched.energy.map_or(0.0, |energy| energy.magnitude(group, phase));
-        let scales = Scales {
-            spatial_momentum: largest(spatial.iter().copied()),
-            casimirs: (0..group.casimir_count()).map(casimir).collect(),
-            energy: energy_scale(conserved.energy.unwrap_or(0.0), magnitude),
-        };
-        Self {
-            group,
+impl<'a> Recorder<'a> {
+    /// Measures drifts against a state, which is the start.
+    pub fn new(watched: Watched<'a>, space: &dyn Space, start: &Numbers) -> Self {
+        let matrix = || space.matrix(&start.g);
+        let mut recorder = Self {
             watched,
-            blocks: blocks(watched.algebra, group.blocks()),
-            start: Start { conserved, scales },
-            unknown: watched.unknown(group.casimir_count()),
+            blocks: blocks(watched.algebra, space.size()),
+            start: watched.invariants.start(&start.mu, &space.spatial_momentum(start), matrix),
+            unknown: watched.unknown(),
             tally: Tally::default(),
+        };
+        if !watched.attitude {
+            recorder.blocks.clear();
+            recorder.start.conserved.momenta.clear();
         }
+        recorder
     }
 
-    /// The blocks of the group's matrices.
-    pub fn blocks(&self) -> &[Block] {
-        &self.blocks
-    }
-
-    /// The blocks that records hold: all, or none where attitudes mean nothing.
-    pub fn recorded(&self) -> &[Block] {
-        if self.watched.attitude { &self.blocks } else { &[] }
-    }
-
-    /// The facts a run begins with.
+    /// The facts before the first step.
     pub fn begun(&self) -> Begun<'_> {
         Begun {
-            blocks: self.recorded(),
+            coordinates: self.watched.coordinates,
+            blocks: &self.blocks,
             known: self.unknown.known(),
-            energy: self.watched.energy.is_some(),
+            energy: self.watched.invariants.hamiltonian.is_some(),
             scales: &self.start.scales,
         }
     }
@@ -211,35 +173,37 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Takes note of how the solves of some steps went: the most iterations of one, and the largest residual.
     ///
     /// # Errors
-    /// The name of a number that is not finite.
+    /// What is not finite.
     pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
-        self.tally.iterations = self.tally.iterations.max(u64::from(iterations));
-        let most = maximum(self.tally.residual.unwrap_or(0.0), residual);
-        self.tally.residual = Some(most);
+        let solver = self.tally.solver.get_or_insert_default();
+        solver.most_iterations = solver.most_iterations.max(iterations.into());
+        solver.max_residual = maximum(solver.max_residual, residual);
         finite("the residual of the solve", residual)
     }
 
-    /// Takes note of the ratio of the last terms of the series in the step from this time; what there is to be said
-    /// the first time that it is large.
+    /// Takes note of the ratio of the last terms of the series in the step from this time. Returns a warning the first time
+    /// that it is large.
     pub fn steep(&mut self, step: u64, time: f64, ratio: f64) -> Option<Warning> {
         if self.tally.steep.is_some() || ratio <= STEEP {
             return None;
         }
-        let steep = Steep { step, time, ratio };
-        self.tally.steep = Some(steep);
-        Some(Warning::Steep(steep))
+        self.tally.steep = Some(Steep { step, time, ratio });
+        self.tally.steep.map(Warning::Steep)
     }
 
     /// Measures the moment of this time, and takes its drift into account.
     ///
     /// # Errors
-    /// The name of a number that is not finite.
-    pub fn visit(&mut self, time: f64, state: &dyn Seen) -> Result<Moment, String> {
-        let moment = self.measure(state)?;
-        let drifts = moment.drift.numbers();
-        for ((since, drift), known) in
-            self.tally.unmeasured.iter_mut().zip(drifts).zip(self.unknown.known())
-        {
+    /// What is not finite.
+    pub fn visit(
+        &mut self,
+        time: f64,
+        space: &dyn Space,
+        state: &Numbers,
+    ) -> Result<Moment, String> {
+        let moment = self.measure(space, state)?;
+        let drifts = moment.drift.numbers().into_iter().zip(self.unknown.known());
+        for (since, (drift, known)) in self.tally.unmeasured.iter_mut().zip(drifts) {
             if known && drift.is_nan() {
                 since.get_or_insert(time);
             }
@@ -251,23 +215,22 @@ impl<'a, G: Group> Recorder<'a, G> {
     /// Measures this moment. A quantity has a drift until rounding of the state hides it.
     ///
     /// # Errors
-    /// The name of a number that is not finite.
-    pub fn measure(&self, state: &dyn Seen) -> Result<Moment, String> {
-        for (name, value) in self.watched.coordinates.iter().zip(state.momentum().iter()) {
+    /// What is not finite.
+    pub fn measure(&self, space: &dyn Space, state: &Numbers) -> Result<Moment, String> {
+        for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
-        if let Some(bad) = state.flaw() {
-            finite("an entry of the group element", bad)?;
-        }
-        let energy = self.watched.energy.map(|energy| state.energy(energy));
-        finite("the energy", energy.unwrap_or(0.0))?;
-        let of = |momentum: &_, spatial: &_, energy| {
-            conserved(self.group, &self.watched, momentum, spatial, energy)
+        state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))?;
+        let conserved = |state: &Numbers| {
+            let spatial = space.spatial_momentum(state);
+            self.watched.invariants.conserved(&state.mu, &spatial, || space.matrix(&state.g))
         };
-        let now = of(state.momentum(), &state.spatial_momentum(), energy);
-        let (momentum, spatial, other) = state.nudged(self.watched.energy);
-        let beside = of(&momentum, &spatial, other);
-        let mut drift = measured(&self.start, &now, beside).numbers();
+        let now = conserved(state);
+        finite("the energy", now.energy.unwrap_or(0.0))?;
+        let mut beside = state.clone();
+        nudge(&mut beside.g);
+        nudge(&mut beside.mu);
+        let mut drift = self.start.measured(&now, conserved(&beside)).numbers();
         for (drift, since) in drift.iter_mut().zip(self.tally.unmeasured) {
             if since.is_some() {
                 *drift = f64::NAN;
@@ -277,37 +240,41 @@ impl<'a, G: Group> Recorder<'a, G> {
     }
 
     /// The entries of the blocks of g, row by row.
-    pub fn entries(&self, phase: &Phase<G>) -> impl Iterator<Item = f64> {
-        self.blocks.iter().flat_map(move |block| {
-            let range = block.range.clone();
-            let row = move |i| {
-                range.clone().map(move |j| self.group.matrix_entry(&phase.group_element, i, j))
-            };
-            block.range.clone().flat_map(row)
-        })
+    pub fn entries(&self, space: &dyn Space, state: &Numbers) -> Vec<f64> {
+        if self.blocks.is_empty() {
+            return Vec::new();
+        }
+        let (matrix, size) = (space.matrix(&state.g), space.size());
+        let places = self.blocks.iter().flat_map(Block::places);
+        places.map(|(i, j)| matrix[i * size + j]).collect()
     }
 
-    /// The run, which ended at `phase`.
-    pub fn finish(self, (steps, time): (u64, f64), phase: &Phase<G>, moment: &Moment) -> Outcome {
-        let Tally { drift, unmeasured, iterations, residual, steep } = self.tally;
+    /// The outcome of the run, which ended at `state`.
+    pub fn finish(
+        self,
+        (steps, time): (u64, f64),
+        space: &dyn Space,
+        state: &Numbers,
+        moment: &Moment,
+    ) -> Outcome {
+        let Tally { drift, unmeasured, solver, steep } = self.tally;
         Outcome {
             steps,
             time,
             backend: None,
             warnings: steep.map(Warning::Steep).into_iter().collect(),
-            momentum: phase.momentum.iter().copied().collect(),
-            element: if self.watched.attitude { self.entries(phase).collect() } else { Vec::new() },
+            momentum: state.mu.clone(),
+            element: self.entries(space, state),
             energy: self.start.conserved.energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
             unmeasured,
             unknown: self.unknown,
-            casimirs: self.group.casimir_count(),
-            potential: self.watched.symmetries.is_some(),
+            casimirs: self.watched.invariants.casimirs.len(),
+            potential: self.watched.potential(),
             momenta: self.start.conserved.momenta.len(),
             scales: self.start.scales,
-            solver: residual
-                .map(|max_residual| Solver { most_iterations: iterations, max_residual }),
-            blocks: if self.watched.attitude { self.blocks } else { Vec::new() },
+            solver,
+            blocks: self.blocks,
         }
     }
 }

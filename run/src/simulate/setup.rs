@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use nalgebra::DVector;
-
 use super::schedule::Schedule;
 use super::times::Times;
 use crate::backend::Backend;
-use crate::engine::Group;
+use crate::engine::{Numbers, Restore, entries_of};
 use crate::error::RunError;
 
 /// The settings of a run.
@@ -24,7 +22,7 @@ pub struct Setup {
     /// The backend that evaluates the programs of a step.
     pub backend: Backend,
     /// μ at the start.
-    pub momentum: DVector<f64>,
+    pub momentum: Vec<f64>,
     /// g at the start, row by row; the identity if it is not given.
     pub group_element: Option<Vec<Vec<f64>>>,
 }
@@ -38,18 +36,18 @@ impl Setup {
             every: Some(1),
             at: None,
             backend: Backend::Auto,
-            momentum: DVector::from_vec(momentum),
+            momentum,
             group_element: None,
         }
     }
 
-    /// g at the start.
+    /// The state at the start, with the matrix of g, row by row.
     ///
     /// # Errors
     /// Where the matrix given is no element of the group.
-    pub fn element<G: Group>(&self, file: &Path, group: &G) -> Result<G::Element, RunError> {
-        match &self.group_element {
-            None => Ok(group.identity()),
+    pub fn start<G: Restore>(&self, file: &Path, group: &G) -> Result<Numbers, RunError> {
+        let element = match &self.group_element {
+            None => group.identity(),
             Some(rows) => {
                 let size = group.matrix_size();
                 if rows.len() != size || rows.iter().any(|row| row.len() != size) {
@@ -59,8 +57,9 @@ impl Setup {
                 }
                 group
                     .element_from_matrix(|i, j| rows[i][j])
-                    .map_err(|source| RunError::Element { file: file.into(), source })
+                    .map_err(|source| RunError::Element { file: file.into(), source })?
             }
-        }
+        };
+        Ok(Numbers { g: entries_of(group, &element), mu: self.momentum.clone() })
     }
 }

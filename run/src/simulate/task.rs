@@ -1,4 +1,4 @@
-//! A run: flows, or flows and kicks, from the initial state to the end.
+//! The runs of systems: flows, or flows and kicks, from the initial state to the end.
 
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint::{
@@ -9,12 +9,11 @@ use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 
-use super::march::{Beside, March};
-use super::mover::{ByPrograms, Made, OneByOne};
-use super::outlet::Outlet;
+use super::march::Subject;
+use super::motion::{ByPrograms, OneByOne, Solves, Steps};
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
-use super::subject::Subject;
+use super::sink::Sink;
 use crate::engine::{
     Compiled, Forces, Interpreter, Restore, Steepness, advise, cayley_group, product_group,
     whole_group,
@@ -27,17 +26,17 @@ use crate::number::largest;
 ///
 /// # Errors
 /// Settings that make no sense, and why the run stopped.
-pub fn run(system: &Derived, setup: &Setup, outlet: &mut dyn Outlet) -> Result<Outcome, RunError> {
+pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
     let problem = &system.integrator.problem;
     if setup.momentum.len() != problem.algebra.dim() {
         return Err(RunError::Option("the momentum does not fit the group".to_owned()));
     }
     let group = system.group()?;
-    let task = Task { system, setup };
     match problem.chart {
-        lie::Chart::Exponential => task.integrate::<_, Exponential>(&group, outlet),
+        lie::Chart::Exponential => integrate::<_, Exponential>(system, setup, &group, sink),
         lie::Chart::Cayley => {
-            task.integrate::<_, Cayley>(&cayley_group(&system.file, &group)?, outlet)
+            let group = cayley_group(&system.file, &group)?;
+            integrate::<_, Cayley>(system, setup, &group, sink)
         }
     }
 }
@@ -58,10 +57,9 @@ impl Derived {
 
     /// The quantities watched in a run.
     pub fn watched(&self) -> Watched<'_> {
-        let symmetries = self.forces.as_ref().map(|forces| forces.symmetries.as_slice());
         let problem = &self.integrator.problem;
         let (algebra, coordinates) = (&problem.algebra, problem.coordinates.as_slice());
-        Watched { algebra, coordinates, energy: Some(&self.energy), attitude: true, symmetries }
+        Watched { algebra, coordinates, invariants: &self.invariants, attitude: true }
     }
 
     /// The method of a run, in a few words.
@@ -78,102 +76,91 @@ impl Derived {
     }
 }
 
-/// The subject of the run.
-#[derive(Clone, Copy)]
-struct Task<'a> {
-    system: &'a Derived,
-    setup: &'a Setup,
+/// Advances from the initial state to the end.
+fn integrate<G: Restore, C: Chart<G>>(
+    system: &Derived,
+    setup: &Setup,
+    group: &G,
+    sink: &mut dyn Sink,
+) -> Result<Outcome, RunError> {
+    let subject =
+        Subject { file: &system.file, setup, watched: system.watched(), warnings: Vec::new() };
+    match &system.forces {
+        Some(forces) => kicked::<G, C>(system, &subject, group, forces, sink),
+        None => flow::<G, C>(system, &subject, group, sink),
+    }
 }
 
-impl<'a> Task<'a> {
-    /// The run as its driver knows it.
-    fn subject(&self) -> Subject<'a> {
-        let Self { system, setup } = *self;
-        Subject { file: &system.file, setup, watched: system.watched(), warnings: Vec::new() }
-    }
+/// Flows and kicks.
+fn kicked<G: Restore, C: Chart<G>>(
+    system: &Derived,
+    subject: &Subject<'_>,
+    group: &G,
+    forces: &Forces,
+    sink: &mut dyn Sink,
+) -> Result<Outcome, RunError> {
+    let (integrator, schedule) = (&system.integrator, &subject.setup.schedule);
+    let h = schedule.step;
+    let make = |h| forces.step::<G, C>(integrator, group, h);
+    let made = make(h).map_err(at_start)?;
+    let longest = h * forces.longest_flow();
+    let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest);
+    let flow = flow.map_err(at_start)?;
+    let steepness = Steepness::new(&flow);
+    let step = |time, phase: &mut Phase<G>| {
+        let made = made(phase, time);
+        made.map(|()| None).map_err(|error| {
+            let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
+            advise(error, h, works)
+        })
+    };
+    let side = |time, part, phase: &mut Phase<G>| make(part)?(phase, time);
+    let ratio = |mu: &DVector<f64>| steepness.ratio(mu);
+    let steps = Steps { group, schedule, step: &step, side: &side, ratio: &ratio };
+    let start = subject.setup.start(subject.file, group)?;
+    subject.run(&mut OneByOne::new(steps, start), sink)
+}
 
-    /// Advances from the initial state to the end.
-    fn integrate<G: Restore, C: Chart<G>>(
-        &self,
-        group: &G,
-        outlet: &mut dyn Outlet,
-    ) -> Result<Outcome, RunError> {
-        match &self.system.forces {
-            Some(forces) => self.kicked::<G, C>(group, forces, outlet),
-            None => self.flow::<G, C>(group, outlet),
-        }
-    }
-
-    /// Flows and kicks.
-    fn kicked<G: Restore, C: Chart<G>>(
-        &self,
-        group: &G,
-        forces: &Forces,
-        outlet: &mut dyn Outlet,
-    ) -> Result<Outcome, RunError> {
-        let integrator = &self.system.integrator;
-        let h = self.setup.schedule.step;
-        let make = |h| forces.step::<G, C>(integrator, group, h);
-        let step = make(h).map_err(at_start)?;
-        let longest = h * forces.longest_flow();
-        let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest);
-        let flow = flow.map_err(at_start)?;
-        let steepness = Steepness::new(&flow);
-        let subject = self.subject();
-        let mut mover = OneByOne::new(group, &self.setup.schedule, |time, phase: &mut _| {
-            step(phase, time).map_err(|error| {
-                let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
-                advise(error, h, works)
-            })?;
-            Ok(Made { solve: None })
-        });
-        let beside = Beside {
-            side: &|time, part, phase| make(part)?(phase, time),
-            ratio: &|mu| steepness.ratio(mu),
-        };
-        March { subject: &subject, group }.run(&mut mover, &beside, outlet)
-    }
-
-    /// The flow alone.
-    fn flow<G: Restore, C: Chart<G>>(
-        &self,
-        group: &G,
-        outlet: &mut dyn Outlet,
-    ) -> Result<Outcome, RunError> {
-        let integrator = &self.system.integrator;
-        let schedule = &self.setup.schedule;
-        let h = schedule.step;
-        let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
-        let step = series(h).map_err(at_start)?;
-        let steepness = Steepness::new(&step);
-        let subject = self.subject();
-        let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
-            let solution = solve(step, &phase.momentum)?;
-            let residual = residual(step, &phase.momentum, &solution);
-            reconstruct(step, phase, &solution.x)?;
-            Ok((solution.iterations, residual))
-        };
-        let side = |_: f64, part: f64, phase: &mut Phase<G>| one(&series(part)?, phase).map(drop);
-        let advised = |error, phase: &Phase<G>| {
-            advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
-        };
-        let beside = Beside { side: &side, ratio: &|mu| steepness.ratio(mu) };
-        let march = March { subject: &subject, group };
-        let (backend, steps) = (self.setup.backend, schedule.steps as f64);
-        let Some(compiled) =
-            Compiled::new(&step, backend, steps, Trajectories::One, &self.system.kept)?
-        else {
-            let mut mover = OneByOne::new(group, schedule, |_, phase: &mut _| {
-                let made = one(&step, phase).map_err(|error| advised(error, phase))?;
-                Ok(Made { solve: Some(made) })
-            });
-            return march.run(&mut mover, &beside, outlet);
-        };
-        let mut mover = ByPrograms::new(&compiled, &step, &advised);
-        let outcome = march.run(&mut mover, &beside, outlet);
-        compiled.code().notes().iter().for_each(|note| outlet.warn(note));
-        Ok(Outcome { backend: Some(compiled.code().used()), ..outcome? })
-    }
+/// The flow alone.
+fn flow<G: Restore, C: Chart<G>>(
+    system: &Derived,
+    subject: &Subject<'_>,
+    group: &G,
+    sink: &mut dyn Sink,
+) -> Result<Outcome, RunError> {
+    let (integrator, setup) = (&system.integrator, subject.setup);
+    let schedule = &setup.schedule;
+    let h = schedule.step;
+    let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
+    let interpreter = series(h).map_err(at_start)?;
+    let steepness = Steepness::new(&interpreter);
+    let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
+        let solution = solve(step, &phase.momentum)?;
+        let residual = residual(step, &phase.momentum, &solution);
+        reconstruct(step, phase, &solution.x)?;
+        Ok((solution.iterations, residual))
+    };
+    let advised = |error, phase: &Phase<G>| {
+        advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
+    };
+    let step = |_, phase: &mut Phase<G>| -> Result<Solves, StepError> {
+        one(&interpreter, phase).map(Some).map_err(|error| advised(error, phase))
+    };
+    let side = |_, part, phase: &mut Phase<G>| one(&series(part)?, phase).map(drop);
+    let ratio = |mu: &DVector<f64>| steepness.ratio(mu);
+    let steps = Steps { group, schedule, step: &step, side: &side, ratio: &ratio };
+    let start = setup.start(subject.file, group)?;
+    let expected = schedule.steps as f64;
+    let kept = &system.kept;
+    let Some(compiled) =
+        Compiled::new(&interpreter, setup.backend, expected, Trajectories::One, kept)?
+    else {
+        return subject.run(&mut OneByOne::new(steps, start), sink);
+    };
+    let mut motion = ByPrograms::new(&compiled, &interpreter, steps, &advised, start);
+    let outcome = subject.run(&mut motion, sink);
+    compiled.code().notes().iter().for_each(|note| sink.warn(note));
+    Ok(Outcome { backend: Some(compiled.code().used()), ..outcome? })
 }
 
 fn at_start(source: StepError) -> RunError {

@@ -1,18 +1,22 @@
 //! Warnings about a run that went to its end.
 
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::bits;
 use crate::engine::STEEP;
 use crate::number::shortest;
 
 /// Where the last two terms of the series came near to each other first.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Steep {
     /// The number of the step, from 1.
     pub step: u64,
     /// The time from which it went.
+    #[serde(with = "bits")]
     pub time: f64,
     /// The ratio of S_K to S_{K−2}, in their gradients.
+    #[serde(with = "bits")]
     pub ratio: f64,
 }
 

@@ -1,12 +1,10 @@
 //! The quantities a row shares with the row before: Casimirs and the spatial momentum; and its energy.
 
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, watched_casimirs};
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::poly::{Numeric, Polynomial};
+use coadjoint_codegen::problem::{Problem, values};
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
-
-use crate::engine::FloatPolynomial;
 
 /// The drift allowed a step, relative to the sum of the absolute values of the invariant's terms.
 pub const DRIFT: f64 = 64.0 * f64::EPSILON;
@@ -14,7 +12,7 @@ pub const DRIFT: f64 = 64.0 * f64::EPSILON;
 /// The invariants of a problem, computed from its exact data.
 pub struct Invariants {
     casimirs: Vec<Polynomial>,
-    hamiltonian: FloatPolynomial,
+    hamiltonian: Numeric,
     factors: Vec<Factor>,
 }
 
@@ -40,7 +38,7 @@ impl Invariants {
         let dim = problem.algebra.dim();
         Self {
             casimirs: watched_casimirs(&problem.algebra),
-            hamiltonian: FloatPolynomial::new(&problem.hamiltonian, dim, &problem.symbols),
+            hamiltonian: Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols)),
             factors: factors(&problem.algebra),
         }
     }
@@ -52,7 +50,7 @@ impl Invariants {
 
     /// The energy of a momentum, and the sum of the absolute values of its terms.
     pub fn energy(&self, mu: &[f64]) -> (f64, f64) {
-        (self.hamiltonian.evaluate(mu), self.hamiltonian.magnitude(mu))
+        (self.hamiltonian.value(mu), self.hamiltonian.magnitude(mu))
     }
 
     /// By how much each Casimir drifts from one momentum to another, relative to its terms.

@@ -3,6 +3,7 @@
 mod accumulate;
 mod calculus;
 mod monomial;
+mod numeric;
 mod plan;
 mod polynomial;
 mod product;
@@ -10,5 +11,6 @@ mod table;
 
 pub(crate) use monomial::Factors;
 pub use monomial::{Monomial, split_at};
+pub use numeric::Numeric;
 pub use polynomial::Polynomial;
 pub(crate) use product::{Product, SumError, sum_of_products};

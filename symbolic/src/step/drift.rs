@@ -1,5 +1,12 @@
 //! How far conserved quantities have moved since the start of a run: the one definition of a drift.
 
+use num_traits::ToPrimitive;
+
+use crate::lie::{LieAlgebra, watched_casimirs};
+use crate::poly::Numeric;
+use crate::potential::Potential;
+use crate::problem::{Problem, values};
+
 /// The largest differences from the start, each relative to its [scale](Scales). `None` where a quantity is not known, is
 /// not conserved, or cannot be measured: an unknown drift is never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,6 +45,98 @@ impl Drift {
     }
 }
 
+/// The quantities that a motion conserves, as functions of its states.
+#[derive(Clone, Debug, Default)]
+pub struct Invariants {
+    /// The ξ with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1; `None` where all of J_L is conserved.
+    pub directions: Option<Vec<Vec<f64>>>,
+    /// The Casimirs of low degree that are conserved.
+    pub casimirs: Vec<Numeric>,
+    /// H_red(μ), where an energy is known.
+    pub hamiltonian: Option<Numeric>,
+    /// V(g), as a function of the entries of the matrix of g.
+    pub potential: Option<Numeric>,
+}
+
+impl Invariants {
+    /// Of every motion on the coadjoint orbits of this algebra that keeps the spatial momentum.
+    #[must_use]
+    pub fn of(algebra: &LieAlgebra) -> Self {
+        let casimirs = watched_casimirs(algebra).into_iter();
+        let casimirs = casimirs.map(|casimir| Numeric::new(&casimir, algebra.dim(), &[]));
+        Self { casimirs: casimirs.collect(), ..Self::default() }
+    }
+
+    /// Of the motion in this problem, with the kicks of a potential if there is one.
+    #[must_use]
+    pub fn new(problem: &Problem, potential: Option<&Potential>) -> Self {
+        let dim = problem.algebra.dim();
+        let hamiltonian = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+        let Some(potential) = potential else {
+            return Self { hamiltonian: Some(hamiltonian), ..Self::of(&problem.algebra) };
+        };
+        let kept = watched_casimirs(&problem.algebra).into_iter();
+        let kept = kept.filter(|casimir| potential.keeps(casimir));
+        let direction = |xi: Vec<crate::number::Rational>| {
+            let xi: Vec<f64> = xi.iter().map(|x| x.to_f64().unwrap_or(f64::NAN)).collect();
+            let size = xi.iter().fold(0.0, |size, x| maximum(size, x.abs()));
+            xi.iter().map(|x| x / size).collect()
+        };
+        Self {
+            directions: Some(potential.symmetries().into_iter().map(direction).collect()),
+            casimirs: kept.map(|casimir| Numeric::new(&casimir, dim, &[])).collect(),
+            hamiltonian: Some(hamiltonian),
+            potential: Some(Numeric::new(
+                &potential.energy,
+                potential.size().pow(2),
+                &values(&potential.symbols),
+            )),
+        }
+    }
+
+    /// The conserved quantities of the state with this momentum and this spatial momentum; `matrix` makes the matrix of
+    /// g, row by row, where a potential needs it.
+    pub fn conserved(
+        &self,
+        mu: &[f64],
+        spatial: &[f64],
+        matrix: impl Fn() -> Vec<f64>,
+    ) -> Conserved {
+        let along = |xi: &Vec<f64>| xi.iter().zip(spatial).map(|(xi, j)| xi * j).sum();
+        Conserved {
+            momenta: match &self.directions {
+                None => spatial.to_vec(),
+                Some(directions) => directions.iter().map(along).collect(),
+            },
+            casimirs: self.casimirs.iter().map(|casimir| casimir.value(mu)).collect(),
+            energy: self.energy(mu, matrix, Numeric::value),
+        }
+    }
+
+    /// The start of a run from that state.
+    pub fn start(&self, mu: &[f64], spatial: &[f64], matrix: impl Fn() -> Vec<f64>) -> Start {
+        let conserved = self.conserved(mu, spatial, &matrix);
+        let magnitude = self.energy(mu, matrix, Numeric::magnitude).unwrap_or(0.0);
+        let casimirs = self.casimirs.iter();
+        let scales = Scales {
+            spatial_momentum: spatial.iter().fold(0.0, |size, j| maximum(size, j.abs())),
+            casimirs: casimirs.map(|c| casimir_scale(|mu| c.value(mu), mu)).collect(),
+            energy: energy_scale(conserved.energy.unwrap_or(0.0), magnitude),
+        };
+        Start { conserved, scales }
+    }
+
+    fn energy(
+        &self,
+        mu: &[f64],
+        matrix: impl Fn() -> Vec<f64>,
+        of: impl Fn(&Numeric, &[f64]) -> f64,
+    ) -> Option<f64> {
+        let kinetic = of(self.hamiltonian.as_ref()?, mu);
+        Some(self.potential.as_ref().map_or(kinetic, |v| kinetic + of(v, &matrix())))
+    }
+}
+
 /// The conserved quantities at one state; empty or `None` where nothing is known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conserved {
@@ -54,9 +153,9 @@ pub struct Conserved {
 pub struct Scales {
     /// The largest coordinate of the spatial momentum at the start.
     pub spatial_momentum: f64,
-    /// The [size](casimir_scale) of each Casimir at the start.
+    /// The size of each Casimir at the start.
     pub casimirs: Vec<f64>,
-    /// |E₀|, or what [`energy_scale`] takes where that is rounding.
+    /// |E₀|, or where that is rounding the sum of the absolute values of its terms.
     pub energy: f64,
 }
 
@@ -85,19 +184,46 @@ impl Start {
             energy: energy.map(|(now, then)| relative(now - then, scales.energy)),
         }
     }
+
+    /// The drift of a state, as far as it can be measured: where rounding of a state alone may move a conserved quantity by
+    /// more than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside`
+    /// is what is conserved of the state whose numbers are [nudged](nudge).
+    #[must_use]
+    pub fn measured(&self, now: &Conserved, beside: Conserved) -> Drift {
+        const MEASURABLE: f64 = 1e-11;
+        let beside = Self { conserved: beside, scales: self.scales.clone() };
+        let moved = beside.drift(now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
+        let mut drift = self.drift(now).numbers();
+        for (drift, moved) in drift.iter_mut().zip(moved) {
+            // What is no number is not measured either.
+            if !drift.is_finite() || moved.is_nan() || moved > MEASURABLE {
+                *drift = f64::NAN;
+            }
+        }
+        Drift::of_numbers(drift)
+    }
+}
+
+/// Far above rounding, and so small that what is conserved changes in proportion to it.
+const NUDGE: f64 = 1e-9;
+
+/// Moves each number by 1e-9, relatively, up or down without a pattern.
+pub fn nudge(numbers: &mut [f64]) {
+    for (place, number) in numbers.iter_mut().enumerate() {
+        let up = (place as u32 + 1).wrapping_mul(0x9e37_79b9).count_ones().is_multiple_of(2);
+        *number *= if up { 1.0 + NUDGE } else { 1.0 - NUDGE };
+    }
 }
 
 /// |E₀|; where E₀ is 0 up to rounding, the sum of the absolute values of its terms (`magnitude`).
-#[must_use]
-pub fn energy_scale(energy: f64, magnitude: f64) -> f64 {
+fn energy_scale(energy: f64, magnitude: f64) -> f64 {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
     if energy.abs() > ROUNDING * magnitude { energy.abs() } else { magnitude }
 }
 
 /// The largest |C| at μ, at (|μ₁|, …, |μₙ|), and there with one sign changed: a Casimir that starts at 0, such as Π·Γ of
 /// a top, is measured against the size of its terms.
-#[must_use]
-pub fn casimir_scale(mut casimir: impl FnMut(&[f64]) -> f64, momentum: &[f64]) -> f64 {
+fn casimir_scale(mut casimir: impl FnMut(&[f64]) -> f64, momentum: &[f64]) -> f64 {
     let mut point: Vec<f64> = momentum.iter().map(|entry| entry.abs()).collect();
     let mut scale = maximum(casimir(momentum).abs(), casimir(&point).abs());
     for i in 0..point.len() {

@@ -28,7 +28,7 @@ use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::problem::Solver;
-pub use drift::{Conserved, Drift, Scales, Start, casimir_scale, energy_scale};
+pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
 use motion::Motion;
 use part::Part;
 use plane::Plane;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::file::{self, Extent, Output};
+use coadjoint_learn::npy_header;
 use coadjoint_run::number::shortest;
 use serde_json::{Value, json};
 
@@ -16,11 +17,9 @@ use crate::error::{CliError, unwritten};
 const BUFFER: usize = 1 << 16;
 /// Records reach the file at least this often, as far as steps allow.
 const DELAY: Duration = Duration::from_millis(500);
-/// Length of the head of a `.npy` file here.
-const HEAD: usize = 128;
 
 /// A file, a device or the standard output that takes records.
-pub struct Sink {
+pub struct Records {
     target: Target,
     header: Header,
     names: Vec<String>,
@@ -38,7 +37,7 @@ pub struct Sink {
     flushed: Instant,
 }
 
-impl Sink {
+impl Records {
     /// Begins anew; `output` is what the target has opened.
     ///
     /// # Errors
@@ -49,25 +48,25 @@ impl Sink {
         header: Header,
         names: Vec<String>,
     ) -> Result<Self, CliError> {
-        let mut sink = Self::new(target, output, header, names);
+        let mut records = Self::new(target, output, header, names);
         let head = match target.form {
             Form::Csv => Vec::new(),
-            Form::Npy => npy_head(0, sink.names.len()).to_vec(),
+            Form::Npy => records.npy_header(),
         };
-        if let Some(output) = &mut sink.output {
+        if let Some(output) = &mut records.output {
             output.begin(&head).map_err(unwritten(&target.part()))?;
         }
         match target.form {
             Form::Csv => {
-                for line in sink.header.lines() {
-                    sink.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
+                for line in records.header.lines() {
+                    records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
                 }
-                sink.buffer.extend_from_slice(names_line(&sink.names)?.as_bytes());
+                records.buffer.extend_from_slice(names_line(&records.names)?.as_bytes());
             }
-            Form::Npy => sink.describe(false)?,
+            Form::Npy => records.describe(false)?,
         }
-        sink.flush()?;
-        Ok(sink)
+        records.flush()?;
+        Ok(records)
     }
 
     /// Goes on where a checkpoint was made; what came after it is cut off.
@@ -81,9 +80,9 @@ impl Sink {
         names: Vec<String>,
         (extent, rows): (Extent, u64),
     ) -> Result<Self, CliError> {
-        let mut sink = Self::new(target, output, header, names);
-        let head = if target.form == Form::Npy { HEAD as u64 } else { 0 };
-        if let Some(output) = &mut sink.output {
+        let mut records = Self::new(target, output, header, names);
+        let head = if target.form == Form::Npy { records.npy_header().len() as u64 } else { 0 };
+        if let Some(output) = &mut records.output {
             output.resume(extent, head).map_err(|error| match error.kind() {
                 ErrorKind::InvalidData => CliError::Option(format!(
                     "{}: {error}: bring the file back, or remove the checkpoint to begin anew",
@@ -92,9 +91,9 @@ impl Sink {
                 _ => unwritten(&target.part())(error),
             })?;
         }
-        sink.written = rows;
-        sink.head()?;
-        Ok(sink)
+        records.written = rows;
+        records.head()?;
+        Ok(records)
     }
 
     fn new(target: &Target, output: Option<Output>, header: Header, names: Vec<String>) -> Self {
@@ -114,8 +113,8 @@ impl Sink {
 
     /// A file that an earlier run has completed; nothing is added.
     pub fn done(target: &Target, rows: u64) -> Self {
-        let sink = Self::new(target, None, Header::default(), Vec::new());
-        Self { closed: true, written: rows, ..sink }
+        let records = Self::new(target, None, Header::default(), Vec::new());
+        Self { closed: true, written: rows, ..records }
     }
 
     /// How many records there are.
@@ -206,10 +205,15 @@ impl Sink {
         (kept as u64).min(self.waiting)
     }
 
+    /// The head of a matrix; its length does not depend on the number of records.
+    fn npy_header(&self) -> Vec<u8> {
+        npy_header(&[self.written, self.names.len() as u64])
+    }
+
     /// Brings the number of records in the head of a matrix up to date.
     fn head(&mut self) -> Result<(), CliError> {
+        let head = self.npy_header();
         let (Form::Npy, Some(output)) = (self.target.form, &mut self.output) else { return Ok(()) };
-        let head = npy_head(self.written, self.names.len());
         output.set_head(&head).map_err(|error| self.failed(error))
     }
 
@@ -287,18 +291,4 @@ fn names_line(names: &[String]) -> Result<String, CliError> {
     writer.write_record(names).map_err(|error| unwritten(&error))?;
     let bytes = writer.into_inner().map_err(|error| unwritten(&error))?;
     String::from_utf8(bytes).map_err(|error| unwritten(&error))
-}
-
-/// The head of a `.npy` file, version 1.0, always of the same length so that it can be replaced.
-fn npy_head(rows: u64, columns: usize) -> [u8; HEAD] {
-    let mut head = [b' '; HEAD];
-    head[..10].copy_from_slice(b"\x93NUMPY\x01\x00\x76\x00");
-    let text =
-        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
-    // Two numbers of 20 digits fit.
-    for (place, byte) in head[10..HEAD - 1].iter_mut().zip(text.bytes()) {
-        *place = byte;
-    }
-    head[HEAD - 1] = b'\n';
-    head
 }

@@ -1,34 +1,34 @@
-//! Exact polynomials in the momentum, as numbers.
+//! Polynomials as numbers.
 
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Symbol;
 use num_traits::ToPrimitive;
+
+use super::Polynomial;
 
 /// Σ c · Π x_i^power over (c, [(i, power)]).
 #[derive(Clone, Debug, Default)]
 pub struct Numeric(Vec<(f64, Vec<(usize, i32)>)>);
 
 impl Numeric {
-    /// `polynomial` in its first `dim` variables, with numbers for the symbols after them.
+    /// `polynomial` in its first `variables` variables, with these values of the symbols after them.
     #[must_use]
-    pub fn new(polynomial: &Polynomial, dim: usize, symbols: &[Symbol]) -> Self {
-        let values: Vec<f64> = symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+    pub fn new(polynomial: &Polynomial, variables: usize, symbols: &[f64]) -> Self {
         let mut terms: Vec<(f64, Vec<(usize, i32)>)> = Vec::new();
         for (factors, value) in polynomial.factors() {
             let mut coefficient = value.to_f64().unwrap_or(f64::NAN);
             let mut own = Vec::new();
             for (i, power) in factors {
                 let (i, power) = (i as usize, power as i32);
-                match i.checked_sub(dim) {
+                match i.checked_sub(variables) {
                     Some(symbol) => {
-                        coefficient *= values.get(symbol).map_or(f64::NAN, |x| x.powi(power))
+                        coefficient *= symbols.get(symbol).map_or(f64::NAN, |x| x.powi(power));
                     }
                     None => own.push((i, power)),
                 }
             }
-            match terms.iter_mut().find(|(_, factors)| *factors == own) {
-                Some((sum, _)) => *sum += coefficient,
-                None => terms.push((coefficient, own)),
+            // Terms that differ in their symbols alone follow each other.
+            match terms.last_mut() {
+                Some((sum, factors)) if *factors == own => *sum += coefficient,
+                _ => terms.push((coefficient, own)),
             }
         }
         Self(terms)
@@ -40,13 +40,13 @@ impl Numeric {
         self.each(x).sum()
     }
 
-    /// The sum of the absolute values of the terms: what a drift of the value is measured against.
+    /// The sum of the absolute values of the terms, against which rounding and drift of the value are measured.
     #[must_use]
     pub fn magnitude(&self, x: &[f64]) -> f64 {
         self.each(x).map(f64::abs).sum()
     }
 
-    /// The partial derivatives.
+    /// The derivatives by the first `dim` variables.
     #[must_use]
     pub fn gradient(&self, dim: usize) -> Vec<Self> {
         let derivative = |i: usize| {

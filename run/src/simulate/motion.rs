@@ -1,0 +1,227 @@
+//! A state on its way, and what makes its steps.
+
+use std::cell::RefCell;
+
+use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
+use coadjoint_codegen::step::Scratch;
+use nalgebra::DVector;
+
+use super::schedule::Schedule;
+use crate::engine::{Compiled, Interpreter, Numbers, Restore, entries_of, phase_of};
+use crate::number::maximum;
+
+/// The most iterations and the largest residual of the solves of steps, where there were any.
+pub type Solves = Option<(u32, f64)>;
+
+/// How the numbers of a state are read.
+pub trait Space {
+    /// The rows of the group's matrices.
+    fn size(&self) -> usize;
+
+    /// The matrix of the element with these numbers, row by row.
+    fn matrix(&self, g: &[f64]) -> Vec<f64>;
+
+    /// Ad\*_g μ.
+    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64>;
+}
+
+/// A state on its way.
+pub trait Motion: Space {
+    /// The state.
+    fn state(&self) -> &Numbers;
+
+    /// Puts another state in its place.
+    fn place(&mut self, state: Numbers);
+
+    /// Makes steps of the grid, so many after the first so many. The state that comes of them does not depend on how many
+    /// are made at a time.
+    ///
+    /// # Errors
+    /// How many were made, and why the next one was not; the state is then that before it.
+    fn advance(&mut self, first: u64, count: u64) -> Result<Solves, (u64, StepError)>;
+
+    /// The state after a step of another length from this time.
+    ///
+    /// # Errors
+    /// Where there is none.
+    fn beside(&self, time: f64, part: f64) -> Result<Numbers, StepError>;
+
+    /// The ratio of the last two terms of the series at the momentum, where it may be worth a warning; else 0.
+    fn ratio(&self) -> f64;
+}
+
+/// States whose elements are the matrices of a group.
+pub struct Matrices<'a, G>(pub &'a G);
+
+impl<G: Restore> Space for Matrices<'_, G> {
+    fn size(&self) -> usize {
+        self.0.matrix_size()
+    }
+
+    fn matrix(&self, g: &[f64]) -> Vec<f64> {
+        g.to_vec()
+    }
+
+    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+        let phase = phase_of(self.0, &state.g, &state.mu);
+        phase.spatial_momentum(self.0).as_slice().to_vec()
+    }
+}
+
+/// Steps of a group's states, made one by one.
+pub struct Steps<'a, G: Restore> {
+    /// The group.
+    pub group: &'a G,
+    /// The grid.
+    pub schedule: &'a Schedule,
+    /// Makes a step of the grid from this time.
+    pub step: &'a dyn Fn(f64, &mut Phase<G>) -> Result<Solves, StepError>,
+    /// Makes a step of another length from this time: (time, length, state).
+    pub side: &'a dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError>,
+    /// The ratio of [`Motion::ratio`] at a momentum.
+    pub ratio: &'a dyn Fn(&DVector<f64>) -> f64,
+}
+
+/// A state that moves step by step.
+pub struct OneByOne<'a, G: Restore> {
+    steps: Steps<'a, G>,
+    state: Numbers,
+}
+
+impl<'a, G: Restore> OneByOne<'a, G> {
+    /// From this state.
+    pub fn new(steps: Steps<'a, G>, state: Numbers) -> Self {
+        Self { steps, state }
+    }
+
+    fn phase(&self) -> Phase<G> {
+        phase_of(self.steps.group, &self.state.g, &self.state.mu)
+    }
+
+    fn numbers(&self, phase: &Phase<G>) -> Numbers {
+        let g = entries_of(self.steps.group, &phase.group_element);
+        Numbers { g, mu: phase.momentum.as_slice().to_vec() }
+    }
+}
+
+impl<G: Restore> Space for OneByOne<'_, G> {
+    fn size(&self) -> usize {
+        self.steps.group.matrix_size()
+    }
+
+    fn matrix(&self, g: &[f64]) -> Vec<f64> {
+        g.to_vec()
+    }
+
+    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+        Matrices(self.steps.group).spatial_momentum(state)
+    }
+}
+
+impl<G: Restore> Motion for OneByOne<'_, G> {
+    fn state(&self) -> &Numbers {
+        &self.state
+    }
+
+    fn place(&mut self, state: Numbers) {
+        self.state = state;
+    }
+
+    fn advance(&mut self, first: u64, count: u64) -> Result<Solves, (u64, StepError)> {
+        let (mut total, mut phase) = (None, self.phase());
+        let made = (first..first + count).try_for_each(|n| {
+            let time = self.steps.schedule.time(n);
+            let made = (self.steps.step)(time, &mut phase).map_err(|error| (n - first, error))?;
+            total = match (total, made) {
+                (Some((a, b)), Some((c, d))) => Some((u32::max(a, c), maximum(b, d))),
+                (a, b) => a.or(b),
+            };
+            Ok(())
+        });
+        self.state = self.numbers(&phase);
+        made.map(|()| total)
+    }
+
+    fn beside(&self, time: f64, part: f64) -> Result<Numbers, StepError> {
+        let mut phase = self.phase();
+        (self.steps.side)(time, part, &mut phase)?;
+        Ok(self.numbers(&phase))
+    }
+
+    fn ratio(&self) -> f64 {
+        (self.steps.ratio)(&DVector::from_column_slice(&self.state.mu))
+    }
+}
+
+/// A state that programs move; `steps` are made where these refuse, and beside the grid.
+pub struct ByPrograms<'a, 's, G: Restore, C> {
+    compiled: &'a Compiled,
+    interpreter: &'a Interpreter<'s, G, C>,
+    steps: Steps<'a, G>,
+    /// The error of a step that there is not, with advice, from the state before it.
+    advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
+    state: Numbers,
+    scratch: RefCell<Scratch>,
+}
+
+impl<'a, 's, G: Restore, C: Chart<G>> ByPrograms<'a, 's, G, C> {
+    /// From the state with this matrix, row by row.
+    pub fn new(
+        compiled: &'a Compiled,
+        interpreter: &'a Interpreter<'s, G, C>,
+        steps: Steps<'a, G>,
+        advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
+        start: Numbers,
+    ) -> Self {
+        let state = Numbers { g: compiled.element_of(&start.g), mu: start.mu };
+        Self { compiled, interpreter, steps, advised, state, scratch: RefCell::default() }
+    }
+
+    fn phase(&self) -> Phase<G> {
+        self.compiled.phase(self.interpreter.group(), &self.state)
+    }
+}
+
+impl<G: Restore, C> Space for ByPrograms<'_, '_, G, C> {
+    fn size(&self) -> usize {
+        self.steps.group.matrix_size()
+    }
+
+    fn matrix(&self, g: &[f64]) -> Vec<f64> {
+        self.compiled.matrix_of(g)
+    }
+
+    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+        let mut momentum = vec![0.0; state.mu.len()];
+        self.compiled.spatial_momentum(state, &mut self.scratch.borrow_mut(), &mut momentum);
+        momentum
+    }
+}
+
+impl<G: Restore, C: Chart<G>> Motion for ByPrograms<'_, '_, G, C> {
+    fn state(&self) -> &Numbers {
+        &self.state
+    }
+
+    fn place(&mut self, state: Numbers) {
+        self.state = state;
+    }
+
+    fn advance(&mut self, _first: u64, count: u64) -> Result<Solves, (u64, StepError)> {
+        let Self { compiled, interpreter, state, .. } = self;
+        let made = compiled.advance(state, count, |numbers| compiled.rescue(interpreter, numbers));
+        let made = made.map_err(|(done, error)| (done, (self.advised)(error, &self.phase())))?;
+        // A bound, which may be far below what rounding leaves.
+        Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
+    }
+
+    fn beside(&self, time: f64, part: f64) -> Result<Numbers, StepError> {
+        let mut phase = self.phase();
+        (self.steps.side)(time, part, &mut phase)?;
+        Ok(self.compiled.numbers(self.interpreter.group(), &phase))
+    }
+
+    fn ratio(&self) -> f64 {
+        (self.steps.ratio)(&DVector::from_column_slice(&self.state.mu))
+    }
+}
