@@ -53,6 +53,7 @@ mod npy;
 pub mod polynomial;
 mod save;
 mod session;
+pub mod table;
 mod trivialisation;
 pub mod truth;
 

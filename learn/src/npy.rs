@@ -156,6 +156,22 @@ pub fn npy_header(shape: &[u64]) -> Vec<u8> {
     bytes
 }
 
+/// The entries of an array with the first index quickest (as `np.column_stack` leaves it), with the
+/// last index quickest.
+pub(crate) fn row_major(shape: &[usize], values: &[f64]) -> Vec<f64> {
+    let place = |mut index: usize| {
+        let mut stride = values.len();
+        let mut place = 0;
+        for &size in shape.iter().rev() {
+            stride /= size.max(1);
+            place += index % size * stride;
+            index /= size;
+        }
+        place
+    };
+    (0..values.len()).map(|index| values[place(index)]).collect()
+}
+
 struct Dictionary {
     descr: String,
     fortran: bool,
@@ -232,6 +248,17 @@ fn tuple(text: &str) -> Option<Vec<u64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_first_index_quickest_is_reordered() {
+        // By hand: the matrix [[0, 1, 2], [3, 4, 5]] column by column.
+        assert_eq!(row_major(&[2, 3], &[0.0, 3.0, 1.0, 4.0, 2.0, 5.0]), [0., 1., 2., 3., 4., 5.]);
+        // The entry (i, j, k) of a 2×2×2 array is 4i + 2j + k.
+        let values = [0.0, 4.0, 2.0, 6.0, 1.0, 5.0, 3.0, 7.0];
+        assert_eq!(row_major(&[2, 2, 2], &values), [0., 1., 2., 3., 4., 5., 6., 7.]);
+        assert_eq!(row_major(&[3], &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+        assert!(row_major(&[0, 3], &[]).is_empty());
+    }
 
     fn array(version: u8, dictionary: &str) -> Vec<u8> {
         let mut bytes = b"\x93NUMPY".to_vec();

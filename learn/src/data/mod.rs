@@ -1,11 +1,8 @@
 //! Data: pairs of states before and after a step, from memory or from files, and their reduction.
 
 mod columns;
-mod csv;
 mod fold;
 mod npy;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod read;
 mod recording;
 mod reduce;

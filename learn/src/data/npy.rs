@@ -1,4 +1,4 @@
-//! NumPy files: `.npz` with named arrays, `.npy` with one plain matrix.
+//! NumPy files: `.npz` with named arrays, and the names of the columns of a plain matrix.
 
 use std::io::{BufReader, Read};
 use std::path::Path;
@@ -8,7 +8,7 @@ use zip::ZipArchive;
 
 use super::columns::Columns;
 use crate::error::LearnError;
-use crate::npy::NpyHeader;
+use crate::npy::{NpyHeader, row_major};
 
 /// An array of any shape, row-major.
 struct Array {
@@ -52,18 +52,18 @@ pub(super) fn read_npz(path: &Path) -> Result<Columns, LearnError> {
     Columns::new(columns)
 }
 
-/// Reads a `.npy` file: a matrix with a sample per row, whose columns are, in this order, μ, then μ
-/// after the step, then nothing, or the attitude before and after as matrices row by row
-/// (2d² columns), or as quaternions w, x, y, z (8 columns). `dim` and `size` are n and d.
-pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, LearnError> {
-    let file = file::open_whole(path).map_err(LearnError::file(path))?;
-    let total = file.metadata().map_err(LearnError::file(path))?.len();
-    let array = read_array(path, BufReader::new(file), total)?;
-    let width = array.shape.get(1).copied().unwrap_or(0);
+/// The names of the columns of a matrix with a sample per row: μ, then μ after the step, then nothing, or the attitude
+/// before and after as matrices row by row (2d² columns), or as quaternions w, x, y, z (8 columns). `dim` and `size` are n
+/// and d.
+pub(super) fn names(
+    path: &Path,
+    width: usize,
+    dim: usize,
+    size: usize,
+) -> Result<Vec<String>, LearnError> {
     let mut names = numbered("mu", dim);
     names.extend(numbered("mu_next", dim));
-    let attitude = width.checked_sub(2 * dim);
-    match attitude {
+    match width.checked_sub(2 * dim) {
         Some(0) => {}
         Some(8) => {
             names.extend(quaternion("q"));
@@ -78,7 +78,7 @@ pub(super) fn read_npy(path: &Path, dim: usize, size: usize) -> Result<Columns, 
             return Err(LearnError::Shape { what, expected: 2 * dim, found: width });
         }
     }
-    Columns::new(array.columns(names))
+    Ok(names)
 }
 
 /// Bytes read at a time.
@@ -101,22 +101,6 @@ fn read_array(path: &Path, mut reader: impl Read, total: u64) -> Result<Array, L
     let shape = header.shape;
     let values = if header.fortran { row_major(&shape, &values) } else { values };
     Ok(Array { shape, values })
-}
-
-/// The entries of an array with the first index quickest (as `np.column_stack` leaves it), with the
-/// last index quickest.
-fn row_major(shape: &[usize], values: &[f64]) -> Vec<f64> {
-    let place = |mut index: usize| {
-        let mut stride = values.len();
-        let mut place = 0;
-        for &size in shape.iter().rev() {
-            stride /= size.max(1);
-            place += index % size * stride;
-            index /= size;
-        }
-        place
-    };
-    (0..values.len()).map(|index| values[place(index)]).collect()
 }
 
 /// Adds an array of a `.npz` file as columns; arrays of other shapes are not ours to read.
@@ -145,20 +129,4 @@ pub(super) fn matrix(name: &str, size: usize) -> Vec<String> {
 /// `q_w`, `q_x`, `q_y`, `q_z`.
 pub(super) fn quaternion(name: &str) -> [String; 4] {
     ["w", "x", "y", "z"].map(|part| format!("{name}_{part}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::row_major;
-
-    #[test]
-    fn the_first_index_quickest_is_reordered() {
-        // By hand: the matrix [[0, 1, 2], [3, 4, 5]] column by column.
-        assert_eq!(row_major(&[2, 3], &[0.0, 3.0, 1.0, 4.0, 2.0, 5.0]), [0., 1., 2., 3., 4., 5.]);
-        // The entry (i, j, k) of a 2×2×2 array is 4i + 2j + k.
-        let values = [0.0, 4.0, 2.0, 6.0, 1.0, 5.0, 3.0, 7.0];
-        assert_eq!(row_major(&[2, 2, 2], &values), [0., 1., 2., 3., 4., 5., 6., 7.]);
-        assert_eq!(row_major(&[3], &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
-        assert!(row_major(&[0, 3], &[]).is_empty());
-    }
 }

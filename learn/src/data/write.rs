@@ -54,8 +54,9 @@ pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
         Some("csv") => csv(columns).map_err(|error| LearnError::format(path, "CSV", error))?,
         Some("npz") => npz(columns).map_err(|error| LearnError::format(path, "NumPy", error))?,
         #[cfg(feature = "parquet")]
-        Some("parquet") => super::parquet::bytes(columns)
-            .map_err(|error| LearnError::format(path, "Parquet", error))?,
+        Some("parquet") => {
+            parquet(columns).map_err(|error| LearnError::format(path, "Parquet", error))?
+        }
         _ => return Err(LearnError::UnknownFormat { path: path.into() }),
     };
     file::write(path, &[], &bytes).map_err(LearnError::file(path))
@@ -70,6 +71,15 @@ fn csv(columns: &Columns) -> Result<Vec<u8>, ::csv::Error> {
         writer.write_record(cells)?;
     }
     writer.into_inner().map_err(|error| error.into_error().into())
+}
+
+#[cfg(feature = "parquet")]
+fn parquet(columns: &Columns) -> Result<Vec<u8>, parquet::errors::ParquetError> {
+    let rows = (0..columns.rows()).flat_map(|row| columns.values().iter().map(move |c| c[row]));
+    let (mut bytes, mut rows) = (Vec::new(), Some(rows.collect()));
+    let next = || Ok(rows.take().unwrap_or_default());
+    crate::table::write_parquet(&mut bytes, columns.names(), next)?;
+    Ok(bytes)
 }
 
 /// An array of shape (N,) per column, not compressed, as `numpy.savez` writes them.

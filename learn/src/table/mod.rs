@@ -1,0 +1,363 @@
+//! Tables of numbers in files of every format, read row by row and written in pieces.
+
+#[cfg(feature = "parquet")]
+mod parquet;
+mod remarks;
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
+use coadjoint_codegen::diagnostic::{check_table, read_text};
+use coadjoint_codegen::file;
+use serde_json::Value;
+
+#[cfg(feature = "parquet")]
+pub use self::parquet::write_parquet;
+
+use crate::error::LearnError;
+use crate::npy::{NpyHeader, row_major};
+use remarks::Remarks;
+
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 18;
+
+/// A file of rows of numbers: `.npy`, `.parquet` (feature `parquet`), or CSV under any other name.
+pub struct Table {
+    path: PathBuf,
+    source: Source,
+    names: Vec<String>,
+    width: usize,
+    /// The number of the next row, from 0.
+    next: u64,
+    /// What a file beside a matrix, or whoever made the rows, says of them.
+    head: BTreeMap<String, String>,
+    /// Columns of a Parquet file that hold no floats.
+    others: Vec<String>,
+}
+
+enum Source {
+    Csv(Box<Reader<Remarks<File>>>),
+    Npy(BufReader<File>, NpyHeader),
+    Memory(Vec<f64>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<self::parquet::Source>),
+}
+
+/// A row as it was read.
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// The cells, where they are text.
+    record: ByteRecord,
+    numbers: Vec<f64>,
+}
+
+impl Row {
+    /// How many cells it has: in CSV a row may have too few or too many.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.record.len().max(self.numbers.len())
+    }
+
+    /// The number in a column.
+    ///
+    /// # Errors
+    /// The text of a cell that is none.
+    pub fn number(&self, column: usize) -> Result<f64, String> {
+        if let Some(number) = self.numbers.get(column) {
+            return Ok(*number);
+        }
+        let cell = self.record.get(column).unwrap_or_default().trim_ascii();
+        let number = std::str::from_utf8(cell).ok().and_then(|text| text.parse().ok());
+        number.ok_or_else(|| String::from_utf8_lossy(cell).into_owned())
+    }
+
+    /// The numbers in all columns; NaN for what is none.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        (0..self.len()).map(|column| self.number(column).unwrap_or(f64::NAN)).collect()
+    }
+
+    /// The text of a cell as it stands in CSV; empty in other formats.
+    #[must_use]
+    pub fn cell(&self, column: usize) -> &[u8] {
+        self.record.get(column).unwrap_or_default()
+    }
+}
+
+fn in_csv(path: &Path) -> impl Fn(::csv::Error) -> LearnError + '_ {
+    |error| LearnError::format(path, "CSV", error)
+}
+
+/// Cells are not trimmed, and rows may have any number of them.
+fn csv_reader(path: &Path) -> Result<Reader<Remarks<File>>, LearnError> {
+    let file = file::open(path).map_err(LearnError::file(path))?;
+    let mut builder = ReaderBuilder::new();
+    let builder = builder.comment(Some(b'#')).flexible(true).buffer_capacity(PIECE);
+    Ok(builder.from_reader(Remarks::new(file)))
+}
+
+impl Table {
+    /// Opens a file by the ending of its name; `.partial` behind it is not looked at.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is not what its name says.
+    pub fn open(path: &Path) -> Result<Self, LearnError> {
+        let name = path.to_string_lossy().to_ascii_lowercase();
+        match name.trim_end_matches(".partial").rsplit_once('.').map_or("", |(_, ending)| ending) {
+            "npy" => Self::npy(path),
+            #[cfg(feature = "parquet")]
+            "parquet" => Self::parquet(path),
+            #[cfg(not(feature = "parquet"))]
+            "parquet" => {
+                let what =
+                    "this program was built without the feature `parquet`: write .csv or .npy";
+                Err(LearnError::format(path, "Parquet", what))
+            }
+            _ => Self::csv(path),
+        }
+    }
+
+    /// Rows in memory, one after the other, whose columns have these names, or none.
+    #[must_use]
+    pub fn of_rows(path: &Path, names: Vec<String>, width: usize, rows: Vec<f64>) -> Self {
+        Self::new(path, Source::Memory(rows), width, names)
+    }
+
+    /// The same rows, of which this is said.
+    #[must_use]
+    pub fn saying(self, head: BTreeMap<String, String>) -> Self {
+        Self { head, ..self }
+    }
+
+    fn new(path: &Path, source: Source, width: usize, names: Vec<String>) -> Self {
+        let (head, others) = (BTreeMap::new(), Vec::new());
+        Self { path: path.into(), source, names, width, next: 0, head, others }
+    }
+
+    fn csv(path: &Path) -> Result<Self, LearnError> {
+        check_table(path).map_err(LearnError::file(path))?;
+        let mut reader = csv_reader(path)?;
+        let damaged = |what: &dyn std::fmt::Display| LearnError::format(path, "CSV", what);
+        let names = reader.headers().map_err(|error| damaged(&error))?;
+        let names: Vec<String> = names.iter().map(|name| name.trim().to_owned()).collect();
+        if names.is_empty() {
+            return Err(damaged(&"the file has no line with names of columns"));
+        }
+        if names.iter().all(|name| name.parse::<f64>().is_ok()) {
+            let what = "the first line holds numbers; it must name the columns: mu_1, mu_2 …";
+            return Err(damaged(&what));
+        }
+        Ok(Self::new(path, Source::Csv(Box::new(reader)), names.len(), names))
+    }
+
+    /// NumPy's header, and the JSON file beside the matrix, if there is one.
+    fn npy(path: &Path) -> Result<Self, LearnError> {
+        let file = file::open(path).map_err(LearnError::file(path))?;
+        let length = file.metadata().map_err(LearnError::file(path))?.len();
+        let mut reader = BufReader::with_capacity(PIECE, file);
+        let damaged = |what: &dyn std::fmt::Display| LearnError::format(path, "NumPy", what);
+        let header = NpyHeader::read(&mut reader, length).map_err(|error| damaged(&error))?;
+        let &[rows, width] = header.shape.as_slice() else {
+            return Err(damaged(&"the array must have two dimensions: states, columns"));
+        };
+        let source = if header.fortran && rows > 1 && width > 1 {
+            let (bytes, mut values) =
+                (file::read(path).map_err(LearnError::file(path))?, Vec::new());
+            header.decode(bytes.get(header.length as usize..).unwrap_or_default(), &mut values);
+            values.resize(header.count(), f64::NAN);
+            Source::Memory(row_major(&header.shape, &values))
+        } else {
+            Source::Npy(reader, header)
+        };
+        let mut table = Self::new(path, source, width, Vec::new());
+        let beside = read_text(&file::beside(path, ".json")).ok();
+        let beside = beside.and_then(|text| serde_json::from_str::<Value>(&text).ok());
+        for (name, value) in beside.as_ref().and_then(Value::as_object).into_iter().flatten() {
+            match value {
+                Value::Array(list) if name == "columns" && list.len() == width => {
+                    table.names = list.iter().map(remark).collect();
+                }
+                value => drop(table.head.insert(name.clone(), remark(value))),
+            }
+        }
+        Ok(table)
+    }
+
+    #[cfg(feature = "parquet")]
+    fn parquet(path: &Path) -> Result<Self, LearnError> {
+        let file = file::open(path).map_err(LearnError::file(path))?;
+        let opened = self::parquet::Source::open(file);
+        let (source, names, others) =
+            opened.map_err(|error| LearnError::format(path, "Parquet", error))?;
+        let source = Source::Parquet(Box::new(source));
+        Ok(Self { others, ..Self::new(path, source, names.len(), names) })
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The names of the columns; none where the file has none.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The names of columns of a Parquet file that hold no floats; they are not read.
+    #[must_use]
+    pub fn others(&self) -> &[String] {
+        &self.others
+    }
+
+    /// Whether rows are text, whose cells can be kept as they are.
+    #[must_use]
+    pub fn is_text(&self) -> bool {
+        matches!(self.source, Source::Csv(_))
+    }
+
+    /// What the file says under this name: in CSV a line `# name: value` among those read so far.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<&str> {
+        let head = match &self.source {
+            Source::Csv(reader) => &reader.get_ref().head,
+            _ => &self.head,
+        };
+        head.get(name).map(String::as_str)
+    }
+
+    /// The numbers that the file says under this name.
+    #[must_use]
+    pub fn values(&self, name: &str) -> Option<Vec<f64>> {
+        self.value(name)?.split(',').map(|number| number.trim().parse().ok()).collect()
+    }
+
+    /// The number of rows; those of CSV are counted.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn count(&self) -> Result<u64, LearnError> {
+        Ok(match &self.source {
+            Source::Npy(_, header) => header.shape[0] as u64,
+            Source::Memory(rows) => (rows.len() / self.width.max(1)) as u64,
+            #[cfg(feature = "parquet")]
+            Source::Parquet(source) => source.rows(),
+            Source::Csv(_) => {
+                let (mut reader, mut record) = (csv_reader(&self.path)?, ByteRecord::new());
+                let mut rows = 0;
+                while reader.read_byte_record(&mut record).map_err(in_csv(&self.path))? {
+                    rows += 1;
+                }
+                rows
+            }
+        })
+    }
+
+    /// Where the next row begins, for [`Table::seek`].
+    #[must_use]
+    pub fn position(&self) -> u64 {
+        match &self.source {
+            Source::Csv(reader) => reader.position().byte(),
+            _ => self.next,
+        }
+    }
+
+    /// Goes to a row, counted from 0; `position` is what [`Table::position`] said there, if that is known.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), LearnError> {
+        match &mut self.source {
+            Source::Csv(reader) => {
+                if let Some(byte) = position {
+                    let mut at = Position::new();
+                    at.set_byte(byte);
+                    reader.seek(at).map_err(in_csv(&self.path))?;
+                    self.next = row;
+                }
+                let mut record = ByteRecord::new();
+                while self.next < row
+                    && reader.read_byte_record(&mut record).map_err(in_csv(&self.path))?
+                {
+                    self.next += 1;
+                }
+            }
+            Source::Npy(reader, header) => {
+                let at = header.length + row * (self.width * header.width) as u64;
+                reader.seek(SeekFrom::Start(at)).map_err(LearnError::file(&self.path))?;
+            }
+            Source::Memory(_) => {}
+            #[cfg(feature = "parquet")]
+            Source::Parquet(source) => {
+                source
+                    .seek(row)
+                    .map_err(|error| LearnError::format(&self.path, "Parquet", error))?;
+            }
+        }
+        self.next = row;
+        Ok(())
+    }
+
+    /// Reads the next row, if there is one.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn read(&mut self, row: &mut Row) -> Result<bool, LearnError> {
+        let Self { path, source, width, next, .. } = self;
+        row.numbers.clear();
+        let more = match source {
+            Source::Csv(reader) => {
+                let read = reader.read_byte_record(&mut row.record);
+                read.map_err(in_csv(path))?
+            }
+            Source::Npy(reader, header) => {
+                let more = (*next as usize) < header.shape[0];
+                if more {
+                    let mut bytes = vec![0; *width * header.width];
+                    reader.read_exact(&mut bytes).map_err(LearnError::file(path))?;
+                    header.decode(&bytes, &mut row.numbers);
+                }
+                more
+            }
+            Source::Memory(rows) => {
+                let own = rows.chunks_exact((*width).max(1)).nth(*next as usize);
+                row.numbers.extend_from_slice(own.unwrap_or_default());
+                own.is_some()
+            }
+            #[cfg(feature = "parquet")]
+            Source::Parquet(source) => {
+                let read = source.read(&mut row.numbers);
+                read.map_err(|error| LearnError::format(path, "Parquet", error))?
+            }
+        };
+        *next += u64::from(more);
+        Ok(more)
+    }
+
+    /// The number of the row read last, from 1.
+    #[must_use]
+    pub fn number(&self) -> u64 {
+        self.next
+    }
+}
+
+/// A value of JSON as a line `# name: value` has it.
+#[must_use]
+pub fn remark(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(list) => list.iter().map(remark).collect::<Vec<_>>().join(","),
+        other => other.to_string(),
+    }
+}
