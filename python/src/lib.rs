@@ -7,7 +7,6 @@ mod control;
 mod emit;
 mod error;
 mod files;
-mod given;
 mod learn;
 mod outcome;
 mod record;

@@ -9,6 +9,7 @@ use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::System;
 use coadjoint_codegen::tolerance::Choice;
+use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
     self, Attitude, Found, How, Known, Layout, Shape, Watch, matrix_size,
 };
@@ -25,7 +26,6 @@ use crate::asked::{Asked, backend_of};
 use crate::control::work;
 use crate::emit::emitted;
 use crate::error::{raised, refused};
-use crate::given::Given;
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;
@@ -94,11 +94,11 @@ impl Core {
     /// The shape of a row.
     fn shape(&self) -> Shape {
         let algebra = &self.system.problem.algebra;
-        let matrix_size = match self.system.potential {
-            Some(_) => matrix_size(algebra),
-            None => algebra.factors().iter().map(matrix_size).sum(),
-        };
-        Shape { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
+        let shape = Shape::of(algebra);
+        match self.system.potential {
+            Some(_) => Shape { matrix_size: matrix_size(algebra), ..shape },
+            None => shape,
+        }
     }
 }
 
@@ -268,7 +268,7 @@ impl Core {
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             let engine =
                 ensemble::engine(path, &derived.integrator, schedule.step, how, &derived.kept)?;
-            let layout = Layout::of_width(engine.shape(), width)?;
+            let layout = Found::of(engine.shape(), &Known::default(), &[], width)?.layout;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -344,18 +344,8 @@ impl Core {
         names: Option<Vec<String>>,
         width: usize,
     ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>)> {
-        let shape = self.shape();
-        let found = match names {
-            Some(names) => {
-                let known = Known::of(&self.system.problem, &self.system.parameters);
-                Layout::find(shape, &known, &names)
-            }
-            None => Layout::of_width(shape, width).map(|layout| Found {
-                layout,
-                places: (0..width).map(Some).collect(),
-                unused: Vec::new(),
-            }),
-        };
+        let known = Known::of(&self.system.problem, &self.system.parameters);
+        let found = Found::of(self.shape(), &known, &names.unwrap_or_default(), width);
         let found = found.map_err(|error| raised(py, &error))?;
         Ok((found.layout.names(), found.places, found.unused))
     }
@@ -473,18 +463,24 @@ impl Core {
         }
         let (name, mut problem) = (self.name.clone(), self.system.problem.clone());
         problem.truncation = truncation;
-        let (mut rows, starts) = (Given::new(&rows), starts.map(|starts| Given::new(&starts)));
+        let given = |rows: &PyReadonlyArray2<'_, f64>| {
+            let values = rows.as_array().iter().copied().collect();
+            (rows.shape()[1], values)
+        };
+        let (rows, starts) = (given(&rows), starts.map(|starts| given(&starts)));
         let made = work(py, None, move |_| -> Result<_, RunError> {
             let path = Path::new(&name);
             let judge = verify::judge_of(path, &problem)?;
-            let follower = verify::follower(&judge, &problem, step)?;
-            let columns = verify::Columns::find(&problem, &names, rows.width, path)?;
-            let found = match starts {
-                None => follower.rows(&mut rows, &columns, path)?,
+            let follower = verify::Follower::new(&judge, &problem, step)?;
+            let of = |(width, values): (usize, Vec<f64>)| {
+                table::Table::of_rows(path, names.clone(), width, values)
+            };
+            let mut rows = of(rows);
+            let found = match starts.map(of) {
+                None => follower.rows(&mut rows)?,
                 Some(mut starts) => {
                     let refused = refused_rows.into_iter().collect();
-                    let (starts, ends) = ((&mut starts, &columns), (&mut rows, &columns));
-                    follower.pairs(starts, ends, steps, &refused, path)?
+                    follower.pairs(&mut starts, &mut rows, steps, &refused)?
                 }
             };
             Ok(serde_json::Value::Object(found.object()).to_string())

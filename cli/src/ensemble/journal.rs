@@ -1,4 +1,4 @@
-//! How far a run has come: what a restart needs.
+//! Notes beside an output: how far a run has come, and what a finished one was.
 
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -7,10 +7,10 @@ use coadjoint_codegen::file::{self, Extent};
 use coadjoint_codegen::step;
 use coadjoint_run::ensemble::{Drift, Engine};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
-use crate::error::CliError;
-use crate::note;
-pub use crate::note::Identity;
+use crate::error::{CliError, unread};
+use crate::note::{Identity, agree};
 
 /// The way to forget an earlier run.
 pub const ANEW: &str = "begin anew with --restart";
@@ -18,7 +18,7 @@ pub const ANEW: &str = "begin anew with --restart";
 /// The state of a run. Everything it counts is on the disk before it is.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Journal {
-    /// The identity of the run.
+    /// What the run is.
     pub identity: Identity,
     /// Rows written.
     pub rows: u64,
@@ -34,17 +34,19 @@ pub struct Journal {
     pub rejected: u64,
     /// Where the next row begins in the input.
     pub position: u64,
-    /// The largest drift of J_L so far, as bits, if one is known.
-    pub spatial_momentum: Option<u64>,
-    /// The largest drift of Casimirs so far, as bits, if one is known.
-    pub casimirs: Option<u64>,
+    /// The largest drift of J_L so far, if one is known.
+    #[serde(with = "coadjoint_run::bits")]
+    pub spatial_momentum: Option<f64>,
+    /// The largest drift of Casimirs so far, if one is known.
+    #[serde(with = "coadjoint_run::bits")]
+    pub casimirs: Option<f64>,
     /// Rows whose drift could not be measured.
     #[serde(default)]
     pub unmeasured: u64,
-    /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
-    #[serde(default)]
-    pub ratio: u64,
-    /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
+    /// The largest ratio of the last two terms of the series worth a warning so far.
+    #[serde(default, with = "coadjoint_run::bits")]
+    pub ratio: f64,
+    /// What has made the steps so far. The bits are the same, but for what the identity says.
     #[serde(default)]
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.
@@ -57,58 +59,72 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The journal at `path`; `None` where there is none.
-    pub fn read(path: &Path) -> Result<Option<Self>, CliError> {
-        note::read(path, "journal", ANEW)
-    }
-
-    /// Writes it: the old journal or the new one, never a piece.
-    pub fn write(&self, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
-        note::write(self, path, inputs)
-    }
-
-    /// How much of the output there is.
-    pub fn extent(&self) -> Extent {
-        Extent { bytes: self.output, crc32: self.output_crc32 }
-    }
-
-    /// How much of the list of rejected rows there is.
-    pub fn rejected_extent(&self) -> Extent {
-        Extent { bytes: self.rejected_bytes, crc32: self.rejected_crc32 }
+    /// How much there is of the output and of the list of rejected rows.
+    pub fn extents(&self) -> [Extent; 2] {
+        let output = Extent { bytes: self.output, crc32: self.output_crc32 };
+        [output, Extent { bytes: self.rejected_bytes, crc32: self.rejected_crc32 }]
     }
 
     /// Refuses to go on with a run that is another.
     pub fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
-        let advice = format!("go on as then, or {ANEW}");
-        note::agree(path, &self.identity, identity, &advice)
+        agree(path, &self.identity, identity, &format!("go on as then, or {ANEW}"))
     }
 
     /// The largest drifts so far.
     pub fn drift(&self) -> Drift {
-        let conserved = step::Drift {
-            spatial_momentum: self.spatial_momentum.map(f64::from_bits),
-            casimirs: self.casimirs.map(f64::from_bits),
-            energy: None,
-        };
-        Drift { conserved, unmeasured: self.unmeasured, ratio: f64::from_bits(self.ratio) }
+        let Self { spatial_momentum, casimirs, unmeasured, ratio, .. } = *self;
+        let conserved = step::Drift { spatial_momentum, casimirs, energy: None };
+        Drift { conserved, unmeasured, ratio }
     }
 
-    /// Takes note of what makes the steps now.
-    pub fn made_by(&mut self, engine: &dyn Engine) {
+    /// Takes note of drifts, and of what has made the steps.
+    pub fn raise(&mut self, drift: Drift, engine: &dyn Engine) {
+        let Drift { conserved, unmeasured, ratio } = self.drift().max(drift);
+        (self.spatial_momentum, self.casimirs) = (conserved.spatial_momentum, conserved.casimirs);
+        (self.unmeasured, self.ratio) = (unmeasured, ratio);
         let maker = engine.device().map_or_else(|| engine.backend(), |device| device.to_string());
         if !self.made_by.contains(&maker) {
             self.made_by.push(maker);
         }
     }
+}
 
-    /// Takes note of drifts.
-    pub fn raise(&mut self, drift: Drift) {
-        let drift = self.drift().max(drift);
-        self.spatial_momentum = drift.conserved.spatial_momentum.map(f64::to_bits);
-        self.casimirs = drift.conserved.casimirs.map(f64::to_bits);
-        self.unmeasured = drift.unmeasured;
-        self.ratio = drift.ratio.to_bits();
+/// What stays of a finished run with `--keep`, for the same command started again and for whatever joins shards.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Finished {
+    /// The first row of the input that it has, from 1.
+    pub first_row: u64,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// SHA-256 of the list of rejected rows, where there is one.
+    pub rejected_sha256: Option<String>,
+    /// What the run was, and what it found.
+    pub journal: Journal,
+}
+
+impl Finished {
+    /// Describes files that have their names already.
+    pub fn of(out: &Path, list: &Path, first_row: u64, journal: Journal) -> Result<Self, CliError> {
+        let rejected_sha256 = if journal.rejected > 0 { Some(sha256(list)?) } else { None };
+        Ok(Self { first_row, sha256: sha256(out)?, rejected_sha256, journal })
     }
+
+    /// Whether the files are those that it describes.
+    pub fn is_whole(&self, out: &Path, list: &Path) -> Result<bool, CliError> {
+        let same = |path: &Path, known: &str| -> Result<bool, CliError> {
+            Ok(path.exists() && sha256(path)? == known)
+        };
+        let list_is = self.rejected_sha256.as_ref().map_or(Ok(true), |known| same(list, known))?;
+        Ok(list_is && same(out, &self.sha256)?)
+    }
+}
+
+/// SHA-256 of a file, in hexadecimal digits.
+fn sha256(path: &Path) -> Result<String, CliError> {
+    let mut hash = Sha256::new();
+    let copied = file::open(path).and_then(|mut file| std::io::copy(&mut file, &mut hash));
+    copied.map_err(unread(path))?;
+    Ok(format!("{:x}", hash.finalize()))
 }
 
 /// Bytes read in one piece to recognise a file.
@@ -140,5 +156,5 @@ pub fn fingerprint(path: &Path) -> Result<String, CliError> {
         }
         Ok(format!("{length} bytes, {hash:016x}"))
     };
-    hash().map_err(|source| CliError::Read { path: path.into(), source })
+    hash().map_err(unread(path))
 }

@@ -1,18 +1,15 @@
 //! `coadjoint ensemble`: many trajectories of one system, from a file of states to a file of
 //! states.
 
-mod finished;
-mod input;
 mod journal;
-mod output;
-#[cfg(feature = "parquet")]
-mod parquet_file;
 mod report;
 mod run;
 mod shard;
-mod table;
+mod states;
 
 pub use shard::Shard;
+
+use std::path::Path;
 
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
@@ -22,13 +19,16 @@ use coadjoint_run::ensemble::{Asked, How, Known, Use, engine, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
+use crate::note::Identity;
 use crate::{load, simulate};
-use journal::{Identity, fingerprint};
+use journal::fingerprint;
 use run::Job;
+use states::{Form, States};
 
 /// Reads, advances and writes.
 pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
-    let path = &options.source.file;
+    let (path, initial) = (options.source.file.as_path(), options.initial.as_path());
+    let inputs: [&Path; 2] = [path, initial];
     let mut system = load::source(&options.source, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
     load::meet_tolerance(path, &mut system, accuracy, options.source.truncation, options.time)?;
@@ -37,23 +37,22 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     // Refused before the derivation, which may take long.
-    run::Files::of(&options.out).check(&[path, &options.initial])?;
-    let form = output::Form::of(&options.out)?;
+    run::Files::of(&options.out).check(&inputs)?;
+    let form = Form::of(&options.out, "--out")?;
     options.threads.map_or(Ok(()), check_threads)?;
     let integrator = load::integrator(path, problem)?;
     let precision = options.precision;
-    let asked = options.device.map(|device| Asked { device, precision });
-    // A device refuses few steps.
-    let work = if asked.is_some() { 0.0 } else { work(options, &integrator, steps) };
-    let how = How { backend: options.backend, work, device: asked };
+    let device = options.device.map(|device| Asked { device, precision });
+    // Little is left of what a device makes.
+    let work = if device.is_some() { 0.0 } else { work(options, &integrator, steps) };
+    let how = How { backend: options.backend, work, device };
     let engine = engine(path, &integrator, step, how, &Kept::default())?;
-    let input = input::open(&options.initial, engine.shape(), &known)?;
-    let range = options.shard.rows(input.total());
+    let states = States::open(initial, form, engine.shape(), &known)?;
     let problem = &integrator.problem;
     let mut identity: Identity = [
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("system file", fingerprint(path)?),
-        ("initial file", fingerprint(&options.initial)?),
+        ("initial file", fingerprint(initial)?),
         ("truncation", problem.truncation.to_string()),
         ("chart", problem.chart.to_string()),
         ("step", step.to_string()),
@@ -68,21 +67,16 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     }
     let job = Job {
         engine: engine.as_ref(),
-        inputs: vec![path.clone(), options.initial.clone()],
-        input,
-        out: options.out.clone(),
-        range,
+        inputs,
+        range: options.shard.rows(states.count()?),
+        states,
+        out: &options.out,
+        form,
         steps,
         identity,
         restart: options.restart,
         keep: options.keep,
     };
-    if let Some(table) = job.input.table().filter(|_| form != output::Form::Csv) {
-        let others: Vec<&str> = table.others().collect();
-        if !others.is_empty() {
-            eprintln!("not carried through, as only .csv has room for them: {}", others.join(", "));
-        }
-    }
     if let Some(threads) = options.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -95,11 +89,11 @@ pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(text) = report::warning(&outcome) {
         eprintln!("warning: {text}");
     }
-    let text =
-        report::report(&outcome, &integrator, (step, steps), engine.as_ref(), options.format);
-    out!("{text}");
-    if outcome.trajectories > 0 && outcome.failed == outcome.trajectories {
-        return Err(CliError::Rows { failed: outcome.failed, list: outcome.list });
+    let (format, engine) = (options.format, engine.as_ref());
+    out!("{}", report::report(&outcome, &integrator, (step, steps), engine, format));
+    let failed = outcome.journal.rejected;
+    if outcome.trajectories > 0 && failed == outcome.trajectories {
+        return Err(CliError::Rows { failed, list: outcome.list });
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::named::Format;
 
 /// A warning about the series, if there is reason for one.
 pub fn warning(outcome: &Outcome) -> Option<String> {
-    let ratio = outcome.drift.ratio;
+    let ratio = outcome.journal.drift().ratio;
     (ratio != 0.0).then(|| {
         format!(
             "the series hardly converges for some rows: its last two terms have the ratio \
@@ -32,7 +32,9 @@ pub fn report(
 ) -> String {
     let truncation = integrator.problem.truncation;
     let chart = integrator.problem.chart;
-    let drift = outcome.drift;
+    let drift = outcome.journal.drift();
+    let made_by = &outcome.journal.made_by;
+    let (failed, redone) = (outcome.journal.rejected, outcome.journal.redone);
     let conserved = drift.conserved;
     if format == Format::Json {
         // An unknown value has no key.
@@ -49,19 +51,19 @@ pub fn report(
             "trajectories": outcome.trajectories,
             "resumed_at": outcome.resumed,
             "kept": outcome.kept,
-            "failed": outcome.failed,
+            "failed": failed,
             "first_failed": first,
             "rejected": outcome.list,
             "truncation": truncation,
             "chart": chart.to_string(),
             "step": step,
             "steps": steps,
-            "made_by": outcome.made_by,
+            "made_by": made_by,
             "device": engine.device().map(|by| json!({
                 "device": by.device.to_string(),
                 "name": by.name,
                 "precision": by.precision.to_string(),
-                "redone": outcome.redone,
+                "redone": redone,
             })),
             "drift": known,
             "drift_not_measured": drift.unmeasured,
@@ -86,9 +88,9 @@ pub fn report(
     } else if outcome.resumed > 0 {
         let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
     }
-    let _ = writeln!(out, "  steps by {}", outcome.made_by.join(", then by "));
+    let _ = writeln!(out, "  steps by {}", made_by.join(", then by "));
     if let Some(by) = engine.device() {
-        let (redone, backend) = (outcome.redone, engine.backend());
+        let backend = engine.backend();
         let _ = writeln!(out, "    rows with steps it refused, made by {backend}: {redone}");
         if by.precision == Precision::Single {
             let _ = writeln!(out, "    in single precision drifts are at 1e-7 and above");
@@ -97,7 +99,7 @@ pub fn report(
     if let Some(text) = warning(outcome) {
         let _ = writeln!(out, "  warning: {text}");
     }
-    let _ = writeln!(out, "  failed           {:>10}", outcome.failed);
+    let _ = writeln!(out, "  failed           {:>10}", failed);
     for rejected in &outcome.first {
         let _ = match rejected.step {
             0 => writeln!(out, "    row {}: {}", rejected.row, rejected.reason),

@@ -1,16 +1,15 @@
 //! `coadjoint verify`: judges the output of `simulate` or `ensemble` afterwards, in doubled precision.
 
-#[cfg(feature = "parquet")]
-mod parquet;
 mod report;
-mod table;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use coadjoint_codegen::file::beside;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options, System};
-use coadjoint_run::verify::{Columns, Found, Rows, Sample, follower, judge_of};
+use coadjoint_learn::table::{Row, Table};
+use coadjoint_run::verify::{Follower, Found, Sample, judge_of};
 use coadjoint_run::{RunError, read_with, text_hash};
 use serde_json::Value;
 
@@ -18,8 +17,6 @@ use crate::arguments::VerifyOptions;
 use crate::error::CliError;
 use crate::named::Format;
 use crate::{load, progress};
-
-use table::Table;
 
 /// Judges the file and prints what was found.
 ///
@@ -35,10 +32,8 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
             ));
         }
     };
-    let mut all = Vec::new();
-    for (place, table) in Table::open(output)?.into_iter().enumerate() {
-        all.push(judge(options, system, (table, place), output)?);
-    }
+    let judged = tables(output)?.into_iter().map(|table| judge(options, system, table, output));
+    let all = judged.collect::<Result<Vec<Found>, _>>()?;
     match options.format {
         Format::Text => all.iter().flat_map(Found::lines).for_each(|line| outln!("{line}")),
         Format::Json => {
@@ -61,47 +56,57 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     }
 }
 
-/// Judges one table, which has this place in the output.
+/// The tables of a file: one for each run that a report holds, else one.
+fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("json" | "jsonl") => report::tables(path),
+        _ => Ok(vec![Table::open(path)?]),
+    }
+}
+
+/// Judges one table of the output.
 fn judge(
     options: &VerifyOptions,
     named: Option<&PathBuf>,
-    (mut table, place): (Table, usize),
+    mut table: Table,
     output: &Path,
 ) -> Result<Found, CliError> {
     let refuse = |what: &str| Err(CliError::Option(format!("{}: {what}", output.display())));
-    for name in ["tuned", "fitted"] {
+    let kicked = "a system with a potential is not judged: between its kicks the motion is free";
+    for (name, what) in [
+        (
+            "tuned",
+            "the run was tuned: its generating function is not the exact series, and cannot be derived from the system file",
+        ),
+        (
+            "fitted",
+            "the run was fitted: its generating function is not the exact series, and cannot be derived from the system file",
+        ),
+        ("model", "the run is of a learned map: there is no exact series to judge it by"),
+        ("splitting", kicked),
+    ] {
         if table.value(name).is_some_and(|value| value != "false") {
-            return refuse(&format!(
-                "the run was {name}: its generating function is not the exact series, and cannot be derived from the \
-                 system file"
-            ));
+            return refuse(what);
         }
     }
-    if table.value("model").is_some() {
-        return refuse("the run is of a learned map: there is no exact series to judge it by");
-    }
-    if table.value("splitting").is_some() {
-        return refuse(
-            "a system with a potential is not judged: between its kicks the motion is free",
-        );
-    }
     let (system, text) = system_of(named, &table, output)?;
-    let step = options.step.or_else(|| table.number("step"));
-    let truncation = options.truncation.or_else(|| table.number("truncation").map(|k| k as usize));
+    let number = |name: &str| table.value(name)?.parse::<f64>().ok();
     let said = table.value("chart").map(|name| match name {
         "cayley" => Chart::Cayley,
         _ => Chart::Exponential,
     });
-    let chart = options.chart.or(said);
-    let read = Options { truncation, chart, ..Options::default() };
+    let read = Options {
+        truncation: options.truncation.or_else(|| number("truncation").map(|k| k as usize)),
+        chart: options.chart.or(said),
+        ..Options::default()
+    };
     let System { problem, potential, run, .. } =
         read_with(&system.display().to_string(), &text, read)?;
     if potential.is_some() {
-        return refuse(
-            "a system with a potential is not judged: between its kicks the motion is free",
-        );
+        return refuse(kicked);
     }
-    let step = step.or(run.step).ok_or_else(|| RunError::Missing {
+    let step = options.step.or_else(|| number("step")).or(run.step);
+    let step = step.ok_or_else(|| RunError::Missing {
         file: system.clone(),
         key: "[integrator] step",
         example: "step = 0.1",
@@ -110,38 +115,29 @@ fn judge(
     let phase = progress::phase("deriving the judge");
     let judge = judge_of(&system, &problem)?;
     drop(phase);
-    let follower = follower(&judge, &problem, step)?;
-    let columns = Columns::find(&problem, table.names(), table.width(), output)?;
-    // Rows are counted for a sample and for a bar; what cannot be read twice has neither.
-    let (mut rows, mut steps) = (0, 0.0);
+    let mut follower = Follower::new(&judge, &problem, step)?;
+    // Rows are counted for a sample and for a bar; a file that cannot be read twice has neither.
     if options.sample.is_some() && !output.is_file() {
         return refuse("rows are counted before a sample of them is judged: give a file");
     }
-    if output.is_file() && (options.sample.is_some() || progress::visible()) {
-        let counted = Table::open(output)?.into_iter().nth(place);
-        (rows, steps) = counted.map_or(Ok((0, 0.0)), |mut t| follower.survey(&mut t, &columns))?;
-    }
-    match options.steps {
-        Some(each) => steps = rows as f64 * each as f64,
-        // The first row is a start.
-        None => rows = rows.saturating_sub(1),
-    }
-    let sample = options.sample.map(|wanted| Sample { wanted, of: rows });
-    let share = sample.map_or(1.0, |s| s.wanted.min(rows) as f64 / rows.max(1) as f64);
+    let counted = output.is_file() && (options.sample.is_some() || progress::visible());
+    let rows = if counted { table.count()? } else { 0 };
+    // The first row of a run is a start.
+    let rows = if options.steps.is_some() { rows } else { rows.saturating_sub(1) };
+    follower.sample = options.sample.map(|wanted| Sample { wanted, of: rows });
+    let share = follower.sample.map_or(1.0, |s| s.wanted.min(rows) as f64 / rows.max(1) as f64);
+    let each = options.steps.map(|each| each as f64 * rows as f64);
+    let steps = each.or_else(|| number("steps")).unwrap_or(rows as f64);
     let bar = progress::bar((steps * share).ceil() as u64, "judging");
     let told = |done| bar.set_position(done);
-    let follower = follower.watched(sample, &told);
-    let Some(input) = &options.input else {
-        return follower.rows(&mut table, &columns, output);
-    };
+    follower.told = &told;
+    let Some(input) = &options.input else { return Ok(follower.rows(&mut table)?) };
     let steps = options.steps.ok_or_else(|| {
         CliError::Option("--input needs --steps: how many steps the ensemble made".into())
     })?;
-    let mut starts = Table::open(input)?;
-    let [start] = starts.as_mut_slice() else { return refuse("--input must be one table") };
-    let before = Columns::find(&problem, start.names(), start.width(), input)?;
-    let (starts, ends) = ((start, &before), (&mut table, &columns));
-    follower.pairs(starts, ends, steps, &refused(output)?, output)
+    let mut starts = tables(input)?;
+    let [starts] = starts.as_mut_slice() else { return refuse("--input must be one table") };
+    Ok(follower.pairs(starts, &mut table, steps, &refused(output)?)?)
 }
 
 /// The system file and its text: the one named, or the one that the output says it is of, which must be as it was.
@@ -171,17 +167,13 @@ fn system_of(
 
 /// The rows that an ensemble lists as refused, counted from 1.
 fn refused(output: &Path) -> Result<BTreeSet<u64>, CliError> {
-    let mut name = output.file_name().unwrap_or_default().to_owned();
-    name.push(".rejected.csv");
-    let list = output.with_file_name(name);
-    if !list.exists() {
-        return Ok(BTreeSet::new());
-    }
+    let list = beside(output, ".rejected.csv");
     let mut rows = BTreeSet::new();
-    for mut table in Table::open(&list)? {
+    if list.exists() {
+        let (mut table, mut row) = (Table::open(&list)?, Row::default());
         let place = table.names().iter().position(|name| name == "row");
-        while let Some(row) = table.next_row()? {
-            rows.extend(place.and_then(|place| row.get(place)).map(|&row| row as u64));
+        while table.read(&mut row)? {
+            rows.extend(place.and_then(|place| row.number(place).ok()).map(|row| row as u64));
         }
     }
     Ok(rows)

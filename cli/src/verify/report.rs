@@ -1,11 +1,11 @@
-//! The output of `simulate --format json`, as tables of two rows: the start and the end.
+//! The output of `simulate --format json` as tables of two rows: the start and the end.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde_json::{Deserializer, Map, Value};
+use coadjoint_learn::table::{Table, remark};
+use serde_json::{Deserializer, Value};
 
-use super::table::{Table, damaged};
 use crate::error::CliError;
 use crate::load;
 
@@ -14,111 +14,76 @@ use crate::load;
 /// # Errors
 /// Where it cannot be read or holds no such report.
 pub fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
+    let damaged = |what: String| CliError::Option(format!("{}: {what}", path.display()));
     let text = load::text(path)?;
     let mut reports = Vec::new();
     for value in Deserializer::from_str(&text).into_iter::<Value>() {
-        match value.map_err(|error| damaged(path, &format!("no JSON: {error}")))? {
+        match value.map_err(|error| damaged(format!("no JSON: {error}")))? {
             Value::Array(list) => reports.extend(list),
             value => reports.push(value),
         }
     }
     // A method run beside ours has no step of its own to be judged by.
-    let ours = |report: &&Value| report["run"].get("step").is_some();
-    let tables: Vec<Table> =
-        reports.iter().filter(ours).map(|report| table(path, report)).collect::<Result<_, _>>()?;
-    if tables.is_empty() {
-        let what =
-            "no report of `simulate --format json`; for an ensemble give the file of its states";
-        return Err(damaged(path, &what));
+    reports.retain(|report| report["run"].get("step").is_some());
+    if reports.is_empty() {
+        return Err(damaged(
+            "no report of `simulate --format json`; for an ensemble give the file of its states"
+                .to_owned(),
+        ));
     }
-    Ok(tables)
-}
-
-fn table(path: &Path, report: &Value) -> Result<Table, CliError> {
-    let missing = |what: &str| damaged(path, &format!("the report has no {what}"));
-    let run = report["run"].as_object().ok_or_else(|| missing("`run`"))?;
-    let head: BTreeMap<String, String> =
-        run.iter().map(|(name, value)| (name.clone(), text(value))).collect();
-    let start =
-        numbers(run.get("initial_momentum")).ok_or_else(|| missing("`initial_momentum`"))?;
-    let end = numbers(report.get("momentum")).ok_or_else(|| missing("`momentum`"))?;
-    let time = report["time"].as_f64().ok_or_else(|| missing("`time`"))?;
-    let (names, entries) = element(&report["group_element_blocks"])
-        .ok_or_else(|| missing("`group_element_blocks`"))?;
-    let before = first(run, &names).ok_or_else(|| missing("start that fits its end"))?;
-    let mut all = vec!["time".to_owned()];
-    all.extend((1..=end.len()).map(|i| format!("mu_{i}")));
-    all.extend(names.into_iter().map(|Entry { name, .. }| name));
-    let row = |time: f64, momentum: Vec<f64>, element: Vec<f64>| -> Vec<f64> {
-        std::iter::once(time).chain(momentum).chain(element).collect()
+    let table = |report: &Value| {
+        table(path, report).ok_or_else(|| {
+            damaged("the report has no start and end that fit each other".to_owned())
+        })
     };
-    let mut rows = vec![row(0.0, start, before), row(time, end, entries)];
-    if let Some(energy) = report["energy"].as_object() {
-        all.push("energy".to_owned());
-        for (row, name) in rows.iter_mut().zip(["start", "end"]) {
-            row.push(energy.get(name).and_then(Value::as_f64).unwrap_or(f64::NAN));
-        }
-    }
-    if rows.iter().any(|row| row.len() != all.len()) {
-        return Err(missing("start that fits its end"));
-    }
-    Ok(Table::of_rows(path, head, all, rows))
+    reports.iter().map(table).collect()
 }
 
-/// A column of the group element: its name, and its place in the whole matrix, from 0.
-struct Entry {
-    name: String,
-    row: usize,
-    column: usize,
-    size: usize,
-}
-
-/// The entries of the blocks of the group element, and their values.
-fn element(blocks: &Value) -> Option<(Vec<Entry>, Vec<f64>)> {
-    let mut parsed = Vec::new();
-    for block in blocks.as_array()? {
-        let first = usize::try_from(block["first_row"].as_u64()?).ok()?;
-        let rows = block["matrix"].as_array()?.iter().map(|row| numbers(Some(row)));
-        parsed.push((first, rows.collect::<Option<Vec<_>>>()?));
-    }
-    let size = parsed.iter().map(|(first, rows)| first + rows.len()).max().unwrap_or(0);
+fn table(path: &Path, report: &Value) -> Option<Table> {
+    let run = report["run"].as_object()?;
+    let head: BTreeMap<String, String> =
+        run.iter().map(|(name, value)| (name.clone(), remark(value))).collect();
+    let start = numbers(&report["run"]["initial_momentum"])?;
+    let end = numbers(&report["momentum"])?;
+    let momenta = (1..=end.len()).map(|i| format!("mu_{i}"));
+    let mut names: Vec<String> = std::iter::once("time".to_owned()).chain(momenta).collect();
+    let mut rows = [vec![0.0], vec![report["time"].as_f64()?]];
+    rows[0].extend(start);
+    rows[1].extend(end);
+    // The blocks of the group element with the number, from 0, of the first row and column of each.
+    let blocks = report["group_element_blocks"].as_array()?;
+    let block = |block: &Value| {
+        let matrix = block["matrix"].as_array()?.iter().map(numbers).collect::<Option<Vec<_>>>()?;
+        Some((usize::try_from(block["first_row"].as_u64()?).ok()?, matrix))
+    };
+    let blocks = blocks.iter().map(block).collect::<Option<Vec<_>>>()?;
+    let size = blocks.iter().map(|(first, matrix)| first + matrix.len()).max().unwrap_or(0);
     let separator = if size > 9 { "_" } else { "" };
-    let (mut entries, mut values) = (Vec::new(), Vec::new());
-    for (first, rows) in parsed {
-        for (i, cells) in rows.into_iter().enumerate() {
-            for (j, value) in cells.into_iter().enumerate() {
-                let (row, column) = (first + i, first + j);
-                let name = format!("g_{}{separator}{}", row + 1, column + 1);
-                entries.push(Entry { name, row, column, size });
-                values.push(value);
+    let given = match run.get("initial_group_element") {
+        Some(given) => Some(numbers(given)?),
+        None => None,
+    };
+    for (first, matrix) in blocks {
+        for (i, cells) in (first..).zip(matrix) {
+            for (j, value) in (first..).zip(cells) {
+                let one = if i == j { 1.0 } else { 0.0 };
+                rows[0].push(given.as_ref().map_or(Some(one), |g| g.get(i * size + j).copied())?);
+                rows[1].push(value);
+                names.push(format!("g_{}{separator}{}", i + 1, j + 1));
             }
         }
     }
-    Some((entries, values))
-}
-
-/// The entries of the group element at the start: those of `initial_group_element`, row by row, or of the identity.
-fn first(run: &Map<String, Value>, entries: &[Entry]) -> Option<Vec<f64>> {
-    let given = match run.get("initial_group_element") {
-        Some(given) => Some(numbers(Some(given))?),
-        None => None,
-    };
-    let value = |entry: &Entry| match &given {
-        Some(given) => given.get(entry.row * entry.size + entry.column).copied(),
-        None => Some(if entry.row == entry.column { 1.0 } else { 0.0 }),
-    };
-    entries.iter().map(value).collect()
-}
-
-fn numbers(value: Option<&Value>) -> Option<Vec<f64>> {
-    value?.as_array()?.iter().map(Value::as_f64).collect()
-}
-
-/// A value as the head of a CSV file has it.
-pub fn text(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Array(list) => list.iter().map(text).collect::<Vec<_>>().join(","),
-        other => other.to_string(),
+    if let Some(energy) = report["energy"].as_object() {
+        let [start, end] = ["start", "end"].map(|name| energy.get(name).and_then(Value::as_f64));
+        rows[0].push(start.unwrap_or(f64::NAN));
+        rows[1].push(end.unwrap_or(f64::NAN));
+        names.push("energy".to_owned());
     }
+    let fits = rows.iter().all(|row| row.len() == names.len());
+    let width = names.len();
+    fits.then(|| Table::of_rows(path, names, width, rows.concat()).saying(head))
+}
+
+fn numbers(value: &Value) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(Value::as_f64).collect()
 }

@@ -194,7 +194,7 @@ fn what_was_changed_is_found_where_it_is() {
     said(&[&out], 1, &["row 13, time 1.2"]);
     bytes.truncate(1000);
     std::fs::write(&out, &bytes).unwrap();
-    said(&[&out], 2, &["claims more numbers than it holds"]);
+    said(&[&out], 2, &["its shape [31, 17] needs more than the 872 bytes"]);
 }
 
 /// Only runs of the exact series of the system file as it is can be judged; all others are refused by name.

@@ -4,18 +4,39 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
-use coadjoint::{Cayley, Chart, Exponential};
+use coadjoint::{Cayley, Exponential};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::step;
+use coadjoint_codegen::system::System;
+use coadjoint_device::{Card, Device};
+use coadjoint_program::Precision;
 
-use super::device::{Asked, Use};
 use super::layout::{Layout, Shape};
 use super::rows::Rows;
 use super::steps::Steps;
 use crate::backend::Backend;
-use crate::engine::{Kept, Restore, cayley_group, product_group};
+use crate::engine::{Kept, cayley_group, product_group};
 use crate::error::RunError;
+
+/// The problem of an ensemble of this system.
+///
+/// # Errors
+/// Where it has a potential.
+pub fn problem_of(system: System) -> Result<Problem, RunError> {
+    let System { mut problem, potential, .. } = system;
+    if potential.is_some() {
+        return Err(RunError::Option(
+            "ensembles do not run systems with a potential: simulate them one by one, or emit the step \
+             and see `Kicked`"
+                .into(),
+        ));
+    }
+    // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
+    problem.solver = Some(Solver::Newton);
+    Ok(problem)
+}
 
 /// The largest drifts over an ensemble, each row's relative to its own [scales](coadjoint_codegen::step::Scales).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,6 +106,49 @@ impl Watch<'_> {
     }
 }
 
+/// The device that is to make the steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// Which.
+    pub device: Device,
+    /// Its numbers.
+    pub precision: Precision,
+}
+
+/// The device that makes the steps.
+#[derive(Clone, Debug)]
+pub struct Use {
+    /// Which.
+    pub device: Device,
+    /// Its name.
+    pub name: String,
+    /// Its numbers.
+    pub precision: Precision,
+    /// Whether it is no card but this machine's processor.
+    pub processor: bool,
+    /// Rows of which it has refused steps.
+    pub redone: u64,
+}
+
+impl Use {
+    /// The note on a device that has left this number of rows to others.
+    pub fn of(card: &Card, redone: u64) -> Self {
+        Self {
+            device: card.device(),
+            name: card.name().to_owned(),
+            precision: card.precision(),
+            processor: card.is_processor(),
+            redone,
+        }
+    }
+}
+
+impl std::fmt::Display for Use {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} ({}) in {} precision", self.device, self.name, self.precision)
+    }
+}
+
 /// The backend that makes the steps.
 #[derive(Clone, Copy, Debug)]
 pub struct How {
@@ -108,29 +172,16 @@ pub fn engine<'a>(
     kept: &Kept,
 ) -> Result<Box<dyn Engine + 'a>, RunError> {
     let group = product_group(path, &integrator.problem.algebra)?;
-    match integrator.problem.chart {
+    Ok(match integrator.problem.chart {
         lie::Chart::Exponential => {
-            on::<DirectProduct<MatrixGroup>, Exponential>(integrator, group, step, how, kept)
+            type On<'a> = Steps<'a, DirectProduct<MatrixGroup>, Exponential>;
+            Box::new(On::new(integrator, group, step, how, kept)?)
         }
         lie::Chart::Cayley => {
-            let group = cayley_group(path, &group)?;
-            on::<DirectProduct<CayleyMatrixGroup>, Cayley>(integrator, group, step, how, kept)
+            type On<'a> = Steps<'a, DirectProduct<CayleyMatrixGroup>, Cayley>;
+            Box::new(On::new(integrator, cayley_group(path, &group)?, step, how, kept)?)
         }
-    }
-}
-
-fn on<'a, G, C>(
-    integrator: &'a Integrator,
-    group: G,
-    step: f64,
-    how: How,
-    kept: &Kept,
-) -> Result<Box<dyn Engine + 'a>, RunError>
-where
-    G: Restore<Element: Send + Sync> + Send + Sync + 'a,
-    C: Chart<G> + Send + Sync + 'a,
-{
-    Ok(Box::new(Steps::<G, C>::new(integrator, group, step, how, kept)?))
+    })
 }
 
 /// The larger of two numbers; what is no number is larger than any.

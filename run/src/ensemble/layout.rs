@@ -29,11 +29,19 @@ pub struct Shape {
     pub quaternions: bool,
 }
 
+impl Shape {
+    /// Of the group with this algebra, factor by factor.
+    pub fn of(algebra: &LieAlgebra) -> Self {
+        let matrix_size = algebra.factors().iter().map(matrix_size).sum();
+        Self { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
+    }
+}
+
 /// The columns of a quaternion.
 const QUATERNION: [&str; 4] = ["q_w", "q_x", "q_y", "q_z"];
 
 /// The names that a system gives.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Known {
     coordinates: Vec<String>,
     parameters: Vec<String>,
@@ -83,35 +91,22 @@ pub struct Found {
     pub unused: Vec<String>,
 }
 
-/// The columns of a row: `mu_1` … `mu_n`, then the attitude.
-#[derive(Clone, Copy, Debug)]
-pub struct Layout {
-    /// The shape of the group's rows.
-    pub shape: Shape,
-    /// The columns after the momentum.
-    pub attitude: Attitude,
-}
-
-impl Layout {
-    /// The number of columns.
-    pub fn width(&self) -> usize {
-        let attitude = match self.attitude {
-            Attitude::None => 0,
-            Attitude::Matrix => self.shape.matrix_size.pow(2),
-            Attitude::Quaternion => 4,
-        };
-        self.shape.dim + attitude
-    }
-
-    /// Their names, as `coadjoint learn` has them.
-    pub fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = (1..=self.shape.dim).map(|i| format!("mu_{i}")).collect();
-        match self.attitude {
-            Attitude::None => {}
-            Attitude::Matrix => names.extend(matrix(self.shape.matrix_size)),
-            Attitude::Quaternion => names.extend(QUATERNION.map(str::to_owned)),
+impl Found {
+    /// By the names of columns, or by their number where they have no names.
+    ///
+    /// # Errors
+    /// As [`Found::find`], and for a number of columns that no state has.
+    pub fn of(
+        shape: Shape,
+        known: &Known,
+        names: &[String],
+        width: usize,
+    ) -> Result<Self, RunError> {
+        if !names.is_empty() {
+            return Self::find(shape, known, names);
         }
-        names
+        let layout = Layout::of_width(shape, width)?;
+        Ok(Self { layout, places: (0..width).map(Some).collect(), unused: Vec::new() })
     }
 
     /// Finds the numbers of a state among named columns. A coordinate is called `mu_i`, or what the system calls it, as
@@ -119,7 +114,7 @@ impl Layout {
     ///
     /// # Errors
     /// Where a column is missing, is there twice, or is called what the system calls a parameter.
-    pub fn find(shape: Shape, known: &Known, header: &[String]) -> Result<Found, RunError> {
+    fn find(shape: Shape, known: &Known, header: &[String]) -> Result<Self, RunError> {
         let refuse = |what: String| Err(RunError::Option(what));
         let mut first = HashMap::new();
         for (column, name) in header.iter().enumerate() {
@@ -148,7 +143,7 @@ impl Layout {
                 first = entries.first().map_or("g_11", String::as_str)
             ));
         }
-        let layout = Self { shape, attitude };
+        let layout = Layout { shape, attitude };
         let names = layout.names();
         let mut places = Vec::with_capacity(names.len());
         for (number, name) in names.iter().enumerate() {
@@ -197,11 +192,43 @@ impl Layout {
             }
             unused.push(name.clone());
         }
-        Ok(Found { layout, places, unused })
+        Ok(Self { layout, places, unused })
+    }
+}
+
+/// The columns of a row: `mu_1` … `mu_n`, then the attitude.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    /// Of the group.
+    pub shape: Shape,
+    /// The columns after the momentum.
+    pub attitude: Attitude,
+}
+
+impl Layout {
+    /// The number of columns.
+    pub fn width(&self) -> usize {
+        let attitude = match self.attitude {
+            Attitude::None => 0,
+            Attitude::Matrix => self.shape.matrix_size.pow(2),
+            Attitude::Quaternion => 4,
+        };
+        self.shape.dim + attitude
+    }
+
+    /// Their names, as `coadjoint learn` has them.
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = (1..=self.shape.dim).map(|i| format!("mu_{i}")).collect();
+        match self.attitude {
+            Attitude::None => {}
+            Attitude::Matrix => names.extend(matrix(self.shape.matrix_size)),
+            Attitude::Quaternion => names.extend(QUATERNION.map(str::to_owned)),
+        }
+        names
     }
 
     /// The layout of a matrix without names, by its width.
-    pub fn of_width(shape: Shape, width: usize) -> Result<Self, RunError> {
+    fn of_width(shape: Shape, width: usize) -> Result<Self, RunError> {
         let forms = [Attitude::None, Attitude::Matrix, Attitude::Quaternion];
         let layouts = forms.map(|attitude| Self { shape, attitude });
         let possible = |l: &&Self| l.attitude != Attitude::Quaternion || shape.quaternions;

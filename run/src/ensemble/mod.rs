@@ -1,16 +1,12 @@
 //! Many trajectories of one system, in memory.
 
 mod attitude;
-mod device;
 mod engine;
 mod layout;
-mod pack;
+mod march;
 mod rows;
 mod steps;
-mod whole;
 
-pub use device::{Asked, Use};
-pub use engine::{Drift, Engine, How, Watch, engine};
+pub use engine::{Asked, Drift, Engine, How, Use, Watch, engine, problem_of};
 pub use layout::{Attitude, Found, Known, Layout, Shape, matrix_size};
-pub use rows::{Rejected, Rows};
-pub use whole::{advance_all, piece, problem_of};
+pub use rows::{Rejected, Rows, advance_all, piece};

@@ -1,6 +1,8 @@
-//! A piece of an ensemble in memory.
+//! Rows of states in memory.
 
-use coadjoint::StepError;
+use super::engine::{Drift, Engine, Watch};
+use super::layout::Layout;
+use crate::error::RunError;
 
 /// A row that has no end state.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,17 +13,6 @@ pub struct Rejected {
     pub step: u64,
     /// Why.
     pub reason: String,
-}
-
-/// A trajectory whose next step could not be made.
-#[derive(Clone, Debug)]
-pub struct Stopped {
-    /// Which one, counted from 0.
-    pub index: usize,
-    /// The step, counted from 0. The state is the one before it.
-    pub step: u64,
-    /// Why.
-    pub error: StepError,
 }
 
 /// Consecutive rows, numbers side by side.
@@ -42,10 +33,44 @@ impl Rows {
         self.values.clear();
         self.rejected.clear();
     }
+}
 
-    /// Adds a row that cannot be read: NaN in every column.
-    pub fn reject(&mut self, row: u64, width: usize, reason: String) {
-        self.values.resize(self.values.len() + width, f64::NAN);
-        self.rejected.push(Rejected { row, step: 0, reason });
+/// Rows taken at a time: enough for all threads, little enough to be noted often. A card has as many threads as rows.
+pub fn piece(width: usize, steps: u64, card: bool) -> u64 {
+    if card {
+        return ((256 << 20) / (width as u64 * 8)).clamp(512, 1 << 20);
     }
+    let memory = (8 << 20) / (width as u64 * 8);
+    (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
+}
+
+/// Advances all rows in place, piece by piece. Rows that fail become NaN and are told. The watch is told the steps of all
+/// rows together.
+///
+/// # Errors
+/// As [`Engine::advance`].
+pub fn advance_all(
+    engine: &dyn Engine,
+    layout: &Layout,
+    steps: u64,
+    values: &mut [f64],
+    watch: &Watch<'_>,
+) -> Result<(Vec<Rejected>, Drift), RunError> {
+    let width = layout.width();
+    let card = engine.device().is_some_and(|by| !by.processor);
+    let length = piece(width, steps, card) as usize;
+    let mut rows = Rows::default();
+    let (mut rejected, mut drift) = (Vec::new(), Drift::default());
+    for (number, own) in values.chunks_mut(length * width).enumerate() {
+        let first = (number * length) as u64;
+        rows.clear(first + 1);
+        rows.values.extend_from_slice(own);
+        let count = (own.len() / width) as u64;
+        let made = |made: u64| (watch.made)(first.saturating_mul(steps) + count * made);
+        let found = engine.advance(layout, steps, &mut rows, &Watch { made: &made, ..*watch })?;
+        drift = drift.max(found);
+        own.copy_from_slice(&rows.values);
+        rejected.append(&mut rows.rejected);
+    }
+    Ok((rejected, drift))
 }

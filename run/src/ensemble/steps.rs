@@ -1,31 +1,25 @@
 //! The steps of a system, of many states: by the programs where there are any, eight side by side, or one by one.
 
-use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Conserved, Invariants, Scratch, nudge};
+use coadjoint_codegen::step::{Invariants, Scratch, nudge};
 use coadjoint_device::Card;
 use coadjoint_program::{Precision, Trajectories};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::attitude::Attitudes;
-use super::device::{self, Use};
-use super::engine::{Drift, Engine, How, Watch, larger};
+use super::engine::{Drift, Engine, How, Use, Watch, larger};
 use super::layout::{Layout, Shape};
-use super::pack::{Manner, march};
-use super::rows::{Rejected, Rows, Stopped};
+use super::march::{Manner, Way};
+use super::rows::{Rejected, Rows};
 use crate::engine::{
-    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, entries_of, phase_of,
+    Compiled, Interpreter, Kept, Numbers, Restore, STEEP, Steepness, advise, card, entries_of,
+    phase_of,
 };
 use crate::error::RunError;
-
-/// Steps that all rows make before the next: each is then about as far, and what is told of it is true. The runtime
-/// forgets everything after this number of steps, so that cutting a run there changes no bit.
-pub const STRETCH: u64 = 256;
 
 /// Steps of a system on a group.
 pub struct Steps<'a, G, C> {
@@ -37,21 +31,12 @@ pub struct Steps<'a, G, C> {
     card: Option<Mutex<Card>>,
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
-    attitudes: Attitudes,
     invariants: Invariants,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
     step: f64,
     /// Those of half the size, of a quarter, …, as far as they were needed to advise.
     shorter: Mutex<Vec<Interpreter<'a, G, C>>>,
-}
-
-/// A state on its way that no programs serve.
-struct Lone<G: Restore> {
-    phase: Phase<G>,
-    stopped: Option<(u64, StepError)>,
-    /// The largest ratio seen.
-    ratio: f64,
 }
 
 impl<'a, G, C> Steps<'a, G, C>
@@ -73,27 +58,33 @@ where
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
             .map_err(|source| RunError::Step { time: 0.0, source })?;
         let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes, kept)?;
-        let card = how.device.map(|asked| device::open(&stepper, asked)).transpose()?;
-        let attitudes = Attitudes::of(&integrator.problem.algebra);
-        let group = stepper.group();
-        let identity = numbers_of(compiled.as_ref(), entries_of(group, &group.identity()));
-        Ok(Self {
+        let card = how.device.map(|asked| card(&stepper, asked.device, asked.precision));
+        let card = card.transpose()?.map(Mutex::new);
+        let (redone, shorter) = Default::default();
+        let invariants = Invariants::of(&integrator.problem.algebra);
+        let mut steps = Self {
             integrator,
             stepper,
             compiled,
-            card: card.map(Mutex::new),
-            redone: AtomicU64::new(0),
-            attitudes,
-            invariants: Invariants::of(&integrator.problem.algebra),
-            identity,
+            card,
+            redone,
+            invariants,
+            identity: Vec::new(),
             step,
-            shorter: Mutex::default(),
-        })
+            shorter,
+        };
+        let one = steps.stepper.group().identity();
+        steps.identity = steps.element_of(&one);
+        Ok(steps)
     }
 
-    /// The numbers of the element with this matrix, row by row.
-    fn element_of(&self, matrix: Vec<f64>) -> Vec<f64> {
-        numbers_of(self.compiled.as_ref(), matrix)
+    /// The numbers of an element: its matrix, row by row, where there are no programs.
+    fn element_of(&self, element: &G::Element) -> Vec<f64> {
+        let matrix = entries_of(self.stepper.group(), element);
+        match &self.compiled {
+            Some(compiled) => compiled.element_of(&matrix),
+            None => matrix,
+        }
     }
 
     /// The matrix of an element, row by row.
@@ -109,45 +100,25 @@ where
     }
 
     fn numbers(&self, phase: &Phase<G>) -> Numbers {
-        let matrix = entries_of(self.stepper.group(), &phase.group_element);
-        Numbers { g: self.element_of(matrix), mu: phase.momentum.as_slice().to_vec() }
-    }
-
-    /// Puts a state of single precision onto the group, as the group's own products do.
-    fn settle(&self, own: &mut Numbers) {
-        let group = self.stepper.group();
-        let (mut phase, one) = (self.phase(own), group.identity());
-        for _ in 0..2 {
-            phase.group_element = group.compose(&phase.group_element, &one);
-        }
-        *own = self.numbers(&phase);
+        let g = self.element_of(&phase.group_element);
+        Numbers { g, mu: phase.momentum.as_slice().to_vec() }
     }
 
     /// The state of a row, or what is wrong with it.
     fn read(&self, layout: &Layout, row: &[f64]) -> Result<Numbers, String> {
-        if let Some(place) = row.iter().position(|value| !value.is_finite()) {
-            let name = layout.names().swap_remove(place);
-            return Err(format!("{name} is {}", row[place]));
-        }
+        check(layout, row)?;
         let group = self.stepper.group();
         let (mu, attitude) = row.split_at(group.dim());
-        let given = self.attitudes.read(layout.attitude, group.matrix_size(), attitude)?;
-        let Some(matrix) = given else {
-            return Ok(Numbers { g: self.identity.clone(), mu: mu.to_vec() });
+        let g = match layout.read_attitude(attitude)? {
+            None => self.identity.clone(),
+            Some(matrix) => {
+                let size = group.matrix_size();
+                let element = group.element_from_matrix(|i, j| matrix[i * size + j]);
+                let off = |_| "the attitude is no element of the group".to_owned();
+                self.element_of(&element.map_err(off)?)
+            }
         };
-        let size = group.matrix_size();
-        let element = group.element_from_matrix(|i, j| matrix[i * size + j]);
-        let element = element.map_err(|_| "the attitude is no element of the group".to_owned())?;
-        Ok(Numbers { g: self.element_of(entries_of(group, &element)), mu: mu.to_vec() })
-    }
-
-    /// Writes a state into a row.
-    fn write(&self, layout: &Layout, numbers: &Numbers, row: &mut [f64]) {
-        let (mu, attitude) = row.split_at_mut(numbers.mu.len());
-        mu.copy_from_slice(&numbers.mu);
-        if !attitude.is_empty() {
-            self.attitudes.write(layout.attitude, &self.matrix_of(&numbers.g), attitude);
-        }
+        Ok(Numbers { g, mu: mu.to_vec() })
     }
 
     /// The error of the next step of a state, with a step size that works there.
@@ -182,7 +153,7 @@ where
     fn drift(&self, scratch: &mut Scratch, before: &Numbers, after: &Numbers) -> Drift {
         let invariants = &self.invariants;
         let start = invariants.start(&before.mu, &self.spatial_momentum(before, scratch), Vec::new);
-        let mut conserved = |state: &Numbers| -> Conserved {
+        let mut conserved = |state: &Numbers| {
             invariants.conserved(&state.mu, &self.spatial_momentum(state, scratch), Vec::new)
         };
         let mut beside = after.clone();
@@ -194,92 +165,54 @@ where
         Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
     }
 
-    /// Makes the steps of all states; why those stopped that did, by their places, and the largest ratio of the last two
-    /// terms of the series that is worth a warning.
+    /// Makes the steps of all states.
     fn march(
         &self,
-        states: &mut [Numbers],
+        states: Vec<Numbers>,
         steps: u64,
         watch: &Watch<'_>,
-    ) -> Result<(BTreeMap<usize, Stopped>, f64), RunError> {
+    ) -> Result<Vec<Way>, RunError> {
         let steepness = Steepness::new(&self.stepper);
-        let ratio = |mu: &[f64]| steepness.ratio(&DVector::from_column_slice(mu));
-        let before = states.iter().map(|state| ratio(&state.mu)).fold(0.0, larger);
-        let (mut failed, along) = match &self.compiled {
-            Some(compiled) => {
-                let rescue = |own: &mut Numbers| compiled.rescue(&self.stepper, own);
-                let manner = Manner { compiled, rescue: &rescue, ratio: &ratio, stop: watch.stop };
-                match &self.card {
-                    Some(card) => self.march_device(&manner, card, states, steps, watch.made)?,
-                    None => march(&manner, states, (steps, STRETCH), watch.made),
-                }
-            }
-            None => self.one_by_one(states, steps, &steepness, watch),
+        let manner = Manner {
+            compiled: self.compiled.as_ref(),
+            rescue: &|state| {
+                let mut phase = self.phase(state);
+                let report = coadjoint::advance(&self.stepper, &mut phase)?;
+                *state = self.numbers(&phase);
+                Ok(report)
+            },
+            ratio: &|mu| steepness.ratio(&DVector::from_column_slice(mu)),
+            stop: watch.stop,
         };
-        for failure in failed.values_mut() {
-            failure.error = self.advise(failure.error, &self.phase(&states[failure.index]));
-        }
-        let ratio = larger(before, along);
-        Ok((failed, if ratio <= STEEP { 0.0 } else { ratio }))
-    }
-
-    /// The same on a device.
-    fn march_device(
-        &self,
-        manner: &Manner<'_>,
-        card: &Mutex<Card>,
-        states: &mut [Numbers],
-        steps: u64,
-        made: &dyn Fn(u64),
-    ) -> Result<(BTreeMap<usize, Stopped>, f64), RunError> {
-        // A thread that panicked has left a whole card: its rows are its own.
-        let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
-        let single = card.precision() == Precision::Single;
-        let settle = |own: &mut Numbers| {
-            if single {
-                self.settle(own);
-            }
-        };
-        let moved = device::march(manner, &mut card, &settle, states, (steps, made))?;
-        self.redone.fetch_add(moved.redone, Ordering::Relaxed);
-        Ok((moved.failed, moved.ratio))
-    }
-
-    /// The same without programs.
-    fn one_by_one(
-        &self,
-        states: &mut [Numbers],
-        steps: u64,
-        steepness: &Steepness<'_, Interpreter<'a, G, C>>,
-        watch: &Watch<'_>,
-    ) -> (BTreeMap<usize, Stopped>, f64) {
-        let lone = |state: &Numbers| Lone { phase: self.phase(state), stopped: None, ratio: 0.0 };
-        let mut moving: Vec<Lone<G>> = states.par_iter().map(lone).collect();
-        let mut done = 0;
-        let stop = watch.stop;
-        while done < steps && !watch.stopped() {
-            let stretch = STRETCH.min(steps - done);
-            moving.par_iter_mut().filter(|own| own.stopped.is_none()).for_each(|own| {
-                if stop.load(Ordering::Relaxed) {
-                    return;
+        let mut ways: Vec<Way> = states.into_iter().map(|state| manner.way(state)).collect();
+        if let Some(card) = &self.card {
+            // A thread that panicked has left a whole card: its rows are its own.
+            let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
+            let single = card.precision() == Precision::Single;
+            // Puts a state of single precision onto the group, as the group's own products do.
+            let settle = |own: &mut Numbers| {
+                let (group, mut phase) = (self.stepper.group(), self.phase(own));
+                for _ in 0..2 {
+                    phase.group_element = group.compose(&phase.group_element, &group.identity());
                 }
-                let advanced = coadjoint::advance_by(&self.stepper, &mut own.phase, stretch);
-                own.stopped = advanced.err().map(|stopped| (done + stopped.steps, stopped.error));
-                own.ratio = larger(own.ratio, steepness.ratio(&own.phase.momentum));
-            });
-            done += stretch;
-            (watch.made)(done);
+                *own = self.numbers(&phase);
+            };
+            let settle = |own: &mut Numbers| {
+                if single {
+                    settle(own)
+                }
+            };
+            let redone = manner.march_on(&mut card, &settle, &mut ways, (steps, watch.made));
+            self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
+        } else {
+            manner.march(&mut ways, steps, watch.made);
         }
-        let mut failed = BTreeMap::new();
-        let mut ratio = 0.0;
-        for (index, (own, state)) in moving.iter().zip(states).enumerate() {
-            *state = self.numbers(&own.phase);
-            ratio = larger(ratio, own.ratio);
-            if let Some((step, error)) = own.stopped {
-                failed.insert(index, Stopped { index, step, error });
+        for way in &mut ways {
+            if let Some((_, error)) = &mut way.stopped {
+                *error = self.advise(*error, &self.phase(&way.state));
             }
         }
-        (failed, ratio)
+        Ok(ways)
     }
 }
 
@@ -289,9 +222,7 @@ where
     C: Chart<G> + Send + Sync,
 {
     fn shape(&self) -> Shape {
-        let group = self.stepper.group();
-        let quaternions = self.attitudes == Attitudes::Rotations;
-        Shape { dim: group.dim(), matrix_size: group.matrix_size(), quaternions }
+        Shape::of(&self.integrator.problem.algebra)
     }
 
     fn casimirs(&self) -> usize {
@@ -323,69 +254,61 @@ where
         let read: Vec<_> =
             rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
         let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
-        let mut places = Vec::with_capacity(read.len());
-        let mut states = Vec::with_capacity(read.len());
-        for (place, state) in read.into_iter().enumerate() {
-            let row = rows.first + place as u64;
+        let (mut places, mut before) = (Vec::new(), Vec::new());
+        for ((place, state), row) in read.into_iter().enumerate().zip(rows.first..) {
             match state {
                 _ if known.binary_search(&row).is_ok() => {}
                 Ok(state) => {
                     places.push(place);
-                    states.push(state);
+                    before.push(state);
                 }
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        let before = states.clone();
-        let (failed, ratio) = self.march(&mut states, steps, watch)?;
+        let ways = self.march(before.clone(), steps, watch)?;
         if watch.stopped() {
             return Err(RunError::Halted { time: 0.0, step: 0 });
         }
-        for (place, failure) in &failed {
-            rows.rejected.push(Rejected {
-                row: rows.first + places[*place] as u64,
-                step: failure.step + 1,
-                reason: failure.error.to_string(),
-            });
-        }
         rows.values.fill(f64::NAN);
-        let drift = |scratch: &mut Scratch,
-                     (place, (before, after)): (usize, (&Numbers, &Numbers))| {
-            (!failed.contains_key(&place)).then(|| self.drift(scratch, before, after))
-        };
-        let rows_moved = before.par_iter().zip(&states).enumerate();
-        let drifts: Vec<Option<Drift>> = rows_moved.map_init(Scratch::default, drift).collect();
-        let mut largest = Drift { ratio, ..Drift::default() };
-        for ((&place, state), drift) in places.iter().zip(&states).zip(drifts) {
-            let Some(drift) = drift else { continue };
-            let row = &mut rows.values[place * width..(place + 1) * width];
-            self.write(layout, state, row);
-            if let Err(reason) = check(layout, row) {
-                row.fill(f64::NAN);
-                let row = rows.first + place as u64;
-                rows.rejected.push(Rejected { row, step: steps, reason });
-                continue;
+        // The row at the end and its drift, or the step that was not made and why.
+        let end = |scratch: &mut Scratch, (before, way): (&Numbers, &Way)| {
+            if let Some((step, error)) = &way.stopped {
+                return Err((step + 1, error.to_string()));
             }
-            largest = largest.max(drift);
+            let mut row = vec![0.0; width];
+            let (mu, attitude) = row.split_at_mut(before.mu.len());
+            mu.copy_from_slice(&way.state.mu);
+            if !attitude.is_empty() {
+                layout.write_attitude(&self.matrix_of(&way.state.g), attitude);
+            }
+            check(layout, &row).map_err(|what| (steps, format!("{what} at the end")))?;
+            Ok((row, self.drift(scratch, before, &way.state)))
+        };
+        let ends: Vec<_> = before.par_iter().zip(&ways).map_init(Scratch::default, end).collect();
+        let ratio = ways.iter().map(|way| way.ratio).fold(0.0, larger);
+        let ratio = if ratio <= STEEP { 0.0 } else { ratio };
+        let mut largest = Drift { ratio, ..Drift::default() };
+        for (place, end) in places.into_iter().zip(ends) {
+            match end {
+                Ok((row, drift)) => {
+                    rows.values[place * width..][..width].copy_from_slice(&row);
+                    largest = largest.max(drift);
+                }
+                Err((step, reason)) => {
+                    let row = rows.first + place as u64;
+                    rows.rejected.push(Rejected { row, step, reason });
+                }
+            }
         }
         rows.rejected.sort_by_key(|r| r.row);
         Ok(largest)
     }
 }
 
-/// The numbers of the element with this matrix, row by row: the matrix itself where there are no programs.
-fn numbers_of(compiled: Option<&Compiled>, matrix: Vec<f64>) -> Vec<f64> {
-    match compiled {
-        Some(compiled) => compiled.element_of(&matrix),
-        None => matrix,
-    }
-}
-
-/// Refuses an end state with a number that is not finite.
+/// Refuses a row with a number that is not finite.
 fn check(layout: &Layout, row: &[f64]) -> Result<(), String> {
     let Some(place) = row.iter().position(|value| !value.is_finite()) else { return Ok(()) };
-    let name = layout.names().swap_remove(place);
-    Err(format!("{name} is {} at the end", row[place]))
+    Err(format!("{} is {}", layout.names().swap_remove(place), row[place]))
 }
 
 #[cfg(test)]
@@ -394,7 +317,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_finite_is_never_an_end_state() {
+    fn no_number_that_is_not_finite_becomes_an_end_state() {
         let shape = Shape { dim: 3, matrix_size: 3, quaternions: true };
         let layout = Layout { shape, attitude: Attitude::Quaternion };
         let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];

@@ -1,4 +1,4 @@
-//! The findings.
+//! The findings of a verification.
 
 use serde_json::{Map, Value, json};
 
@@ -25,9 +25,9 @@ pub struct Found {
     pub unjudged: u64,
     /// Why the first of them could not.
     pub why: Option<String>,
-    /// The statement of the file about its end, where it is a part.
+    /// The file's own statement about its end, where it is a part.
     pub part: Option<String>,
-    /// The defect of the first wrong row.
+    /// What is wrong with the first wrong row.
     pub wrong: Option<String>,
 }
 
@@ -41,18 +41,15 @@ impl Found {
             format!("worst drift of a Casimir from row to row: {:.2e}", self.casimir),
             format!("worst drift of the spatial momentum from row to row: {:.2e}", self.spatial),
         ];
-        if self.left_out > 0 {
-            lines.push(format!("{} rows are not in the sample", self.left_out));
+        for (count, what) in [
+            (self.left_out, "are not in the sample"),
+            (self.refused, "were refused by the run itself"),
+            (self.unjudged, "could not be judged"),
+        ] {
+            lines.extend((count > 0).then(|| format!("{count} rows {what}")));
         }
-        if self.refused > 0 {
-            lines.push(format!("{} rows were refused by the run itself", self.refused));
-        }
-        if let Some(part) = &self.part {
-            lines.push(format!("the file is a part of a run: {part}"));
-        }
-        if self.unjudged > 0 {
-            lines.push(format!("{} rows could not be judged", self.unjudged));
-        }
+        let part = self.part.iter();
+        lines.extend(part.map(|part| format!("the file is a part of a run: {part}")));
         lines.push(self.verdict().to_owned());
         lines
     }
@@ -67,26 +64,25 @@ impl Found {
         }
     }
 
-    /// For programs; what there is nothing to say of has no key.
+    /// For programs; keys with nothing to say are left out, as are numbers that are not finite.
     pub fn object(&self) -> Map<String, Value> {
-        let said = |text: &Option<String>| text.as_ref().map(|text| json!(text));
         let list = [
-            ("verdict", Some(json!(self.verdict()))),
-            ("rows", Some(json!(self.rows))),
-            ("steps", Some(json!(self.steps))),
-            ("momentum", number(self.momentum)),
-            ("group_element", number(self.element)),
-            ("casimir", number(self.casimir)),
-            ("spatial_momentum", number(self.spatial)),
-            ("not_sampled", (self.left_out > 0).then(|| json!(self.left_out))),
-            ("refused", Some(json!(self.refused))),
-            ("not_judged", Some(json!(self.unjudged))),
-            ("why_not_judged", said(&self.why)),
-            ("part", said(&self.part)),
-            ("wrong", said(&self.wrong)),
+            ("verdict", json!(self.verdict())),
+            ("rows", json!(self.rows)),
+            ("steps", json!(self.steps)),
+            ("momentum", json!(self.momentum)),
+            ("group_element", json!(self.element)),
+            ("casimir", json!(self.casimir)),
+            ("spatial_momentum", json!(self.spatial)),
+            ("not_sampled", json!((self.left_out > 0).then_some(self.left_out))),
+            ("refused", json!(self.refused)),
+            ("not_judged", json!(self.unjudged)),
+            ("why_not_judged", json!(self.why)),
+            ("part", json!(self.part)),
+            ("wrong", json!(self.wrong)),
         ];
-        let given = list.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?)));
-        given.collect()
+        let given = list.into_iter().filter(|(_, value)| !value.is_null());
+        given.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// Records a defect; the first one is reported.
@@ -99,14 +95,4 @@ impl Found {
         self.unjudged += 1;
         self.why.get_or_insert(why);
     }
-}
-
-/// JSON has no number for what is not finite.
-fn number(value: f64) -> Option<Value> {
-    value.is_finite().then(|| json!(value))
-}
-
-/// The larger of two numbers; NaN where one is.
-pub fn maximum(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -1,0 +1,169 @@
+//! Trajectories side by side, on this processor or on a device.
+
+use std::array::from_fn;
+use std::collections::BTreeSet;
+use std::mem::take;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use coadjoint::{StepError, StepReport};
+use coadjoint_device::{Card, DeviceError, Refused, Row};
+use coadjoint_program::WIDTH;
+use rayon::prelude::*;
+
+use super::engine::larger;
+use crate::engine::{Compiled, Numbers};
+
+/// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
+const STRETCH: u64 = 256;
+
+/// How steps are made.
+pub struct Manner<'a> {
+    /// By these programs, where there are any.
+    pub compiled: Option<&'a Compiled>,
+    /// Makes a step that they have refused.
+    pub rescue: &'a (dyn Fn(&mut Numbers) -> Result<StepReport<f64>, StepError> + Sync),
+    /// The ratio of the last two terms of the series at a momentum, looked at after each stretch.
+    pub ratio: &'a (dyn Fn(&[f64]) -> f64 + Sync),
+    /// Where it is set, nothing more is made.
+    pub stop: &'a AtomicBool,
+}
+
+/// A trajectory on its way.
+#[derive(Clone, Debug)]
+pub struct Way {
+    /// Where it is.
+    pub state: Numbers,
+    /// The number of the step that could not be made, from 0, and why. The state is the one before it.
+    pub stopped: Option<(u64, StepError)>,
+    /// The largest ratio seen.
+    pub ratio: f64,
+}
+
+impl Manner<'_> {
+    /// From here.
+    pub fn way(&self, state: Numbers) -> Way {
+        Way { ratio: (self.ratio)(&state.mu), state, stopped: None }
+    }
+
+    /// Makes steps `first` to `end` of a trajectory by itself.
+    fn alone(&self, way: &mut Way, first: u64, end: u64) {
+        let made = match self.compiled {
+            Some(compiled) => {
+                compiled.advance(&mut way.state, end - first, self.rescue).map(|_| ())
+            }
+            None => (0..end - first).try_for_each(|done| {
+                (self.rescue)(&mut way.state).map(|_| ()).map_err(|error| (done, error))
+            }),
+        };
+        way.stopped = made.err().map(|(done, error)| (first + done, error));
+        way.ratio = larger(way.ratio, (self.ratio)(&way.state.mu));
+    }
+
+    /// Makes steps `first` to `end` of at most [`WIDTH`] trajectories side by side. A trajectory goes alone from the step on
+    /// that it cannot make with the others, so that none depends on its neighbours.
+    fn abreast(&self, ways: &mut [Way], first: u64, end: u64) {
+        if self.stop.load(Ordering::Relaxed) {
+            return;
+        }
+        let made = match self.compiled {
+            None => [0; WIDTH],
+            Some(compiled) => {
+                // Number i of trajectory r is at `i * WIDTH + r`.
+                let beside = |of: fn(&Numbers) -> &Vec<f64>| {
+                    let mut list =
+                        vec![0.0; ways.first().map_or(0, |w| of(&w.state).len()) * WIDTH];
+                    for (lane, way) in ways.iter().enumerate() {
+                        let places = list.iter_mut().skip(lane).step_by(WIDTH);
+                        places.zip(of(&way.state)).for_each(|(place, value)| *place = *value);
+                    }
+                    list
+                };
+                let (mut g, mut mu) = (beside(|state| &state.g), beside(|state| &state.mu));
+                let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
+                let made = compiled.advance_lanes(&mut g, &mut mu, end - first, live);
+                for (lane, Way { state, .. }) in ways.iter_mut().enumerate() {
+                    for (list, own) in [(&g, &mut state.g), (&mu, &mut state.mu)] {
+                        let values = list.iter().skip(lane).step_by(WIDTH);
+                        own.iter_mut().zip(values).for_each(|(own, value)| *own = *value);
+                    }
+                }
+                made
+            }
+        };
+        for (way, made) in ways.iter_mut().zip(made) {
+            if way.stopped.is_none() {
+                self.alone(way, first + made, end);
+            }
+        }
+    }
+
+    /// Makes `steps` steps of all trajectories, a stretch of each before the next, which is then told to `told`.
+    pub fn march(&self, ways: &mut [Way], steps: u64, told: &dyn Fn(u64)) {
+        let abreast = if self.compiled.is_some() { WIDTH } else { 1 };
+        let mut done = 0;
+        while done < steps && !self.stop.load(Ordering::Relaxed) {
+            let end = steps.min(done + STRETCH);
+            ways.par_chunks_mut(abreast).for_each(|ways| self.abreast(ways, done, end));
+            done = end;
+            told(done);
+        }
+    }
+
+    /// Moves a trajectory, whose next step was refused elsewhere, from step `made` to step `end`, with the bits that
+    /// [`march`](Self::march) gives it: to the end of its stretch alone, then in lanes.
+    fn redo(&self, way: &mut Way, made: u64, end: u64) {
+        let mut done = end.min(made - made % STRETCH + STRETCH);
+        self.alone(way, made, done);
+        while done < end && way.stopped.is_none() {
+            let next = end.min(done + STRETCH);
+            self.abreast(std::slice::from_mut(way), done, next);
+            done = next;
+        }
+    }
+
+    /// Makes `steps` steps of all trajectories on a device. `settle` puts a state of the device's precision onto the group:
+    /// before steps that the device refuses are made here, and at the end. How many trajectories had such steps.
+    ///
+    /// In double precision the states have the bits of [`march`](Self::march).
+    ///
+    /// # Errors
+    /// Where the device fails; the states are lost then.
+    pub fn march_on(
+        &self,
+        card: &mut Card,
+        settle: &(dyn Fn(&mut Numbers) + Sync),
+        ways: &mut [Way],
+        (steps, told): (u64, &dyn Fn(u64)),
+    ) -> Result<u64, DeviceError> {
+        let row = |way: &mut Way| {
+            let Numbers { g, mu } = &mut way.state;
+            Row { g: take(g), mu: take(mu), ..Row::default() }
+        };
+        let mut rows: Vec<Row> = ways.iter_mut().map(row).collect();
+        let mut redone = BTreeSet::new();
+        let mut others = |refused: &mut [Refused<'_>], target: u64| {
+            let redo = |Refused { place, row, .. }: &mut Refused<'_>| {
+                let mut way = self.way(Numbers { g: take(&mut row.g), mu: take(&mut row.mu) });
+                settle(&mut way.state);
+                self.redo(&mut way, row.made, target);
+                (row.g, row.mu) = (take(&mut way.state.g), take(&mut way.state.mu));
+                row.ended = way.stopped.is_some();
+                row.made = if row.ended { row.made } else { target };
+                (*place, way.stopped, way.ratio)
+            };
+            let ends: Vec<_> = refused.par_iter_mut().map(redo).collect();
+            for (place, stopped, ratio) in ends {
+                redone.insert(place);
+                ways[place].stopped = stopped;
+                ways[place].ratio = larger(ways[place].ratio, ratio);
+            }
+        };
+        card.advance(&mut rows, steps, &mut others, told)?;
+        ways.par_iter_mut().zip(rows).for_each(|(way, row)| {
+            way.state = Numbers { g: row.g, mu: row.mu };
+            settle(&mut way.state);
+            way.ratio = larger(way.ratio, (self.ratio)(&way.state.mu));
+        });
+        Ok(redone.len() as u64)
+    }
+}
