@@ -16,7 +16,7 @@ use crate::problem::{Parameter, Shape};
 /// The constructor `new(step, parameters…)`, and what folds: the integrator's coefficients are followed by those of the bound
 /// on what Newton's method leaves out of the Hessian, and by the square of the radius.
 #[must_use]
-pub fn constructor(
+pub(crate) fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
     group: &TokenStream,
@@ -93,7 +93,7 @@ pub fn constructor(
 }
 
 /// Parameters as arguments of a function.
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// `name: type` for each.
     pub arguments: Vec<TokenStream>,
     /// The names.
@@ -104,7 +104,7 @@ pub struct Arguments {
 
 /// The arguments for these parameters.
 #[must_use]
-pub fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
+pub(crate) fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
     let mut names = parameters.iter().map(|parameter| parameter.name.clone()).collect();
     let mut result =
         Arguments { arguments: Vec::new(), names: BTreeSet::new(), scalars: Vec::new() };

@@ -17,7 +17,7 @@ const CLOSED_FORMS: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
 pub const RUNTIME_TABLES: [&str; 8] = ["Aff1", "SL2", "SO4", "SO5", "SU3", "SU4", "U2", "U3"];
 
 /// How generated code names the group.
-pub struct GroupType {
+pub(crate) struct GroupType {
     /// The type, generic over the scalar `T` in scope.
     pub ty: TokenStream,
     /// Items it needs, to stand beside the integrator.
@@ -31,7 +31,7 @@ pub struct GroupType {
 /// The runtime type for `algebra`: one of the runtime's own, or tables written beside the
 /// integrator `name`.
 #[must_use]
-pub fn group_type(
+pub(crate) fn group_type(
     algebra: &LieAlgebra,
     name: &Ident,
     visibility: &TokenStream,

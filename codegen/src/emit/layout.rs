@@ -7,7 +7,7 @@ const WIDTH: usize = 100;
 
 /// The items as formatted text.
 #[must_use]
-pub fn text(tokens: TokenStream) -> String {
+pub(crate) fn text(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
         Ok(items) => spaced(&filled(&comments(&prettyplease::unparse(&items)))),
         // Emitted tokens are items by construction; if not, unformatted text still compiles or

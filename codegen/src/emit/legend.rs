@@ -8,7 +8,7 @@ const MOST_LINES: usize = 4000;
 
 /// A line for each slot that holds a coefficient of S: `c[3] = 2 C(p₁ p₂²), of S₃ + S₅`.
 #[must_use]
-pub fn lines(coefficients: &Coefficients) -> Vec<String> {
+pub(crate) fn lines(coefficients: &Coefficients) -> Vec<String> {
     let mut lines = Vec::new();
     for (slot, &(base, scale)) in coefficients.slots().iter().enumerate() {
         let Some(factors) = coefficients.monomials().get(base) else { continue };

@@ -9,7 +9,7 @@ use crate::expr::{Function, ParameterExpr};
 /// The value of `expr` as an expression of type `T`; `parameters[i]` is the expression of scalar
 /// parameter number i.
 #[must_use]
-pub fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> TokenStream {
+pub(crate) fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> TokenStream {
     let sub = |e: &ParameterExpr| expression(e, parameters);
     match expr {
         ParameterExpr::Rational(value) => {

@@ -8,7 +8,7 @@ use super::group::group_type;
 use crate::lie::{Chart, LieAlgebra};
 
 /// The types that emitted items mention, and the items that define them.
-pub struct Types {
+pub(crate) struct Types {
     /// The dimension of the algebra.
     pub dim: usize,
     /// The group, over the scalar `T`.
@@ -32,7 +32,7 @@ pub struct Types {
 impl Types {
     /// The types for this algebra and chart.
     #[must_use]
-    pub fn new(algebra: &LieAlgebra, chart: Chart, options: &Options) -> Self {
+    pub(crate) fn new(algebra: &LieAlgebra, chart: Chart, options: &Options) -> Self {
         let Options { krate, visibility, name, .. } = options;
         let dim = algebra.dim();
         let n = Literal::usize_unsuffixed(dim);

@@ -30,7 +30,7 @@ impl Scope<'_> {
     ///
     /// # Errors
     /// The mistake of using it, where it is not known.
-    pub fn get(&self, name: &str) -> Result<Name, Mistake> {
+    pub(crate) fn get(&self, name: &str) -> Result<Name, Mistake> {
         if let Some((_, value)) = self.indices.iter().find(|(index, _)| index == name) {
             return Ok(Name::Number(integer(*value)));
         }
@@ -58,7 +58,7 @@ impl Scope<'_> {
 
     /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses, in indices of sums and
     /// parameters that are integers; `%` is never negative, so that `(i - 1) % 64` goes round a ring.
-    pub fn integer(&self, text: &str) -> Option<i64> {
+    pub(crate) fn integer(&self, text: &str) -> Option<i64> {
         // They are read by recursion.
         if text.matches(['(', '[']).count() > MOST_NESTED {
             return None;

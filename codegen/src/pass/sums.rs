@@ -19,7 +19,12 @@ type Sum = Vec<(Monomial, Rational)>;
 /// Makes every sum of symbols in the frame's rest, 1/I₁ − 1/I₂ say, a symbol of its own, of which the
 /// series would expand the powers. New symbols are appended to `symbols`; `names` are those of the
 /// parameters. Proportional sums share a symbol.
-pub fn name_sums(frame: &Frame, dim: usize, symbols: &mut Vec<Symbol>, names: &[String]) -> Frame {
+pub(crate) fn name_sums(
+    frame: &Frame,
+    dim: usize,
+    symbols: &mut Vec<Symbol>,
+    names: &[String],
+) -> Frame {
     let mut grouped: BTreeMap<Monomial, Sum> = BTreeMap::new();
     for (factors, value) in frame.rest.factors() {
         let (momenta, own) = split_at(&factors, dim);

@@ -14,7 +14,7 @@ const SIDE: usize = 3;
 /// that eliminate, above what is left of the matrix. The last pivot is kept as its adjugate, and the
 /// inverse of its determinant returned: so the solve need not wait for that division.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub fn factor<T: Scalar, M>(n: usize, a: &mut M) -> T
+pub(crate) fn factor<T: Scalar, M>(n: usize, a: &mut M) -> T
 where
     M: IndexMut<(usize, usize), Output = T>,
 {
@@ -55,7 +55,7 @@ where
 
 /// Solves by the factors and what [`factor`] returned, in place.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub fn solve<T: Scalar, M, V>(n: usize, a: &M, last: T, b: &mut V)
+pub(crate) fn solve<T: Scalar, M, V>(n: usize, a: &M, last: T, b: &mut V)
 where
     M: Index<(usize, usize), Output = T>,
     V: IndexMut<usize, Output = T>,

@@ -20,10 +20,10 @@ const SUBSTEPS: f64 = 48.0;
 const TERMS: usize = 30;
 
 /// Square matrices of the algebra's dimension.
-pub type Matrix<K> = <<K as Tables>::Vector as Coordinates<<K as Tables>::Scalar>>::Matrix;
+pub(crate) type Matrix<K> = <<K as Tables>::Vector as Coordinates<<K as Tables>::Scalar>>::Matrix;
 
 /// φ(A)μ and exp(A)μ.
-pub struct Action<V> {
+pub(crate) struct Action<V> {
     pub phi: V,
     pub exp: V,
 }

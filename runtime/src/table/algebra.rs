@@ -85,7 +85,11 @@ pub trait Tables: Clone + Debug {
 }
 
 /// c·∏ μ_i^power
-pub fn monomial<T: Scalar, V: Coordinates<T>>(c: f64, factors: &[(usize, u32)], mu: &V) -> T {
+pub(crate) fn monomial<T: Scalar, V: Coordinates<T>>(
+    c: f64,
+    factors: &[(usize, u32)],
+    mu: &V,
+) -> T {
     let mut product = T::of(c);
     for &(i, power) in factors {
         for _ in 0..power {

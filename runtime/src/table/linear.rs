@@ -5,12 +5,12 @@ use core::ops::IndexMut;
 use crate::number::scalar::Scalar;
 
 /// The operations of a square matrix that the functions below need.
-pub trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}
+pub(crate) trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}
 impl<T, M: Clone + IndexMut<(usize, usize), Output = T>> Square<T> for M {}
 
 /// Sets every entry of an n×n matrix to `entry(row, column)`.
 #[inline(always)]
-pub fn fill<T: Scalar, M: Square<T>>(
+pub(crate) fn fill<T: Scalar, M: Square<T>>(
     n: usize,
     m: &mut M,
     mut entry: impl FnMut(usize, usize) -> T,
@@ -23,7 +23,7 @@ pub fn fill<T: Scalar, M: Square<T>>(
 }
 
 /// The identity, of the size and type of `like`.
-pub fn identity<T: Scalar, M: Square<T>>(n: usize, like: &M) -> M {
+pub(crate) fn identity<T: Scalar, M: Square<T>>(n: usize, like: &M) -> M {
     let mut result = like.clone();
     fill(n, &mut result, |i, j| T::of(if i == j { 1.0 } else { 0.0 }));
     result
@@ -31,7 +31,7 @@ pub fn identity<T: Scalar, M: Square<T>>(n: usize, like: &M) -> M {
 
 /// a·b
 #[inline(always)]
-pub fn multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+pub(crate) fn multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| dot(n, |k| (a[(i, k)], b[(k, j)])));
     result
@@ -39,7 +39,7 @@ pub fn multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
 
 /// aᵀ·b
 #[inline(always)]
-pub fn transpose_multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+pub(crate) fn transpose_multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| dot(n, |k| (a[(k, i)], b[(k, j)])));
     result
@@ -47,7 +47,7 @@ pub fn transpose_multiply<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M 
 
 /// a·bᵀ
 #[inline(always)]
-pub fn multiply_transpose<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
+pub(crate) fn multiply_transpose<T: Scalar, M: Square<T>>(n: usize, a: &M, b: &M) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| dot(n, |k| (a[(i, k)], b[(j, k)])));
     result
@@ -65,28 +65,28 @@ fn dot<T: Scalar>(n: usize, pair: impl Fn(usize) -> (T, T)) -> T {
 }
 
 /// aᵀ
-pub fn transpose<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
+pub(crate) fn transpose<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| a[(j, i)]);
     result
 }
 
 /// a + s·b
-pub fn plus_scaled<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T, b: &M) -> M {
+pub(crate) fn plus_scaled<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T, b: &M) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| b[(i, j)].times_plus(s, a[(i, j)]));
     result
 }
 
 /// s·a
-pub fn scale<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T) -> M {
+pub(crate) fn scale<T: Scalar, M: Square<T>>(n: usize, a: &M, s: T) -> M {
     let mut result = a.clone();
     fill(n, &mut result, |i, j| a[(i, j)] * s);
     result
 }
 
 /// The largest absolute entry, per lane.
-pub fn largest_entry<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
+pub(crate) fn largest_entry<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
     let mut largest = T::of(0.0);
     for j in 0..n {
         for i in 0..n {
@@ -97,7 +97,7 @@ pub fn largest_entry<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
 }
 
 /// The largest row sum of absolute entries, per lane; NaN where an entry is NaN.
-pub fn row_sum_norm<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
+pub(crate) fn row_sum_norm<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
     let mut largest = T::of(0.0);
     let mut poison = T::of(0.0);
     for i in 0..n {
@@ -113,7 +113,7 @@ pub fn row_sum_norm<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
 
 /// a⁻¹ by Gauss–Jordan elimination with partial pivoting, each lane choosing its own pivots by
 /// masked row exchange. A singular matrix gives non-finite entries.
-pub fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
+pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
     let mut left = a.clone();
     let mut right = identity(n, a);
     for k in 0..n {
@@ -149,7 +149,7 @@ pub fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
 
 /// How often a matrix or vector field of this norm must be halved to come below `limit`, taken
 /// over all lanes; `None` where the norm is not finite.
-pub fn halvings<T: Scalar>(norm: T, limit: f64) -> Option<u32> {
+pub(crate) fn halvings<T: Scalar>(norm: T, limit: f64) -> Option<u32> {
     let mut norm = norm.largest_lane();
     if !norm.is_finite() {
         return None;
@@ -163,7 +163,7 @@ pub fn halvings<T: Scalar>(norm: T, limit: f64) -> Option<u32> {
 }
 
 /// 2⁻ᵏ
-pub fn half_power<T: Scalar>(k: u32) -> T {
+pub(crate) fn half_power<T: Scalar>(k: u32) -> T {
     let half = T::of(0.5);
     let mut result = T::of(1.0);
     for _ in 0..k {

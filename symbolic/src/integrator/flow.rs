@@ -18,10 +18,10 @@ use crate::poly::Polynomial;
 use crate::problem::Problem;
 
 /// The degrees in h to which x can be had.
-pub const DEGREES: [usize; 3] = [4, 6, 8];
+pub(crate) const DEGREES: [usize; 3] = [4, 6, 8];
 
 /// μ′ ↦ x up to h^degree, degree four, six or eight.
-pub fn increment_program(
+pub(crate) fn increment_program(
     coefficients: &mut Coefficients,
     problem: &Problem,
     degree: usize,

@@ -5,7 +5,11 @@ use super::terms::{BaseTerm, by_coordinate, value, weighted};
 use crate::graph::{Graph, Id, Program, lower};
 
 /// S(p).
-pub fn value_program(coefficients: &mut Coefficients, dim: usize, terms: &[BaseTerm]) -> Program {
+pub(crate) fn value_program(
+    coefficients: &mut Coefficients,
+    dim: usize,
+    terms: &[BaseTerm],
+) -> Program {
     let polynomial = value(coefficients, terms);
     let mut graph = Graph::new();
     let output = lower(&mut graph, &polynomial);
@@ -13,7 +17,7 @@ pub fn value_program(coefficients: &mut Coefficients, dim: usize, terms: &[BaseT
 }
 
 /// Several polynomials of the same inputs: the predictor's components.
-pub fn vector_program(
+pub(crate) fn vector_program(
     coefficients: &mut Coefficients,
     dim: usize,
     components: &[Vec<BaseTerm>],
@@ -30,7 +34,7 @@ pub fn vector_program(
 }
 
 /// ∂S/∂p, lowered once for all programs that have it.
-pub struct Gradient<'a> {
+pub(crate) struct Gradient<'a> {
     with: Vec<Vec<&'a BaseTerm>>,
     graph: Graph,
     entries: Vec<GradientEntry>,
@@ -38,7 +42,7 @@ pub struct Gradient<'a> {
 
 impl<'a> Gradient<'a> {
     /// That of these terms.
-    pub fn new(coefficients: &mut Coefficients, dim: usize, terms: &'a [BaseTerm]) -> Self {
+    pub(crate) fn new(coefficients: &mut Coefficients, dim: usize, terms: &'a [BaseTerm]) -> Self {
         let with = by_coordinate(terms, dim);
         let mut graph = Graph::new();
         let entries = with
@@ -50,14 +54,14 @@ impl<'a> Gradient<'a> {
     }
 
     /// ∂S/∂p alone.
-    pub fn program(self) -> Program {
+    pub(crate) fn program(self) -> Program {
         let outputs: Vec<Id> = self.entries.iter().map(|entry| entry.gradient).collect();
         self.graph.finish(self.entries.len(), &outputs)
     }
 
     /// ∂S/∂p and the upper triangle of ∂²S/∂p², row by row; the Hessian only from terms S_k with
     /// k ≤ `truncation`.
-    pub fn with_hessian(&self, coefficients: &mut Coefficients, truncation: u32) -> Program {
+    pub(crate) fn with_hessian(&self, coefficients: &mut Coefficients, truncation: u32) -> Program {
         let Self { with, entries, .. } = self;
         let mut graph = self.graph.clone();
         let dim = entries.len();
@@ -123,7 +127,7 @@ pub struct DefectTerm {
 
 /// The part that [`Gradient::with_hessian`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
 /// |p| being the Euclidean norm.
-pub fn defect(
+pub(crate) fn defect(
     coefficients: &mut Coefficients,
     terms: &[BaseTerm],
     hessian_truncation: u32,

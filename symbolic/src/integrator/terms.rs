@@ -29,7 +29,7 @@ impl BaseTerm {
 
 /// Collects Σ h^power · polynomial into terms over the first `dim` variables, the other variables
 /// (opaque symbols) going into base coefficients.
-pub fn collect<'a>(
+pub(crate) fn collect<'a>(
     coefficients: &mut Coefficients,
     dim: usize,
     orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
@@ -58,7 +58,7 @@ pub fn collect<'a>(
 }
 
 /// For each coordinate the terms in which it occurs.
-pub fn by_coordinate(terms: &[BaseTerm], dim: usize) -> Vec<Vec<&BaseTerm>> {
+pub(crate) fn by_coordinate(terms: &[BaseTerm], dim: usize) -> Vec<Vec<&BaseTerm>> {
     let mut result = vec![Vec::new(); dim];
     for term in terms {
         for &(coordinate, _) in &term.factors {
@@ -69,7 +69,7 @@ pub fn by_coordinate(terms: &[BaseTerm], dim: usize) -> Vec<Vec<&BaseTerm>> {
 }
 
 /// The polynomial itself, over slots.
-pub fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynomial {
+pub(crate) fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynomial {
     terms
         .iter()
         .map(|term| SlotTerm {
@@ -81,7 +81,7 @@ pub fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynom
 
 /// The terms of Σ weight(m) C_m p^{m − shift}: derivatives, and the parts of derivatives that are
 /// shared. Terms of weight 0 vanish; `weight` must be 0 wherever an exponent is below its shift.
-pub fn weighted<'a>(
+pub(crate) fn weighted<'a>(
     coefficients: &mut Coefficients,
     terms: impl IntoIterator<Item = &'a BaseTerm>,
     shift: &[(usize, u32)],

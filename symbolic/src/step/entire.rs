@@ -8,7 +8,7 @@ const MOST: usize = 64;
 /// Σ cₖ tᵏ for 0 ≤ t ≤ `reach`, where terms below `accuracy` times the first are left out.
 ///
 /// In pairs and pairs of pairs (G. Estrin, 1960), since a chain of fused products is as slow as it is long.
-pub fn series(
+pub(crate) fn series(
     graph: &mut Graph,
     t: Id,
     reach: f64,
@@ -55,7 +55,7 @@ const NEWTON: f64 = 1e-10;
 
 /// The functions of θ² = t that rotations need, for angles up to a limit.
 #[derive(Clone, Copy, Debug)]
-pub struct Angle {
+pub(crate) struct Angle {
     /// t = θ².
     pub t: Id,
     /// The largest t.
@@ -64,45 +64,45 @@ pub struct Angle {
 
 impl Angle {
     /// cos(θ/2)
-    pub fn half_cosine(self, graph: &mut Graph) -> Id {
+    pub(crate) fn half_cosine(self, graph: &mut Graph) -> Id {
         self.exact(graph, |k| 0.25_f64.powi(k as i32) * alternating(k, 2 * k))
     }
 
     /// sin(θ/2)/θ
-    pub fn half_sine(self, graph: &mut Graph) -> Id {
+    pub(crate) fn half_sine(self, graph: &mut Graph) -> Id {
         self.exact(graph, |k| 0.5 * 0.25_f64.powi(k as i32) * alternating(k, 2 * k + 1))
     }
 
     /// b = (1 − cos θ)/θ²
-    pub fn b(self, graph: &mut Graph) -> Id {
+    pub(crate) fn b(self, graph: &mut Graph) -> Id {
         self.exact(graph, |k| alternating(k, 2 * k + 2))
     }
 
     /// c = (θ − sin θ)/θ³
-    pub fn c(self, graph: &mut Graph) -> Id {
+    pub(crate) fn c(self, graph: &mut Graph) -> Id {
         self.exact(graph, |k| alternating(k, 2 * k + 3))
     }
 
     /// db/dt, to what `accuracy` asks for.
-    pub fn b_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+    pub(crate) fn b_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
         let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 4);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
     /// dc/dt, to what `accuracy` asks for.
-    pub fn c_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+    pub(crate) fn c_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
         let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 5);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
     /// d²b/dt², for Newton's method.
-    pub fn b_curvature(self, graph: &mut Graph) -> Id {
+    pub(crate) fn b_curvature(self, graph: &mut Graph) -> Id {
         let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
 
     /// d²c/dt², for Newton's method.
-    pub fn c_curvature(self, graph: &mut Graph) -> Id {
+    pub(crate) fn c_curvature(self, graph: &mut Graph) -> Id {
         let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
@@ -114,7 +114,7 @@ impl Angle {
 
 /// The use of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Accuracy {
+pub(crate) enum Accuracy {
     /// The equation of a step, or what it conserves.
     Rounding,
     /// A derivative for Newton's method.
@@ -123,7 +123,7 @@ pub enum Accuracy {
 
 impl Accuracy {
     /// The truncation error allowed, relative to the first term.
-    pub fn left_out(self) -> f64 {
+    pub(crate) fn left_out(self) -> f64 {
         match self {
             Self::Rounding => ROUNDING,
             Self::Newton => NEWTON,
@@ -133,7 +133,7 @@ impl Accuracy {
 
 /// The functions of an angle of any size: t = θ² up to 2⁵⁰.
 #[derive(Clone, Copy, Debug)]
-pub struct WideAngle {
+pub(crate) struct WideAngle {
     /// cos(θ/2)
     pub half_cosine: Id,
     /// sin(θ/2)/θ
@@ -146,7 +146,7 @@ pub struct WideAngle {
 
 impl WideAngle {
     /// The functions at t.
-    pub fn new(graph: &mut Graph, t: Id) -> Self {
+    pub(crate) fn new(graph: &mut Graph, t: Id) -> Self {
         // 2π in two pieces, so that a fused product takes whole turns off without rounding.
         const TURN: f64 = std::f64::consts::TAU;
         const REST: f64 = 2.449_293_598_294_706_4e-16;

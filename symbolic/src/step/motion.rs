@@ -14,7 +14,7 @@ use crate::step::vector::{
 
 /// The motions of space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Motion {
+pub(crate) struct Motion {
     /// The chart.
     pub chart: Chart,
 }

@@ -4,12 +4,12 @@ use crate::graph::{Graph, Id};
 use crate::step::vector::Matrix;
 
 /// [`Part::estimated`] where nothing better is known.
-pub const ESTIMATED: f64 = 1.0 / 3.0;
+pub(crate) const ESTIMATED: f64 = 1.0 / 3.0;
 
 /// A factor of a group, with the chart of a step: what programs of a step are built of.
 ///
 /// Coordinates x and μ have n entries, a group element m numbers. Conventions are those of the runtime's `LieGroup`.
-pub trait Part: std::fmt::Debug + Send + Sync {
+pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     /// n, the dimension.
     fn dim(&self) -> usize;
 
@@ -67,7 +67,7 @@ pub trait Part: std::fmt::Debug + Send + Sync {
 
 /// A state moved on.
 #[derive(Clone, Debug)]
-pub struct Moved {
+pub(crate) struct Moved {
     /// The group element.
     pub g: Vec<Id>,
     /// The momentum.

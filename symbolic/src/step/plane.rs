@@ -8,7 +8,7 @@ use crate::step::vector::Matrix;
 
 /// The motions of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plane {
+pub(crate) struct Plane {
     /// The chart.
     pub chart: Chart,
 }

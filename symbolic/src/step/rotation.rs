@@ -7,11 +7,11 @@ use crate::step::part::{ESTIMATED, Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, sum, three};
 
 /// The largest θ² of a step: a quarter turn, and what is beyond it by rounding. Longer ones are not accepted at once.
-pub const QUARTER_TURN: f64 = 2.5;
+pub(crate) const QUARTER_TURN: f64 = 2.5;
 
 /// The rotations of space, or their double cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rotation {
+pub(crate) struct Rotation {
     /// The chart.
     pub chart: Chart,
     /// Whether elements tell x from x + 2π.
@@ -19,7 +19,7 @@ pub struct Rotation {
 }
 
 /// b, c and their derivatives at θ², for (d^R exp_x)ᵀ.
-pub struct Dexp {
+pub(crate) struct Dexp {
     pub b: Id,
     pub c: Id,
     pub b_slope: Id,
@@ -28,7 +28,7 @@ pub struct Dexp {
 
 impl Dexp {
     /// The four functions.
-    pub fn new(graph: &mut Graph, angle: Angle, slopes: Accuracy) -> Self {
+    pub(crate) fn new(graph: &mut Graph, angle: Angle, slopes: Accuracy) -> Self {
         Self {
             b: angle.b(graph),
             c: angle.c(graph),
@@ -39,7 +39,7 @@ impl Dexp {
 }
 
 /// μ + b μ×x + c (μ×x)×x
-pub fn dexp_transpose(graph: &mut Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
+pub(crate) fn dexp_transpose(graph: &mut Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
     let once = cross(graph, mu, x);
     let twice = cross(graph, &once, x);
     let near = plus(graph, mu, b, &once);
@@ -47,7 +47,7 @@ pub fn dexp_transpose(graph: &mut Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
 }
 
 /// [`dexp_transpose`] and its derivative in x.
-pub fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3, Matrix) {
+pub(crate) fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3, Matrix) {
     let once = cross(graph, mu, x);
     let twice = cross(graph, &once, x);
     let near = plus(graph, mu, k.b, &once);
@@ -70,7 +70,7 @@ pub fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3
 }
 
 /// The matrix of v ↦ turn × v + diagonal·v.
-pub fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
+pub(crate) fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
     let back = minus(graph, turn);
     let rows =
         [[diagonal, back[2], turn[1]], [turn[2], diagonal, back[0]], [back[1], turn[0], diagonal]];
@@ -78,7 +78,7 @@ pub fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
 }
 
 /// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
-pub fn rotate_back(graph: &mut Graph, w: Id, u: &V3, v: &V3) -> V3 {
+pub(crate) fn rotate_back(graph: &mut Graph, w: Id, u: &V3, v: &V3) -> V3 {
     let two = graph.constant(2.0);
     let once = cross(graph, v, u);
     let twice = scaled(graph, two, &once);
@@ -89,7 +89,7 @@ pub fn rotate_back(graph: &mut Graph, w: Id, u: &V3, v: &V3) -> V3 {
 
 /// The product of unit quaternions, pulled back onto the unit sphere to first order, so that rounding does not
 /// accumulate in the norm over many steps.
-pub fn compose(graph: &mut Graph, a: &[Id], w: Id, u: &V3) -> Vec<Id> {
+pub(crate) fn compose(graph: &mut Graph, a: &[Id], w: Id, u: &V3) -> Vec<Id> {
     let vector = three(a, 1);
     let back = dot(graph, &vector, u);
     let back = graph.neg(back);
@@ -105,7 +105,7 @@ pub fn compose(graph: &mut Graph, a: &[Id], w: Id, u: &V3) -> Vec<Id> {
 }
 
 /// The matrix of R(q).
-pub fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
+pub(crate) fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
     let (w, back) = (q[0], three(q, 1));
     let back = minus(graph, &back);
     let (zero, one) = (graph.zero(), graph.constant(1.0));
@@ -115,7 +115,7 @@ pub fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
 }
 
 /// The unit quaternion of a rotation matrix, row by row with `stride` numbers a row (S. Shepperd, J. Guidance 1, 1978).
-pub fn quaternion_of(matrix: &[f64], stride: usize) -> Vec<f64> {
+pub(crate) fn quaternion_of(matrix: &[f64], stride: usize) -> Vec<f64> {
     let m = |i: usize, j: usize| matrix.get(i * stride + j).copied().unwrap_or(0.0);
     let trace = m(0, 0) + m(1, 1) + m(2, 2);
     let squares = [trace, m(0, 0), m(1, 1), m(2, 2)];
@@ -141,7 +141,7 @@ impl Rotation {
     }
 
     /// τ(x) as a quaternion.
-    pub fn increment(self, graph: &mut Graph, x: &V3) -> (Id, V3) {
+    pub(crate) fn increment(self, graph: &mut Graph, x: &V3) -> (Id, V3) {
         match self.chart {
             Chart::Exponential => {
                 let angle = self.angle(graph, x);

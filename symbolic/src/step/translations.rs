@@ -7,7 +7,7 @@ use crate::step::vector::{Matrix, finite};
 /// The translations of n dimensions. They commute, so that μ stays, both charts are the same, and a step may be of any
 /// length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Translations {
+pub(crate) struct Translations {
     /// n.
     pub dim: usize,
 }

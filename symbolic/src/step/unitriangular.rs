@@ -7,7 +7,7 @@ use crate::step::vector::{Matrix, finite};
 /// The upper unitriangular matrices of three rows. Cubes of what is above the diagonal vanish, so that the series of the
 /// exponential end, and Cayley's chart is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unitriangular;
+pub(crate) struct Unitriangular;
 
 /// μ + s·ad_xᵀ μ = (μ₁ − s x₂ μ₃, μ₂ + s x₁ μ₃, μ₃)
 fn turned(graph: &mut Graph, s: f64, x: &[Id], mu: &[Id]) -> Vec<Id> {

@@ -3,15 +3,15 @@
 use crate::graph::{Graph, Id};
 
 /// A vector of three nodes.
-pub type V3 = [Id; 3];
+pub(crate) type V3 = [Id; 3];
 
 /// The three entries from `at` on.
-pub fn three(list: &[Id], at: usize) -> V3 {
+pub(crate) fn three(list: &[Id], at: usize) -> V3 {
     [list[at], list[at + 1], list[at + 2]]
 }
 
 /// a × b
-pub fn cross(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
+pub(crate) fn cross(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
     let mut entry = |i: usize, j: usize| {
         let product = graph.mul(a[i], b[j]);
         let minus = graph.neg(a[j]);
@@ -21,7 +21,7 @@ pub fn cross(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
 }
 
 /// Σ aᵢ bᵢ
-pub fn dot(graph: &mut Graph, a: &[Id], b: &[Id]) -> Id {
+pub(crate) fn dot(graph: &mut Graph, a: &[Id], b: &[Id]) -> Id {
     let mut sum = graph.zero();
     for (&a, &b) in a.iter().zip(b) {
         sum = graph.times_plus(a, b, sum);
@@ -30,78 +30,82 @@ pub fn dot(graph: &mut Graph, a: &[Id], b: &[Id]) -> Id {
 }
 
 /// a + s·b
-pub fn plus(graph: &mut Graph, a: &V3, s: Id, b: &V3) -> V3 {
+pub(crate) fn plus(graph: &mut Graph, a: &V3, s: Id, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.times_plus(b[i], s, a[i]))
 }
 
 /// a + b
-pub fn sum(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
+pub(crate) fn sum(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.add(a[i], b[i]))
 }
 
 /// a − b
-pub fn difference(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
+pub(crate) fn difference(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.sub(a[i], b[i]))
 }
 
 /// s·a
-pub fn scaled(graph: &mut Graph, s: Id, a: &V3) -> V3 {
+pub(crate) fn scaled(graph: &mut Graph, s: Id, a: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.mul(a[i], s))
 }
 
 /// −a
-pub fn minus(graph: &mut Graph, a: &V3) -> V3 {
+pub(crate) fn minus(graph: &mut Graph, a: &V3) -> V3 {
     a.map(|entry| graph.neg(entry))
 }
 
 /// A matrix of nodes, row by row.
 #[derive(Clone, Debug)]
-pub struct Matrix {
+pub(crate) struct Matrix {
     columns: usize,
     entries: Vec<Id>,
 }
 
 impl Matrix {
     /// The matrix whose entry (row, column) is `entry(row, column)`.
-    pub fn new(rows: usize, columns: usize, mut entry: impl FnMut(usize, usize) -> Id) -> Self {
+    pub(crate) fn new(
+        rows: usize,
+        columns: usize,
+        mut entry: impl FnMut(usize, usize) -> Id,
+    ) -> Self {
         let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
         Self { columns, entries: places.map(|(i, j)| entry(i, j)).collect() }
     }
 
     /// A matrix of zeros.
-    pub fn zeros(graph: &mut Graph, rows: usize, columns: usize) -> Self {
+    pub(crate) fn zeros(graph: &mut Graph, rows: usize, columns: usize) -> Self {
         let zero = graph.zero();
         Self { columns, entries: vec![zero; rows * columns] }
     }
 
     /// The entry (row, column).
-    pub fn at(&self, row: usize, column: usize) -> Id {
+    pub(crate) fn at(&self, row: usize, column: usize) -> Id {
         self.entries[row * self.columns + column]
     }
 
     /// Sets the entry (row, column).
-    pub fn set(&mut self, row: usize, column: usize, value: Id) {
+    pub(crate) fn set(&mut self, row: usize, column: usize, value: Id) {
         self.entries[row * self.columns + column] = value;
     }
 
     /// How many rows.
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.entries.len() / self.columns.max(1)
     }
 
     /// All entries, row by row.
-    pub fn entries(&self) -> &[Id] {
+    pub(crate) fn entries(&self) -> &[Id] {
         &self.entries
     }
 
     /// self · v
-    pub fn apply(&self, graph: &mut Graph, v: &[Id]) -> Vec<Id> {
+    pub(crate) fn apply(&self, graph: &mut Graph, v: &[Id]) -> Vec<Id> {
         let row = |row: &[Id]| dot(graph, row, v);
         self.entries.chunks(self.columns.max(1)).map(row).collect()
     }
 
     /// self · other
-    pub fn times(&self, graph: &mut Graph, other: &Self) -> Self {
+    pub(crate) fn times(&self, graph: &mut Graph, other: &Self) -> Self {
         Self::new(self.rows(), other.columns, |i, j| {
             let mut sum = graph.zero();
             for k in 0..self.columns {
@@ -112,14 +116,14 @@ impl Matrix {
     }
 
     /// self + s·other
-    pub fn plus(&self, graph: &mut Graph, s: Id, other: &Self) -> Self {
+    pub(crate) fn plus(&self, graph: &mut Graph, s: Id, other: &Self) -> Self {
         let entries = self.entries.iter().zip(&other.entries);
         let entries = entries.map(|(&a, &b)| graph.times_plus(b, s, a)).collect();
         Self { columns: self.columns, entries }
     }
 
     /// Whether every entry is the number 0, known without any input.
-    pub fn is_zero(&self, graph: &Graph) -> bool {
+    pub(crate) fn is_zero(&self, graph: &Graph) -> bool {
         self.entries.iter().all(|&entry| graph.is_zero(entry))
     }
 }
@@ -127,7 +131,7 @@ impl Matrix {
 /// A matrix eliminated without exchanges of rows: for matrices near the identity, which those of a step's equation are
 /// where it is accepted.
 #[derive(Clone, Debug)]
-pub struct Eliminated {
+pub(crate) struct Eliminated {
     /// Above the diagonal the rows that are left, below it what multiples of rows were added to others.
     rows: Matrix,
     /// The inverses of the pivots.
@@ -136,7 +140,7 @@ pub struct Eliminated {
 
 impl Eliminated {
     /// Eliminates a square matrix.
-    pub fn new(graph: &mut Graph, matrix: &Matrix) -> Self {
+    pub(crate) fn new(graph: &mut Graph, matrix: &Matrix) -> Self {
         let n = matrix.rows();
         let mut a = matrix.clone();
         let one = graph.constant(1.0);
@@ -161,7 +165,7 @@ impl Eliminated {
     }
 
     /// The solution y of `matrix` · y = b.
-    pub fn solve(&self, graph: &mut Graph, b: &[Id]) -> Vec<Id> {
+    pub(crate) fn solve(&self, graph: &mut Graph, b: &[Id]) -> Vec<Id> {
         let n = b.len();
         let mut y = b.to_vec();
         for pivot in 0..n {
@@ -181,7 +185,7 @@ impl Eliminated {
     }
 
     /// The same with other names for the numbers it is made of.
-    pub fn map(&self, mut rename: impl FnMut(Id) -> Id) -> Self {
+    pub(crate) fn map(&self, mut rename: impl FnMut(Id) -> Id) -> Self {
         let n = self.inverses.len();
         // The diagonal is not used.
         let entry = |i: usize, j: usize| {
@@ -195,12 +199,12 @@ impl Eliminated {
 }
 
 /// The solution of `matrix` · y = b by [elimination](Eliminated).
-pub fn solve(graph: &mut Graph, matrix: &Matrix, b: &[Id]) -> Vec<Id> {
+pub(crate) fn solve(graph: &mut Graph, matrix: &Matrix, b: &[Id]) -> Vec<Id> {
     Eliminated::new(graph, matrix).solve(graph, b)
 }
 
 /// The largest |entry|.
-pub fn largest(graph: &mut Graph, list: &[Id]) -> Id {
+pub(crate) fn largest(graph: &mut Graph, list: &[Id]) -> Id {
     let mut largest = graph.zero();
     for &entry in list {
         let size = graph.abs(entry);
@@ -210,7 +214,7 @@ pub fn largest(graph: &mut Graph, list: &[Id]) -> Id {
 }
 
 /// Zero where all entries are finite, else not a number.
-pub fn finite(graph: &mut Graph, list: &[Id]) -> Id {
+pub(crate) fn finite(graph: &mut Graph, list: &[Id]) -> Id {
     let mut sum = graph.zero();
     for &entry in list {
         let nothing = graph.sub(entry, entry);
@@ -220,7 +224,7 @@ pub fn finite(graph: &mut Graph, list: &[Id]) -> Id {
 }
 
 /// The smaller of 1 and 0: 1 where every pair (a, b) has a ≤ b.
-pub fn all_at_most(graph: &mut Graph, pairs: &[(Id, Id)]) -> Id {
+pub(crate) fn all_at_most(graph: &mut Graph, pairs: &[(Id, Id)]) -> Id {
     let (zero, one) = (graph.zero(), graph.constant(1.0));
     let mut verdict = one;
     for &(a, b) in pairs.iter().rev() {

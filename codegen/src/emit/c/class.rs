@@ -6,7 +6,7 @@ use crate::integrator::Integrator;
 use crate::step::Step;
 
 /// The class, for compilers of C++ alone.
-pub fn class(integrator: &Integrator, step: &Step, names: &Names) -> String {
+pub(crate) fn class(integrator: &Integrator, step: &Step, names: &Names) -> String {
     let with = !integrator.problem.parameters.is_empty();
     let text = CLASS
         .replace("/*PARAMETERS*/", if with { PARAMETERS } else { "" })

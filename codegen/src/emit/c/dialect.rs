@@ -9,7 +9,7 @@ use super::names::Names;
 
 /// The dialect of headers.
 #[derive(Clone, Debug)]
-pub struct Portable {
+pub(crate) struct Portable {
     /// The header of C it is based on.
     pub c: C,
     /// The place of each coefficient that is read.
@@ -18,7 +18,7 @@ pub struct Portable {
 
 impl Portable {
     /// The dialect for these names.
-    pub fn new(names: &Names, places: BTreeMap<usize, usize>) -> Self {
+    pub(crate) fn new(names: &Names, places: BTreeMap<usize, usize>) -> Self {
         let restrict = format!("{}_RESTRICT", names.upper);
         let c = C {
             head: "static inline void".into(),
@@ -33,7 +33,7 @@ impl Portable {
 
 /// The shortest decimals that are read as this number.
 #[must_use]
-pub fn decimal(value: f64) -> String {
+pub(crate) fn decimal(value: f64) -> String {
     if value.is_nan() {
         return "NAN".into();
     }

@@ -49,7 +49,7 @@ fn is_macro(name: &str) -> bool {
 
 /// The names of a header.
 #[derive(Debug)]
-pub struct Names {
+pub(crate) struct Names {
     /// The prefix of functions and types.
     pub lower: String,
     /// The prefix of macros and constants.
@@ -63,7 +63,7 @@ pub struct Names {
 
 impl Names {
     /// The names for a problem.
-    pub fn new(problem: &Problem, options: &HeaderOptions) -> Self {
+    pub(crate) fn new(problem: &Problem, options: &HeaderOptions) -> Self {
         let lower = prefix(&options.prefix);
         let mut taken = BTreeSet::new();
         let mut member = |name: &str| {
@@ -98,17 +98,17 @@ impl Names {
     }
 
     /// The macro that guards against including the header twice.
-    pub fn guard(&self) -> String {
+    pub(crate) fn guard(&self) -> String {
         format!("{}_{}", self.upper, self.ending)
     }
 
     /// The name of the file.
-    pub fn file(&self) -> String {
+    pub(crate) fn file(&self) -> String {
         format!("{}.{}", self.lower, self.ending.to_lowercase())
     }
 
     /// A template with its names put in: `@p@` and `@P@` for the prefix, `@G@` for the guard.
-    pub fn fill(&self, template: &str) -> String {
+    pub(crate) fn fill(&self, template: &str) -> String {
         template
             .replace("@p@", &self.lower)
             .replace("@P@", &self.upper)

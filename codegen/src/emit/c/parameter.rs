@@ -6,7 +6,7 @@ use crate::expr::{Function, ParameterExpr};
 use crate::problem::{Parameter, Shape};
 
 /// The scalars of the parameters as members of the structure `parameters`, in their order.
-pub fn scalars(parameters: &[Parameter], names: &Names) -> Vec<String> {
+pub(crate) fn scalars(parameters: &[Parameter], names: &Names) -> Vec<String> {
     let members = parameters.iter().zip(&names.parameters);
     members
         .flat_map(|(parameter, name)| {
@@ -28,7 +28,7 @@ fn index(shape: &Shape, i: usize) -> String {
 }
 
 /// A member of the structure of parameters.
-pub fn member(shape: &Shape, name: &str) -> String {
+pub(crate) fn member(shape: &Shape, name: &str) -> String {
     match shape {
         Shape::Scalar => format!("double {name}"),
         Shape::Array(n) | Shape::Vector(n) => format!("double {name}[{n}]"),
@@ -39,7 +39,7 @@ pub fn member(shape: &Shape, name: &str) -> String {
 }
 
 /// Whether a power is in an expression that C has to compute.
-pub fn has_power(expr: &ParameterExpr) -> bool {
+pub(crate) fn has_power(expr: &ParameterExpr) -> bool {
     match expr {
         ParameterExpr::Rational(_) | ParameterExpr::Parameter(_) => false,
         ParameterExpr::Add(a, b)
@@ -66,7 +66,7 @@ fn has_parameter(expr: &ParameterExpr) -> bool {
 }
 
 /// The value of `expr`; what has no parameter in it is a number already. `scalars` are the expressions of the parameters.
-pub fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names) -> String {
+pub(crate) fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names) -> String {
     let sub = |e: &ParameterExpr| expression(e, scalars, names);
     if !has_parameter(expr) {
         return decimal(expr.evaluate(&[]));

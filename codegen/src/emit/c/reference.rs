@@ -22,7 +22,7 @@ fn rows(step: &Step) -> usize {
 }
 
 /// Sizes, the status, and the structures.
-pub fn types(
+pub(crate) fn types(
     integrator: &Integrator,
     step: &Step,
     fold: &Fold,
@@ -81,7 +81,7 @@ pub fn types(
 }
 
 /// Functions of a state, and the status in words.
-pub fn functions(integrator: &Integrator, step: &Step, names: &Names) -> String {
+pub(crate) fn functions(integrator: &Integrator, step: &Step, names: &Names) -> String {
     let rows = rows(step);
     let identity: Vec<f64> =
         (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();

@@ -1,7 +1,7 @@
 //! Text of a header that is the same for all systems.
 
 /// Helpers of functions that follow.
-pub const HELPERS: &str = "
+pub(crate) const HELPERS: &str = "
 #if defined(__cplusplus)
 extern \"C\" {
 #endif
@@ -23,7 +23,7 @@ static inline bool @p@_internal_finite(const double *list, uint32_t length)
 ";
 
 /// The inverse of a matrix, for groups by tables.
-pub const INVERT: &str = "
+pub(crate) const INVERT: &str = "
 /* Internal: the inverse of a matrix of `n` rows, by rows; not finite where there is none. */
 static inline void @p@_internal_invert(const double *matrix, double *inverse, uint32_t n)
 {
@@ -71,14 +71,14 @@ static inline void @p@_internal_invert(const double *matrix, double *inverse, ui
 ";
 
 /// The end of what C and C++ share.
-pub const END_OF_C: &str = "
+pub(crate) const END_OF_C: &str = "
 #if defined(__cplusplus)
 }
 #endif
 ";
 
 /// Attitudes and momenta of states.
-pub const STATE: &str = "
+pub(crate) const STATE: &str = "
 /** The state at the group's identity with this momentum (@P@_DIMENSION numbers). */
 static inline void @p@_at_identity(@p@_state *state, const double *mu)
 {
@@ -120,7 +120,7 @@ static inline double @p@_energy(const @p@_map *map, const @p@_state *state)
 ";
 
 /// The Casimirs, where any of low degree are known.
-pub const CASIMIRS: &str = "
+pub(crate) const CASIMIRS: &str = "
 /** The Casimirs (@P@_CASIMIRS numbers). Every step conserves them to rounding. */
 static inline void @p@_casimirs(const @p@_state *state, double *casimirs)
 {
@@ -130,7 +130,7 @@ static inline void @p@_casimirs(const @p@_state *state, double *casimirs)
 ";
 
 /// A status in words.
-pub const TEXT: &str = "
+pub(crate) const TEXT: &str = "
 /** A status in words. */
 static inline const char *@p@_status_text(@p@_status status)
 {

@@ -44,7 +44,7 @@ mod table {
     macro_rules! coefficients {
         ($(#[$doc:meta])* $name:ident, $k:ident => $value:expr) => {
             $(#[$doc])*
-            pub const $name: [f64; TERMS] = {
+            pub(crate) const $name: [f64; TERMS] = {
                 let mut c = [0.0; TERMS];
                 let mut $k = 0;
                 while $k < TERMS {
@@ -101,14 +101,14 @@ mod table {
 }
 
 /// cos(θ/2) and sin(θ/2)/θ.
-pub struct HalfAngle<T> {
+pub(crate) struct HalfAngle<T> {
     pub cosine: T,
     pub sine_over_angle: T,
 }
 
 /// The half-angle functions at t = θ².
 #[inline(always)]
-pub fn half_angle<T: Scalar>(t: T) -> HalfAngle<T> {
+pub(crate) fn half_angle<T: Scalar>(t: T) -> HalfAngle<T> {
     let near = t.simd_le(T::of(NEAR));
     let mut result = HalfAngle {
         cosine: polynomial(&table::COSINE, t),
@@ -130,7 +130,7 @@ fn half_angle_far<T: Scalar>(t: T) -> HalfAngle<T> {
 }
 
 /// b = (1 − cos θ)/θ², c = (θ − sin θ)/θ³ and their derivatives in t.
-pub struct Dexp<T> {
+pub(crate) struct Dexp<T> {
     pub b: T,
     pub c: T,
     pub b_slope: T,
@@ -139,7 +139,7 @@ pub struct Dexp<T> {
 
 /// The functions of (d^R exp)ᵀ at t = θ².
 #[inline(always)]
-pub fn dexp<T: Scalar>(t: T) -> Dexp<T> {
+pub(crate) fn dexp<T: Scalar>(t: T) -> Dexp<T> {
     let near = t.simd_le(T::of(NEAR));
     let mut result = Dexp {
         b: polynomial(&table::B, t),
@@ -170,14 +170,14 @@ fn dexp_far<T: Scalar>(t: T) -> Dexp<T> {
 }
 
 /// The second derivatives of b and c in t, for the derivative of (d^R exp)ᵀ on se(3).
-pub struct DexpCurvature<T> {
+pub(crate) struct DexpCurvature<T> {
     pub b: T,
     pub c: T,
 }
 
 /// d²b/dt² and d²c/dt² at t = θ².
 #[inline(always)]
-pub fn dexp_curvature<T: Scalar>(t: T) -> DexpCurvature<T> {
+pub(crate) fn dexp_curvature<T: Scalar>(t: T) -> DexpCurvature<T> {
     let near = t.simd_le(T::of(NEAR));
     let mut result = DexpCurvature {
         b: polynomial(&table::B_CURVATURE, t),
@@ -210,19 +210,19 @@ fn dexp_curvature_far<T: Scalar>(t: T) -> DexpCurvature<T> {
 
 /// (1 − (θ/2) cot(θ/2))/θ², the function of (d^R exp)^{−T}; infinite at θ = 2π.
 #[inline(always)]
-pub fn dexp_inverse<T: Scalar>(t: T) -> T {
+pub(crate) fn dexp_inverse<T: Scalar>(t: T) -> T {
     dexp_inverse_with_slope(t).value
 }
 
 /// A function of t with its derivative.
-pub struct WithSlope<T> {
+pub(crate) struct WithSlope<T> {
     pub value: T,
     pub slope: T,
 }
 
 /// [`dexp_inverse`] and its derivative in t.
 #[inline(always)]
-pub fn dexp_inverse_with_slope<T: Scalar>(t: T) -> WithSlope<T> {
+pub(crate) fn dexp_inverse_with_slope<T: Scalar>(t: T) -> WithSlope<T> {
     // With s = sin(θ/2)/θ this is n/(2s), n = (2s − cos(θ/2))/t, where n has a
     // series without cancellation and s′ = −n/4.
     let near = t.simd_le(T::of(NEAR));
@@ -274,7 +274,7 @@ const SINE_MINUS_COSINE_SLOPE: [f64; TERMS] = {
 
 /// θ/sin(θ/2) for w = cos(θ/2) > −1 and s = sin²(θ/2): the factor from a quaternion's vector part
 /// to its logarithm.
-pub fn log_factor<T: Scalar>(w: T, s: T) -> T {
+pub(crate) fn log_factor<T: Scalar>(w: T, s: T) -> T {
     let root = s.simd_sqrt();
     let factor = T::of(2.0) * root.simd_atan2(w) / root;
     // For tiny s, θ/sin(θ/2) = 2 (1 + s/6 + …)/… and w is 1 to rounding.
