@@ -315,7 +315,7 @@ static inline void toutatis_internal_guess(const double *TOUTATIS_RESTRICT c, co
     k[1] = 0.0;
 }
 
-/* Internal: one correction of Newton's method. */
+/* Internal: one correction of p. */
 static inline void toutatis_internal_correct(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT p, const double *TOUTATIS_RESTRICT mu, const double *TOUTATIS_RESTRICT k, double *TOUTATIS_RESTRICT p_next, double *TOUTATIS_RESTRICT x, double *TOUTATIS_RESTRICT left, double *TOUTATIS_RESTRICT moved)
 {
     const double t8 = p[1] * p[1];
@@ -943,7 +943,7 @@ static inline toutatis_status toutatis_internal_reason(const double *c, const do
 static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[TOUTATIS_ELEMENT];

@@ -4,7 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Parameter, Problem, Solver, values};
+use coadjoint_codegen::problem::{Parameter, Problem, values};
 use coadjoint_codegen::step::{Invariants, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
@@ -102,16 +102,6 @@ impl System {
                 "give a number for each coordinate",
             )]);
         };
-        if problem.solver() == Solver::FixedPoint {
-            let most = Solver::NEWTON_DIMENSIONS;
-            return Err(vec![Mistake::of_all(
-                format!(
-                    "{} has {dim} dimensions. Beyond {most} the equation of a step is solved by the fixed point, which this page has no programs for.",
-                    problem.algebra.name()
-                ),
-                Some("copy the system file and run it with the command: coadjoint simulate FILE"),
-            )]);
-        }
         let integrator = Integrator::build(problem, LIMIT)
             .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];

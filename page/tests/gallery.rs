@@ -11,7 +11,7 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// A potential, 192 dimensions, and steps of 61 000 operations: nothing for a page.
+/// A potential, 192 dimensions, and steps of 61 000 operations: not for a page.
 const LEFT_OUT: [&str; 3] = ["satellite", "spin_chain_64", "zeitlin_5"];
 
 #[test]

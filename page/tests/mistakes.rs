@@ -104,15 +104,6 @@ fn several_mistakes_are_told_at_once() {
 #[test]
 fn what_a_page_cannot_do_is_refused_in_words() {
     let (_, found) = mistakes(|fields| {
-        fields.group = "SO3^9".into();
-        fields.hamiltonian = "sum(i, 0..9, z[i]^2 - x[i]*x[(i + 1) % 9])".into();
-        fields.coordinates = "x y z".into();
-        fields.momentum = "cos(i) sin(i) 1/2".into();
-        fields.parameters.clear();
-    });
-    assert!(found[0].message.contains("27 dimensions"), "{found:?}");
-    assert!(found[0].help.as_ref().unwrap().contains("coadjoint simulate"));
-    let (_, found) = mistakes(|fields| {
         fields.truncation = "31".into();
         fields.group = "SU3".into();
         fields.coordinates = "a b c d e f g h".into();

@@ -103,6 +103,15 @@ impl Solver {
     /// The names users write, `newton` and `fixed_point`.
     pub const NAMES: [&str; 2] = ["newton", "fixed_point"];
 
+    /// The default for a group of this dimension.
+    #[must_use]
+    pub fn of_dimension(dimension: usize) -> Self {
+        match dimension {
+            0..=Self::NEWTON_DIMENSIONS => Self::Newton,
+            _ => Self::FixedPoint,
+        }
+    }
+
     /// The solver of this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -191,11 +200,7 @@ impl Problem {
     /// The solver asked for, or the default for the dimension.
     #[must_use]
     pub fn solver(&self) -> Solver {
-        let by_dimension = match self.algebra.dim() {
-            n if n <= Solver::NEWTON_DIMENSIONS => Solver::Newton,
-            _ => Solver::FixedPoint,
-        };
-        self.solver.unwrap_or(by_dimension)
+        self.solver.unwrap_or(Solver::of_dimension(self.algebra.dim()))
     }
 }
 

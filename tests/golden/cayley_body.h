@@ -289,7 +289,7 @@ static inline void cayley_body_internal_guess(const double *CAYLEY_BODY_RESTRICT
     k[1] = 0.0;
 }
 
-/* Internal: one correction of Newton's method. */
+/* Internal: one correction of p. */
 static inline void cayley_body_internal_correct(const double *CAYLEY_BODY_RESTRICT c, const double *CAYLEY_BODY_RESTRICT p, const double *CAYLEY_BODY_RESTRICT mu, const double *CAYLEY_BODY_RESTRICT k, double *CAYLEY_BODY_RESTRICT p_next, double *CAYLEY_BODY_RESTRICT x, double *CAYLEY_BODY_RESTRICT left, double *CAYLEY_BODY_RESTRICT moved)
 {
     const double t10 = CAYLEY_BODY_FMA(p[0], c[35], c[33]);
@@ -789,7 +789,7 @@ static inline cayley_body_status cayley_body_internal_reason(const double *c, co
 static inline cayley_body_status cayley_body_advance(const cayley_body_map *map, cayley_body_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[CAYLEY_BODY_ELEMENT];

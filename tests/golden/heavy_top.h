@@ -479,7 +479,7 @@ static inline void heavy_top_internal_guess(const double *HEAVY_TOP_RESTRICT c, 
     k[1] = 0.0;
 }
 
-/* Internal: one correction of Newton's method. */
+/* Internal: one correction of p. */
 static inline void heavy_top_internal_correct(const double *HEAVY_TOP_RESTRICT c, const double *HEAVY_TOP_RESTRICT p, const double *HEAVY_TOP_RESTRICT mu, const double *HEAVY_TOP_RESTRICT k, double *HEAVY_TOP_RESTRICT p_next, double *HEAVY_TOP_RESTRICT x, double *HEAVY_TOP_RESTRICT left, double *HEAVY_TOP_RESTRICT moved)
 {
     const double t14 = p[1] * p[1];
@@ -1626,7 +1626,7 @@ static inline heavy_top_status heavy_top_internal_reason(const double *c, const 
 static inline heavy_top_status heavy_top_advance(const heavy_top_map *map, heavy_top_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[HEAVY_TOP_ELEMENT];

@@ -315,7 +315,7 @@ static inline void rigid_body_internal_guess(const double *RIGID_BODY_RESTRICT c
     k[1] = 0.0;
 }
 
-/* Internal: one correction of Newton's method. */
+/* Internal: one correction of p. */
 static inline void rigid_body_internal_correct(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT p, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT k, double *RIGID_BODY_RESTRICT p_next, double *RIGID_BODY_RESTRICT x, double *RIGID_BODY_RESTRICT left, double *RIGID_BODY_RESTRICT moved)
 {
     const double t8 = p[1] * p[1];
@@ -943,7 +943,7 @@ static inline rigid_body_status rigid_body_internal_reason(const double *c, cons
 static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, rigid_body_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[RIGID_BODY_ELEMENT];

@@ -255,7 +255,7 @@ static inline void three_wave_internal_guess(const double *THREE_WAVE_RESTRICT c
     k[1] = 0.0;
 }
 
-/* Internal: one correction of Newton's method. */
+/* Internal: one correction of p. */
 static inline void three_wave_internal_correct_0(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT p, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT k, double *THREE_WAVE_RESTRICT p_next, double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT left, double *THREE_WAVE_RESTRICT moved, double *THREE_WAVE_RESTRICT w)
 {
     (void)c;
@@ -2121,7 +2121,7 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
 static inline three_wave_status three_wave_advance(const three_wave_map *map, three_wave_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[THREE_WAVE_ELEMENT];

@@ -3,6 +3,7 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Options, read};
 
 /// Groups with a Hamiltonian on each.
@@ -31,11 +32,27 @@ const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 /// Where there is none.
 #[must_use]
 pub fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
+    integrator_by(Solver::Newton, group, hamiltonian, chart, truncation)
+}
+
+/// As [`integrator`], solved by this method.
+///
+/// # Panics
+/// Where there is none.
+#[must_use]
+pub fn integrator_by(
+    solver: Solver,
+    group: &str,
+    hamiltonian: &str,
+    chart: &str,
+    truncation: usize,
+) -> Integrator {
     let dim = lie::catalogue::lookup(group).unwrap().dim();
     let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
     let text = format!(
         "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\n"
     );
-    let options = Options { truncation: Some(truncation), ..Options::default() };
+    let options =
+        Options { truncation: Some(truncation), solver: Some(solver), ..Options::default() };
     Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
 }

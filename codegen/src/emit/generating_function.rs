@@ -1,13 +1,14 @@
 //! The implementation of `coadjoint::GeneratingFunction`.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::options::Options;
 use super::program::{Body, Field, Scope, body};
 use super::types::Types;
 use crate::graph::Program;
 use crate::integrator::{Integrator, Predictor};
+use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`; `slots` is the number of coefficients.
 #[must_use]
@@ -110,7 +111,22 @@ pub fn generating_function(
     }
 }
 
-/// `impl Integrator` of a function whose steps are not printed, by the fixed point or because they are too long.
+/// How steps are solved, where the dimension alone does not say it.
+#[must_use]
+pub fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
+    let solver = integrator.problem.solver();
+    if solver == Solver::of_dimension(integrator.problem.algebra.dim()) {
+        return TokenStream::new();
+    }
+    let name = format_ident!("{solver:?}");
+    quote! {
+        fn solver(&self) -> #krate::solve::Solver {
+            #krate::solve::Solver::#name
+        }
+    }
+}
+
+/// `impl Integrator` of a function whose steps are too long to be printed.
 #[must_use]
 pub fn without_programs(
     integrator: &Integrator,
@@ -131,15 +147,10 @@ pub fn without_programs(
             #krate::Chart::pull_back(#chart, #group, &#x, #at)
         },
     };
-    let solver = match integrator.hessian {
-        Some(_) => quote!(Newton),
-        None => quote!(FixedPoint),
-    };
+    let solver = solver(integrator, krate);
     quote! {
         impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
-            fn solver(&self) -> #krate::solve::Solver {
-                #krate::solve::Solver::#solver
-            }
+            #solver
 
             fn predict(&self, #at: &#vector) -> #vector {
                 let (#mu, #c): (&[T; #n], _) = (&#at.data.0[0], &self.coefficients);

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::constructor::constructor;
-use super::generating_function::{generating_function, scalar_function, without_programs};
+use super::generating_function::{generating_function, scalar_function, solver, without_programs};
 use super::options::Options;
 use super::programs::{MOST_OPERATIONS, programs, step_operations};
 use super::table::table_item;
@@ -46,7 +46,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let constructor = constructor(integrator, krate, group, count);
     let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
-        Some(step) => programs(step, options, group, count),
+        Some(step) => programs(step, options, group, count, &solver(integrator, krate)),
         None => without_programs(integrator, options, &types, count),
     };
     let n = Literal::usize_unsuffixed(types.dim);

@@ -24,7 +24,13 @@ pub fn step_operations(step: &Step) -> usize {
 
 /// `impl Programs for name`, and `impl Integrator`, which drives them; `slots` is the number of coefficients.
 #[must_use]
-pub fn programs(step: &Step, options: &Options, group: &TokenStream, slots: usize) -> TokenStream {
+pub fn programs(
+    step: &Step,
+    options: &Options,
+    group: &TokenStream,
+    slots: usize,
+    solver: &TokenStream,
+) -> TokenStream {
     let Options { krate, name, .. } = options;
     let kernel = step.kernel();
     let (n, m, k) = (kernel.dim(), kernel.element(), kernel.constants());
@@ -130,6 +136,8 @@ pub fn programs(step: &Step, options: &Options, group: &TokenStream, slots: usiz
         }
 
         impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
+            #solver
+
             #[inline(always)]
             fn drive(
                 &self,

@@ -57,6 +57,11 @@ const BRACKETS: &str = "name = \"brackets\"\ncoordinates = [\"a\", \"b\", \"c\"]
     [algebra]\ngenerators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = C\", \"[B, C] = A\", \"[C, A] = B\"]\n\
     [integrator]\nstep = 0.2\n[initial]\nmomentum = [0.4, 0.3, 0.9]\n";
 
+/// More dimensions than Newton's method takes.
+const RING: &str = "name = \"ring\"\ngroup = \"SO3^9\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+    hamiltonian = \"sum(i, 0..9, z[i]^2/3 - x[i]*x[(i + 1) % 9] - y[i]*y[(i + 1) % 9])\"\n\
+    [integrator]\nstep = 0.05\n[initial]\nmomentum = [\"cos(1.3*i)\", \"sin(1.3*i)\", \"0.5*sin(2*i)\"]\n";
+
 const SYSTEMS: &[System] = &[
     System {
         name: "rigid_body",
@@ -121,6 +126,16 @@ const SYSTEMS: &[System] = &[
     System {
         name: "su3",
         text: "examples/su3_quadratic.toml",
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::C,
+        golden: false,
+        large: true,
+    },
+    System {
+        name: "ring",
+        text: RING,
         truncation: 3,
         chart: Chart::Exponential,
         parameters: Parameters::Substituted,

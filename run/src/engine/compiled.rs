@@ -12,8 +12,7 @@ use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
-/// Programs of more operations than this are left to the interpreter of the generating function, whose loops over
-/// coordinates they would write out.
+/// Programs of more operations than this are not compiled: they are evaluated as data.
 pub(super) const MOST_OPERATIONS: usize = 60_000;
 
 /// A state as the programs have it.
@@ -125,12 +124,17 @@ impl Compiled {
         let step = &programs.step;
         let parts = step.kernel().programs();
         let operations = parts.correct.nodes().len() + parts.transport.nodes().len();
-        if operations > MOST_OPERATIONS {
-            let most = MOST_OPERATIONS;
-            return unfit(&format_args!(
-                "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
-            ));
-        }
+        let backend = match backend {
+            Backend::Auto if operations > MOST_OPERATIONS => Backend::Interpreter,
+            Backend::Auto | Backend::Interpreter => backend,
+            _ if operations > MOST_OPERATIONS => {
+                let most = MOST_OPERATIONS;
+                return Err(RunError::Option(format!(
+                    "--backend: a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
+                )));
+            }
+            _ => backend,
+        };
         let slots = step.slots(&interpreter.slots, interpreter.radius);
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {

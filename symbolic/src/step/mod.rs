@@ -27,7 +27,6 @@ use coadjoint_program::{Kernel, Precision, ProgramError};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::problem::Solver;
 pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
 use motion::Motion;
 use part::Part;
@@ -41,17 +40,24 @@ use tables::Tables;
 use translations::Translations;
 use unitriangular::Unitriangular;
 
+/// Groups by tables whose step would have more operations than this have no programs.
+pub const MOST_OF_TABLES: usize = 1_000_000;
+
 /// Why a step is not made of straight-line programs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// Its equation is solved by the fixed point, with as many iterations as it takes.
+    /// The matrices of a group by tables are so large that loops over their entries are faster than programs.
     #[error(
-        "{dimension} dimensions are solved by the fixed point, which has no straight-line programs; use the interpreter"
+        "{group} has {dimension} dimensions and matrices of {rows} rows: its straight-line programs would have more than {MOST_OF_TABLES} operations; use the interpreter"
     )]
-    FixedPoint {
-        /// The dimension of the group.
+    TooLarge {
+        /// The group.
+        group: String,
+        /// Its dimension.
         dimension: usize,
+        /// The rows of its matrices.
+        rows: usize,
     },
     /// A comoving frame moves by any angle, for which series by tables have no fixed length.
     #[error(
@@ -117,21 +123,18 @@ impl Step {
     /// As [`Step::build`].
     pub fn on_matrices(integrator: &Integrator) -> Result<Self, StepError> {
         let algebra = &integrator.problem.algebra;
-        let slope = Scheme::of(integrator).slope();
-        Self::with(integrator, vec![tables(algebra, integrator.problem.chart, slope)?])
+        let scheme = Scheme::of(integrator);
+        Self::with(integrator, vec![tables(algebra, integrator.problem.chart, scheme)?])
     }
 
     fn on(integrator: &Integrator, factors: &[LieAlgebra]) -> Result<Self, StepError> {
-        let (chart, slope) = (integrator.problem.chart, Scheme::of(integrator).slope());
+        let (chart, scheme) = (integrator.problem.chart, Scheme::of(integrator));
         let parts: Result<Vec<_>, _> =
-            factors.iter().map(|factor| part(factor, chart, slope)).collect();
+            factors.iter().map(|factor| part(factor, chart, scheme)).collect();
         Self::with(integrator, parts?)
     }
 
     fn with(integrator: &Integrator, parts: Vec<Box<dyn Part>>) -> Result<Self, StepError> {
-        if integrator.plan.solver == Solver::FixedPoint || integrator.hessian.is_none() {
-            return Err(StepError::FixedPoint { dimension: integrator.problem.algebra.dim() });
-        }
         let group = Product(parts);
         let base = integrator.coefficients.slots().len();
         let bound_len = integrator.defect_len();
@@ -196,7 +199,7 @@ impl Step {
 }
 
 /// The formulas of a group that is no product.
-fn part(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Result<Box<dyn Part>, StepError> {
+fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Part>, StepError> {
     let is = |name: &str| {
         catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
     };
@@ -218,13 +221,18 @@ fn part(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Result<Box<dyn Part>,
     if is(&format!("R{}", algebra.dim())) {
         return Ok(Box::new(Translations { dim: algebra.dim() }));
     }
-    tables(algebra, chart, slope)
+    tables(algebra, chart, scheme)
 }
 
 /// The formulas of any group, by tables.
-fn tables(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Result<Box<dyn Part>, StepError> {
-    match Tables::new(algebra, chart, slope) {
-        Some(tables) => Ok(Box::new(tables)),
-        None => Err(StepError::Dependent { group: algebra.name().to_owned() }),
+fn tables(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Part>, StepError> {
+    let group = || algebra.name().to_owned();
+    let Some(tables) = Tables::new(algebra, chart, scheme.slope()) else {
+        return Err(StepError::Dependent { group: group() });
+    };
+    if tables.operations(scheme != Scheme::FixedPoint) > MOST_OF_TABLES {
+        let (dimension, rows) = (algebra.dim(), tables.rows());
+        return Err(StepError::TooLarge { group: group(), dimension, rows });
     }
+    Ok(Box::new(tables))
 }

@@ -19,9 +19,6 @@ const NEAR: f64 = 0.05;
 /// Up to which share of a half turn steps are accepted at once where S is no series with a radius; else it is the group's.
 const OF_OTHERS: f64 = 1.0 / 3.0;
 
-/// Corrections at most.
-const CORRECTIONS: u32 = 12;
-
 pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
@@ -47,7 +44,7 @@ pub fn kernel(
     };
     let (dim, element) = (group.dim(), group.element());
     let tolerance = ROUNDINGS * f64::EPSILON;
-    Ok(Kernel::new(dim, element, tolerance, NEAR, CORRECTIONS, programs)?)
+    Ok(Kernel::new(dim, element, tolerance, NEAR, scheme.corrections(), programs)?)
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.

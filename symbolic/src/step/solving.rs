@@ -3,8 +3,7 @@
 use super::part::Part;
 use super::product::Product;
 use super::programs::inputs;
-use super::vector::{Eliminated, Matrix, dot, largest};
-
+use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 
@@ -20,6 +19,14 @@ pub fn tolerance(graph: &mut Graph) -> Id {
 /// Up to this size of a correction, relative to μ, the estimate of what it leaves is a bound.
 const TRUSTED: f64 = 1e-3;
 
+/// Corrections of Newton's method at most, and evaluations of the fixed point.
+const CORRECTIONS: u32 = 12;
+const EVALUATIONS: u32 = 60;
+
+/// Rounding of p by the fixed point may stay above the tolerance: by so many units for each dimension, and at most.
+const ROUNDINGS_EACH: f64 = 4.0;
+const MOST_ROUNDINGS: f64 = 32.0;
+
 /// The truncation allowed in a chart's derivative for Newton's method, and where chords correct it.
 const NEWTON: f64 = 1e-10;
 const CHORD: f64 = 1e-3;
@@ -32,6 +39,9 @@ pub enum Scheme {
     /// By one step of Newton's method, which counts as part of the guess, and chords with its matrices after that: where
     /// the guess is not near enough for a single step.
     Chord,
+    /// By the fixed point p ← (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which needs neither the Hessian of S nor the derivative of the
+    /// chart: for many dimensions.
+    FixedPoint,
 }
 
 /// p, as the guess or a correction leaves it, and what a correction knows about itself.
@@ -52,6 +62,9 @@ struct Matrices {
 impl Scheme {
     /// The scheme for an integrator.
     pub fn of(integrator: &Integrator) -> Self {
+        if integrator.hessian.is_none() {
+            return Self::FixedPoint;
+        }
         match integrator.plan.chords(&integrator.problem) {
             0 => Self::Newton,
             _ => Self::Chord,
@@ -61,8 +74,16 @@ impl Scheme {
     /// The truncation allowed in a chart's derivative, relative to it.
     pub fn slope(self) -> f64 {
         match self {
-            Self::Newton => NEWTON,
+            Self::Newton | Self::FixedPoint => NEWTON,
             Self::Chord => CHORD,
+        }
+    }
+
+    /// Corrections at most.
+    pub fn corrections(self) -> u32 {
+        match self {
+            Self::Newton | Self::Chord => CORRECTIONS,
+            Self::FixedPoint => EVALUATIONS / 2,
         }
     }
 
@@ -76,6 +97,7 @@ impl Scheme {
         match self {
             Self::Newton => (guess(integrator, group, bound), newton(integrator, group)),
             Self::Chord => chord(integrator, group, bound),
+            Self::FixedPoint => fixed_point(integrator, group, bound),
         }
     }
 }
@@ -296,4 +318,53 @@ fn chord_correction(
     let left = left(&mut graph, (estimate, relative, way));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, way]).collect();
     graph.finish(inputs_of_chord, &outputs)
+}
+
+/// The guess, and a correction by two evaluations of the fixed point: p, μ, 1/scale ↦ p after both, the x of the second,
+/// what is left at that x, the length of the correction. Where the second evaluation moves p by rounding alone and more
+/// than half as far as the first, the solution is as exact as it can be.
+fn fixed_point(
+    integrator: &Integrator,
+    group: &Product,
+    bound: (usize, usize),
+) -> (Program, Program) {
+    let n = group.dim();
+    let mut graph = Graph::new();
+    let mu = inputs(&mut graph, 0, n);
+    let (mut outputs, inverse_scale, _) = start(&mut graph, integrator, group, bound, &mu);
+    outputs.push(inverse_scale);
+    let guess = graph.finish(n, &outputs);
+
+    let mut graph = Graph::new();
+    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let inverse_scale = graph.input(2 * n);
+    let evaluate = |graph: &mut Graph, p: &[Id]| {
+        let x = graph.call(&integrator.gradient, p);
+        let next = group.pull_back(graph, &x, &mu);
+        (x, next)
+    };
+    let distance = |graph: &mut Graph, a: &[Id], b: &[Id]| {
+        let change: Vec<Id> = a.iter().zip(b).map(|(&a, &b)| graph.sub(a, b)).collect();
+        let length = largest(graph, &change);
+        graph.mul(length, inverse_scale)
+    };
+    let (_, once) = evaluate(&mut graph, &p);
+    let (x, twice) = evaluate(&mut graph, &once);
+    let first = distance(&mut graph, &p, &once);
+    let second = distance(&mut graph, &once, &twice);
+    let moved = distance(&mut graph, &p, &twice);
+    let tolerance = tolerance(&mut graph);
+    let many = (ROUNDINGS_EACH * n as f64).clamp(ROUNDINGS, MOST_ROUNDINGS);
+    let (many, half) = (graph.constant(many), graph.constant(0.5));
+    let unit = graph.epsilon();
+    let rounding = graph.mul(many, unit);
+    let halved = graph.mul(half, first);
+    let allowed = graph.select(second, halved, tolerance, rounding);
+    let solved = graph.min(second, tolerance);
+    let left = graph.select(second, allowed, solved, second);
+    // The largest of many numbers may hide one that is none.
+    let rest = finite(&mut graph, &twice);
+    let left = graph.add(left, rest);
+    let outputs: Vec<Id> = twice.into_iter().chain(x).chain([left, moved]).collect();
+    (guess, graph.finish(2 * n + 1, &outputs))
 }

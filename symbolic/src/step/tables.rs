@@ -77,6 +77,26 @@ impl Tables {
         Some(Self { chart, dim, size, structure, basis, dual, slope, orthogonal })
     }
 
+    /// The rows of its matrices.
+    pub fn rows(&self) -> usize {
+        self.size
+    }
+
+    /// About the operations of its formulas in a step, at most; with the derivative of the chart, or without.
+    pub fn operations(&self, derivative: bool) -> usize {
+        let (n, brackets) = (self.dim, self.structure.len());
+        let product = self.size.saturating_pow(3);
+        let each = match (self.chart, derivative) {
+            (Chart::Exponential, true) => (n + 1) * brackets * terms(REACH, ROUNDING),
+            (Chart::Exponential, false) => 2 * brackets * terms(REACH, ROUNDING),
+            (Chart::Cayley, true) => (4 * n).saturating_mul(product),
+            (Chart::Cayley, false) => product,
+        };
+        // The matrices of an increment and of a state, and elimination.
+        let solve = if derivative { 2 * n.pow(3) } else { 0 };
+        product.saturating_mul(16).saturating_add(each).saturating_add(solve)
+    }
+
     /// ad_xᵀ as a matrix.
     fn ad_transpose(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
         let mut matrix = Matrix::zeros(graph, self.dim, self.dim);

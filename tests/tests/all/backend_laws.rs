@@ -10,11 +10,12 @@ use coadjoint::laws::{OrderError, measured_order, symplectic_defect_of};
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
 use coadjoint_program::{Kernel, Stepper, WIDTH};
 use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
-use coadjoint_tests::kernels::{SYSTEMS, integrator};
+use coadjoint_tests::kernels::{SYSTEMS, integrator_by};
 use coadjoint_tests::stress::Random;
 use nalgebra::{DMatrix, DVector};
 
@@ -44,14 +45,21 @@ impl Subject {
                 if chart == "cayley" && lie::Chart::Cayley.check(&algebra).is_err() {
                     continue;
                 }
-                let integrator = integrator(group, hamiltonian, chart, TRUNCATION);
-                let step = Step::build(&integrator).unwrap();
-                let group = matrix_group(&algebra).unwrap();
-                let name = format!("{hamiltonian} on {}, {chart}", algebra.name());
-                all.push(Self { name, integrator, step, group });
+                for solver in [Solver::Newton, Solver::FixedPoint] {
+                    // The fixed point is tried once with formulas of each kind.
+                    let tried = matches!(group, "SO3" | "SE3" | "SO4" | "SO3^2");
+                    if solver == Solver::FixedPoint && !tried {
+                        continue;
+                    }
+                    let integrator = integrator_by(solver, group, hamiltonian, chart, TRUNCATION);
+                    let step = Step::build(&integrator).unwrap();
+                    let group = matrix_group(&algebra).unwrap();
+                    let name = format!("{hamiltonian} on {}, {chart}, {solver:?}", algebra.name());
+                    all.push(Self { name, integrator, step, group });
+                }
             }
         }
-        assert!(all.len() > 18, "{}", all.len());
+        assert!(all.len() > 24, "{}", all.len());
         all
     }
 

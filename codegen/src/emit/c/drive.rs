@@ -84,7 +84,7 @@ static inline @p@_status @p@_internal_reason(const double *c, const double *mu, 
 static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by Newton's method: p from the first guess on, x, a bound on what is left of the
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
      * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[@P@_ELEMENT];

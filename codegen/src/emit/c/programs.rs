@@ -46,7 +46,7 @@ pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
     for signature in signatures(kernel, &prefix) {
         let about = match signature.name.strip_prefix(&prefix).unwrap_or_default() {
             "guess" => "mu to a first guess of p, and constants of the solve",
-            "correct" => "one correction of Newton's method",
+            "correct" => "one correction of p",
             "accept" => "1 where a step is right",
             "transport" => "the state moved by the increment x",
             "frame" => "the state moved on by the comoving frame",
