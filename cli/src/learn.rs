@@ -23,7 +23,7 @@ const MODELS: &Names<Kind> = &[
     ("hybrid", "A quadratic polynomial and a network", Kind::Hybrid),
 ];
 
-/// What is minimised; whether these are distances on the group.
+/// The loss that is minimised; whether it measures distances on the group.
 const LOSSES: &Names<bool> = &[
     ("chart", "Differences of chart coordinates", false),
     ("group", "Distances on the group", true),

@@ -18,7 +18,7 @@ pub const ANEW: &str = "begin anew with --restart";
 /// The state of a run. Everything it counts is on the disk before it is.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Journal {
-    /// What the run is.
+    /// The identity of the run.
     pub identity: Identity,
     /// Rows written.
     pub rows: u64,
@@ -46,7 +46,7 @@ pub struct Journal {
     /// The largest ratio of the last two terms of the series worth a warning so far.
     #[serde(default, with = "coadjoint_run::bits")]
     pub ratio: f64,
-    /// What has made the steps so far. The bits are the same, but for what the identity says.
+    /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
     #[serde(default)]
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.
@@ -89,7 +89,7 @@ impl Journal {
     }
 }
 
-/// What stays of a finished run with `--keep`, for the same command started again and for whatever joins shards.
+/// The note that `--keep` leaves of a finished run, for the same command started again and for programs that join shards.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Finished {
     /// The first row of the input that it has, from 1.
@@ -98,7 +98,7 @@ pub struct Finished {
     pub sha256: String,
     /// SHA-256 of the list of rejected rows, where there is one.
     pub rejected_sha256: Option<String>,
-    /// What the run was, and what it found.
+    /// The run and its findings.
     pub journal: Journal,
 }
 

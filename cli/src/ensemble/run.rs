@@ -16,7 +16,7 @@ use crate::error::{CliError, unwritten};
 use crate::note::{self, Identity};
 use crate::progress;
 
-/// What is on the disk is noted this often.
+/// The journal is brought up to date this often.
 const NOTED: Duration = Duration::from_millis(200);
 
 /// The number of rejected rows named at the end; all are in the list.
@@ -40,7 +40,7 @@ pub struct Job<'a> {
     pub range: Range<u64>,
     /// Steps of every trajectory.
     pub steps: u64,
-    /// What the run is.
+    /// The identity of the run.
     pub identity: Identity,
     /// Forget what an earlier run has done.
     pub restart: bool,
@@ -48,7 +48,7 @@ pub struct Job<'a> {
     pub keep: bool,
 }
 
-/// What a run did.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Rows of the output.
@@ -61,7 +61,7 @@ pub struct Outcome {
     pub first: Vec<Rejected>,
     /// The list of them, if there are any.
     pub list: Option<PathBuf>,
-    /// What was counted and measured.
+    /// The counts and measurements.
     pub journal: Journal,
     /// Seconds of this run.
     pub seconds: f64,
@@ -155,7 +155,7 @@ fn remove(path: &Path) -> Result<(), CliError> {
     }
 }
 
-/// What a finished run has noted that is to be kept; `None` where the run is to be made.
+/// The journal of a finished run that is kept; `None` where the run has to be made.
 fn finished(job: &Job<'_>, files: &Files) -> Result<Option<Journal>, CliError> {
     if !job.keep || job.restart {
         return Ok(None);

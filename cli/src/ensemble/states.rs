@@ -57,7 +57,7 @@ pub struct States {
     table: Table,
     /// The columns of states.
     pub found: Found,
-    /// What is written: for each cell its name and the state's number in it, or none where it is carried through.
+    /// The cells written: for each its name and the state's number in it, or none where it is carried through.
     written: Vec<(String, Option<usize>)>,
     form: Form,
 }

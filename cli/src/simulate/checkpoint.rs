@@ -30,7 +30,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// How much of the file of records is vouched for, and how many records that is.
+    /// The part of the file of records that the checksum covers, and the number of records in it.
     pub fn extent(&self) -> (Extent, u64) {
         (Extent { bytes: self.bytes, crc32: self.records_crc32 }, self.rows)
     }

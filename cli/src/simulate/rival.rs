@@ -140,7 +140,7 @@ impl Solout<f64, Vec<f64>> for &mut Watch<'_> {
         if time == 0.0 {
             return ControlFlag::Continue;
         }
-        // What has left the group is measured as it is, not put back on it.
+        // An element that has left the group is measured as it is, not projected back.
         let (mu, g) = y.split_at(self.last.mu.len());
         self.last = Numbers { g: g.to_vec(), mu: mu.to_vec() };
         match self.recorder.visit(time, &self.space, &self.last) {

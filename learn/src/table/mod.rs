@@ -32,7 +32,7 @@ pub struct Table {
     width: usize,
     /// The number of the next row, from 0.
     next: u64,
-    /// What a file beside a matrix, or whoever made the rows, says of them.
+    /// The entries that a file beside a matrix, or the maker of the rows, gives for them.
     head: BTreeMap<String, String>,
     /// Columns of a Parquet file that hold no floats.
     others: Vec<String>,
@@ -227,7 +227,7 @@ impl Table {
         matches!(self.source, Source::Csv(_))
     }
 
-    /// What the file says under this name: in CSV a line `# name: value` among those read so far.
+    /// The entry of this name: in CSV a line `# name: value` among those read so far.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<&str> {
         let head = match &self.source {

@@ -8,7 +8,7 @@ pub struct Remarks<R> {
     inner: R,
     /// The values by their names.
     pub head: BTreeMap<String, String>,
-    /// What is there of the line at hand, where it begins with `#`.
+    /// The part of the current line that has been read, where it begins with `#`.
     line: Option<Vec<u8>>,
     /// Whether the next byte begins a line.
     fresh: bool,

@@ -14,7 +14,7 @@ impl Layout {
     /// group.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The defect.
     pub(super) fn read_attitude(&self, columns: &[f64]) -> Result<Option<Vec<f64>>, String> {
         let rotations = SO3::<f64>::new();
         let (found, distance) = match self.attitude {

@@ -124,7 +124,7 @@ pub struct Use {
     pub name: String,
     /// Its numbers.
     pub precision: Precision,
-    /// Whether it is no card but this machine's processor.
+    /// Whether the device is this machine's processor.
     pub processor: bool,
     /// Rows of which it has refused steps.
     pub redone: u64,

@@ -199,7 +199,7 @@ impl Found {
 /// The columns of a row: `mu_1` … `mu_n`, then the attitude.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
-    /// Of the group.
+    /// The shape of the group's rows.
     pub shape: Shape,
     /// The columns after the momentum.
     pub attitude: Attitude,

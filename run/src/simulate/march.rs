@@ -1,4 +1,4 @@
-//! The steps of a run, one after the other: measured, and handed out.
+//! The steps of a run: they are made one after the other, measured, and passed to the outlet.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ const LOOKS: u64 = 10_000;
 struct Pace(u64);
 
 impl Pace {
-    /// So many steps took so long.
+    /// Records the time of some steps.
     fn took(&mut self, steps: u64, time: Duration) {
         const GOAL: f64 = 0.005;
         let each = time.as_secs_f64().max(1e-9) / steps.max(1) as f64;
@@ -51,7 +51,7 @@ struct March<'a> {
     moment: Moment,
     /// How many of the times asked for are recorded.
     times: usize,
-    /// Every so many steps the drift is measured: at each record, or, where none are kept, at [`LOOKS`] moments.
+    /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
     interval: u64,
 }
 

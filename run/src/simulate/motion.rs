@@ -33,7 +33,7 @@ pub trait Motion: Space {
     /// Puts another state in its place.
     fn place(&mut self, state: Numbers);
 
-    /// Makes steps of the grid, so many after the first so many. The state that comes of them does not depend on how many
+    /// Makes `count` steps of the grid after the first `first`. The state that comes of them does not depend on how many
     /// are made at a time.
     ///
     /// # Errors

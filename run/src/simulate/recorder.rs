@@ -173,7 +173,7 @@ impl<'a> Recorder<'a> {
     /// Takes note of how the solves of some steps went: the most iterations of one, and the largest residual.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
         let solver = self.tally.solver.get_or_insert_default();
         solver.most_iterations = solver.most_iterations.max(iterations.into());
@@ -194,7 +194,7 @@ impl<'a> Recorder<'a> {
     /// Measures the moment of this time, and takes its drift into account.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn visit(
         &mut self,
         time: f64,
@@ -215,7 +215,7 @@ impl<'a> Recorder<'a> {
     /// Measures this moment. A quantity has a drift until rounding of the state hides it.
     ///
     /// # Errors
-    /// What is not finite.
+    /// The name of a number that is not finite.
     pub fn measure(&self, space: &dyn Space, state: &Numbers) -> Result<Moment, String> {
         for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
             finite(&format_args!("the momentum {name}"), *value)?;

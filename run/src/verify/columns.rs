@@ -27,7 +27,7 @@ impl State {
     }
 }
 
-/// What is wrong with a table.
+/// A defect of a table.
 pub fn refused(table: &Table, what: impl std::fmt::Display) -> RunError {
     RunError::Option(format!("{}: {what}", table.path().display()))
 }

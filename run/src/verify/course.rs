@@ -121,7 +121,7 @@ impl Course {
         let over = |error: f64, size: f64, bound: f64| match error {
             0.0 => Ok(0.0),
             _ if !(bound <= VAGUE) => {
-                Err(format!("rounding may do as much as {bound:.1e} in so many steps"))
+                Err(format!("rounding may do as much as {bound:.1e} in that many steps"))
             }
             error => Ok(error / (size * bound)),
         };
@@ -178,7 +178,7 @@ impl Twins {
             let turned = ratio((vector(element(twin, size)) - &whole).norm(), whole.norm());
             self.growth = larger(self.growth, apart / *nearest);
             self.turned = larger(self.turned, turned / *nearest);
-            // What rounding leaves of a small distance is not one.
+            // A distance within rounding does not count.
             *nearest = if apart < *nearest { apart.max(BESIDE * 1e-3) } else { *nearest };
         }
         Ok(())

@@ -33,7 +33,7 @@ pub fn judge_of(file: &Path, problem: &Problem) -> Result<Judge, RunError> {
         .map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
 }
 
-/// Rows of a file that stand for all of them: so many, evenly spread, the last among them.
+/// The number of rows of a file that stand for all of them: evenly spread, the last among them.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// How many rows are judged.
@@ -193,7 +193,7 @@ impl<'a> Follower<'a> {
         Ok(ended(found, rows))
     }
 
-    /// From one state to another in so many steps, and one more of another size if that is not 0.
+    /// From one state to another in `steps` steps, and one more of another size if that is not 0.
     fn row(
         &self,
         (number, place): (u64, &str),

@@ -27,7 +27,7 @@ pub struct Found {
     pub why: Option<String>,
     /// The file's own statement about its end, where it is a part.
     pub part: Option<String>,
-    /// What is wrong with the first wrong row.
+    /// The defect of the first wrong row.
     pub wrong: Option<String>,
 }
 

@@ -24,7 +24,7 @@ pub struct Invariants {
 }
 
 impl Invariants {
-    /// Of a problem whose parameters are put in.
+    /// The invariants of a problem whose parameters have values.
     pub fn new(problem: &Problem) -> Result<Self, RunError> {
         let dim = problem.algebra.dim();
         let float = |polynomial| Numeric::new(polynomial, dim, &values(&problem.symbols));

@@ -195,7 +195,7 @@ impl Start {
         let moved = beside.drift(now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
         let mut drift = self.drift(now).numbers();
         for (drift, moved) in drift.iter_mut().zip(moved) {
-            // What is no number is not measured either.
+            // NaN is not measured either.
             if !drift.is_finite() || moved.is_nan() || moved > MEASURABLE {
                 *drift = f64::NAN;
             }
