@@ -7,7 +7,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Options, Parameters};
-use coadjoint_device::Device;
+use coadjoint_native::cards::Device;
 use coadjoint_program::Precision;
 use coadjoint_run::Backend;
 

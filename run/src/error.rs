@@ -111,7 +111,7 @@ pub enum RunError {
     Learn(#[from] coadjoint_learn::LearnError),
     /// A device that failed on the way.
     #[error("{0}")]
-    Device(coadjoint_device::DeviceError),
+    Device(coadjoint_native::cards::DeviceError),
 }
 
 impl RunError {

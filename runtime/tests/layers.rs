@@ -26,8 +26,8 @@ const LAYERS: [&str; 16] = [
 ];
 
 /// The crates, the lowest first.
-const CRATES: [&str; 12] = [
-    "draw", "program", "native", "device", "symbolic", "codegen", "macros", "runtime", "learn",
+const CRATES: [&str; 11] = [
+    "draw", "program", "native", "symbolic", "codegen", "macros", "runtime", "learn",
     "run", "cli", "paper",
 ];
 

@@ -3,7 +3,7 @@
 use coadjoint::{Chart, LieGroup};
 use coadjoint_codegen::graph::Arithmetic;
 use coadjoint_codegen::step::Step;
-use coadjoint_device::{Card, Device};
+use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 

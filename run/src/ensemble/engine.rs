@@ -10,7 +10,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::step;
 use coadjoint_codegen::system::System;
-use coadjoint_device::{Card, Device};
+use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 
 use super::layout::{Layout, Shape};

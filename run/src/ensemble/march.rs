@@ -6,7 +6,7 @@ use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::{StepError, StepReport};
-use coadjoint_device::{Card, DeviceError, Refused, Row};
+use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
 use coadjoint_program::WIDTH;
 use rayon::prelude::*;
 

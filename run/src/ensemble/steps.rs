@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Invariants, Scratch, nudge};
-use coadjoint_device::Card;
+use coadjoint_native::cards::Card;
 use coadjoint_program::{Precision, Trajectories};
 use nalgebra::DVector;
 use rayon::prelude::*;

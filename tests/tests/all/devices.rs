@@ -10,7 +10,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Step, StepError};
 use coadjoint_codegen::system::{Options, read};
-use coadjoint_device::{Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile};
+use coadjoint_native::cards::{Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 use coadjoint_program::{Kernel, Precision, Stepper};
 use nalgebra::DMatrix;

@@ -27,10 +27,10 @@ use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use opencl3::types::{CL_BLOCKING, cl_mem};
 
-use crate::card::Opened;
-use crate::device::Device;
-use crate::error::{DeviceError, head};
-use crate::machine::{Array, Machine, Room};
+use super::card::Opened;
+use super::device::Device;
+use super::error::{DeviceError, head};
+use super::machine::{Array, Machine, Room};
 
 /// The number of threads is a multiple of this, the number that cards run together.
 const GROUP: usize = 64;

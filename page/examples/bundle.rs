@@ -1,4 +1,4 @@
-//! Puts the page together: `coadjoint-page-bundle WASM FRONT OUT` writes one HTML file that opens from disk.
+//! Puts the page together: `cargo run --example bundle -- WASM FRONT OUT` writes one HTML file that opens from disk.
 //!
 //! The library, packed by gzip and written in base64, stands in one classic script: `file://` lets a page load neither
 //! modules nor files.

@@ -1,6 +1,6 @@
 //! Why a device does not make steps.
 
-use crate::device::{Api, Device};
+use super::device::{Api, Device};
 
 /// Why a device cannot be had, or failed. Each is one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use coadjoint_program::{Graph, Kernel, Precision, Programs};
 
 use super::word;
-use crate::card::{Card, FEWEST, Opened, Refused, Row, Status};
-use crate::device::{Api, Device};
-use crate::error::DeviceError;
-use crate::machine::{Array, Machine, Room};
+use crate::cards::card::{Card, FEWEST, Opened, Refused, Row, Status};
+use crate::cards::device::{Api, Device};
+use crate::cards::error::DeviceError;
+use crate::cards::machine::{Array, Machine, Room};
 
 /// A step of no meaning with one number in g and one in μ.
 fn kernel() -> Kernel {

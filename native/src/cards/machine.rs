@@ -1,6 +1,6 @@
 //! The interface of a device.
 
-use crate::error::DeviceError;
+use super::error::DeviceError;
 
 /// The arrays of a piece of rows on a device, in the order of the kernel's arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use coadjoint_program::{Kernel, Precision};
 
-use crate::device::{Api, Device};
-use crate::error::DeviceError;
-use crate::machine::Machine;
-use crate::piece;
+use super::device::{Api, Device};
+use super::error::DeviceError;
+use super::machine::Machine;
+use super::piece;
 
 /// The least number of rows that must fit: with fewer, a device does not pay.
 pub(crate) const FEWEST: usize = 1024;
@@ -111,11 +111,11 @@ pub(crate) struct Opened {
 fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Opened, DeviceError> {
     match device.api {
         #[cfg(feature = "opencl")]
-        Api::OpenCl => crate::opencl::open(device, kernel, slots),
+        Api::OpenCl => super::opencl::open(device, kernel, slots),
         #[cfg(not(feature = "opencl"))]
         Api::OpenCl => not_built(device, kernel, slots),
         #[cfg(feature = "cuda")]
-        Api::Cuda => crate::cuda::open(device, kernel, slots),
+        Api::Cuda => super::cuda::open(device, kernel, slots),
         #[cfg(not(feature = "cuda"))]
         Api::Cuda => not_built(device, kernel, slots),
     }

@@ -11,7 +11,7 @@ use coadjoint_program::print::{DeviceLanguage, device_unit};
 use cudarc::nvrtc::result;
 use cudarc::nvrtc::sys;
 
-use crate::error::head;
+use super::error::head;
 
 /// A kernel compiled for a kind of card.
 #[derive(Clone, Debug)]

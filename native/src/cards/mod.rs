@@ -3,7 +3,7 @@
 //! A [`Card`] is a [`Kernel`](coadjoint_program::Kernel) compiled for one [`Device`]. [`Card::advance`] moves rows of states,
 //! a thread each, many steps a launch. Rows that a thread refuses are returned to the caller, who makes these steps.
 //!
-//! Neither toolkit is needed to build this crate, nor a feature: a missing library is reported when a device is opened, in
+//! Neither toolkit is needed to build this module, nor a feature: a missing library is reported when a device is opened, in
 //! one line.
 
 mod card;

@@ -15,11 +15,11 @@ use cudarc::driver::{
 };
 use cudarc::nvrtc::Ptx;
 
-use crate::card::Opened;
-use crate::device::Device;
-use crate::error::DeviceError;
-use crate::machine::{Array, Machine, Room};
-use crate::nvrtc;
+use super::card::Opened;
+use super::device::Device;
+use super::error::DeviceError;
+use super::machine::{Array, Machine, Room};
+use super::nvrtc;
 
 /// Threads of a block.
 const BLOCK: u32 = 128;

@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use coadjoint_program::{BLOCK, Precision};
 
-use crate::card::{Advanced, Card, Redo, Refused, Row, Status};
-use crate::error::DeviceError;
-use crate::machine::{Array, Room};
+use super::card::{Advanced, Card, Redo, Refused, Row, Status};
+use super::error::DeviceError;
+use super::machine::{Array, Room};
 
 /// Why a piece was not moved; its rows are as they were.
 pub(crate) enum Stopped {
