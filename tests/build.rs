@@ -1,12 +1,27 @@
-//! The worked example of integrators from a build script: see `tests/front_ends.rs`, and
-//! `tests/parts.rs` for the large one.
+//! Integrators from a build script: those of system files as users write them (`tests/all/front_ends.rs`, and
+//! `tests/all/parts.rs` for a large one), and those of `src/emitted.rs`.
 
-fn main() -> Result<(), coadjoint_codegen::BuildError> {
-    // Several steps at once are tried whatever the width of registers: see `tests/at_once.rs`.
-    println!("cargo:rustc-check-cfg=cfg(coadjoint_at_once)");
-    println!("cargo:rustc-cfg=coadjoint_at_once");
-    coadjoint_codegen::Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
-    coadjoint_codegen::Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
-    coadjoint_codegen::Build::new("systems/ring_20.toml").write("ring_20.rs")?;
+use std::error::Error;
+use std::path::PathBuf;
+
+use coadjoint_codegen::{Build, emit};
+
+#[path = "src/emitted.rs"]
+mod emitted;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/emitted.rs");
+    Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
+    Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
+    Build::new("systems/ring_20.toml").write("ring_20.rs")?;
+    let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
+    std::fs::create_dir_all(&folder)?;
+    for source in emitted::SYSTEMS {
+        let integrator = emitted::from_function(source)?;
+        let name = &integrator.problem.name;
+        let text = emit::file(&integrator, &emit::Options::for_problem(name));
+        std::fs::write(folder.join(format!("{name}.rs")), text)?;
+    }
     Ok(())
 }

@@ -20,8 +20,10 @@ const STEPS: u64 = 300;
 
 #[test]
 fn headers_are_the_committed_ones() {
-    for built in systems::all().iter().filter(|built| built.system.golden) {
-        systems::check_golden(&format!("tests/golden/{}", built.file), &built.header);
+    for built in systems::all().iter().filter(|built| !built.system.large) {
+        if built.system.golden {
+            systems::check_golden(&format!("tests/golden/{}", built.file), &built.header);
+        }
         assert_eq!(Built::new(built.system).header, built.header, "{}", built.system.name);
     }
 }
@@ -176,7 +178,7 @@ const DEVIATIONS: [&str; 2] = ["misra-c2012-2.5", "uninitvar"];
 #[test]
 fn headers_follow_misra() {
     let Some(cppcheck) = Tool::find("cppcheck") else { return };
-    for name in ["rigid_body", "three_wave_cayley"] {
+    for name in ["rigid_body", "cayley_body", "three_wave"] {
         let built = systems::all().iter().find(|built| built.system.name == name).unwrap();
         let folder = scratch(&format!("misra-{name}"));
         built.write_main(&folder);

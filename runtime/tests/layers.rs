@@ -27,8 +27,8 @@ const LAYERS: [&str; 16] = [
 
 /// The crates, the lowest first.
 const CRATES: [&str; 11] = [
-    "draw", "program", "native", "symbolic", "codegen", "macros", "runtime", "learn",
-    "run", "cli", "paper",
+    "draw", "program", "native", "symbolic", "codegen", "macros", "runtime", "learn", "run", "cli",
+    "paper",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

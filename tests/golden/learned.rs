@@ -6,8 +6,8 @@
 /// Hamiltonian: `learned from 60 samples, dt = 0.1`
 ///
 /// Group: SO3. Chart exp, truncation K = 1, order of accuracy 2.
-/// Terms: S1: 35.
-/// A step takes 751 operations, and 427 more for each further correction.
+/// Terms: S1: 20.
+/// A step takes 513 operations, and 335 more for each further correction.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 #[allow(clippy::trailing_empty_array)]
 pub struct Learned<T = f64> {
@@ -16,7 +16,7 @@ pub struct Learned<T = f64> {
     /// The parameters, as expressions of them stand in the coefficients.
     symbols: [T; 0],
     /// The coefficients of the programs below, folded for h and the parameters.
-    coefficients: [T; 461],
+    coefficients: [T; 218],
     /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
     last: [T; 0],
     radius: T,
@@ -60,18 +60,18 @@ const _: () = {
                 T,
                 3,
                 1,
-                520,
+                256,
             >(Self::table(), &[], step, symbols)?;
-            let mut coefficients = [T::of(0.0); 461];
+            let mut coefficients = [T::of(0.0); 218];
             ::coadjoint::plumbing::slots::<
                 T,
-                520,
-                427,
+                256,
+                205,
             >(Self::table(), &parts, &mut coefficients);
-            ::coadjoint::plumbing::bound(&mut coefficients, 460, &[]);
+            ::coadjoint::plumbing::bound(&mut coefficients, 217, &[]);
             let last = ::coadjoint::plumbing::last_terms::<
                 T,
-                520,
+                256,
                 0,
             >(Self::table(), &parts, Self::TRUNCATION);
             let radius = ::coadjoint::plumbing::radius(
@@ -79,7 +79,7 @@ const _: () = {
                 &last,
                 Self::TRUNCATION,
             );
-            coefficients[460] = radius * radius;
+            coefficients[217] = radius * radius;
             ::core::result::Result::Ok(Self {
                 step,
                 symbols: *symbols,
@@ -185,724 +185,486 @@ const _: () = {
     use ::core::prelude::v1::*;
     type Vector<T> = ::coadjoint::nalgebra::SVector<T, 3>;
     type Matrix<T> = ::coadjoint::nalgebra::SMatrix<T, 3, 3>;
-    impl<C: ::coadjoint::Scalar> ::coadjoint::plumbing::Programs<C, 3, 4, 2, 461>
+    impl<C: ::coadjoint::Scalar> ::coadjoint::plumbing::Programs<C, 3, 4, 2, 218>
     for Learned<C> {
         const NEAR: f64 = 0.05f64;
         const CORRECTIONS: u32 = 12u32;
         const FRAMED: bool = false;
         #[inline(always)]
         fn guess<T: ::coadjoint::plumbing::Number<C>>(
-            c: &[C; 461],
+            c: &[C; 218],
             mu: &[T; 3],
         ) -> ([T; 3], [T; 2]) {
-            let t7 = mu[2].times_plus(T::lift(c[171]), T::lift(c[170]));
-            let t8 = mu[1].times_plus(T::lift(c[172]), t7);
-            let t9 = mu[0].times_plus(T::lift(c[173]), t8);
-            let t13 = mu[2].times_plus(T::lift(c[168]), T::lift(c[167]));
-            let t14 = mu[1].times_plus(T::lift(c[169]), t13);
-            let t17 = mu[2].times_plus(T::lift(c[166]), T::lift(c[165]));
-            let t19 = mu[2].times_plus(t17, T::lift(c[164]));
+            let t7 = mu[2].times_plus(T::lift(c[77]), T::lift(c[76]));
+            let t8 = mu[1].times_plus(T::lift(c[78]), t7);
+            let t9 = mu[0].times_plus(T::lift(c[79]), t8);
+            let t13 = mu[2].times_plus(T::lift(c[74]), T::lift(c[73]));
+            let t14 = mu[1].times_plus(T::lift(c[75]), t13);
+            let t17 = mu[2].times_plus(T::lift(c[72]), T::lift(c[71]));
+            let t19 = mu[2].times_plus(t17, T::lift(c[70]));
             let t20 = mu[1].times_plus(t14, t19);
             let t21 = mu[0].times_plus(t9, t20);
-            let t25 = mu[2].times_plus(T::lift(c[162]), T::lift(c[161]));
-            let t26 = mu[1].times_plus(T::lift(c[163]), t25);
-            let t29 = mu[2].times_plus(T::lift(c[160]), T::lift(c[159]));
-            let t31 = mu[2].times_plus(t29, T::lift(c[158]));
+            let t25 = mu[2].times_plus(T::lift(c[68]), T::lift(c[67]));
+            let t26 = mu[1].times_plus(T::lift(c[69]), t25);
+            let t29 = mu[2].times_plus(T::lift(c[66]), T::lift(c[65]));
+            let t31 = mu[2].times_plus(t29, T::lift(c[64]));
             let t32 = mu[1].times_plus(t26, t31);
-            let t35 = mu[2].times_plus(T::lift(c[157]), T::lift(c[156]));
-            let t37 = mu[2].times_plus(t35, T::lift(c[155]));
-            let t39 = mu[2].times_plus(t37, T::lift(c[154]));
+            let t35 = mu[2].times_plus(T::lift(c[63]), T::lift(c[62]));
+            let t37 = mu[2].times_plus(t35, T::lift(c[61]));
+            let t39 = mu[2].times_plus(t37, T::lift(c[60]));
             let t40 = mu[1].times_plus(t32, t39);
             let t41 = mu[0].times_plus(t21, t40);
-            let t45 = mu[2].times_plus(T::lift(c[152]), T::lift(c[151]));
-            let t46 = mu[1].times_plus(T::lift(c[153]), t45);
-            let t49 = mu[2].times_plus(T::lift(c[150]), T::lift(c[149]));
-            let t51 = mu[2].times_plus(t49, T::lift(c[148]));
+            let t45 = mu[2].times_plus(T::lift(c[58]), T::lift(c[57]));
+            let t46 = mu[1].times_plus(T::lift(c[59]), t45);
+            let t49 = mu[2].times_plus(T::lift(c[56]), T::lift(c[55]));
+            let t51 = mu[2].times_plus(t49, T::lift(c[54]));
             let t52 = mu[1].times_plus(t46, t51);
-            let t55 = mu[2].times_plus(T::lift(c[147]), T::lift(c[146]));
-            let t57 = mu[2].times_plus(t55, T::lift(c[145]));
-            let t59 = mu[2].times_plus(t57, T::lift(c[144]));
+            let t55 = mu[2].times_plus(T::lift(c[53]), T::lift(c[52]));
+            let t57 = mu[2].times_plus(t55, T::lift(c[51]));
+            let t59 = mu[2].times_plus(t57, T::lift(c[50]));
             let t60 = mu[1].times_plus(t52, t59);
-            let t63 = mu[2].times_plus(T::lift(c[143]), T::lift(c[142]));
-            let t65 = mu[2].times_plus(t63, T::lift(c[141]));
-            let t67 = mu[2].times_plus(t65, T::lift(c[140]));
-            let t69 = mu[2].times_plus(t67, T::lift(c[139]));
+            let t63 = mu[2].times_plus(T::lift(c[49]), T::lift(c[48]));
+            let t65 = mu[2].times_plus(t63, T::lift(c[47]));
+            let t67 = mu[2].times_plus(t65, T::lift(c[46]));
+            let t69 = mu[2].times_plus(t67, T::lift(c[45]));
             let t70 = mu[1].times_plus(t60, t69);
             let t71 = mu[0].times_plus(t41, t70);
-            let t75 = mu[2].times_plus(T::lift(c[137]), T::lift(c[136]));
-            let t76 = mu[1].times_plus(T::lift(c[138]), t75);
-            let t79 = mu[2].times_plus(T::lift(c[135]), T::lift(c[134]));
-            let t81 = mu[2].times_plus(t79, T::lift(c[133]));
+            let t75 = mu[2].times_plus(T::lift(c[43]), T::lift(c[42]));
+            let t76 = mu[1].times_plus(T::lift(c[44]), t75);
+            let t79 = mu[2].times_plus(T::lift(c[41]), T::lift(c[40]));
+            let t81 = mu[2].times_plus(t79, T::lift(c[39]));
             let t82 = mu[1].times_plus(t76, t81);
-            let t85 = mu[2].times_plus(T::lift(c[132]), T::lift(c[131]));
-            let t87 = mu[2].times_plus(t85, T::lift(c[130]));
-            let t89 = mu[2].times_plus(t87, T::lift(c[129]));
+            let t85 = mu[2].times_plus(T::lift(c[38]), T::lift(c[37]));
+            let t87 = mu[2].times_plus(t85, T::lift(c[36]));
+            let t89 = mu[2].times_plus(t87, T::lift(c[35]));
             let t90 = mu[1].times_plus(t82, t89);
-            let t93 = mu[2].times_plus(T::lift(c[128]), T::lift(c[127]));
-            let t95 = mu[2].times_plus(t93, T::lift(c[126]));
-            let t97 = mu[2].times_plus(t95, T::lift(c[125]));
-            let t99 = mu[2].times_plus(t97, T::lift(c[124]));
+            let t93 = mu[2].times_plus(T::lift(c[34]), T::lift(c[33]));
+            let t95 = mu[2].times_plus(t93, T::lift(c[32]));
+            let t97 = mu[2].times_plus(t95, T::lift(c[31]));
+            let t99 = mu[2].times_plus(t97, T::lift(c[30]));
             let t100 = mu[1].times_plus(t90, t99);
-            let t103 = mu[2].times_plus(T::lift(c[123]), T::lift(c[122]));
-            let t105 = mu[2].times_plus(t103, T::lift(c[121]));
-            let t107 = mu[2].times_plus(t105, T::lift(c[120]));
-            let t109 = mu[2].times_plus(t107, T::lift(c[119]));
-            let t111 = mu[2].times_plus(t109, T::lift(c[118]));
-            let t112 = mu[1].times_plus(t100, t111);
-            let t113 = mu[0].times_plus(t71, t112);
-            let t117 = mu[2].times_plus(T::lift(c[116]), T::lift(c[115]));
-            let t118 = mu[1].times_plus(T::lift(c[117]), t117);
-            let t121 = mu[2].times_plus(T::lift(c[114]), T::lift(c[113]));
-            let t123 = mu[2].times_plus(t121, T::lift(c[112]));
-            let t124 = mu[1].times_plus(t118, t123);
-            let t127 = mu[2].times_plus(T::lift(c[111]), T::lift(c[110]));
-            let t129 = mu[2].times_plus(t127, T::lift(c[109]));
-            let t131 = mu[2].times_plus(t129, T::lift(c[108]));
-            let t132 = mu[1].times_plus(t124, t131);
-            let t135 = mu[2].times_plus(T::lift(c[107]), T::lift(c[106]));
-            let t137 = mu[2].times_plus(t135, T::lift(c[105]));
-            let t139 = mu[2].times_plus(t137, T::lift(c[104]));
-            let t141 = mu[2].times_plus(t139, T::lift(c[103]));
-            let t142 = mu[1].times_plus(t132, t141);
-            let t145 = mu[2].times_plus(T::lift(c[102]), T::lift(c[101]));
-            let t147 = mu[2].times_plus(t145, T::lift(c[100]));
-            let t149 = mu[2].times_plus(t147, T::lift(c[99]));
-            let t151 = mu[2].times_plus(t149, T::lift(c[98]));
-            let t153 = mu[2].times_plus(t151, T::lift(c[97]));
-            let t154 = mu[1].times_plus(t142, t153);
-            let t157 = mu[2].times_plus(T::lift(c[96]), T::lift(c[95]));
-            let t159 = mu[2].times_plus(t157, T::lift(c[94]));
-            let t161 = mu[2].times_plus(t159, T::lift(c[93]));
-            let t163 = mu[2].times_plus(t161, T::lift(c[92]));
-            let t165 = mu[2].times_plus(t163, T::lift(c[91]));
-            let t167 = mu[2].times_plus(t165, T::lift(c[90]));
-            let t168 = mu[1].times_plus(t154, t167);
-            let t169 = mu[0].times_plus(t113, t168);
-            let t173 = mu[2].times_plus(T::lift(c[88]), T::lift(c[87]));
-            let t174 = mu[1].times_plus(T::lift(c[89]), t173);
-            let t177 = mu[2].times_plus(T::lift(c[86]), T::lift(c[85]));
-            let t179 = mu[2].times_plus(t177, T::lift(c[84]));
-            let t180 = mu[1].times_plus(t174, t179);
-            let t183 = mu[2].times_plus(T::lift(c[83]), T::lift(c[82]));
-            let t185 = mu[2].times_plus(t183, T::lift(c[81]));
-            let t187 = mu[2].times_plus(t185, T::lift(c[80]));
-            let t188 = mu[1].times_plus(t180, t187);
-            let t191 = mu[2].times_plus(T::lift(c[79]), T::lift(c[78]));
-            let t193 = mu[2].times_plus(t191, T::lift(c[77]));
-            let t195 = mu[2].times_plus(t193, T::lift(c[76]));
-            let t197 = mu[2].times_plus(t195, T::lift(c[75]));
-            let t198 = mu[1].times_plus(t188, t197);
-            let t201 = mu[2].times_plus(T::lift(c[74]), T::lift(c[73]));
-            let t203 = mu[2].times_plus(t201, T::lift(c[72]));
-            let t205 = mu[2].times_plus(t203, T::lift(c[71]));
-            let t207 = mu[2].times_plus(t205, T::lift(c[70]));
-            let t209 = mu[2].times_plus(t207, T::lift(c[69]));
-            let t210 = mu[1].times_plus(t198, t209);
-            let t213 = mu[2].times_plus(T::lift(c[68]), T::lift(c[67]));
-            let t215 = mu[2].times_plus(t213, T::lift(c[66]));
-            let t217 = mu[2].times_plus(t215, T::lift(c[65]));
-            let t219 = mu[2].times_plus(t217, T::lift(c[64]));
-            let t221 = mu[2].times_plus(t219, T::lift(c[63]));
-            let t223 = mu[2].times_plus(t221, T::lift(c[62]));
-            let t224 = mu[1].times_plus(t210, t223);
-            let t227 = mu[2].times_plus(T::lift(c[61]), T::lift(c[60]));
-            let t229 = mu[2].times_plus(t227, T::lift(c[59]));
-            let t231 = mu[2].times_plus(t229, T::lift(c[58]));
-            let t233 = mu[2].times_plus(t231, T::lift(c[57]));
-            let t235 = mu[2].times_plus(t233, T::lift(c[56]));
-            let t237 = mu[2].times_plus(t235, T::lift(c[55]));
-            let t238 = mu[2] * t237;
-            let t239 = mu[1].times_plus(t224, t238);
-            let t240 = mu[0].times_plus(t169, t239);
-            let t245 = mu[2].times_plus(T::lift(c[290]), T::lift(c[289]));
-            let t246 = mu[1].times_plus(T::lift(c[291]), t245);
-            let t247 = mu[0].times_plus(T::lift(c[292]), t246);
-            let t251 = mu[2].times_plus(T::lift(c[287]), T::lift(c[286]));
-            let t252 = mu[1].times_plus(T::lift(c[288]), t251);
-            let t255 = mu[2].times_plus(T::lift(c[285]), T::lift(c[284]));
-            let t257 = mu[2].times_plus(t255, T::lift(c[283]));
-            let t258 = mu[1].times_plus(t252, t257);
-            let t259 = mu[0].times_plus(t247, t258);
-            let t263 = mu[2].times_plus(T::lift(c[281]), T::lift(c[280]));
-            let t264 = mu[1].times_plus(T::lift(c[282]), t263);
-            let t267 = mu[2].times_plus(T::lift(c[279]), T::lift(c[278]));
-            let t269 = mu[2].times_plus(t267, T::lift(c[277]));
-            let t270 = mu[1].times_plus(t264, t269);
-            let t273 = mu[2].times_plus(T::lift(c[276]), T::lift(c[275]));
-            let t275 = mu[2].times_plus(t273, T::lift(c[274]));
-            let t277 = mu[2].times_plus(t275, T::lift(c[273]));
-            let t278 = mu[1].times_plus(t270, t277);
-            let t279 = mu[0].times_plus(t259, t278);
-            let t283 = mu[2].times_plus(T::lift(c[271]), T::lift(c[270]));
-            let t284 = mu[1].times_plus(T::lift(c[272]), t283);
-            let t287 = mu[2].times_plus(T::lift(c[269]), T::lift(c[268]));
-            let t289 = mu[2].times_plus(t287, T::lift(c[267]));
-            let t290 = mu[1].times_plus(t284, t289);
-            let t293 = mu[2].times_plus(T::lift(c[266]), T::lift(c[265]));
-            let t295 = mu[2].times_plus(t293, T::lift(c[264]));
-            let t297 = mu[2].times_plus(t295, T::lift(c[263]));
-            let t298 = mu[1].times_plus(t290, t297);
-            let t301 = mu[2].times_plus(T::lift(c[262]), T::lift(c[261]));
-            let t303 = mu[2].times_plus(t301, T::lift(c[260]));
-            let t305 = mu[2].times_plus(t303, T::lift(c[259]));
-            let t307 = mu[2].times_plus(t305, T::lift(c[258]));
-            let t308 = mu[1].times_plus(t298, t307);
-            let t309 = mu[0].times_plus(t279, t308);
-            let t313 = mu[2].times_plus(T::lift(c[256]), T::lift(c[255]));
-            let t314 = mu[1].times_plus(T::lift(c[257]), t313);
-            let t317 = mu[2].times_plus(T::lift(c[254]), T::lift(c[253]));
-            let t319 = mu[2].times_plus(t317, T::lift(c[252]));
-            let t320 = mu[1].times_plus(t314, t319);
-            let t323 = mu[2].times_plus(T::lift(c[251]), T::lift(c[250]));
-            let t325 = mu[2].times_plus(t323, T::lift(c[249]));
-            let t327 = mu[2].times_plus(t325, T::lift(c[248]));
-            let t328 = mu[1].times_plus(t320, t327);
-            let t331 = mu[2].times_plus(T::lift(c[247]), T::lift(c[246]));
-            let t333 = mu[2].times_plus(t331, T::lift(c[245]));
-            let t335 = mu[2].times_plus(t333, T::lift(c[244]));
-            let t337 = mu[2].times_plus(t335, T::lift(c[243]));
-            let t338 = mu[1].times_plus(t328, t337);
-            let t341 = mu[2].times_plus(T::lift(c[242]), T::lift(c[241]));
-            let t343 = mu[2].times_plus(t341, T::lift(c[240]));
-            let t345 = mu[2].times_plus(t343, T::lift(c[239]));
-            let t347 = mu[2].times_plus(t345, T::lift(c[238]));
-            let t349 = mu[2].times_plus(t347, T::lift(c[237]));
-            let t350 = mu[1].times_plus(t338, t349);
-            let t351 = mu[0].times_plus(t309, t350);
-            let t355 = mu[2].times_plus(T::lift(c[235]), T::lift(c[234]));
-            let t356 = mu[1].times_plus(T::lift(c[236]), t355);
-            let t359 = mu[2].times_plus(T::lift(c[233]), T::lift(c[232]));
-            let t361 = mu[2].times_plus(t359, T::lift(c[231]));
-            let t362 = mu[1].times_plus(t356, t361);
-            let t365 = mu[2].times_plus(T::lift(c[230]), T::lift(c[229]));
-            let t367 = mu[2].times_plus(t365, T::lift(c[228]));
-            let t369 = mu[2].times_plus(t367, T::lift(c[227]));
-            let t370 = mu[1].times_plus(t362, t369);
-            let t373 = mu[2].times_plus(T::lift(c[226]), T::lift(c[225]));
-            let t375 = mu[2].times_plus(t373, T::lift(c[224]));
-            let t377 = mu[2].times_plus(t375, T::lift(c[223]));
-            let t379 = mu[2].times_plus(t377, T::lift(c[222]));
-            let t380 = mu[1].times_plus(t370, t379);
-            let t383 = mu[2].times_plus(T::lift(c[221]), T::lift(c[220]));
-            let t385 = mu[2].times_plus(t383, T::lift(c[219]));
-            let t387 = mu[2].times_plus(t385, T::lift(c[218]));
-            let t389 = mu[2].times_plus(t387, T::lift(c[217]));
-            let t391 = mu[2].times_plus(t389, T::lift(c[216]));
-            let t392 = mu[1].times_plus(t380, t391);
-            let t395 = mu[2].times_plus(T::lift(c[215]), T::lift(c[214]));
-            let t397 = mu[2].times_plus(t395, T::lift(c[213]));
-            let t399 = mu[2].times_plus(t397, T::lift(c[212]));
-            let t401 = mu[2].times_plus(t399, T::lift(c[211]));
-            let t403 = mu[2].times_plus(t401, T::lift(c[210]));
-            let t405 = mu[2].times_plus(t403, T::lift(c[209]));
-            let t406 = mu[1].times_plus(t392, t405);
-            let t407 = mu[0].times_plus(t351, t406);
-            let t411 = mu[2].times_plus(T::lift(c[207]), T::lift(c[206]));
-            let t412 = mu[1].times_plus(T::lift(c[208]), t411);
-            let t415 = mu[2].times_plus(T::lift(c[205]), T::lift(c[204]));
-            let t417 = mu[2].times_plus(t415, T::lift(c[203]));
-            let t418 = mu[1].times_plus(t412, t417);
-            let t421 = mu[2].times_plus(T::lift(c[202]), T::lift(c[201]));
-            let t423 = mu[2].times_plus(t421, T::lift(c[200]));
-            let t425 = mu[2].times_plus(t423, T::lift(c[199]));
-            let t426 = mu[1].times_plus(t418, t425);
-            let t429 = mu[2].times_plus(T::lift(c[198]), T::lift(c[197]));
-            let t431 = mu[2].times_plus(t429, T::lift(c[196]));
-            let t433 = mu[2].times_plus(t431, T::lift(c[195]));
-            let t435 = mu[2].times_plus(t433, T::lift(c[194]));
-            let t436 = mu[1].times_plus(t426, t435);
-            let t439 = mu[2].times_plus(T::lift(c[193]), T::lift(c[192]));
-            let t441 = mu[2].times_plus(t439, T::lift(c[191]));
-            let t443 = mu[2].times_plus(t441, T::lift(c[190]));
-            let t445 = mu[2].times_plus(t443, T::lift(c[189]));
-            let t447 = mu[2].times_plus(t445, T::lift(c[188]));
-            let t448 = mu[1].times_plus(t436, t447);
-            let t451 = mu[2].times_plus(T::lift(c[187]), T::lift(c[186]));
-            let t453 = mu[2].times_plus(t451, T::lift(c[185]));
-            let t455 = mu[2].times_plus(t453, T::lift(c[184]));
-            let t457 = mu[2].times_plus(t455, T::lift(c[183]));
-            let t459 = mu[2].times_plus(t457, T::lift(c[182]));
-            let t461 = mu[2].times_plus(t459, T::lift(c[181]));
-            let t462 = mu[1].times_plus(t448, t461);
-            let t465 = mu[2].times_plus(T::lift(c[180]), T::lift(c[179]));
-            let t467 = mu[2].times_plus(t465, T::lift(c[178]));
-            let t469 = mu[2].times_plus(t467, T::lift(c[177]));
-            let t471 = mu[2].times_plus(t469, T::lift(c[176]));
-            let t473 = mu[2].times_plus(t471, T::lift(c[175]));
-            let t475 = mu[2].times_plus(t473, T::lift(c[174]));
-            let t476 = mu[2] * t475;
-            let t477 = mu[1].times_plus(t462, t476);
-            let t478 = mu[0].times_plus(t407, t477);
-            let t483 = mu[2].times_plus(T::lift(c[409]), T::lift(c[408]));
-            let t484 = mu[1].times_plus(T::lift(c[410]), t483);
-            let t485 = mu[0].times_plus(T::lift(c[411]), t484);
-            let t489 = mu[2].times_plus(T::lift(c[406]), T::lift(c[405]));
-            let t490 = mu[1].times_plus(T::lift(c[407]), t489);
-            let t493 = mu[2].times_plus(T::lift(c[404]), T::lift(c[403]));
-            let t495 = mu[2].times_plus(t493, T::lift(c[402]));
-            let t496 = mu[1].times_plus(t490, t495);
-            let t497 = mu[0].times_plus(t485, t496);
-            let t501 = mu[2].times_plus(T::lift(c[400]), T::lift(c[399]));
-            let t502 = mu[1].times_plus(T::lift(c[401]), t501);
-            let t505 = mu[2].times_plus(T::lift(c[398]), T::lift(c[397]));
-            let t507 = mu[2].times_plus(t505, T::lift(c[396]));
-            let t508 = mu[1].times_plus(t502, t507);
-            let t511 = mu[2].times_plus(T::lift(c[395]), T::lift(c[394]));
-            let t513 = mu[2].times_plus(t511, T::lift(c[393]));
-            let t515 = mu[2].times_plus(t513, T::lift(c[392]));
-            let t516 = mu[1].times_plus(t508, t515);
-            let t517 = mu[0].times_plus(t497, t516);
-            let t521 = mu[2].times_plus(T::lift(c[390]), T::lift(c[389]));
-            let t522 = mu[1].times_plus(T::lift(c[391]), t521);
-            let t525 = mu[2].times_plus(T::lift(c[388]), T::lift(c[387]));
-            let t527 = mu[2].times_plus(t525, T::lift(c[386]));
-            let t528 = mu[1].times_plus(t522, t527);
-            let t531 = mu[2].times_plus(T::lift(c[385]), T::lift(c[384]));
-            let t533 = mu[2].times_plus(t531, T::lift(c[383]));
-            let t535 = mu[2].times_plus(t533, T::lift(c[382]));
-            let t536 = mu[1].times_plus(t528, t535);
-            let t539 = mu[2].times_plus(T::lift(c[381]), T::lift(c[380]));
-            let t541 = mu[2].times_plus(t539, T::lift(c[379]));
-            let t543 = mu[2].times_plus(t541, T::lift(c[378]));
-            let t545 = mu[2].times_plus(t543, T::lift(c[377]));
-            let t546 = mu[1].times_plus(t536, t545);
-            let t547 = mu[0].times_plus(t517, t546);
-            let t551 = mu[2].times_plus(T::lift(c[375]), T::lift(c[374]));
-            let t552 = mu[1].times_plus(T::lift(c[376]), t551);
-            let t555 = mu[2].times_plus(T::lift(c[373]), T::lift(c[372]));
-            let t557 = mu[2].times_plus(t555, T::lift(c[371]));
-            let t558 = mu[1].times_plus(t552, t557);
-            let t561 = mu[2].times_plus(T::lift(c[370]), T::lift(c[369]));
-            let t563 = mu[2].times_plus(t561, T::lift(c[368]));
-            let t565 = mu[2].times_plus(t563, T::lift(c[367]));
-            let t566 = mu[1].times_plus(t558, t565);
-            let t569 = mu[2].times_plus(T::lift(c[366]), T::lift(c[365]));
-            let t571 = mu[2].times_plus(t569, T::lift(c[364]));
-            let t573 = mu[2].times_plus(t571, T::lift(c[363]));
-            let t575 = mu[2].times_plus(t573, T::lift(c[362]));
-            let t576 = mu[1].times_plus(t566, t575);
-            let t579 = mu[2].times_plus(T::lift(c[361]), T::lift(c[360]));
-            let t581 = mu[2].times_plus(t579, T::lift(c[359]));
-            let t583 = mu[2].times_plus(t581, T::lift(c[358]));
-            let t585 = mu[2].times_plus(t583, T::lift(c[357]));
-            let t587 = mu[2].times_plus(t585, T::lift(c[356]));
-            let t588 = mu[1].times_plus(t576, t587);
-            let t589 = mu[0].times_plus(t547, t588);
-            let t593 = mu[2].times_plus(T::lift(c[354]), T::lift(c[353]));
-            let t594 = mu[1].times_plus(T::lift(c[355]), t593);
-            let t597 = mu[2].times_plus(T::lift(c[352]), T::lift(c[351]));
-            let t599 = mu[2].times_plus(t597, T::lift(c[350]));
-            let t600 = mu[1].times_plus(t594, t599);
-            let t603 = mu[2].times_plus(T::lift(c[349]), T::lift(c[348]));
-            let t605 = mu[2].times_plus(t603, T::lift(c[347]));
-            let t607 = mu[2].times_plus(t605, T::lift(c[346]));
-            let t608 = mu[1].times_plus(t600, t607);
-            let t611 = mu[2].times_plus(T::lift(c[345]), T::lift(c[344]));
-            let t613 = mu[2].times_plus(t611, T::lift(c[343]));
-            let t615 = mu[2].times_plus(t613, T::lift(c[342]));
-            let t617 = mu[2].times_plus(t615, T::lift(c[341]));
-            let t618 = mu[1].times_plus(t608, t617);
-            let t621 = mu[2].times_plus(T::lift(c[340]), T::lift(c[339]));
-            let t623 = mu[2].times_plus(t621, T::lift(c[338]));
-            let t625 = mu[2].times_plus(t623, T::lift(c[337]));
-            let t627 = mu[2].times_plus(t625, T::lift(c[336]));
-            let t629 = mu[2].times_plus(t627, T::lift(c[335]));
-            let t630 = mu[1].times_plus(t618, t629);
-            let t633 = mu[2].times_plus(T::lift(c[334]), T::lift(c[333]));
-            let t635 = mu[2].times_plus(t633, T::lift(c[332]));
-            let t637 = mu[2].times_plus(t635, T::lift(c[331]));
-            let t639 = mu[2].times_plus(t637, T::lift(c[330]));
-            let t641 = mu[2].times_plus(t639, T::lift(c[329]));
-            let t643 = mu[2].times_plus(t641, T::lift(c[328]));
-            let t644 = mu[1].times_plus(t630, t643);
-            let t645 = mu[0].times_plus(t589, t644);
-            let t649 = mu[2].times_plus(T::lift(c[326]), T::lift(c[325]));
-            let t650 = mu[1].times_plus(T::lift(c[327]), t649);
-            let t653 = mu[2].times_plus(T::lift(c[324]), T::lift(c[323]));
-            let t655 = mu[2].times_plus(t653, T::lift(c[322]));
-            let t656 = mu[1].times_plus(t650, t655);
-            let t659 = mu[2].times_plus(T::lift(c[321]), T::lift(c[320]));
-            let t661 = mu[2].times_plus(t659, T::lift(c[319]));
-            let t663 = mu[2].times_plus(t661, T::lift(c[318]));
-            let t664 = mu[1].times_plus(t656, t663);
-            let t667 = mu[2].times_plus(T::lift(c[317]), T::lift(c[316]));
-            let t669 = mu[2].times_plus(t667, T::lift(c[315]));
-            let t671 = mu[2].times_plus(t669, T::lift(c[314]));
-            let t673 = mu[2].times_plus(t671, T::lift(c[313]));
-            let t674 = mu[1].times_plus(t664, t673);
-            let t677 = mu[2].times_plus(T::lift(c[312]), T::lift(c[311]));
-            let t679 = mu[2].times_plus(t677, T::lift(c[310]));
-            let t681 = mu[2].times_plus(t679, T::lift(c[309]));
-            let t683 = mu[2].times_plus(t681, T::lift(c[308]));
-            let t685 = mu[2].times_plus(t683, T::lift(c[307]));
-            let t686 = mu[1].times_plus(t674, t685);
-            let t689 = mu[2].times_plus(T::lift(c[306]), T::lift(c[305]));
-            let t691 = mu[2].times_plus(t689, T::lift(c[304]));
-            let t693 = mu[2].times_plus(t691, T::lift(c[303]));
-            let t695 = mu[2].times_plus(t693, T::lift(c[302]));
-            let t697 = mu[2].times_plus(t695, T::lift(c[301]));
-            let t699 = mu[2].times_plus(t697, T::lift(c[300]));
-            let t700 = mu[1].times_plus(t686, t699);
-            let t703 = mu[2].times_plus(T::lift(c[299]), T::lift(c[298]));
-            let t705 = mu[2].times_plus(t703, T::lift(c[297]));
-            let t707 = mu[2].times_plus(t705, T::lift(c[296]));
-            let t709 = mu[2].times_plus(t707, T::lift(c[295]));
-            let t711 = mu[2].times_plus(t709, T::lift(c[294]));
-            let t713 = mu[2].times_plus(t711, T::lift(c[293]));
-            let t714 = mu[2] * t713;
-            let t715 = mu[1].times_plus(t700, t714);
-            let t716 = mu[0].times_plus(t645, t715);
-            let t719 = mu[0].simd_abs();
-            let t720 = mu[1].simd_abs();
-            let t721 = t719.select(t720.simd_le(t719), t720);
-            let t722 = mu[2].simd_abs();
-            let t723 = t721.select(t722.simd_le(t721), t722);
-            let t724 = T::of(0.000000000000000000000000000000000000011754943508222875)
-                + t723;
-            let t726 = T::of(1.0) / t724;
-            ([t240, t478, t716], [t726, T::of(0.0)])
+            let t103 = mu[2].times_plus(T::lift(c[29]), T::lift(c[28]));
+            let t105 = mu[2].times_plus(t103, T::lift(c[27]));
+            let t107 = mu[2].times_plus(t105, T::lift(c[26]));
+            let t109 = mu[2].times_plus(t107, T::lift(c[25]));
+            let t110 = mu[2] * t109;
+            let t111 = mu[1].times_plus(t100, t110);
+            let t112 = mu[0].times_plus(t71, t111);
+            let t117 = mu[2].times_plus(T::lift(c[132]), T::lift(c[131]));
+            let t118 = mu[1].times_plus(T::lift(c[133]), t117);
+            let t119 = mu[0].times_plus(T::lift(c[134]), t118);
+            let t123 = mu[2].times_plus(T::lift(c[129]), T::lift(c[128]));
+            let t124 = mu[1].times_plus(T::lift(c[130]), t123);
+            let t127 = mu[2].times_plus(T::lift(c[127]), T::lift(c[126]));
+            let t129 = mu[2].times_plus(t127, T::lift(c[125]));
+            let t130 = mu[1].times_plus(t124, t129);
+            let t131 = mu[0].times_plus(t119, t130);
+            let t135 = mu[2].times_plus(T::lift(c[123]), T::lift(c[122]));
+            let t136 = mu[1].times_plus(T::lift(c[124]), t135);
+            let t139 = mu[2].times_plus(T::lift(c[121]), T::lift(c[120]));
+            let t141 = mu[2].times_plus(t139, T::lift(c[119]));
+            let t142 = mu[1].times_plus(t136, t141);
+            let t145 = mu[2].times_plus(T::lift(c[118]), T::lift(c[117]));
+            let t147 = mu[2].times_plus(t145, T::lift(c[116]));
+            let t149 = mu[2].times_plus(t147, T::lift(c[115]));
+            let t150 = mu[1].times_plus(t142, t149);
+            let t151 = mu[0].times_plus(t131, t150);
+            let t155 = mu[2].times_plus(T::lift(c[113]), T::lift(c[112]));
+            let t156 = mu[1].times_plus(T::lift(c[114]), t155);
+            let t159 = mu[2].times_plus(T::lift(c[111]), T::lift(c[110]));
+            let t161 = mu[2].times_plus(t159, T::lift(c[109]));
+            let t162 = mu[1].times_plus(t156, t161);
+            let t165 = mu[2].times_plus(T::lift(c[108]), T::lift(c[107]));
+            let t167 = mu[2].times_plus(t165, T::lift(c[106]));
+            let t169 = mu[2].times_plus(t167, T::lift(c[105]));
+            let t170 = mu[1].times_plus(t162, t169);
+            let t173 = mu[2].times_plus(T::lift(c[104]), T::lift(c[103]));
+            let t175 = mu[2].times_plus(t173, T::lift(c[102]));
+            let t177 = mu[2].times_plus(t175, T::lift(c[101]));
+            let t179 = mu[2].times_plus(t177, T::lift(c[100]));
+            let t180 = mu[1].times_plus(t170, t179);
+            let t181 = mu[0].times_plus(t151, t180);
+            let t185 = mu[2].times_plus(T::lift(c[98]), T::lift(c[97]));
+            let t186 = mu[1].times_plus(T::lift(c[99]), t185);
+            let t189 = mu[2].times_plus(T::lift(c[96]), T::lift(c[95]));
+            let t191 = mu[2].times_plus(t189, T::lift(c[94]));
+            let t192 = mu[1].times_plus(t186, t191);
+            let t195 = mu[2].times_plus(T::lift(c[93]), T::lift(c[92]));
+            let t197 = mu[2].times_plus(t195, T::lift(c[91]));
+            let t199 = mu[2].times_plus(t197, T::lift(c[90]));
+            let t200 = mu[1].times_plus(t192, t199);
+            let t203 = mu[2].times_plus(T::lift(c[89]), T::lift(c[88]));
+            let t205 = mu[2].times_plus(t203, T::lift(c[87]));
+            let t207 = mu[2].times_plus(t205, T::lift(c[86]));
+            let t209 = mu[2].times_plus(t207, T::lift(c[85]));
+            let t210 = mu[1].times_plus(t200, t209);
+            let t213 = mu[2].times_plus(T::lift(c[84]), T::lift(c[83]));
+            let t215 = mu[2].times_plus(t213, T::lift(c[82]));
+            let t217 = mu[2].times_plus(t215, T::lift(c[81]));
+            let t219 = mu[2].times_plus(t217, T::lift(c[80]));
+            let t220 = mu[2] * t219;
+            let t221 = mu[1].times_plus(t210, t220);
+            let t222 = mu[0].times_plus(t181, t221);
+            let t227 = mu[2].times_plus(T::lift(c[187]), T::lift(c[186]));
+            let t228 = mu[1].times_plus(T::lift(c[188]), t227);
+            let t229 = mu[0].times_plus(T::lift(c[189]), t228);
+            let t233 = mu[2].times_plus(T::lift(c[184]), T::lift(c[183]));
+            let t234 = mu[1].times_plus(T::lift(c[185]), t233);
+            let t237 = mu[2].times_plus(T::lift(c[182]), T::lift(c[181]));
+            let t239 = mu[2].times_plus(t237, T::lift(c[180]));
+            let t240 = mu[1].times_plus(t234, t239);
+            let t241 = mu[0].times_plus(t229, t240);
+            let t245 = mu[2].times_plus(T::lift(c[178]), T::lift(c[177]));
+            let t246 = mu[1].times_plus(T::lift(c[179]), t245);
+            let t249 = mu[2].times_plus(T::lift(c[176]), T::lift(c[175]));
+            let t251 = mu[2].times_plus(t249, T::lift(c[174]));
+            let t252 = mu[1].times_plus(t246, t251);
+            let t255 = mu[2].times_plus(T::lift(c[173]), T::lift(c[172]));
+            let t257 = mu[2].times_plus(t255, T::lift(c[171]));
+            let t259 = mu[2].times_plus(t257, T::lift(c[170]));
+            let t260 = mu[1].times_plus(t252, t259);
+            let t261 = mu[0].times_plus(t241, t260);
+            let t265 = mu[2].times_plus(T::lift(c[168]), T::lift(c[167]));
+            let t266 = mu[1].times_plus(T::lift(c[169]), t265);
+            let t269 = mu[2].times_plus(T::lift(c[166]), T::lift(c[165]));
+            let t271 = mu[2].times_plus(t269, T::lift(c[164]));
+            let t272 = mu[1].times_plus(t266, t271);
+            let t275 = mu[2].times_plus(T::lift(c[163]), T::lift(c[162]));
+            let t277 = mu[2].times_plus(t275, T::lift(c[161]));
+            let t279 = mu[2].times_plus(t277, T::lift(c[160]));
+            let t280 = mu[1].times_plus(t272, t279);
+            let t283 = mu[2].times_plus(T::lift(c[159]), T::lift(c[158]));
+            let t285 = mu[2].times_plus(t283, T::lift(c[157]));
+            let t287 = mu[2].times_plus(t285, T::lift(c[156]));
+            let t289 = mu[2].times_plus(t287, T::lift(c[155]));
+            let t290 = mu[1].times_plus(t280, t289);
+            let t291 = mu[0].times_plus(t261, t290);
+            let t295 = mu[2].times_plus(T::lift(c[153]), T::lift(c[152]));
+            let t296 = mu[1].times_plus(T::lift(c[154]), t295);
+            let t299 = mu[2].times_plus(T::lift(c[151]), T::lift(c[150]));
+            let t301 = mu[2].times_plus(t299, T::lift(c[149]));
+            let t302 = mu[1].times_plus(t296, t301);
+            let t305 = mu[2].times_plus(T::lift(c[148]), T::lift(c[147]));
+            let t307 = mu[2].times_plus(t305, T::lift(c[146]));
+            let t309 = mu[2].times_plus(t307, T::lift(c[145]));
+            let t310 = mu[1].times_plus(t302, t309);
+            let t313 = mu[2].times_plus(T::lift(c[144]), T::lift(c[143]));
+            let t315 = mu[2].times_plus(t313, T::lift(c[142]));
+            let t317 = mu[2].times_plus(t315, T::lift(c[141]));
+            let t319 = mu[2].times_plus(t317, T::lift(c[140]));
+            let t320 = mu[1].times_plus(t310, t319);
+            let t323 = mu[2].times_plus(T::lift(c[139]), T::lift(c[138]));
+            let t325 = mu[2].times_plus(t323, T::lift(c[137]));
+            let t327 = mu[2].times_plus(t325, T::lift(c[136]));
+            let t329 = mu[2].times_plus(t327, T::lift(c[135]));
+            let t330 = mu[2] * t329;
+            let t331 = mu[1].times_plus(t320, t330);
+            let t332 = mu[0].times_plus(t291, t331);
+            let t335 = mu[0].simd_abs();
+            let t336 = mu[1].simd_abs();
+            let t337 = ::coadjoint::plumbing::select(t336, t335, t335, t336);
+            let t338 = mu[2].simd_abs();
+            let t339 = ::coadjoint::plumbing::select(t338, t337, t337, t338);
+            let t340 = T::of(0.000000000000000000000000000000000000011754943508222875)
+                + t339;
+            let t342 = T::of(1.0) / t340;
+            ([t112, t222, t332], [t342, T::of(0.0)])
         }
 
         #[inline(always)]
         fn correct<T: ::coadjoint::plumbing::Number<C>>(
-            c: &[C; 461],
+            c: &[C; 218],
             p: &[T; 3],
             mu: &[T; 3],
             k: &[T; 2],
         ) -> ([T; 3], [T; 3], T, T) {
-            let t12 = p[2].times_plus(T::lift(c[7]), T::lift(c[6]));
-            let t13 = p[1].times_plus(T::lift(c[8]), t12);
-            let t14 = p[0].times_plus(T::lift(c[9]), t13);
-            let t18 = p[2].times_plus(T::lift(c[4]), T::lift(c[3]));
-            let t19 = p[1].times_plus(T::lift(c[5]), t18);
-            let t22 = p[2].times_plus(T::lift(c[2]), T::lift(c[1]));
-            let t24 = p[2].times_plus(t22, T::lift(c[0]));
+            let t12 = p[2].times_plus(T::lift(c[1]), T::lift(c[0]));
+            let t13 = p[1].times_plus(T::lift(c[2]), t12);
+            let t14 = p[0].times_plus(T::lift(c[3]), t13);
+            let t18 = p[2].times_plus(T::lift(c[8]), T::lift(c[7]));
+            let t19 = p[1].times_plus(T::lift(c[9]), t18);
+            let t22 = p[2].times_plus(T::lift(c[6]), T::lift(c[5]));
+            let t24 = p[2].times_plus(t22, T::lift(c[4]));
             let t25 = p[1].times_plus(t19, t24);
             let t26 = p[0].times_plus(t14, t25);
-            let t30 = p[2].times_plus(T::lift(c[18]), T::lift(c[17]));
-            let t31 = p[1].times_plus(T::lift(c[19]), t30);
-            let t34 = p[2].times_plus(T::lift(c[16]), T::lift(c[15]));
-            let t36 = p[2].times_plus(t34, T::lift(c[14]));
-            let t37 = p[1].times_plus(t31, t36);
-            let t40 = p[2].times_plus(T::lift(c[13]), T::lift(c[12]));
-            let t42 = p[2].times_plus(t40, T::lift(c[11]));
-            let t44 = p[2].times_plus(t42, T::lift(c[10]));
-            let t45 = p[1].times_plus(t37, t44);
-            let t46 = p[0].times_plus(t26, t45);
-            let t50 = p[2].times_plus(T::lift(c[27]), T::lift(c[26]));
-            let t51 = p[1].times_plus(T::lift(c[28]), t50);
-            let t52 = p[0].times_plus(T::lift(c[5]), t51);
-            let t56 = p[2].times_plus(T::lift(c[24]), T::lift(c[23]));
-            let t57 = p[1].times_plus(T::lift(c[25]), t56);
-            let t60 = p[2].times_plus(T::lift(c[22]), T::lift(c[21]));
-            let t62 = p[2].times_plus(t60, T::lift(c[20]));
-            let t63 = p[1].times_plus(t57, t62);
-            let t64 = p[0].times_plus(t52, t63);
-            let t68 = p[2].times_plus(T::lift(c[34]), T::lift(c[33]));
-            let t69 = p[0].times_plus(T::lift(c[35]), t68);
-            let t70 = p[0].times_plus(t69, t36);
-            let t73 = p[2].times_plus(T::lift(c[32]), T::lift(c[31]));
-            let t75 = p[2].times_plus(t73, T::lift(c[30]));
-            let t77 = p[2].times_plus(t75, T::lift(c[29]));
-            let t78 = p[0].times_plus(t70, t77);
-            let t79 = p[1].times_plus(t64, t78);
-            let t83 = p[2].times_plus(T::lift(c[42]), T::lift(c[41]));
-            let t84 = p[1].times_plus(T::lift(c[43]), t83);
-            let t85 = p[0].times_plus(T::lift(c[2]), t84);
-            let t88 = p[2].times_plus(T::lift(c[40]), T::lift(c[39]));
-            let t89 = p[1].times_plus(T::lift(c[22]), t88);
-            let t92 = p[2].times_plus(T::lift(c[38]), T::lift(c[37]));
-            let t94 = p[2].times_plus(t92, T::lift(c[36]));
-            let t95 = p[1].times_plus(t89, t94);
-            let t96 = p[0].times_plus(t85, t95);
-            let t99 = p[1].times_plus(T::lift(c[34]), T::lift(c[47]));
-            let t100 = p[0].times_plus(T::lift(c[48]), t99);
-            let t101 = p[1].times_plus(T::lift(c[18]), T::lift(c[15]));
-            let t102 = p[1].times_plus(t101, T::lift(c[11]));
-            let t103 = p[0].times_plus(t100, t102);
-            let t106 = p[1].times_plus(T::lift(c[46]), T::lift(c[45]));
-            let t107 = p[1].times_plus(t106, T::lift(c[30]));
-            let t109 = p[1].times_plus(t107, T::lift(c[44]));
-            let t110 = p[0].times_plus(t103, t109);
-            let t111 = p[2].times_plus(t96, t110);
-            let t113 = p[0].times_plus(T::lift(c[49]), t13);
-            let t114 = p[0] * t113;
-            let t115 = t26 + t114;
-            let t117 = p[1].times_plus(T::lift(c[50]), t18);
-            let t118 = p[0].times_plus(T::lift(c[8]), t117);
-            let t119 = p[1].times_plus(t51, t36);
-            let t120 = p[0].times_plus(t118, t119);
-            let t122 = p[2].times_plus(T::lift(c[51]), T::lift(c[1]));
-            let t123 = p[1].times_plus(T::lift(c[4]), t122);
-            let t124 = p[0].times_plus(T::lift(c[7]), t123);
-            let t125 = p[2].times_plus(T::lift(c[43]), T::lift(c[15]));
-            let t126 = p[1].times_plus(T::lift(c[18]), t125);
-            let t127 = p[2].times_plus(t83, T::lift(c[11]));
-            let t128 = p[1].times_plus(t126, t127);
-            let t129 = p[0].times_plus(t124, t128);
-            let t131 = p[1].times_plus(T::lift(c[52]), t56);
-            let t132 = p[0].times_plus(T::lift(c[28]), t131);
-            let t133 = p[1] * t132;
-            let t134 = t64 + t133;
-            let t135 = p[1].times_plus(T::lift(c[27]), t125);
-            let t136 = p[0].times_plus(T::lift(c[34]), t135);
-            let t138 = p[2].times_plus(T::lift(c[53]), T::lift(c[21]));
-            let t139 = p[1].times_plus(T::lift(c[24]), t138);
-            let t140 = p[2].times_plus(t88, T::lift(c[30]));
-            let t141 = p[1].times_plus(t139, t140);
-            let t142 = p[0].times_plus(t136, t141);
-            let t144 = p[2].times_plus(T::lift(c[54]), T::lift(c[37]));
-            let t145 = p[1].times_plus(T::lift(c[40]), t144);
-            let t146 = p[0].times_plus(T::lift(c[42]), t145);
-            let t147 = p[2] * t146;
-            let t148 = t96 + t147;
-            let t151 = t46 * t46;
-            let t152 = t79.times_plus(t79, t151);
-            let t153 = t111.times_plus(t111, t152);
-            let t164 = t153.times_plus(T::of(-0.041666666666666664), T::of(0.5));
-            let t165 = t153
+            let t31 = p[2].times_plus(T::lift(c[11]), T::lift(c[10]));
+            let t32 = p[1].times_plus(T::lift(c[12]), t31);
+            let t33 = p[0].times_plus(T::lift(c[13]), t32);
+            let t35 = p[0].times_plus(T::lift(c[17]), t18);
+            let t38 = p[2].times_plus(T::lift(c[16]), T::lift(c[15]));
+            let t40 = p[2].times_plus(t38, T::lift(c[14]));
+            let t41 = p[0].times_plus(t35, t40);
+            let t42 = p[1].times_plus(t33, t41);
+            let t47 = p[2].times_plus(T::lift(c[19]), T::lift(c[18]));
+            let t48 = p[1].times_plus(T::lift(c[20]), t47);
+            let t49 = p[0].times_plus(T::lift(c[21]), t48);
+            let t51 = p[1].times_plus(T::lift(c[8]), T::lift(c[5]));
+            let t52 = p[0].times_plus(T::lift(c[24]), t51);
+            let t54 = p[1].times_plus(T::lift(c[23]), T::lift(c[15]));
+            let t56 = p[1].times_plus(t54, T::lift(c[22]));
+            let t57 = p[0].times_plus(t52, t56);
+            let t58 = p[2].times_plus(t49, t57);
+            let t59 = p[0] * T::lift(c[3]);
+            let t60 = t14 + t59;
+            let t61 = p[1].times_plus(T::lift(c[13]), t18);
+            let t62 = p[0].times_plus(T::lift(c[2]), t61);
+            let t63 = p[2].times_plus(T::lift(c[21]), T::lift(c[5]));
+            let t64 = p[1].times_plus(T::lift(c[8]), t63);
+            let t65 = p[0].times_plus(T::lift(c[1]), t64);
+            let t66 = p[1] * T::lift(c[12]);
+            let t67 = t33 + t66;
+            let t68 = p[2].times_plus(T::lift(c[20]), T::lift(c[15]));
+            let t69 = p[1].times_plus(T::lift(c[11]), t68);
+            let t70 = p[0].times_plus(T::lift(c[8]), t69);
+            let t71 = p[2] * T::lift(c[19]);
+            let t72 = t49 + t71;
+            let t75 = t26 * t26;
+            let t76 = t42.times_plus(t42, t75);
+            let t77 = t58.times_plus(t58, t76);
+            let t88 = t77.times_plus(T::of(-0.041666666666666664), T::of(0.5));
+            let t89 = t77
                 .times_plus(T::of(-0.0000248015873015873), T::of(0.001388888888888889));
-            let t166 = t153
+            let t90 = t77
                 .times_plus(
                     T::of(-0.00000000208767569878681),
                     T::of(0.0000002755731922398589),
                 );
-            let t167 = t153
+            let t91 = t77
                 .times_plus(
                     T::of(-0.00000000000004779477332387385),
                     T::of(0.000000000011470745597729725),
                 );
-            let t168 = t153
+            let t92 = t77
                 .times_plus(
                     T::of(-0.0000000000000000004110317623312165),
                     T::of(0.00000000000000015619206968586225),
                 );
-            let t169 = t153 * t153;
-            let t170 = t165.times_plus(t169, t164);
-            let t171 = t167.times_plus(t169, t166);
-            let t172 = T::of(0.0000000000000000000008896791392450574)
-                .times_plus(t169, t168);
-            let t173 = t169 * t169;
-            let t174 = t171.times_plus(t173, t170);
-            let t175 = t173 * t173;
-            let t176 = t172.times_plus(t175, t174);
-            let t187 = t153
+            let t93 = t77 * t77;
+            let t94 = t89.times_plus(t93, t88);
+            let t95 = t91.times_plus(t93, t90);
+            let t96 = T::of(0.0000000000000000000008896791392450574)
+                .times_plus(t93, t92);
+            let t97 = t93 * t93;
+            let t98 = t95.times_plus(t97, t94);
+            let t99 = t97 * t97;
+            let t100 = t96.times_plus(t99, t98);
+            let t111 = t77
                 .times_plus(T::of(-0.008333333333333333), T::of(0.16666666666666666));
-            let t188 = t153
+            let t112 = t77
                 .times_plus(
                     T::of(-0.0000027557319223985893),
                     T::of(0.0001984126984126984),
                 );
-            let t189 = t153
+            let t113 = t77
                 .times_plus(
                     T::of(-0.00000000016059043836821613),
                     T::of(0.00000002505210838544172),
                 );
-            let t190 = t153
+            let t114 = t77
                 .times_plus(
                     T::of(-0.0000000000000028114572543455206),
                     T::of(0.0000000000007647163731819816),
                 );
-            let t191 = t153
+            let t115 = t77
                 .times_plus(
                     T::of(-0.000000000000000000019572941063391263),
                     T::of(0.00000000000000000822063524662433),
                 );
-            let t192 = t169.times_plus(t188, t187);
-            let t193 = t169.times_plus(t190, t189);
-            let t194 = t173.times_plus(t193, t192);
-            let t195 = t175.times_plus(t191, t194);
-            let t202 = t153
+            let t116 = t93.times_plus(t112, t111);
+            let t117 = t93.times_plus(t114, t113);
+            let t118 = t97.times_plus(t117, t116);
+            let t119 = t99.times_plus(t115, t118);
+            let t126 = t77
                 .times_plus(T::of(0.002777777777777778), T::of(-0.041666666666666664));
-            let t203 = t153
+            let t127 = t77
                 .times_plus(
                     T::of(0.0000011022927689594355),
                     T::of(-0.00007440476190476191),
                 );
-            let t204 = t153
+            let t128 = t77
                 .times_plus(
                     T::of(0.00000000006882447358637835),
                     T::of(-0.00000001043837849393405),
                 );
-            let t205 = t169.times_plus(t203, t202);
-            let t206 = t169.times_plus(T::of(-0.00000000000033456341326711696), t204);
-            let t207 = t173.times_plus(t206, t205);
-            let t214 = t153
+            let t129 = t93.times_plus(t127, t126);
+            let t130 = t93.times_plus(T::of(-0.00000000000033456341326711696), t128);
+            let t131 = t97.times_plus(t130, t129);
+            let t138 = t77
                 .times_plus(T::of(0.0003968253968253968), T::of(-0.008333333333333333));
-            let t215 = t153
+            let t139 = t77
                 .times_plus(
                     T::of(0.00000010020843354176688),
                     T::of(-0.000008267195767195768),
                 );
-            let t216 = t153
+            let t140 = t77
                 .times_plus(
                     T::of(0.00000000000458829823909189),
                     T::of(-0.0000000008029521918410806),
                 );
-            let t217 = t169.times_plus(t215, t214);
-            let t218 = t169.times_plus(T::of(-0.000000000000019680200780418645), t216);
-            let t219 = t173.times_plus(t218, t217);
-            let t220 = mu[1] * t111;
-            let t221 = -mu[2];
-            let t222 = t79.times_plus(t221, t220);
-            let t223 = mu[2] * t46;
-            let t224 = -mu[0];
-            let t225 = t111.times_plus(t224, t223);
-            let t226 = mu[0] * t79;
-            let t227 = -mu[1];
-            let t228 = t46.times_plus(t227, t226);
-            let t229 = t111 * t225;
-            let t230 = -t228;
-            let t231 = t79.times_plus(t230, t229);
-            let t232 = t46 * t228;
-            let t233 = -t222;
-            let t234 = t111.times_plus(t233, t232);
-            let t235 = t79 * t222;
-            let t236 = -t225;
-            let t237 = t46.times_plus(t236, t235);
-            let t238 = t176.times_plus(t222, mu[0]);
-            let t239 = t176.times_plus(t225, mu[1]);
-            let t240 = t176.times_plus(t228, mu[2]);
-            let t241 = t195.times_plus(t231, t238);
-            let t242 = t195.times_plus(t234, t239);
-            let t243 = t195.times_plus(t237, t240);
-            let t245 = t207 * t222;
-            let t246 = t207 * t225;
-            let t247 = t207 * t228;
-            let t248 = t219.times_plus(t231, t245);
-            let t249 = t219.times_plus(t234, t246);
-            let t250 = t219.times_plus(t237, t247);
-            let t251 = T::of(2.0) * t248;
-            let t252 = T::of(2.0) * t249;
-            let t253 = T::of(2.0) * t250;
-            let t254 = -t195;
-            let t255 = mu[0].times_plus(t254, t251);
-            let t256 = mu[1].times_plus(t254, t252);
-            let t257 = mu[2].times_plus(t254, t253);
-            let t258 = mu[0] * t176;
-            let t259 = mu[1] * t176;
-            let t260 = mu[2] * t176;
-            let t261 = t195.times_plus(t222, t258);
-            let t262 = t195.times_plus(t225, t259);
-            let t263 = t195.times_plus(t228, t260);
-            let t264 = mu[0] * t46;
-            let t265 = mu[1].times_plus(t79, t264);
-            let t266 = mu[2].times_plus(t111, t265);
-            let t267 = t195 * t266;
-            let t268 = -t261;
-            let t269 = -t262;
-            let t270 = -t263;
-            let t271 = t46.times_plus(t255, t267);
-            let t272 = t79.times_plus(t255, t270);
-            let t273 = t111.times_plus(t255, t262);
-            let t274 = t46.times_plus(t256, t263);
-            let t275 = t79.times_plus(t256, t267);
-            let t276 = t111.times_plus(t256, t268);
-            let t277 = t46.times_plus(t257, t269);
-            let t278 = t79.times_plus(t257, t261);
-            let t279 = t111.times_plus(t257, t267);
-            let t280 = t115 * t271;
-            let t281 = t120.times_plus(t272, t280);
-            let t282 = t129.times_plus(t273, t281);
-            let t283 = t120 * t271;
-            let t284 = t134.times_plus(t272, t283);
-            let t285 = t142.times_plus(t273, t284);
-            let t286 = t129 * t271;
-            let t287 = t142.times_plus(t272, t286);
-            let t288 = t148.times_plus(t273, t287);
-            let t289 = t115 * t274;
-            let t290 = t120.times_plus(t275, t289);
-            let t291 = t129.times_plus(t276, t290);
-            let t292 = t120 * t274;
-            let t293 = t134.times_plus(t275, t292);
-            let t294 = t142.times_plus(t276, t293);
-            let t295 = t129 * t274;
-            let t296 = t142.times_plus(t275, t295);
-            let t297 = t148.times_plus(t276, t296);
-            let t298 = t115 * t277;
-            let t299 = t120.times_plus(t278, t298);
-            let t300 = t129.times_plus(t279, t299);
-            let t301 = t120 * t277;
-            let t302 = t134.times_plus(t278, t301);
-            let t303 = t142.times_plus(t279, t302);
-            let t304 = t129 * t277;
-            let t305 = t142.times_plus(t278, t304);
-            let t306 = t148.times_plus(t279, t305);
-            let t307 = T::of(1.0) - t282;
-            let t308 = -t285;
-            let t309 = -t288;
-            let t310 = -t291;
-            let t311 = T::of(1.0) - t294;
-            let t312 = -t297;
-            let t313 = -t300;
-            let t314 = -t303;
-            let t315 = T::of(1.0) - t306;
-            let t316 = p[0] - t241;
-            let t317 = p[1] - t242;
-            let t318 = p[2] - t243;
-            let t319 = T::of(1.0) / t307;
-            let t320 = t310 * t319;
-            let t321 = -t320;
-            let t322 = t308.times_plus(t321, t311);
-            let t323 = t309.times_plus(t321, t312);
-            let t324 = t313 * t319;
-            let t325 = -t324;
-            let t326 = t308.times_plus(t325, t314);
-            let t327 = t309.times_plus(t325, t315);
-            let t328 = T::of(1.0) / t322;
-            let t329 = t326 * t328;
-            let t330 = -t329;
-            let t331 = t323.times_plus(t330, t327);
-            let t332 = T::of(1.0) / t331;
-            let t333 = t316.times_plus(t321, t317);
-            let t334 = t316.times_plus(t325, t318);
-            let t335 = t330.times_plus(t333, t334);
-            let t336 = t332 * t335;
-            let t337 = -t323;
-            let t338 = t336.times_plus(t337, t333);
-            let t339 = t328 * t338;
-            let t340 = t285.times_plus(t339, t316);
-            let t341 = t288.times_plus(t336, t340);
-            let t342 = t319 * t341;
-            let t343 = t115 * t342;
-            let t344 = t120.times_plus(t339, t343);
-            let t345 = t129.times_plus(t336, t344);
-            let t346 = t120 * t342;
-            let t347 = t134.times_plus(t339, t346);
-            let t348 = t142.times_plus(t336, t347);
-            let t349 = t129 * t342;
-            let t350 = t142.times_plus(t339, t349);
-            let t351 = t148.times_plus(t336, t350);
-            let t352 = p[0] - t342;
-            let t353 = p[1] - t339;
-            let t354 = p[2] - t336;
-            let t355 = t46 - t345;
-            let t356 = t79 - t348;
-            let t357 = t111 - t351;
-            let t358 = t342.simd_abs();
-            let t359 = t339.simd_abs();
-            let t360 = t358.select(t359.simd_le(t358), t359);
-            let t361 = t336.simd_abs();
-            let t362 = t360.select(t361.simd_le(t360), t361);
-            let t363 = k[0] * t362;
-            let t364 = t345.simd_abs();
-            let t365 = t348.simd_abs();
-            let t366 = t364.select(t365.simd_le(t364), t365);
-            let t367 = t351.simd_abs();
-            let t368 = t366.select(t367.simd_le(t366), t367);
-            let t369 = T::of(0.5).times_plus(t368, t363);
-            let t370 = k[1] * t363;
-            let t371 = t368.times_plus(t369, t370);
-            let t375 = <T as ::coadjoint::Scalar>::epsilon() * T::of(4.0);
-            let t376 = t371.select(t363.simd_le(T::of(0.001)), t363);
-            let t377 = t376.select(t376.simd_le(t363), t363);
-            let t378 = t377.select(t363.simd_le(t375), t376);
-            ([t352, t353, t354], [t355, t356, t357], t378, t363)
+            let t141 = t93.times_plus(t139, t138);
+            let t142 = t93.times_plus(T::of(-0.000000000000019680200780418645), t140);
+            let t143 = t97.times_plus(t142, t141);
+            let t144 = mu[1] * t58;
+            let t145 = -mu[2];
+            let t146 = t42.times_plus(t145, t144);
+            let t147 = mu[2] * t26;
+            let t148 = -mu[0];
+            let t149 = t58.times_plus(t148, t147);
+            let t150 = mu[0] * t42;
+            let t151 = -mu[1];
+            let t152 = t26.times_plus(t151, t150);
+            let t153 = t58 * t149;
+            let t154 = -t152;
+            let t155 = t42.times_plus(t154, t153);
+            let t156 = t26 * t152;
+            let t157 = -t146;
+            let t158 = t58.times_plus(t157, t156);
+            let t159 = t42 * t146;
+            let t160 = -t149;
+            let t161 = t26.times_plus(t160, t159);
+            let t162 = t100.times_plus(t146, mu[0]);
+            let t163 = t100.times_plus(t149, mu[1]);
+            let t164 = t100.times_plus(t152, mu[2]);
+            let t165 = t119.times_plus(t155, t162);
+            let t166 = t119.times_plus(t158, t163);
+            let t167 = t119.times_plus(t161, t164);
+            let t169 = t131 * t146;
+            let t170 = t131 * t149;
+            let t171 = t131 * t152;
+            let t172 = t143.times_plus(t155, t169);
+            let t173 = t143.times_plus(t158, t170);
+            let t174 = t143.times_plus(t161, t171);
+            let t175 = T::of(2.0) * t172;
+            let t176 = T::of(2.0) * t173;
+            let t177 = T::of(2.0) * t174;
+            let t178 = -t119;
+            let t179 = mu[0].times_plus(t178, t175);
+            let t180 = mu[1].times_plus(t178, t176);
+            let t181 = mu[2].times_plus(t178, t177);
+            let t182 = mu[0] * t100;
+            let t183 = mu[1] * t100;
+            let t184 = mu[2] * t100;
+            let t185 = t119.times_plus(t146, t182);
+            let t186 = t119.times_plus(t149, t183);
+            let t187 = t119.times_plus(t152, t184);
+            let t188 = mu[0] * t26;
+            let t189 = mu[1].times_plus(t42, t188);
+            let t190 = mu[2].times_plus(t58, t189);
+            let t191 = t119 * t190;
+            let t192 = -t185;
+            let t193 = -t186;
+            let t194 = -t187;
+            let t195 = t26.times_plus(t179, t191);
+            let t196 = t42.times_plus(t179, t194);
+            let t197 = t58.times_plus(t179, t186);
+            let t198 = t26.times_plus(t180, t187);
+            let t199 = t42.times_plus(t180, t191);
+            let t200 = t58.times_plus(t180, t192);
+            let t201 = t26.times_plus(t181, t193);
+            let t202 = t42.times_plus(t181, t185);
+            let t203 = t58.times_plus(t181, t191);
+            let t204 = t60 * t195;
+            let t205 = t62.times_plus(t196, t204);
+            let t206 = t65.times_plus(t197, t205);
+            let t207 = t62 * t195;
+            let t208 = t67.times_plus(t196, t207);
+            let t209 = t70.times_plus(t197, t208);
+            let t210 = t65 * t195;
+            let t211 = t70.times_plus(t196, t210);
+            let t212 = t72.times_plus(t197, t211);
+            let t213 = t60 * t198;
+            let t214 = t62.times_plus(t199, t213);
+            let t215 = t65.times_plus(t200, t214);
+            let t216 = t62 * t198;
+            let t217 = t67.times_plus(t199, t216);
+            let t218 = t70.times_plus(t200, t217);
+            let t219 = t65 * t198;
+            let t220 = t70.times_plus(t199, t219);
+            let t221 = t72.times_plus(t200, t220);
+            let t222 = t60 * t201;
+            let t223 = t62.times_plus(t202, t222);
+            let t224 = t65.times_plus(t203, t223);
+            let t225 = t62 * t201;
+            let t226 = t67.times_plus(t202, t225);
+            let t227 = t70.times_plus(t203, t226);
+            let t228 = t65 * t201;
+            let t229 = t70.times_plus(t202, t228);
+            let t230 = t72.times_plus(t203, t229);
+            let t231 = T::of(1.0) - t206;
+            let t232 = -t209;
+            let t233 = -t212;
+            let t234 = -t215;
+            let t235 = T::of(1.0) - t218;
+            let t236 = -t221;
+            let t237 = -t224;
+            let t238 = -t227;
+            let t239 = T::of(1.0) - t230;
+            let t240 = p[0] - t165;
+            let t241 = p[1] - t166;
+            let t242 = p[2] - t167;
+            let t243 = T::of(1.0) / t231;
+            let t244 = t234 * t243;
+            let t245 = -t244;
+            let t246 = t232.times_plus(t245, t235);
+            let t247 = t233.times_plus(t245, t236);
+            let t248 = t237 * t243;
+            let t249 = -t248;
+            let t250 = t232.times_plus(t249, t238);
+            let t251 = t233.times_plus(t249, t239);
+            let t252 = T::of(1.0) / t246;
+            let t253 = t250 * t252;
+            let t254 = -t253;
+            let t255 = t247.times_plus(t254, t251);
+            let t256 = T::of(1.0) / t255;
+            let t257 = t240.times_plus(t245, t241);
+            let t258 = t240.times_plus(t249, t242);
+            let t259 = t254.times_plus(t257, t258);
+            let t260 = t256 * t259;
+            let t261 = -t247;
+            let t262 = t260.times_plus(t261, t257);
+            let t263 = t252 * t262;
+            let t264 = t209.times_plus(t263, t240);
+            let t265 = t212.times_plus(t260, t264);
+            let t266 = t243 * t265;
+            let t267 = t60 * t266;
+            let t268 = t62.times_plus(t263, t267);
+            let t269 = t65.times_plus(t260, t268);
+            let t270 = t62 * t266;
+            let t271 = t67.times_plus(t263, t270);
+            let t272 = t70.times_plus(t260, t271);
+            let t273 = t65 * t266;
+            let t274 = t70.times_plus(t263, t273);
+            let t275 = t72.times_plus(t260, t274);
+            let t276 = p[0] - t266;
+            let t277 = p[1] - t263;
+            let t278 = p[2] - t260;
+            let t279 = t26 - t269;
+            let t280 = t42 - t272;
+            let t281 = t58 - t275;
+            let t282 = t266.simd_abs();
+            let t283 = t263.simd_abs();
+            let t284 = ::coadjoint::plumbing::select(t283, t282, t282, t283);
+            let t285 = t260.simd_abs();
+            let t286 = ::coadjoint::plumbing::select(t285, t284, t284, t285);
+            let t287 = k[0] * t286;
+            let t288 = t269.simd_abs();
+            let t289 = t272.simd_abs();
+            let t290 = ::coadjoint::plumbing::select(t289, t288, t288, t289);
+            let t291 = t275.simd_abs();
+            let t292 = ::coadjoint::plumbing::select(t291, t290, t290, t291);
+            let t293 = T::of(0.5).times_plus(t292, t287);
+            let t294 = k[1] * t287;
+            let t295 = t292.times_plus(t293, t294);
+            let t299 = <T as ::coadjoint::Scalar>::epsilon() * T::of(4.0);
+            let t300 = ::coadjoint::plumbing::select(t287, T::of(0.001), t295, t287);
+            let t301 = ::coadjoint::plumbing::select(t300, t287, t300, t287);
+            let t302 = ::coadjoint::plumbing::select(t287, t299, t301, t300);
+            ([t276, t277, t278], [t279, t280, t281], t302, t287)
         }
 
         #[inline(always)]
         fn accept<T: ::coadjoint::plumbing::Number<C>>(
-            c: &[C; 461],
+            c: &[C; 218],
             mu: &[T; 3],
             x: &[T; 3],
             left: T,
@@ -914,29 +676,32 @@ const _: () = {
             let t12 = x[2].times_plus(x[2], t11);
             let t14 = t12 * T::of(0.10132118364233778);
             let t15 = t14.simd_abs();
-            let t18 = T::of(0.0)
-                .select(
-                    t14
-                        .simd_le(
-                            T::of(
-                                179769313486231570000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000.0,
-                            ),
-                        ),
-                    T::of(1.0),
-                );
+            let t18 = ::coadjoint::plumbing::select(
+                t14,
+                T::of(
+                    179769313486231570000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000.0,
+                ),
+                T::of(0.0),
+                T::of(1.0),
+            );
             let t19 = t18 + t18;
             let t20 = t15 + t19;
             let t23 = t20 * T::of(16.0);
-            let t24 = T::of(1.0).select(T::of(0.0).simd_le(T::lift(c[460])), T::of(0.0));
-            let t25 = t24.select(t23.simd_le(T::of(1.0)), T::of(0.0));
-            let t26 = t25.select(way.simd_le(T::of(0.05)), T::of(0.0));
-            let t27 = t26.select(left.simd_le(t7), T::of(0.0));
+            let t24 = ::coadjoint::plumbing::select(
+                T::of(0.0),
+                T::lift(c[217]),
+                T::of(1.0),
+                T::of(0.0),
+            );
+            let t25 = ::coadjoint::plumbing::select(t23, T::of(1.0), t24, T::of(0.0));
+            let t26 = ::coadjoint::plumbing::select(way, T::of(0.05), t25, T::of(0.0));
+            let t27 = ::coadjoint::plumbing::select(left, t7, t26, T::of(0.0));
             t27
         }
 
         #[inline(always)]
         fn transport<T: ::coadjoint::plumbing::Number<C>>(
-            c: &[C; 461],
+            c: &[C; 218],
             g: &[T; 4],
             mu: &[T; 3],
             x: &[T; 3],
@@ -1050,7 +815,7 @@ const _: () = {
         }
 
         fn frame<T: ::coadjoint::plumbing::Number<C>>(
-            _: &[C; 461],
+            _: &[C; 218],
             g: &[T; 4],
             mu: &[T; 3],
             _: T,
@@ -1060,7 +825,7 @@ const _: () = {
 
         #[inline(always)]
         fn sound<T: ::coadjoint::plumbing::Number<C>>(
-            c: &[C; 461],
+            c: &[C; 218],
             g: &[T; 4],
             mu: &[T; 3],
         ) -> T {
@@ -1077,7 +842,7 @@ const _: () = {
             let t19 = t17 + t18;
             let t20 = t14 + t19;
             let t22 = <T as ::coadjoint::Scalar>::epsilon().simd_sqrt();
-            let t23 = T::of(1.0).select(t20.simd_le(t22), T::of(0.0));
+            let t23 = ::coadjoint::plumbing::select(t20, t22, T::of(1.0), T::of(0.0));
             t23
         }
     }
@@ -1095,7 +860,7 @@ const _: () = {
                 3,
                 4,
                 2,
-                461,
+                218,
             >(&self.coefficients, phase, steps)
         }
     }
@@ -1110,201 +875,109 @@ const _: () = {
 
         fn value(&self, p: &Vector<T>) -> T {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[48], c[423]);
-            let t8 = p[1].times_plus(c[35], t7);
-            let t9 = p[0].times_plus(c[424], t8);
-            let t13 = p[2].times_plus(c[34], c[33]);
-            let t14 = p[1].times_plus(c[422], t13);
-            let t17 = p[2].times_plus(c[421], c[47]);
-            let t19 = p[2].times_plus(t17, c[420]);
+            let t7 = p[2].times_plus(c[24], c[195]);
+            let t8 = p[1].times_plus(c[17], t7);
+            let t9 = p[0].times_plus(c[196], t8);
+            let t13 = p[2].times_plus(c[8], c[7]);
+            let t14 = p[1].times_plus(c[9], t13);
+            let t17 = p[2].times_plus(c[6], c[5]);
+            let t19 = p[2].times_plus(t17, c[4]);
             let t20 = p[1].times_plus(t14, t19);
             let t21 = p[0].times_plus(t9, t20);
-            let t25 = p[2].times_plus(c[18], c[17]);
-            let t26 = p[1].times_plus(c[19], t25);
+            let t25 = p[2].times_plus(c[23], c[193]);
+            let t26 = p[1].times_plus(c[194], t25);
             let t29 = p[2].times_plus(c[16], c[15]);
             let t31 = p[2].times_plus(t29, c[14]);
             let t32 = p[1].times_plus(t26, t31);
-            let t35 = p[2].times_plus(c[13], c[12]);
-            let t37 = p[2].times_plus(t35, c[11]);
-            let t39 = p[2].times_plus(t37, c[10]);
+            let t35 = p[2].times_plus(c[192], c[191]);
+            let t37 = p[2].times_plus(t35, c[22]);
+            let t39 = p[2].times_plus(t37, c[190]);
             let t40 = p[1].times_plus(t32, t39);
             let t41 = p[0].times_plus(t21, t40);
-            let t45 = p[2].times_plus(c[46], c[418]);
-            let t46 = p[1].times_plus(c[419], t45);
-            let t49 = p[2].times_plus(c[417], c[45]);
-            let t51 = p[2].times_plus(t49, c[416]);
-            let t52 = p[1].times_plus(t46, t51);
-            let t55 = p[2].times_plus(c[32], c[31]);
-            let t57 = p[2].times_plus(t55, c[30]);
-            let t59 = p[2].times_plus(t57, c[29]);
-            let t60 = p[1].times_plus(t52, t59);
-            let t63 = p[2].times_plus(c[415], c[414]);
-            let t65 = p[2].times_plus(t63, c[413]);
-            let t67 = p[2].times_plus(t65, c[44]);
-            let t69 = p[2].times_plus(t67, c[412]);
-            let t70 = p[1].times_plus(t60, t69);
-            let t71 = p[0].times_plus(t41, t70);
-            t71
+            t41
         }
 
         fn gradient(&self, p: &Vector<T>) -> Vector<T> {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[7], c[6]);
-            let t8 = p[1].times_plus(c[8], t7);
-            let t9 = p[0].times_plus(c[9], t8);
-            let t13 = p[2].times_plus(c[4], c[3]);
-            let t14 = p[1].times_plus(c[5], t13);
-            let t17 = p[2].times_plus(c[2], c[1]);
-            let t19 = p[2].times_plus(t17, c[0]);
+            let t7 = p[2].times_plus(c[1], c[0]);
+            let t8 = p[1].times_plus(c[2], t7);
+            let t9 = p[0].times_plus(c[3], t8);
+            let t13 = p[2].times_plus(c[8], c[7]);
+            let t14 = p[1].times_plus(c[9], t13);
+            let t17 = p[2].times_plus(c[6], c[5]);
+            let t19 = p[2].times_plus(t17, c[4]);
             let t20 = p[1].times_plus(t14, t19);
             let t21 = p[0].times_plus(t9, t20);
-            let t25 = p[2].times_plus(c[18], c[17]);
-            let t26 = p[1].times_plus(c[19], t25);
-            let t29 = p[2].times_plus(c[16], c[15]);
-            let t31 = p[2].times_plus(t29, c[14]);
-            let t32 = p[1].times_plus(t26, t31);
-            let t35 = p[2].times_plus(c[13], c[12]);
-            let t37 = p[2].times_plus(t35, c[11]);
-            let t39 = p[2].times_plus(t37, c[10]);
-            let t40 = p[1].times_plus(t32, t39);
-            let t41 = p[0].times_plus(t21, t40);
-            let t45 = p[2].times_plus(c[27], c[26]);
-            let t46 = p[1].times_plus(c[28], t45);
-            let t47 = p[0].times_plus(c[5], t46);
-            let t51 = p[2].times_plus(c[24], c[23]);
-            let t52 = p[1].times_plus(c[25], t51);
-            let t55 = p[2].times_plus(c[22], c[21]);
-            let t57 = p[2].times_plus(t55, c[20]);
-            let t58 = p[1].times_plus(t52, t57);
-            let t59 = p[0].times_plus(t47, t58);
-            let t63 = p[2].times_plus(c[34], c[33]);
-            let t64 = p[0].times_plus(c[35], t63);
-            let t65 = p[0].times_plus(t64, t31);
-            let t68 = p[2].times_plus(c[32], c[31]);
-            let t70 = p[2].times_plus(t68, c[30]);
-            let t72 = p[2].times_plus(t70, c[29]);
-            let t73 = p[0].times_plus(t65, t72);
-            let t74 = p[1].times_plus(t59, t73);
-            let t78 = p[2].times_plus(c[42], c[41]);
-            let t79 = p[1].times_plus(c[43], t78);
-            let t80 = p[0].times_plus(c[2], t79);
-            let t83 = p[2].times_plus(c[40], c[39]);
-            let t84 = p[1].times_plus(c[22], t83);
-            let t87 = p[2].times_plus(c[38], c[37]);
-            let t89 = p[2].times_plus(t87, c[36]);
-            let t90 = p[1].times_plus(t84, t89);
-            let t91 = p[0].times_plus(t80, t90);
-            let t94 = p[1].times_plus(c[34], c[47]);
-            let t95 = p[0].times_plus(c[48], t94);
-            let t96 = p[1].times_plus(c[18], c[15]);
-            let t97 = p[1].times_plus(t96, c[11]);
-            let t98 = p[0].times_plus(t95, t97);
-            let t101 = p[1].times_plus(c[46], c[45]);
-            let t102 = p[1].times_plus(t101, c[30]);
-            let t104 = p[1].times_plus(t102, c[44]);
-            let t105 = p[0].times_plus(t98, t104);
-            let t106 = p[2].times_plus(t91, t105);
-            <Vector<T> as From<_>>::from([t41, t74, t106])
+            let t26 = p[2].times_plus(c[11], c[10]);
+            let t27 = p[1].times_plus(c[12], t26);
+            let t28 = p[0].times_plus(c[13], t27);
+            let t30 = p[0].times_plus(c[17], t13);
+            let t33 = p[2].times_plus(c[16], c[15]);
+            let t35 = p[2].times_plus(t33, c[14]);
+            let t36 = p[0].times_plus(t30, t35);
+            let t37 = p[1].times_plus(t28, t36);
+            let t42 = p[2].times_plus(c[19], c[18]);
+            let t43 = p[1].times_plus(c[20], t42);
+            let t44 = p[0].times_plus(c[21], t43);
+            let t46 = p[1].times_plus(c[8], c[5]);
+            let t47 = p[0].times_plus(c[24], t46);
+            let t49 = p[1].times_plus(c[23], c[15]);
+            let t51 = p[1].times_plus(t49, c[22]);
+            let t52 = p[0].times_plus(t47, t51);
+            let t53 = p[2].times_plus(t44, t52);
+            <Vector<T> as From<_>>::from([t21, t37, t53])
         }
 
         #[inline(never)]
         fn gradient_and_hessian(&self, p: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[7], c[6]);
-            let t8 = p[1].times_plus(c[8], t7);
-            let t9 = p[0].times_plus(c[9], t8);
-            let t13 = p[2].times_plus(c[4], c[3]);
-            let t14 = p[1].times_plus(c[5], t13);
-            let t17 = p[2].times_plus(c[2], c[1]);
-            let t19 = p[2].times_plus(t17, c[0]);
+            let t7 = p[2].times_plus(c[1], c[0]);
+            let t8 = p[1].times_plus(c[2], t7);
+            let t9 = p[0].times_plus(c[3], t8);
+            let t13 = p[2].times_plus(c[8], c[7]);
+            let t14 = p[1].times_plus(c[9], t13);
+            let t17 = p[2].times_plus(c[6], c[5]);
+            let t19 = p[2].times_plus(t17, c[4]);
             let t20 = p[1].times_plus(t14, t19);
             let t21 = p[0].times_plus(t9, t20);
-            let t25 = p[2].times_plus(c[18], c[17]);
-            let t26 = p[1].times_plus(c[19], t25);
-            let t29 = p[2].times_plus(c[16], c[15]);
-            let t31 = p[2].times_plus(t29, c[14]);
-            let t32 = p[1].times_plus(t26, t31);
-            let t35 = p[2].times_plus(c[13], c[12]);
-            let t37 = p[2].times_plus(t35, c[11]);
-            let t39 = p[2].times_plus(t37, c[10]);
-            let t40 = p[1].times_plus(t32, t39);
-            let t41 = p[0].times_plus(t21, t40);
-            let t45 = p[2].times_plus(c[27], c[26]);
-            let t46 = p[1].times_plus(c[28], t45);
-            let t47 = p[0].times_plus(c[5], t46);
-            let t51 = p[2].times_plus(c[24], c[23]);
-            let t52 = p[1].times_plus(c[25], t51);
-            let t55 = p[2].times_plus(c[22], c[21]);
-            let t57 = p[2].times_plus(t55, c[20]);
-            let t58 = p[1].times_plus(t52, t57);
-            let t59 = p[0].times_plus(t47, t58);
-            let t63 = p[2].times_plus(c[34], c[33]);
-            let t64 = p[0].times_plus(c[35], t63);
-            let t65 = p[0].times_plus(t64, t31);
-            let t68 = p[2].times_plus(c[32], c[31]);
-            let t70 = p[2].times_plus(t68, c[30]);
-            let t72 = p[2].times_plus(t70, c[29]);
-            let t73 = p[0].times_plus(t65, t72);
-            let t74 = p[1].times_plus(t59, t73);
-            let t78 = p[2].times_plus(c[42], c[41]);
-            let t79 = p[1].times_plus(c[43], t78);
-            let t80 = p[0].times_plus(c[2], t79);
-            let t83 = p[2].times_plus(c[40], c[39]);
-            let t84 = p[1].times_plus(c[22], t83);
-            let t87 = p[2].times_plus(c[38], c[37]);
-            let t89 = p[2].times_plus(t87, c[36]);
-            let t90 = p[1].times_plus(t84, t89);
-            let t91 = p[0].times_plus(t80, t90);
-            let t94 = p[1].times_plus(c[34], c[47]);
-            let t95 = p[0].times_plus(c[48], t94);
-            let t96 = p[1].times_plus(c[18], c[15]);
-            let t97 = p[1].times_plus(t96, c[11]);
-            let t98 = p[0].times_plus(t95, t97);
-            let t101 = p[1].times_plus(c[46], c[45]);
-            let t102 = p[1].times_plus(t101, c[30]);
-            let t104 = p[1].times_plus(t102, c[44]);
-            let t105 = p[0].times_plus(t98, t104);
-            let t106 = p[2].times_plus(t91, t105);
-            let t108 = p[0].times_plus(c[49], t8);
-            let t109 = p[0] * t108;
-            let t110 = t21 + t109;
-            let t112 = p[1].times_plus(c[50], t13);
-            let t113 = p[0].times_plus(c[8], t112);
-            let t114 = p[1].times_plus(t46, t31);
-            let t115 = p[0].times_plus(t113, t114);
-            let t117 = p[2].times_plus(c[51], c[1]);
-            let t118 = p[1].times_plus(c[4], t117);
-            let t119 = p[0].times_plus(c[7], t118);
-            let t120 = p[2].times_plus(c[43], c[15]);
-            let t121 = p[1].times_plus(c[18], t120);
-            let t122 = p[2].times_plus(t78, c[11]);
-            let t123 = p[1].times_plus(t121, t122);
-            let t124 = p[0].times_plus(t119, t123);
-            let t126 = p[1].times_plus(c[52], t51);
-            let t127 = p[0].times_plus(c[28], t126);
-            let t128 = p[1] * t127;
-            let t129 = t59 + t128;
-            let t130 = p[1].times_plus(c[27], t120);
-            let t131 = p[0].times_plus(c[34], t130);
-            let t133 = p[2].times_plus(c[53], c[21]);
-            let t134 = p[1].times_plus(c[24], t133);
-            let t135 = p[2].times_plus(t83, c[30]);
-            let t136 = p[1].times_plus(t134, t135);
-            let t137 = p[0].times_plus(t131, t136);
-            let t139 = p[2].times_plus(c[54], c[37]);
-            let t140 = p[1].times_plus(c[40], t139);
-            let t141 = p[0].times_plus(c[42], t140);
-            let t142 = p[2] * t141;
-            let t143 = t91 + t142;
+            let t26 = p[2].times_plus(c[11], c[10]);
+            let t27 = p[1].times_plus(c[12], t26);
+            let t28 = p[0].times_plus(c[13], t27);
+            let t30 = p[0].times_plus(c[17], t13);
+            let t33 = p[2].times_plus(c[16], c[15]);
+            let t35 = p[2].times_plus(t33, c[14]);
+            let t36 = p[0].times_plus(t30, t35);
+            let t37 = p[1].times_plus(t28, t36);
+            let t42 = p[2].times_plus(c[19], c[18]);
+            let t43 = p[1].times_plus(c[20], t42);
+            let t44 = p[0].times_plus(c[21], t43);
+            let t46 = p[1].times_plus(c[8], c[5]);
+            let t47 = p[0].times_plus(c[24], t46);
+            let t49 = p[1].times_plus(c[23], c[15]);
+            let t51 = p[1].times_plus(t49, c[22]);
+            let t52 = p[0].times_plus(t47, t51);
+            let t53 = p[2].times_plus(t44, t52);
+            let t54 = p[0] * c[3];
+            let t55 = t9 + t54;
+            let t56 = p[1].times_plus(c[13], t13);
+            let t57 = p[0].times_plus(c[2], t56);
+            let t58 = p[2].times_plus(c[21], c[5]);
+            let t59 = p[1].times_plus(c[8], t58);
+            let t60 = p[0].times_plus(c[1], t59);
+            let t61 = p[1] * c[12];
+            let t62 = t28 + t61;
+            let t63 = p[2].times_plus(c[20], c[15]);
+            let t64 = p[1].times_plus(c[11], t63);
+            let t65 = p[0].times_plus(c[8], t64);
+            let t66 = p[2] * c[19];
+            let t67 = t44 + t66;
             (
-                <Vector<T>>::from([t41, t74, t106]),
-                <Matrix<
-                    T,
-                >>::from([[t110, t115, t124], [t115, t129, t137], [t124, t137, t143]]),
+                <Vector<T>>::from([t21, t37, t53]),
+                <Matrix<T>>::from([[t55, t57, t60], [t57, t62, t65], [t60, t65, t67]]),
             )
         }
 
-        #[inline(always)]
+        #[inline]
         fn longest_turn(&self) -> f64 {
             0.25f64
         }
@@ -1315,41 +988,26 @@ const _: () = {
         #[inline]
         pub fn energy(&self, mu: &Vector<T>) -> T {
             let (mu, c): (&[T; 3], _) = (&mu.data.0[0], &self.coefficients);
-            let t7 = mu[2].times_plus(c[457], c[456]);
-            let t8 = mu[1].times_plus(c[458], t7);
-            let t9 = mu[0].times_plus(c[459], t8);
-            let t13 = mu[2].times_plus(c[454], c[453]);
-            let t14 = mu[1].times_plus(c[455], t13);
-            let t17 = mu[2].times_plus(c[452], c[451]);
-            let t19 = mu[2].times_plus(t17, c[450]);
+            let t7 = mu[2].times_plus(c[214], c[213]);
+            let t8 = mu[1].times_plus(c[215], t7);
+            let t9 = mu[0].times_plus(c[216], t8);
+            let t13 = mu[2].times_plus(c[211], c[210]);
+            let t14 = mu[1].times_plus(c[212], t13);
+            let t17 = mu[2].times_plus(c[209], c[208]);
+            let t19 = mu[2].times_plus(t17, c[207]);
             let t20 = mu[1].times_plus(t14, t19);
             let t21 = mu[0].times_plus(t9, t20);
-            let t25 = mu[2].times_plus(c[448], c[447]);
-            let t26 = mu[1].times_plus(c[449], t25);
-            let t29 = mu[2].times_plus(c[446], c[445]);
-            let t31 = mu[2].times_plus(t29, c[444]);
+            let t25 = mu[2].times_plus(c[205], c[204]);
+            let t26 = mu[1].times_plus(c[206], t25);
+            let t29 = mu[2].times_plus(c[203], c[202]);
+            let t31 = mu[2].times_plus(t29, c[201]);
             let t32 = mu[1].times_plus(t26, t31);
-            let t35 = mu[2].times_plus(c[443], c[442]);
-            let t37 = mu[2].times_plus(t35, c[441]);
-            let t39 = mu[2].times_plus(t37, c[440]);
+            let t35 = mu[2].times_plus(c[200], c[199]);
+            let t37 = mu[2].times_plus(t35, c[198]);
+            let t39 = mu[2].times_plus(t37, c[197]);
             let t40 = mu[1].times_plus(t32, t39);
             let t41 = mu[0].times_plus(t21, t40);
-            let t45 = mu[2].times_plus(c[438], c[437]);
-            let t46 = mu[1].times_plus(c[439], t45);
-            let t49 = mu[2].times_plus(c[436], c[435]);
-            let t51 = mu[2].times_plus(t49, c[434]);
-            let t52 = mu[1].times_plus(t46, t51);
-            let t55 = mu[2].times_plus(c[433], c[432]);
-            let t57 = mu[2].times_plus(t55, c[431]);
-            let t59 = mu[2].times_plus(t57, c[430]);
-            let t60 = mu[1].times_plus(t52, t59);
-            let t63 = mu[2].times_plus(c[429], c[428]);
-            let t65 = mu[2].times_plus(t63, c[427]);
-            let t67 = mu[2].times_plus(t65, c[426]);
-            let t69 = mu[2].times_plus(t67, c[425]);
-            let t70 = mu[1].times_plus(t60, t69);
-            let t71 = mu[0].times_plus(t41, t70);
-            t71
+            t41
         }
 
         fn table() -> &'static ::coadjoint::plumbing::Table {
@@ -1364,433 +1022,216 @@ const _: () = {
         products: &[],
         /// Factor, and the number of its product.
         terms: &[
-            (-1.4810836096863522, 0), (0.0000000014432983624537077, 0), (0.19999998816076822, 0),
-            (0.0000000007508355777177541, 0), (0.0000000024901410145621633, 0),
-            (-0.0000000022159522102461385, 0), (-0.00000000142671259160627, 0),
-            (0.0000000009849062259254318, 0), (0.00000000016660352108436305, 0),
-            (0.24999999466504325, 0), (-0.0000000004934142731346956, 0),
-            (0.0000027804787169772496, 0), (0.0000000004129066931011768, 0),
-            (0.0000000004279283946856982, 0), (0.0000000006475555932856761, 0),
-            (-0.0000000022929081115486527, 0), (-0.0000000016998980526673803, 0),
-            (0.0000000012388829715968155, 0), (0.000000001124149854571188, 0),
-            (-0.0000000019686319015652448, 0), (-0.00000000011435310681365792, 0),
-            (0.0000000009335910249828172, 0), (-0.0000000003444825664305947, 0),
-            (0.00000000015904974935070187, 0), (0.00000000026889217484821454, 0),
-            (0.3333333261464789, 0), (-0.0000000012204003801389426, 0),
-            (0.000014823387360977377, 0), (0.00000000003252740209730518, 0),
-            (0.00000000015225274610585574, 0), (0.000004633815639580159, 0),
-            (0.0000000004731315508847518, 0), (-0.00000000022342191601303586, 0),
-            (0.0000000004864042788580974, 0), (0.000000000239528580208184, 0),
-            (-1.4810836096863522, 0), (0.0000000014432983624537077, 0), (0.19999998816076822, 0),
-            (0.0000000007508355777177541, 0), (0.0000000024901410145621633, 0),
-            (-0.0000000022159522102461385, 0), (-0.00000000142671259160627, 0),
-            (0.0000000009849062259254318, 0), (0.00000000016660352108436305, 0),
-            (0.24999999466504325, 0), (-0.0000000004934142731346956, 0),
-            (0.0000027804787169772496, 0), (0.0000000004129066931011768, 0),
-            (0.0000000004279283946856982, 0), (0.0000000006475555932856761, 0),
-            (-0.0000000022929081115486527, 0), (-0.0000000016998980526673803, 0),
-            (0.0000000012388829715968155, 0), (0.000000001124149854571188, 0),
-            (-0.0000000019686319015652448, 0), (-0.00000000011435310681365792, 0),
-            (0.0000000009335910249828172, 0), (-0.0000000003444825664305947, 0),
-            (0.00000000015904974935070187, 0), (0.00000000026889217484821454, 0),
-            (0.3333333261464789, 0), (-0.0000000012204003801389426, 0),
-            (0.000014823387360977377, 0), (0.00000000003252740209730518, 0),
-            (0.00000000015225274610585574, 0), (0.000004633815639580159, 0),
-            (0.0000000004731315508847518, 0), (-0.00000000022342191601303586, 0),
-            (0.0000000004864042788580974, 0), (0.000000000239528580208184, 0),
-            (0.0000000011079761051230692, 0), (-0.000000000000000000551558420442499, 0),
-            (0.000000000713356295803135, 0), (0.000000000133752976787834, 0),
-            (-0.0000000004924531129627159, 0), (0.00000000009916072155004081, 0),
-            (-0.00000000008330176054218152, 0), (-0.00000000007226499279121134, 0),
-            (-0.00000000006557304885024667, 0), (-0.0000000000000017193627318352347, 0),
-            (-0.000000000000001560932293336538, 0), (0.0000000007216491812268539, 0),
-            (0.000000000000000000846829132946256, 0), (-0.05000000650427502, 0),
-            (0.000000000000000002648969924519002, 0), (0.0000000016196676397113267, 0),
-            (0.00000000006562106025895227, 0), (-0.0000027754984349481255, 0),
-            (0.000000000003811770796349054, 0), (-0.000000000031119696750621936, 0),
-            (-0.00000000000000000034778922733238656, 0), (-0.000000000000000001217935064892907, 0),
-            (-0.000000000713356295803135, 0), (0.00000000003821512581056482, 0),
-            (0.0000000003655461862736665, 0), (0.0000000000708290909727974, 0),
-            (-0.0000000003919873104020028, 0), (-0.00000000007973849231204429, 0),
-            (-0.0000000001043827193514868, 0), (0.000000000000005258743134882999, 0),
-            (0.000000000000003864902378199618, 0), (-0.0000000002467071365673478, 0),
-            (0.000000000032810524888117166, 0), (0.0000027791836057906783, 0),
-            (0.00000000000476471449291157, 0), (-0.000000000057769709860820456, 0),
-            (-0.0000000000000005291616171636353, 0), (0.000000000000003771132462840586, 0),
-            (0.0000000002139641973428491, 0), (0.000000000005744562153401429, 0),
-            (-0.0000000000066270739378005745, 0), (0.00000000000000012726322653857233, 0),
-            (0.0000000000000036392703030770825, 0), (-0.000000000004478799240182128, 0),
-            (-0.0000000000000000005189307313068512, 0), (0.0000000000000021677606189162643, 0),
-            (0.0000000000000004786557515678605, 0), (0.0000000000000000002612373067190605, 0),
-            (-0.0000000000000003736913874330717, 0), (1.0, 0),
-            (-0.00000000000000000116559239352605, 0), (0.0000000009843159507826224, 0),
-            (0.00000000014833900125282903, 0), (0.00000000005717655340682896, 0),
-            (-0.015555556439381519, 0), (-0.0000000004667955124914086, 0),
-            (0.00000000043968539500735567, 0), (-0.0000020991020139002117, 0),
-            (0.000000000000024955850443221652, 0), (-0.000000000041153064857274406, 0),
-            (-0.0000000008499490263336901, 0), (-0.00000000009848675240150765, 0),
-            (0.00000000158336553802741, 0), (-0.00000000036460433354548286, 0),
-            (0.0000000015271750325060804, 0), (0.00000000029231361680270394, 0),
-            (-0.0000000000684154822729533, 0), (0.000000000000010841100754869261, 0),
-            (-0.000000000000010793375575878679, 0), (-0.00000000005717655340682896, 0),
-            (-0.0027777770258317087, 0), (0.0000000005302527627104954, 0),
-            (-0.000000000287476098426705, 0), (-0.000000031874418741421914, 0),
-            (-0.000000000000031531787316569294, 0), (0.00000000013721938208767185, 0),
-            (0.00000000007952487467535094, 0), (-0.000000000028112043213624887, 0),
-            (0.00000000018575782581480208, 0), (-0.0000000000000027308258885733476, 0),
-            (0.000000000000005942686789495845, 0), (-0.00000038605191655436444, 0),
-            (-0.00000000000002003428388930341, 0), (0.0000000000711764164427261, 0),
-            (-0.0000000000000010186870084537771, 0), (0.000000000000008653161689533094, 0),
-            (-0.000000000012876625200714146, 0), (-0.000000000000000000636311379227162, 0),
-            (-0.00000000001626370104865259, 0), (-0.00000000017471175153121262, 0),
-            (-0.00000000007612637305292787, 0), (0.00000000021778625805937477, 0),
-            (0.000000000364489863111631, 0), (0.000000000000022058426478220647, 0),
-            (0.000000000000022864815991433735, 0), (-0.0000000006102001900694713, 0),
-            (-0.00000000008749474554942132, 0), (0.00001018957172139722, 0),
-            (-0.00000000002922358045996064, 0), (0.0000000002795028218273468, 0),
-            (-0.0000000000000008498737154809555, 0), (0.000000000000013414012849987187, 0),
-            (0.00000000007612637305292787, 0), (-0.00000000015750403448148076, 0),
-            (-0.00000000018817516754568704, 0), (0.000000000000028592072387060523, 0),
-            (-0.000000000000009470856948192644, 0), (-0.00000000006626139652382493, 0),
-            (-0.0000000000000014284954803715946, 0), (0.000000000000010760019135340503, 0),
-            (-0.000000000000007711838555438602, 0), (-0.000000000000012651000091119348, 0),
-            (-0.000000000000005563906517210347, 0), (-0.000000000000000000516367145965955, 0),
-            (-0.0000000002432021394290487, 0), (-0.00000000012544095987805426, 0),
-            (0.0000024291317112580745, 0), (-0.00000000000003848545747116834, 0),
-            (0.00000000011893912307121366, 0), (-0.00000000011171095800651793, 0),
-            (0.000000000001436079810069287, 0), (0.00000000003892753944258174, 0),
-            (-0.000000000000011928220856202978, 0), (0.000000000000011856625355875655, 0),
-            (-0.000000823403541782326, 0), (0.000000000000012717831464126247, 0),
-            (-0.00000000006806539252664609, 0), (0.000000000000009630997961498822, 0),
-            (-0.000000000000006075565134088662, 0), (-0.000000000041479922557394695, 0),
-            (-0.00000000000000000020340287530075322, 0), (-0.00000000002294994710262152, 0),
-            (-0.000000000000020124865055877717, 0), (-0.000000000000026328543876727133, 0),
-            (0.00000000002160945586079484, 0), (0.0000000000000014854080945744245, 0),
-            (-0.00000000000002470546637135441, 0), (-0.000000000000005565218930886535, 0),
-            (0.000000000000011633578540627682, 0), (0.0000000000000006784210416603563, 0),
-            (-0.00000000000000000005582035313370819, 0), (0.000000000000009232761363741913, 0),
-            (-0.0000000000777971833658133, 0), (0.00000000000000014122590100355544, 0),
-            (-0.0000000000000019738826610195774, 0), (0.00000000005436839152757217, 0),
-            (-0.000000000000000000096161886264649, 0), (0.0000000000000016901862094901667, 0),
-            (0.000000000000002102571864922007, 0), (-0.000000000000000000047751079174400304, 0),
-            (-0.0000000011464540557743263, 0), (-0.0000000000000000005330466993873209, 0),
-            (-0.0000000008499490263336901, 0), (0.00000000022159522259208584, 0),
-            (0.0000000006194414857984077, 0), (0.0000000001426712586192381, 0),
-            (0.000000000562074927285594, 0), (-0.00000000009847420512230049, 0),
-            (-0.000000000016649780193710478, 0), (-0.000000000000007297766991215247, 0),
-            (-0.0000000000000012342753128070482, 0), (1.0, 0),
-            (-0.000000000000000001223422961844527, 0), (-0.0000000009843159507826224, 0),
-            (0.00000000016838481084485303, 0), (-0.00000000005717655340682896, 0),
-            (-0.010000001336153348, 0), (0.0000000004667955124914086, 0),
-            (0.0000000004225073745816816, 0), (-0.0000012961031439934003, 0),
-            (0.00000000000002947245101291313, 0), (-0.00000000004113307409428303, 0),
-            (-0.0000000000000000008182400361983279, 0), (-0.00000000017224128321529734, 0),
-            (-0.00000000016644980849997275, 0), (0.00000000007952487467535094, 0),
-            (0.00000000010431616552481916, 0), (-0.00000000007768983029266066, 0),
-            (0.00000000000000577980307850616, 0), (-0.0000000000000060023638340191036, 0),
-            (-0.0000000000000000010110776832944504, 0), (0.00000000013444608742410727, 0),
-            (-0.000000000057564330336751824, 0), (0.0000004168285469593186, 0),
-            (-0.000000000000005087647065413647, 0), (0.00000000003347134868162876, 0),
-            (-0.0000000000000000004610676762079152, 0), (0.0000000000499243195510815, 0),
-            (-0.0000000000000007189697948103227, 0), (0.0000000000000024367616547062715, 0),
-            (0.00000000000000000031960586691252456, 0), (-0.00000000000000022892558167481443, 0),
-            (0.000000000007726583767463333, 0), (0.00000000000000000010125821476745269, 0),
-            (0.00000000000000019839990547937287, 0), (-0.00000000000000000004257095211214692, 0),
-            (-0.0000000007216491812268539, 0), (0.000000000000000000846829132946256, 0),
-            (0.1333333379857107, 0), (0.0000000000000000031032442329728755, 0),
-            (-0.000000002346653746715574, 0), (0.00000000006562105909965803, 0),
-            (0.000014818407078948254, 0), (0.000000000003811762384463143, 0),
-            (-0.000000000031119700498895045, 0), (0.000000000000000002244211349781713, 0),
-            (-0.0000000000000000003681889570091377, 0), (0.000000000713356295803135, 0),
-            (0.000000000089168657605491, 0), (-0.0000000009523788238281266, 0),
-            (-0.00000000010388267249238094, 0), (-0.00000000009765253552068881, 0),
-            (0.00000000015164383732903985, 0), (0.00000000031646897928917087, 0),
-            (-0.000000000000021926149175486103, 0), (-0.000000000000010295941298869347, 0),
-            (0.0000000002467071365673478, 0), (0.0000000000765579102612699, 0),
-            (0.0000018533369226029094, 0), (-0.000000000006988251618175076, 0),
-            (0.000000000050606093715174684, 0), (0.0000000000000021373977019510747, 0),
-            (-0.000000000000018032317967518585, 0), (-0.0000000002139641973428491, 0),
-            (0.000000000013400437695211729, 0), (0.000000000009728106368545834, 0),
-            (0.0000000000000016783327486813017, 0), (-0.00000000000001775060967117186, 0),
-            (-0.000000000010453574603072838, 0), (0.0000000000000005656813025375876, 0),
-            (-0.000000000000009852351820592392, 0), (0.0000000000000005853736227965186, 0),
-            (-0.000000000000000786009768546942, 0), (-0.0000000000000004567636464740677, 0),
-            (0.0000000008499490263336901, 0), (-0.00000000002462169879644534, 0),
-            (-0.0000000005291856452696876, 0), (0.00000000007926181811347784, 0),
-            (-0.000000002021357655876336, 0), (-0.00000000011938075729632202, 0),
-            (-0.00000000002644028137673232, 0), (0.000000000000024570975447717253, 0),
-            (0.000000000000004010587343210577, 0), (0.00000000005717655340682896, 0),
-            (-0.001851852398031514, 0), (-0.00000000020398460669567113, 0),
-            (0.00000000023571658485760574, 0), (0.000000948056381229941, 0),
-            (-0.000000000000018710002765862034, 0), (-0.0000000001602186839879866, 0),
-            (-0.00000000007952487467535094, 0), (0.00000000009330882547951213, 0),
-            (-0.000000000028787885402446017, 0), (0.00000000000000878773869484325, 0),
-            (0.000000000000029109109107519676, 0), (-0.00000012867257516148664, 0),
-            (0.00000000000003616331688366372, 0), (-0.00000000026142392982244237, 0),
-            (0.000000000000004643534184523551, 0), (-0.000000000000010954778334575175, 0),
-            (-0.0000000000014302058782195062, 0), (0.0000000006102001900694713, 0),
-            (-0.000000000021873693331564815, 0), (-0.000014822908303816961, 0),
-            (0.000000000006352959877690107, 0), (-0.0000000000655283494803569, 0),
-            (-0.000000000000002826067310490563, 0), (0.000000000000023350254035882245, 0),
-            (-0.00000000007612637305292787, 0), (0.00000000004036585461811377, 0),
-            (0.0000000002745683831842632, 0), (-0.00000000000008161602014070674, 0),
-            (-0.000000000000026082545522204368, 0), (0.00000000002999722034043955, 0),
-            (0.0000000000000022418498374852364, 0), (-0.00000000000002441186873616476, 0),
-            (0.00000000000000013675721008585226, 0), (0.00000000000001590014609055223, 0),
-            (0.00000000000000437922768714999, 0), (0.00000000011171095800651793, 0),
-            (0.00000000000037784040530758296, 0), (-0.000000000008458482962115691, 0),
-            (0.000000000000008102972662244533, 0), (0.000000000000005101578373278362, 0),
-            (0.0000013382187061642054, 0), (0.000000000000005015764180378861, 0),
-            (-0.00000000009611801707961887, 0), (-0.000000000000013156122067085897, 0),
-            (-0.000000000000004359235830215807, 0), (0.0000000000700986249560938, 0),
-            (0.000000000005419084321082784, 0), (-0.000000000000000001748562021671113, 0),
-            (0.000000000000015327223639572558, 0), (0.000000000000012077472266539046, 0),
-            (-0.000000000000014177942493941512, 0), (0.000000000000002839412876675212, 0),
-            (-0.00000000000000024130424386922077, 0), (-0.000000000000000001090589540748834, 0),
-            (-0.00000000006868026334610403, 0), (-0.0000000000000036050103521077335, 0), (1.0, 0),
-            (-0.0000000000000000016946453010167257, 0), (-0.000000000000000002353078984840902, 0),
-            (0.0000000000000000008535229462677882, 0), (0.000000000000000002152636875301209, 0),
-            (0.00000000000000000029873328147975543, 0), (-0.0000000000000000005189263191761231, 0),
-            (-0.00000000000000000021524493812835522, 0), (0.0000000011464540557743263, 0),
-            (-0.0000000000000000005330466993873209, 0), (0.0000000008499490263336901, 0),
-            (-0.00000000014773014149946082, 0), (-0.0000000006194414857984077, 0),
-            (-0.00000000009511416916766617, 0), (-0.000000000562074927285594, 0),
-            (0.00000000006564809356998393, 0), (0.000000000011098971038237857, 0),
-            (0.000000000000005475200407020324, 0), (0.0000000000000009256536060510628, 0),
-            (0.0000000009843159507826224, 0), (-0.0000000001202748594167175, 0),
-            (0.00000000005717655340682896, 0), (0.008333334235868316, 0),
-            (-0.0000000004667955124914086, 0), (-0.0000000003145268461308298, 0),
-            (0.0000011110698909267272, 0), (-0.00000000000002347918636870618, 0),
-            (0.00000000003599747926032962, 0), (0.00000000017224128321529734, 0),
-            (0.0000000001188927147364508, 0), (-0.00000000007952487467535094, 0),
-            (-0.00000000007995051870159007, 0), (0.00000000005155205684929748, 0),
-            (-0.0000000000000026017371104703714, 0), (0.000000000000004859931375364256, 0),
-            (-0.00000000013444608742410727, 0), (0.00000000004111451151488637, 0),
-            (-0.0000002315496158036405, 0), (-0.0000000000000018266792543970973, 0),
-            (-0.000000000023186522721984508, 0), (-0.000000000035657394111306255, 0),
-            (-0.0000000000000006361480730639578, 0), (-0.00000000000000019257682914688223, 0),
-            (0.0000000000000011430423819595566, 0), (-0.000000000012875824765377194, 0),
-            (-0.0000000000000009912752138655871, 0), (-0.0000000011079761051230692, 0),
-            (-0.000000000000000000551558420442499, 0), (-0.000000000713356295803135, 0),
-            (0.000000000070061082411744, 0), (0.0000000004924531129627159, 0),
-            (0.00000000005194132883655404, 0), (0.00000000008330176054218152, 0),
-            (-0.00000000003783529119973375, 0), (-0.00000000003433459043726944, 0),
-            (-0.000000000000010518026888046074, 0), (-0.00000000000000954452632836503, 0),
-            (-0.08333333148143568, 0), (-0.0000000000000000029542871432647058, 0),
-            (0.0000000007269861070042472, 0), (0.00000000010936845788292836, 0),
-            (-0.000012042908644000129, 0), (0.000000000006352945952439708, 0),
-            (-0.000000000051843089689329547, 0), (0.0000000000000013442615684292894, 0),
-            (-0.00000000000001094845016243545, 0), (0.0000000005868326375544601, 0),
-            (0.00000000007082908488552571, 0), (0.0000000004896398459226917, 0),
-            (-0.000000000004532547193079114, 0), (-0.00000000018685250470032055, 0),
-            (0.000000000000014451613481678952, 0), (0.00000000000000009697811014200793, 0),
-            (-0.0000046325205283935875, 0), (0.00000000000476471622463566, 0),
-            (-0.00000000003323929972485762, 0), (-0.000000000000000971624706017434, 0),
-            (0.000000000000006649264638499611, 0), (-0.000000000006627071553534117, 0),
-            (-0.00000000000000830699083623332, 0), (0.000000000000003802220732211845, 0),
-            (-0.0000000000000000004574243255236771, 0), (0.00000000000000034506445559880643, 0),
-            (-0.0000000000000000001630696902217509, 0), (-0.0000000009843159507826224, 0),
-            (-0.00000000002004580875725932, 0), (-0.00000000005717655340682896, 0),
-            (0.00370370376044034, 0), (0.0000000004667955124914086, 0),
-            (-0.000000000022488237637771033, 0), (-0.0000005352815587283679, 0),
-            (0.00000000000002141103871814663, 0), (-0.00000000010523705935781556, 0),
-            (-0.0000000010541798927577225, 0), (0.00000000007926180968786334, 0),
-            (0.0000000004941826233702556, 0), (0.00000000004997885681743094, 0),
-            (0.00000000011636162184690795, 0), (-0.0000000000000020561180476593585, 0),
-            (0.000000000000010902527723133444, 0), (-0.0000000003262681560148243, 0),
-            (0.00000000004798866344202543, 0), (-0.000001904460154475576, 0),
-            (0.0000000000000385719196294627, 0), (-0.00000000007259827823734813, 0),
-            (-0.00000000005944881836704439, 0), (0.000000000000003851404575888856, 0),
-            (-0.000000000000016317323706787765, 0), (-0.0000000000000066364268363049876, 0),
-            (0.00000000007581399145899599, 0), (0.0000000000000026656842453400905, 0),
-            (0.00000000001626370104865259, 0), (0.000000000023609696535727594, 0),
-            (0.00000000007612637305292787, 0), (-0.00000000012373146203849254, 0),
-            (-0.000000000005170971129615809, 0), (0.0000000000000006324777003695384, 0),
-            (0.000000000000028181572041165445, 0), (0.000004633336582419743, 0),
-            (0.000000000006352953183551237, 0), (-0.00000000014210648170560023, 0),
-            (-0.00000000000000028258852882309106, 0), (-0.000000000000010570983019264639, 0),
-            (-0.000000000024789479561728142, 0), (0.00000000000001631640834120399, 0),
-            (0.000000000000033936968339291336, 0), (-0.0000000000000008836872874119124, 0),
-            (0.000000000000011037193431175482, 0), (-0.00000000000000017520980926199393, 0),
-            (0.0000000002432021394290487, 0), (0.000000000016946660539923518, 0),
-            (0.00000020605207915242257, 0), (-0.00000000000001995129783906362, 0),
-            (0.0000000001739300595986997, 0), (-0.000000000008458485895855734, 0),
-            (-0.00000000000001755646775611367, 0), (-0.000000000000015642402642478408, 0),
-            (-0.000000000000010565816591979083, 0), (0.0000000002059927518995792, 0),
-            (0.0000000000000028055205500623052, 0), (0.000000000003107019593489438, 0),
-            (0.000000000000009667929487929207, 0), (-0.000000000000015828592045813805, 0),
-            (-0.0000000000000000004904756215209931, 0), (0.000000000000009672018532386576, 0),
-            (-0.0000000000000008387651603667468, 0), (0.0000000000000028272562996852764, 0),
-            (-0.00000000006868189025001608, 0), (-0.0000000000000000000373143972740205, 0),
-            (0.0000000000000005176308211303253, 0),
+            (-2.1629886604468367, 0), (-0.0000014279757868174477, 0), (0.2000315871051396, 0),
+            (-0.0000003859381198847092, 0), (0.000004938806980598461, 0),
+            (0.000003457582072178737, 0), (-0.0000009242309605244715, 0), (0.2500142979021968, 0),
+            (-0.00000017469013268723297, 0), (0.00000021580682056934736, 0),
+            (0.000044812017562570305, 0), (0.00000715465117686677, 0),
+            (-0.000009631284024899921, 0), (-0.0000024089811287610242, 0),
+            (0.000003916763889364044, 0), (-0.0000014643217329213658, 0), (0.33336872314996685, 0),
+            (0.0000009658105470626713, 0), (-0.000002678410796873091, 0),
+            (-0.000006978929089919007, 0), (-2.1629886604468367, 0), (-0.0000014279757868174477, 0),
+            (0.2000315871051396, 0), (-0.0000003859381198847092, 0), (0.000004938806980598461, 0),
+            (0.000003457582072178737, 0), (-0.0000009242309605244715, 0), (0.2500142979021968, 0),
+            (-0.00000017469013268723297, 0), (0.00000021580682056934736, 0),
+            (0.000044812017562570305, 0), (0.00000715465117686677, 0),
+            (-0.000009631284024899921, 0), (-0.0000024089811287610242, 0),
+            (0.000003916763889364044, 0), (-0.0000014643217329213658, 0), (0.33336872314996685, 0),
+            (0.0000009658105470626713, 0), (-0.000002678410796873091, 0),
+            (-0.000006978929089919007, 0), (-0.0000024694034902992307, 0),
+            (-0.000000000010665079339631436, 0), (-0.0000017287910360893685, 0),
+            (-0.0000026138875665866653, 0), (0.00000046211548026223576, 0),
+            (-0.00000041733015595710427, 0), (0.0000005617955334480196, 0),
+            (0.00000000000011229606929003431, 0), (-0.0000007139878934087239, 0),
+            (0.000000000036886317525453845, 0), (-0.049982710797057184, 0),
+            (0.00000000012588640646051587, 0), (-0.0000004042170471398309, 0),
+            (0.00000008026255814214786, 0), (-0.00000013060386215973403, 0),
+            (0.000000000013073868924279007, 0), (0.0000017287910360893685, 0),
+            (-0.0000007473656647991518, 0), (-0.0000012479411913784924, 0),
+            (-0.0000002981136065731595, 0), (0.0000006542562944045859, 0),
+            (-0.0000000000029449352655947136, 0), (-0.00000008734506634361648, 0),
+            (0.000000040205375274135575, 0), (-0.00000016322742167357794, 0),
+            (0.000000000007826504332956945, 0), (0.000000024423210154643434, 0),
+            (0.0000000000000380252447138212, 0), (-0.0000000000010057460504879566, 0), (1.0, 0),
+            (-0.0000000000044051548732241665, 0), (0.0000012044905643805121, 0),
+            (-0.00000014671768693859277, 0), (-0.000001958381944682022, 0),
+            (-0.015555097933554767, 0), (-0.00000020840892929024026, 0),
+            (0.000000000028046102576102544, 0), (0.000003577325588433385, 0),
+            (0.0000002195766067833369, 0), (-0.000008166962291978555, 0),
+            (0.000000883846329195578, 0), (-0.0000003390707356211478, 0),
+            (-0.000000000013805212743139811, 0), (0.000001958381944682022, 0),
+            (-0.0027803190435860574, 0), (-0.00000005536315418360751, 0),
+            (0.00000000003870367503774172, 0), (0.00000019517060575324998, 0),
+            (-0.000000000022340980785827438, 0), (-0.0000000000060288779793470305, 0),
+            (0.000000000007371387152848538, 0), (0.0000013392053984365454, 0),
+            (0.0000007353216819554887, 0), (-0.0000005632356675586091, 0),
+            (-0.000000000012976307628904907, 0), (0.0000004829052735313356, 0),
+            (-0.00000010717669778333666, 0), (0.0000010010435376388952, 0),
+            (0.0000000000023834722730489635, 0), (0.0000010217724609274178, 0),
+            (-0.00000000001759057681136292, 0), (-0.000000000032016495303455714, 0),
+            (-0.000000000004629601251439461, 0), (0.00000009928846235885274, 0),
+            (-0.0000000000001195725508675139, 0), (-0.00000011908948680032615, 0),
+            (-0.00000000003614346176023255, 0), (-0.0000000000795089259640692, 0),
+            (-0.000000000004454092877303111, 0), (0.000000000008243616683116224, 0),
+            (0.000000000017423120052602513, 0), (-0.0000000000013511124016039737, 0),
+            (0.000022406008781285153, 0), (-0.0000000000011754161306765985, 0),
+            (0.000003577325588433385, 0), (-0.0000004939438996415177, 0),
+            (-0.0000048156420124499605, 0), (-0.00000034574653119432905, 0),
+            (0.00000009244018824861229, 0), (-0.000000000008806202384813975, 0), (1.0, 0),
+            (-0.00000000033502600547930776, 0), (-0.0000012044905643805121, 0),
+            (-0.00000016678335728603118, 0), (0.000001958381944682022, 0),
+            (-0.00999725818604968, 0), (-0.00000014834553785423192, 0),
+            (-0.00000000005245357953770666, 0), (0.00000000003762954937664826, 0),
+            (-0.0000007321608664606829, 0), (0.00000040329782846711016, 0),
+            (-0.0000001465662765499709, 0), (0.00000000003573914126207071, 0),
+            (0.00000000001883024200032102, 0), (-0.000000020371272057012816, 0),
+            (-0.00000000001464076034467464, 0), (-0.0000000000009745059833587697, 0),
+            (0.0000000000034531117383883336, 0), (-0.00000000000036245912999401914, 0),
+            (0.0000007139878934087239, 0), (0.000000000036886317525453845, 0),
+            (0.13333713604482728, 0), (0.00000000001624776804127444, 0),
+            (0.000001544717726889735, 0), (0.00000008026109340059898, 0),
+            (-0.00000013059686520809747, 0), (0.000000000012502492064000227, 0),
+            (-0.0000017287910360893685, 0), (-0.0000017428215408895899, 0),
+            (-0.0000017541798363486195, 0), (0.00000043702064531424937, 0),
+            (-0.000000407220710046311, 0), (0.000000000009956148506740708, 0),
+            (0.00000008734506634361648, 0), (0.00000009374167815572995, 0),
+            (0.00000023930520967446367, 0), (-0.0000000000204603981324231, 0),
+            (0.00000005693966853186082, 0), (0.000000000013798517855733637, 0),
+            (-0.0000000000016968946588402118, 0), (-0.000003577325588433385, 0),
+            (0.00000005483666674791277, 0), (-0.0000008371096099785897, 0),
+            (-0.00000019212356824080655, 0), (0.000000023721692266145405, 0),
+            (-0.000000000010564921553847908, 0), (-0.000001958381944682022, 0),
+            (-0.0018516541777752024, 0), (-0.0000000716938665837529, 0),
+            (-0.00000000005762247369276527, 0), (0.00000013845928723456806, 0),
+            (0.00000000005415131078268632, 0), (-0.000000000011275201388323844, 0),
+            (-0.0000004829052735313356, 0), (-0.00000002676549665960999, 0),
+            (-0.00000021762906038192234, 0), (0.000000000014869750941168854, 0),
+            (-0.000000021066238683219228, 0), (0.000000000027054352563051227, 0),
+            (-0.000000000003750781729791457, 0), (-0.000000029744768623531275, 0),
+            (0.000000000002249999718835836, 0), (0.000000000028164595297680886, 0),
+            (-0.0000000000026063350788207517, 0), (1.0, 0), (-0.0000000003387514554032863, 0),
+            (-0.00000000011256356155529549, 0), (0.00000000013486330452306506, 0),
+            (0.00000000002403469399438343, 0), (-0.0000000000156026391394474, 0),
+            (-0.000022406008781285153, 0), (-0.0000000000011754161306765985, 0),
+            (-0.000003577325588433385, 0), (0.0000003294082636327476, 0),
+            (0.0000048156420124499605, 0), (0.00000023047999614944742, 0),
+            (-0.00000006166114900491267, 0), (0.00000000002162975081695185, 0),
+            (0.0000012044905643805121, 0), (0.00000011909944409299415, 0),
+            (-0.000001958381944682022, 0), (0.008331744089366221, 0), (0.0000001214327179244938, 0),
+            (0.000000000030395364454145355, 0), (0.0000007321608664606829, 0),
+            (-0.0000002881391817842394, 0), (0.00000006338144468193155, 0),
+            (-0.000000000021871619402587662, 0), (0.00000001455979508277112, 0),
+            (0.00000000000594013462522722, 0), (-0.0000000000016866462512877198, 0),
+            (0.0000024694034902992307, 0), (-0.000000000010665079339631436, 0),
+            (0.0000017287910360893685, 0), (-0.0000013695159279276949, 0),
+            (-0.00000046211548026223576, 0), (-0.00000021870221075377604, 0),
+            (0.0000002943303944880977, 0), (0.000000000011012778858563348, 0),
+            (-0.08335442524777008, 0), (-0.000000000012989750207570778, 0),
+            (-0.0000011405006797499043, 0), (0.00000013390257955710565, 0),
+            (-0.00000021751358081192098, 0), (-0.000000000033929425477532425, 0),
+            (0.000003002121027727112, 0), (-0.0000002981215485840997, 0),
+            (-0.00000012592500586099264, 0), (-0.000000000003112501983160242, 0),
+            (-0.00000016317937145047354, 0), (-0.00000000002387152264411983, 0),
+            (-0.0000000000024913672927236724, 0), (-0.0000012044905643805121, 0),
+            (0.000000019884065109433823, 0), (0.000001958381944682022, 0),
+            (0.003702570078035669, 0), (-0.00000006622706703903797, 0),
+            (-0.0000000000385361951891262, 0), (0.000009004071901957145, 0),
+            (-0.0000001921287893225913, 0), (0.0000006651666308160873, 0),
+            (-0.00000000001658392246142211, 0), (0.000000017008525987973712, 0),
+            (-0.00000000006759751593714196, 0), (0.00000000001493165998675336, 0),
+            (-0.0000013392053984365454, 0), (-0.00000009932299848243335, 0),
+            (0.0000007120616623727925, 0), (0.000000000016303338850311558, 0),
+            (-0.0000002176418985875004, 0), (0.000000000019052061006247022, 0),
+            (-0.000000000010300352745766434, 0), (-0.000000013433948227057743, 0),
+            (-0.000000000003930636688098098, 0), (0.000000000004168170178067628, 0),
+            (-0.000000000005285708646667686, 0),
         ],
         /// The power of h, and where its terms end.
         parts: &[
             (1, 1), (1, 2), (1, 3), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (1, 9), (1, 10),
             (1, 11), (1, 12), (1, 13), (1, 14), (1, 15), (1, 16), (1, 17), (1, 18), (1, 19),
-            (1, 20), (1, 21), (1, 22), (1, 23), (1, 24), (1, 25), (1, 26), (1, 27), (1, 28),
-            (1, 29), (1, 30), (1, 31), (1, 32), (1, 33), (1, 34), (1, 35), (0, 36), (0, 37),
-            (0, 38), (0, 39), (0, 40), (0, 41), (0, 42), (0, 43), (0, 44), (0, 45), (0, 46),
-            (0, 47), (0, 48), (0, 49), (0, 50), (0, 51), (0, 52), (0, 53), (0, 54), (0, 55),
-            (0, 56), (0, 57), (0, 58), (0, 59), (0, 60), (0, 61), (0, 62), (0, 63), (0, 64),
-            (0, 65), (0, 66), (0, 67), (0, 68), (0, 69), (0, 70), (1, 71), (2, 72), (1, 73),
-            (2, 74), (1, 75), (2, 76), (1, 77), (2, 78), (2, 79), (2, 80), (2, 81), (1, 82),
-            (2, 83), (1, 84), (2, 85), (1, 86), (2, 87), (1, 88), (2, 89), (2, 90), (2, 91),
-            (2, 92), (1, 93), (2, 94), (1, 95), (2, 96), (1, 97), (2, 98), (2, 99), (2, 100),
-            (2, 101), (1, 102), (2, 103), (1, 104), (2, 105), (2, 106), (2, 107), (2, 108),
-            (1, 109), (2, 110), (2, 111), (2, 112), (2, 113), (2, 114), (2, 115), (2, 116),
-            (2, 117), (2, 118), (2, 119), (0, 120), (2, 121), (1, 122), (2, 123), (1, 124),
-            (2, 125), (1, 126), (2, 127), (2, 128), (2, 129), (2, 130), (1, 131), (2, 132),
-            (1, 133), (2, 134), (1, 135), (2, 136), (2, 137), (2, 138), (2, 139), (1, 140),
-            (2, 141), (1, 142), (2, 143), (2, 144), (2, 145), (2, 146), (1, 147), (2, 148),
-            (2, 149), (2, 150), (2, 151), (2, 152), (2, 153), (2, 154), (2, 155), (2, 156),
-            (2, 157), (2, 158), (1, 159), (2, 160), (1, 161), (2, 162), (2, 163), (2, 164),
-            (2, 165), (1, 166), (2, 167), (1, 168), (2, 169), (2, 170), (2, 171), (2, 172),
-            (1, 173), (2, 174), (2, 175), (2, 176), (2, 177), (2, 178), (2, 179), (2, 180),
-            (2, 181), (2, 182), (2, 183), (2, 184), (1, 185), (2, 186), (2, 187), (2, 188),
-            (2, 189), (1, 190), (2, 191), (2, 192), (2, 193), (2, 194), (2, 195), (2, 196),
-            (2, 197), (2, 198), (2, 199), (2, 200), (2, 201), (2, 202), (2, 203), (2, 204),
-            (2, 205), (2, 206), (2, 207), (2, 208), (2, 209), (2, 210), (2, 211), (2, 212),
-            (2, 213), (2, 214), (2, 215), (2, 216), (2, 217), (2, 218), (2, 219), (2, 220),
-            (1, 221), (2, 222), (1, 223), (2, 224), (1, 225), (2, 226), (1, 227), (2, 228),
-            (2, 229), (2, 230), (2, 231), (0, 232), (2, 233), (1, 234), (2, 235), (1, 236),
-            (2, 237), (1, 238), (2, 239), (2, 240), (2, 241), (2, 242), (2, 243), (1, 244),
-            (2, 245), (1, 246), (2, 247), (2, 248), (2, 249), (2, 250), (2, 251), (1, 252),
-            (2, 253), (2, 254), (2, 255), (2, 256), (2, 257), (2, 258), (2, 259), (2, 260),
-            (2, 261), (2, 262), (2, 263), (2, 264), (2, 265), (2, 266), (1, 267), (2, 268),
-            (1, 269), (2, 270), (1, 271), (2, 272), (1, 273), (2, 274), (2, 275), (2, 276),
-            (2, 277), (1, 278), (2, 279), (1, 280), (2, 281), (1, 282), (2, 283), (2, 284),
-            (2, 285), (2, 286), (1, 287), (2, 288), (1, 289), (2, 290), (2, 291), (2, 292),
-            (2, 293), (1, 294), (2, 295), (2, 296), (2, 297), (2, 298), (2, 299), (2, 300),
-            (2, 301), (2, 302), (2, 303), (2, 304), (1, 305), (2, 306), (1, 307), (2, 308),
-            (1, 309), (2, 310), (2, 311), (2, 312), (2, 313), (1, 314), (2, 315), (1, 316),
-            (2, 317), (2, 318), (2, 319), (2, 320), (1, 321), (2, 322), (2, 323), (2, 324),
-            (2, 325), (2, 326), (2, 327), (2, 328), (2, 329), (2, 330), (2, 331), (1, 332),
-            (2, 333), (1, 334), (2, 335), (2, 336), (2, 337), (2, 338), (1, 339), (2, 340),
-            (2, 341), (2, 342), (2, 343), (2, 344), (2, 345), (2, 346), (2, 347), (2, 348),
-            (2, 349), (1, 350), (2, 351), (2, 352), (2, 353), (2, 354), (2, 355), (2, 356),
-            (2, 357), (2, 358), (2, 359), (2, 360), (2, 361), (2, 362), (2, 363), (2, 364),
-            (2, 365), (2, 366), (2, 367), (2, 368), (2, 369), (2, 370), (0, 371), (2, 372),
-            (2, 373), (2, 374), (2, 375), (2, 376), (2, 377), (2, 378), (1, 379), (2, 380),
-            (1, 381), (2, 382), (1, 383), (2, 384), (1, 385), (2, 386), (2, 387), (2, 388),
-            (2, 389), (1, 390), (2, 391), (1, 392), (2, 393), (1, 394), (2, 395), (2, 396),
-            (2, 397), (2, 398), (1, 399), (2, 400), (1, 401), (2, 402), (2, 403), (2, 404),
-            (2, 405), (1, 406), (2, 407), (2, 408), (2, 409), (2, 410), (2, 411), (2, 412),
-            (2, 413), (2, 414), (2, 415), (2, 416), (1, 417), (2, 418), (1, 419), (2, 420),
-            (1, 421), (2, 422), (1, 423), (2, 424), (2, 425), (2, 426), (2, 427), (1, 428),
-            (2, 429), (1, 430), (2, 431), (1, 432), (2, 433), (2, 434), (2, 435), (2, 436),
-            (1, 437), (2, 438), (1, 439), (2, 440), (2, 441), (2, 442), (2, 443), (1, 444),
-            (2, 445), (2, 446), (2, 447), (2, 448), (2, 449), (2, 450), (2, 451), (2, 452),
-            (2, 453), (2, 454), (1, 455), (2, 456), (1, 457), (2, 458), (1, 459), (2, 460),
-            (2, 461), (2, 462), (2, 463), (1, 464), (2, 465), (1, 466), (2, 467), (2, 468),
-            (2, 469), (2, 470), (1, 471), (2, 472), (2, 473), (2, 474), (2, 475), (2, 476),
-            (2, 477), (2, 478), (2, 479), (2, 480), (2, 481), (1, 482), (2, 483), (1, 484),
-            (2, 485), (2, 486), (2, 487), (2, 488), (1, 489), (2, 490), (2, 491), (2, 492),
-            (2, 493), (2, 494), (2, 495), (2, 496), (2, 497), (2, 498), (2, 499), (1, 500),
-            (2, 501), (2, 502), (2, 503), (2, 504), (2, 505), (2, 506), (2, 507), (2, 508),
-            (2, 509), (2, 510), (2, 511), (2, 512), (2, 513), (2, 514), (2, 515), (2, 516),
-            (2, 517), (2, 518), (2, 519), (2, 520),
+            (1, 20), (0, 21), (0, 22), (0, 23), (0, 24), (0, 25), (0, 26), (0, 27), (0, 28),
+            (0, 29), (0, 30), (0, 31), (0, 32), (0, 33), (0, 34), (0, 35), (0, 36), (0, 37),
+            (0, 38), (0, 39), (0, 40), (1, 41), (2, 42), (1, 43), (2, 44), (1, 45), (2, 46),
+            (2, 47), (2, 48), (1, 49), (2, 50), (1, 51), (2, 52), (1, 53), (2, 54), (2, 55),
+            (2, 56), (1, 57), (2, 58), (1, 59), (2, 60), (2, 61), (2, 62), (1, 63), (2, 64),
+            (2, 65), (2, 66), (2, 67), (2, 68), (2, 69), (0, 70), (2, 71), (1, 72), (2, 73),
+            (1, 74), (2, 75), (2, 76), (2, 77), (1, 78), (2, 79), (1, 80), (2, 81), (2, 82),
+            (2, 83), (1, 84), (2, 85), (2, 86), (2, 87), (2, 88), (2, 89), (2, 90), (2, 91),
+            (1, 92), (2, 93), (2, 94), (2, 95), (1, 96), (2, 97), (2, 98), (2, 99), (2, 100),
+            (2, 101), (2, 102), (2, 103), (2, 104), (2, 105), (2, 106), (2, 107), (2, 108),
+            (2, 109), (2, 110), (2, 111), (2, 112), (1, 113), (2, 114), (1, 115), (2, 116),
+            (1, 117), (2, 118), (2, 119), (2, 120), (0, 121), (2, 122), (1, 123), (2, 124),
+            (1, 125), (2, 126), (2, 127), (2, 128), (2, 129), (1, 130), (2, 131), (2, 132),
+            (2, 133), (2, 134), (2, 135), (2, 136), (2, 137), (2, 138), (2, 139), (1, 140),
+            (2, 141), (1, 142), (2, 143), (1, 144), (2, 145), (2, 146), (2, 147), (1, 148),
+            (2, 149), (1, 150), (2, 151), (2, 152), (2, 153), (1, 154), (2, 155), (2, 156),
+            (2, 157), (2, 158), (2, 159), (2, 160), (1, 161), (2, 162), (1, 163), (2, 164),
+            (2, 165), (2, 166), (1, 167), (2, 168), (2, 169), (2, 170), (2, 171), (2, 172),
+            (2, 173), (1, 174), (2, 175), (2, 176), (2, 177), (2, 178), (2, 179), (2, 180),
+            (2, 181), (2, 182), (2, 183), (2, 184), (0, 185), (2, 186), (2, 187), (2, 188),
+            (2, 189), (2, 190), (1, 191), (2, 192), (1, 193), (2, 194), (1, 195), (2, 196),
+            (2, 197), (2, 198), (1, 199), (2, 200), (1, 201), (2, 202), (2, 203), (2, 204),
+            (1, 205), (2, 206), (2, 207), (2, 208), (2, 209), (2, 210), (2, 211), (1, 212),
+            (2, 213), (1, 214), (2, 215), (1, 216), (2, 217), (2, 218), (2, 219), (1, 220),
+            (2, 221), (1, 222), (2, 223), (2, 224), (2, 225), (1, 226), (2, 227), (2, 228),
+            (2, 229), (2, 230), (2, 231), (2, 232), (1, 233), (2, 234), (1, 235), (2, 236),
+            (2, 237), (2, 238), (1, 239), (2, 240), (2, 241), (2, 242), (2, 243), (2, 244),
+            (2, 245), (1, 246), (2, 247), (2, 248), (2, 249), (2, 250), (2, 251), (2, 252),
+            (2, 253), (2, 254), (2, 255), (2, 256),
         ],
         /// Where the parts of each base end.
         bases: &[
             1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
             22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40,
-            41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59,
-            60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 72, 74, 76, 78, 79, 80, 81, 83,
-            85, 87, 89, 90, 91, 92, 94, 96, 98, 99, 100, 101, 103, 105, 106, 107, 108,
-            110, 111, 112, 113, 114, 115, 116, 117, 118, 119, 121, 123, 125, 127, 128,
-            129, 130, 132, 134, 136, 137, 138, 139, 141, 143, 144, 145, 146, 148, 149,
-            150, 151, 152, 153, 154, 155, 156, 157, 158, 160, 162, 163, 164, 165, 167,
-            169, 170, 171, 172, 174, 175, 176, 177, 178, 179, 180, 181, 182, 183, 184,
-            186, 187, 188, 189, 191, 192, 193, 194, 195, 196, 197, 198, 199, 200, 201,
-            202, 203, 204, 205, 206, 207, 208, 209, 210, 211, 212, 213, 214, 215, 216,
-            217, 218, 219, 220, 222, 224, 226, 228, 229, 230, 231, 233, 235, 237, 239,
-            240, 241, 242, 243, 245, 247, 248, 249, 250, 251, 253, 254, 255, 256, 257,
-            258, 259, 260, 261, 262, 263, 264, 265, 266, 268, 270, 272, 274, 275, 276,
-            277, 279, 281, 283, 284, 285, 286, 288, 290, 291, 292, 293, 295, 296, 297,
-            298, 299, 300, 301, 302, 303, 304, 306, 308, 310, 311, 312, 313, 315, 317,
-            318, 319, 320, 322, 323, 324, 325, 326, 327, 328, 329, 330, 331, 333, 335,
-            336, 337, 338, 340, 341, 342, 343, 344, 345, 346, 347, 348, 349, 351, 352,
-            353, 354, 355, 356, 357, 358, 359, 360, 361, 362, 363, 364, 365, 366, 367,
-            368, 369, 370, 372, 373, 374, 375, 376, 377, 378, 380, 382, 384, 386, 387,
-            388, 389, 391, 393, 395, 396, 397, 398, 400, 402, 403, 404, 405, 407, 408,
-            409, 410, 411, 412, 413, 414, 415, 416, 418, 420, 422, 424, 425, 426, 427,
-            429, 431, 433, 434, 435, 436, 438, 440, 441, 442, 443, 445, 446, 447, 448,
-            449, 450, 451, 452, 453, 454, 456, 458, 460, 461, 462, 463, 465, 467, 468,
-            469, 470, 472, 473, 474, 475, 476, 477, 478, 479, 480, 481, 483, 485, 486,
-            487, 488, 490, 491, 492, 493, 494, 495, 496, 497, 498, 499, 501, 502, 503,
-            504, 505, 506, 507, 508, 509, 510, 511, 512, 513, 514, 515, 516, 517, 518,
-            519, 520,
+            42, 44, 46, 47, 48, 50, 52, 54, 55, 56, 58, 60, 61, 62, 64, 65, 66, 67, 68,
+            69, 71, 73, 75, 76, 77, 79, 81, 82, 83, 85, 86, 87, 88, 89, 90, 91, 93, 94,
+            95, 97, 98, 99, 100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 110, 111,
+            112, 114, 116, 118, 119, 120, 122, 124, 126, 127, 128, 129, 131, 132, 133,
+            134, 135, 136, 137, 138, 139, 141, 143, 145, 146, 147, 149, 151, 152, 153,
+            155, 156, 157, 158, 159, 160, 162, 164, 165, 166, 168, 169, 170, 171, 172,
+            173, 175, 176, 177, 178, 179, 180, 181, 182, 183, 184, 186, 187, 188, 189,
+            190, 192, 194, 196, 197, 198, 200, 202, 203, 204, 206, 207, 208, 209, 210,
+            211, 213, 215, 217, 218, 219, 221, 223, 224, 225, 227, 228, 229, 230, 231,
+            232, 234, 236, 237, 238, 240, 241, 242, 243, 244, 245, 247, 248, 249, 250,
+            251, 252, 253, 254, 255, 256,
         ],
         /// For each slot its base, and the integer.
         slots: &[
-            (25, 2), (26, 2), (27, 2), (28, 2), (29, 2), (30, 2), (31, 3), (32, 3), (33, 3),
-            (34, 4), (15, 1), (16, 1), (17, 1), (18, 1), (19, 1), (20, 1), (21, 1), (22, 1),
-            (23, 1), (24, 1), (9, 2), (10, 2), (11, 2), (12, 3), (13, 3), (14, 4), (22, 2), (23, 2),
-            (24, 3), (5, 1), (6, 1), (7, 1), (8, 1), (28, 1), (29, 1), (33, 1), (2, 2), (3, 3),
-            (4, 4), (7, 2), (8, 3), (17, 2), (18, 3), (21, 2), (1, 1), (10, 1), (13, 1), (26, 1),
-            (32, 1), (34, 8), (30, 4), (27, 4), (14, 8), (11, 4), (4, 8), (70, 1), (71, 1), (72, 1),
-            (73, 1), (74, 1), (75, 1), (76, 1), (77, 1), (78, 1), (79, 1), (80, 1), (81, 1),
-            (82, 1), (83, 1), (84, 1), (85, 1), (86, 1), (87, 1), (88, 1), (89, 1), (90, 1),
-            (91, 1), (92, 1), (93, 1), (94, 1), (95, 1), (96, 1), (97, 1), (98, 1), (99, 1),
-            (100, 1), (101, 1), (102, 1), (103, 1), (104, 1), (105, 1), (106, 1), (107, 1),
-            (108, 1), (109, 1), (110, 1), (111, 1), (112, 1), (113, 1), (114, 1), (115, 1),
-            (116, 1), (117, 1), (118, 1), (119, 1), (120, 1), (121, 1), (122, 1), (123, 1),
-            (124, 1), (125, 1), (126, 1), (127, 1), (128, 1), (129, 1), (130, 1), (131, 1),
-            (132, 1), (133, 1), (134, 1), (135, 1), (136, 1), (137, 1), (138, 1), (139, 1),
-            (140, 1), (141, 1), (142, 1), (143, 1), (144, 1), (145, 1), (146, 1), (147, 1),
-            (148, 1), (149, 1), (150, 1), (151, 1), (152, 1), (153, 1), (154, 1), (155, 1),
-            (156, 1), (157, 1), (158, 1), (159, 1), (160, 1), (161, 1), (162, 1), (163, 1),
-            (164, 1), (165, 1), (166, 1), (167, 1), (168, 1), (169, 1), (170, 1), (171, 1),
-            (172, 1), (173, 1), (174, 1), (175, 1), (176, 1), (177, 1), (178, 1), (179, 1),
-            (180, 1), (181, 1), (182, 1), (183, 1), (184, 1), (185, 1), (186, 1), (187, 1),
-            (188, 1), (189, 1), (190, 1), (191, 1), (192, 1), (193, 1), (194, 1), (195, 1),
-            (196, 1), (197, 1), (198, 1), (199, 1), (200, 1), (201, 1), (202, 1), (203, 1),
-            (204, 1), (205, 1), (206, 1), (207, 1), (208, 1), (209, 1), (210, 1), (211, 1),
-            (212, 1), (213, 1), (214, 1), (215, 1), (216, 1), (217, 1), (218, 1), (219, 1),
-            (220, 1), (221, 1), (222, 1), (223, 1), (224, 1), (225, 1), (226, 1), (227, 1),
-            (228, 1), (229, 1), (230, 1), (231, 1), (232, 1), (233, 1), (234, 1), (235, 1),
-            (236, 1), (237, 1), (238, 1), (239, 1), (240, 1), (241, 1), (242, 1), (243, 1),
-            (244, 1), (245, 1), (246, 1), (247, 1), (248, 1), (249, 1), (250, 1), (251, 1),
-            (252, 1), (253, 1), (254, 1), (255, 1), (256, 1), (257, 1), (258, 1), (259, 1),
-            (260, 1), (261, 1), (262, 1), (263, 1), (264, 1), (265, 1), (266, 1), (267, 1),
-            (268, 1), (269, 1), (270, 1), (271, 1), (272, 1), (273, 1), (274, 1), (275, 1),
-            (276, 1), (277, 1), (278, 1), (279, 1), (280, 1), (281, 1), (282, 1), (283, 1),
-            (284, 1), (285, 1), (286, 1), (287, 1), (288, 1), (289, 1), (290, 1), (291, 1),
-            (292, 1), (293, 1), (294, 1), (295, 1), (296, 1), (297, 1), (298, 1), (299, 1),
-            (300, 1), (301, 1), (302, 1), (303, 1), (304, 1), (305, 1), (306, 1), (307, 1),
-            (308, 1), (309, 1), (310, 1), (311, 1), (312, 1), (313, 1), (314, 1), (315, 1),
-            (316, 1), (317, 1), (318, 1), (319, 1), (320, 1), (321, 1), (322, 1), (323, 1),
-            (324, 1), (325, 1), (326, 1), (327, 1), (328, 1), (329, 1), (330, 1), (331, 1),
-            (332, 1), (333, 1), (334, 1), (335, 1), (336, 1), (337, 1), (338, 1), (339, 1),
-            (340, 1), (341, 1), (342, 1), (343, 1), (344, 1), (345, 1), (346, 1), (347, 1),
-            (348, 1), (349, 1), (350, 1), (351, 1), (352, 1), (353, 1), (354, 1), (355, 1),
-            (356, 1), (357, 1), (358, 1), (359, 1), (360, 1), (361, 1), (362, 1), (363, 1),
-            (364, 1), (365, 1), (366, 1), (367, 1), (368, 1), (369, 1), (370, 1), (371, 1),
-            (372, 1), (373, 1), (374, 1), (375, 1), (376, 1), (377, 1), (378, 1), (379, 1),
-            (380, 1), (381, 1), (382, 1), (383, 1), (384, 1), (385, 1), (386, 1), (387, 1),
-            (388, 1), (389, 1), (390, 1), (391, 1), (392, 1), (393, 1), (394, 1), (395, 1),
-            (396, 1), (397, 1), (398, 1), (399, 1), (400, 1), (401, 1), (402, 1), (403, 1),
-            (404, 1), (405, 1), (406, 1), (407, 1), (408, 1), (409, 1), (410, 1), (411, 1),
-            (412, 1), (413, 1), (414, 1), (415, 1), (416, 1), (417, 1), (418, 1), (419, 1),
-            (420, 1), (421, 1), (422, 1), (423, 1), (424, 1), (425, 1), (426, 1), (0, 1), (2, 1),
-            (3, 1), (4, 1), (9, 1), (11, 1), (12, 1), (14, 1), (25, 1), (27, 1), (30, 1), (31, 1),
-            (34, 1), (35, 1), (36, 1), (37, 1), (38, 1), (39, 1), (40, 1), (41, 1), (42, 1),
-            (43, 1), (44, 1), (45, 1), (46, 1), (47, 1), (48, 1), (49, 1), (50, 1), (51, 1),
-            (52, 1), (53, 1), (54, 1), (55, 1), (56, 1), (57, 1), (58, 1), (59, 1), (60, 1),
-            (61, 1), (62, 1), (63, 1), (64, 1), (65, 1), (66, 1), (67, 1), (68, 1), (69, 1),
+            (16, 2), (17, 2), (18, 2), (19, 3), (10, 1), (11, 1), (12, 1), (13, 1), (14, 1),
+            (15, 1), (7, 2), (8, 2), (9, 3), (15, 2), (4, 1), (5, 1), (6, 1), (18, 1), (2, 2),
+            (3, 3), (6, 2), (12, 2), (1, 1), (8, 1), (17, 1), (40, 1), (41, 1), (42, 1), (43, 1),
+            (44, 1), (45, 1), (46, 1), (47, 1), (48, 1), (49, 1), (50, 1), (51, 1), (52, 1),
+            (53, 1), (54, 1), (55, 1), (56, 1), (57, 1), (58, 1), (59, 1), (60, 1), (61, 1),
+            (62, 1), (63, 1), (64, 1), (65, 1), (66, 1), (67, 1), (68, 1), (69, 1), (70, 1),
+            (71, 1), (72, 1), (73, 1), (74, 1), (75, 1), (76, 1), (77, 1), (78, 1), (79, 1),
+            (80, 1), (81, 1), (82, 1), (83, 1), (84, 1), (85, 1), (86, 1), (87, 1), (88, 1),
+            (89, 1), (90, 1), (91, 1), (92, 1), (93, 1), (94, 1), (95, 1), (96, 1), (97, 1),
+            (98, 1), (99, 1), (100, 1), (101, 1), (102, 1), (103, 1), (104, 1), (105, 1), (106, 1),
+            (107, 1), (108, 1), (109, 1), (110, 1), (111, 1), (112, 1), (113, 1), (114, 1),
+            (115, 1), (116, 1), (117, 1), (118, 1), (119, 1), (120, 1), (121, 1), (122, 1),
+            (123, 1), (124, 1), (125, 1), (126, 1), (127, 1), (128, 1), (129, 1), (130, 1),
+            (131, 1), (132, 1), (133, 1), (134, 1), (135, 1), (136, 1), (137, 1), (138, 1),
+            (139, 1), (140, 1), (141, 1), (142, 1), (143, 1), (144, 1), (145, 1), (146, 1),
+            (147, 1), (148, 1), (149, 1), (150, 1), (151, 1), (152, 1), (153, 1), (154, 1),
+            (155, 1), (156, 1), (157, 1), (158, 1), (159, 1), (160, 1), (161, 1), (162, 1),
+            (163, 1), (164, 1), (165, 1), (166, 1), (167, 1), (168, 1), (169, 1), (170, 1),
+            (171, 1), (172, 1), (173, 1), (174, 1), (175, 1), (176, 1), (177, 1), (178, 1),
+            (179, 1), (180, 1), (181, 1), (182, 1), (183, 1), (184, 1), (185, 1), (186, 1),
+            (187, 1), (188, 1), (189, 1), (190, 1), (191, 1), (192, 1), (193, 1), (194, 1),
+            (195, 1), (196, 1), (197, 1), (198, 1), (199, 1), (200, 1), (201, 1), (202, 1),
+            (203, 1), (204, 1), (0, 1), (2, 1), (3, 1), (7, 1), (9, 1), (16, 1), (19, 1), (20, 1),
+            (21, 1), (22, 1), (23, 1), (24, 1), (25, 1), (26, 1), (27, 1), (28, 1), (29, 1),
+            (30, 1), (31, 1), (32, 1), (33, 1), (34, 1), (35, 1), (36, 1), (37, 1), (38, 1),
+            (39, 1),
         ],
         /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
         /// first bases.
         monomials: &[
-            &[], &[(2, 1)], &[(2, 2)], &[(2, 3)], &[(2, 4)], &[(1, 1)], &[(1, 1), (2, 1)],
-            &[(1, 1), (2, 2)], &[(1, 1), (2, 3)], &[(1, 2)], &[(1, 2), (2, 1)], &[(1, 2), (2, 2)],
-            &[(1, 3)], &[(1, 3), (2, 1)], &[(1, 4)], &[(0, 1)], &[(0, 1), (2, 1)],
-            &[(0, 1), (2, 2)], &[(0, 1), (2, 3)], &[(0, 1), (1, 1)], &[(0, 1), (1, 1), (2, 1)],
-            &[(0, 1), (1, 1), (2, 2)], &[(0, 1), (1, 2)], &[(0, 1), (1, 2), (2, 1)],
-            &[(0, 1), (1, 3)], &[(0, 2)], &[(0, 2), (2, 1)], &[(0, 2), (2, 2)], &[(0, 2), (1, 1)],
-            &[(0, 2), (1, 1), (2, 1)], &[(0, 2), (1, 2)], &[(0, 3)], &[(0, 3), (2, 1)],
-            &[(0, 3), (1, 1)], &[(0, 4)],
+            &[], &[(2, 1)], &[(2, 2)], &[(2, 3)], &[(1, 1)], &[(1, 1), (2, 1)], &[(1, 1), (2, 2)],
+            &[(1, 2)], &[(1, 2), (2, 1)], &[(1, 3)], &[(0, 1)], &[(0, 1), (2, 1)],
+            &[(0, 1), (2, 2)], &[(0, 1), (1, 1)], &[(0, 1), (1, 1), (2, 1)], &[(0, 1), (1, 2)],
+            &[(0, 2)], &[(0, 2), (2, 1)], &[(0, 2), (1, 1)], &[(0, 3)],
         ],
     };
 };
@@ -1798,69 +1239,33 @@ const _: () = {
 // The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:
 // c[0] = 2 C(p₁²), of S₁
 // c[1] = 2 C(p₁² p₃), of S₁
-// c[2] = 2 C(p₁² p₃²), of S₁
-// c[3] = 2 C(p₁² p₂), of S₁
-// c[4] = 2 C(p₁² p₂ p₃), of S₁
-// c[5] = 2 C(p₁² p₂²), of S₁
-// c[6] = 3 C(p₁³), of S₁
-// c[7] = 3 C(p₁³ p₃), of S₁
-// c[8] = 3 C(p₁³ p₂), of S₁
-// c[9] = 4 C(p₁⁴), of S₁
-// c[10] = C(p₁), of S₁
-// c[11] = C(p₁ p₃), of S₁
-// c[12] = C(p₁ p₃²), of S₁
-// c[13] = C(p₁ p₃³), of S₁
-// c[14] = C(p₁ p₂), of S₁
-// c[15] = C(p₁ p₂ p₃), of S₁
-// c[16] = C(p₁ p₂ p₃²), of S₁
-// c[17] = C(p₁ p₂²), of S₁
-// c[18] = C(p₁ p₂² p₃), of S₁
-// c[19] = C(p₁ p₂³), of S₁
-// c[20] = 2 C(p₂²), of S₁
-// c[21] = 2 C(p₂² p₃), of S₁
-// c[22] = 2 C(p₂² p₃²), of S₁
-// c[23] = 3 C(p₂³), of S₁
-// c[24] = 3 C(p₂³ p₃), of S₁
-// c[25] = 4 C(p₂⁴), of S₁
-// c[26] = 2 C(p₁ p₂²), of S₁
-// c[27] = 2 C(p₁ p₂² p₃), of S₁
-// c[28] = 3 C(p₁ p₂³), of S₁
-// c[29] = C(p₂), of S₁
-// c[30] = C(p₂ p₃), of S₁
-// c[31] = C(p₂ p₃²), of S₁
-// c[32] = C(p₂ p₃³), of S₁
-// c[33] = C(p₁² p₂), of S₁
-// c[34] = C(p₁² p₂ p₃), of S₁
-// c[35] = C(p₁³ p₂), of S₁
-// c[36] = 2 C(p₃²), of S₁
-// c[37] = 3 C(p₃³), of S₁
-// c[38] = 4 C(p₃⁴), of S₁
-// c[39] = 2 C(p₂ p₃²), of S₁
-// c[40] = 3 C(p₂ p₃³), of S₁
-// c[41] = 2 C(p₁ p₃²), of S₁
-// c[42] = 3 C(p₁ p₃³), of S₁
-// c[43] = 2 C(p₁ p₂ p₃²), of S₁
-// c[44] = C(p₃), of S₁
-// c[45] = C(p₂² p₃), of S₁
-// c[46] = C(p₂³ p₃), of S₁
-// c[47] = C(p₁² p₃), of S₁
-// c[48] = C(p₁³ p₃), of S₁
-// c[49] = 8 C(p₁⁴), of S₁
-// c[50] = 4 C(p₁² p₂²), of S₁
-// c[51] = 4 C(p₁² p₃²), of S₁
-// c[52] = 8 C(p₂⁴), of S₁
-// c[53] = 4 C(p₂² p₃²), of S₁
-// c[54] = 8 C(p₃⁴), of S₁
-// c[412] = C(), of S₁
-// c[413] = C(p₃²), of S₁
-// c[414] = C(p₃³), of S₁
-// c[415] = C(p₃⁴), of S₁
-// c[416] = C(p₂²), of S₁
-// c[417] = C(p₂² p₃²), of S₁
-// c[418] = C(p₂³), of S₁
-// c[419] = C(p₂⁴), of S₁
-// c[420] = C(p₁²), of S₁
-// c[421] = C(p₁² p₃²), of S₁
-// c[422] = C(p₁² p₂²), of S₁
-// c[423] = C(p₁³), of S₁
-// c[424] = C(p₁⁴), of S₁
+// c[2] = 2 C(p₁² p₂), of S₁
+// c[3] = 3 C(p₁³), of S₁
+// c[4] = C(p₁), of S₁
+// c[5] = C(p₁ p₃), of S₁
+// c[6] = C(p₁ p₃²), of S₁
+// c[7] = C(p₁ p₂), of S₁
+// c[8] = C(p₁ p₂ p₃), of S₁
+// c[9] = C(p₁ p₂²), of S₁
+// c[10] = 2 C(p₂²), of S₁
+// c[11] = 2 C(p₂² p₃), of S₁
+// c[12] = 3 C(p₂³), of S₁
+// c[13] = 2 C(p₁ p₂²), of S₁
+// c[14] = C(p₂), of S₁
+// c[15] = C(p₂ p₃), of S₁
+// c[16] = C(p₂ p₃²), of S₁
+// c[17] = C(p₁² p₂), of S₁
+// c[18] = 2 C(p₃²), of S₁
+// c[19] = 3 C(p₃³), of S₁
+// c[20] = 2 C(p₂ p₃²), of S₁
+// c[21] = 2 C(p₁ p₃²), of S₁
+// c[22] = C(p₃), of S₁
+// c[23] = C(p₂² p₃), of S₁
+// c[24] = C(p₁² p₃), of S₁
+// c[190] = C(), of S₁
+// c[191] = C(p₃²), of S₁
+// c[192] = C(p₃³), of S₁
+// c[193] = C(p₂²), of S₁
+// c[194] = C(p₂³), of S₁
+// c[195] = C(p₁²), of S₁
+// c[196] = C(p₁³), of S₁

@@ -1,5 +1,5 @@
 /*
- * rigid_body, K = 7, h = 0.1
+ * rigid_body, K = 3, h = 0.1
  *
  * coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of double precision.
  * Number i of trajectory r is at i * rows + r of g (4 numbers each) and mu (3 each). Trajectory r goes from
@@ -8,7 +8,7 @@
  * 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.
  * Let targets be multiples of 256, or one.
  *
- * A step takes 440 operations and 461 for each correction, most often one.
+ * A step takes 206 operations and 288 for each correction, most often one.
  */
 
 #define KERNEL extern "C" __global__
@@ -33,231 +33,52 @@
 #define TOLERANCE 0x1p-50
 #define NEAR 0x1.999999999999ap-5
 
-static __constant__ const NUMBER coadjoint_slots[225] = {
+static __constant__ const NUMBER coadjoint_slots[46] = {
     0x1.1111111111111p-4,
     0x1.8daea1d7f4cf8p-19,
-    0x1.b25ffda505644p-32,
-    0x1.e31d2bca7382ap-45,
     0x1.f11a4a4df2037p-21,
-    0x1.140253d630c26p-32,
-    0x1.f98c50b21a73bp-45,
-    0x1.b9297d9b9979cp-34,
-    0x1.c6a7ad5930e3cp-45,
-    0x1.91ec59ed28b18p-47,
-    (-0x1.821c6faf213cap-34),
-    (-0x1.1e2d9d0862c0bp-46),
-    0x1.0066e22a4c124p-33,
-    0x1.7252cc0e5e74bp-44,
-    0x1.18f1183648f22p-45,
-    0x1.b74f00c74242cp-47,
-    0x1.253303606a824p-47,
     0x1.999999999999ap-5,
     0x1.2a42f961f79bbp-21,
-    0x1.665bfe0e8ad91p-35,
-    0x1.c6f7817b90328p-49,
-    (-0x1.e8abfd59a610cp-36),
-    (-0x1.abdaee9053a45p-48),
-    0x1.7550730118d23p-49,
-    0x1.b9297d9b9979cp-33,
-    0x1.c6a7ad5930e3cp-44,
-    0x1.2d714371de852p-45,
-    0x1.0066e22a4c124p-34,
-    0x1.7252cc0e5e74bp-45,
-    0x1.86eeaf2b38adbp-49,
     0x1.47ae147ae147cp-5,
-    0x1.665bfe0e8ad91p-34,
-    0x1.5539a11cac25ep-47,
-    (-0x1.e8abfd59a610cp-37),
-    0x1.f1c09956cbc2fp-51,
-    0x1.b25ffda505644p-31,
-    0x1.6a55e0d7d6a2p-43,
-    0x1.f98c50b21a73bp-44,
-    (-0x1.821c6faf213cap-35),
-    0x1.24df55da2c2c8p-48,
-    (-0x1.821c6faf213cap-33),
-    (-0x1.1e2d9d0862c0bp-45),
-    0x1.0066e22a4c124p-32,
-    0x1.7252cc0e5e74bp-43,
-    0x1.18f1183648f22p-44,
-    0x1.b74f00c74242cp-45,
-    0x1.253303606a824p-45,
     0x1.f11a4a4df2037p-20,
-    0x1.140253d630c26p-31,
-    0x1.b9297d9b9979cp-32,
-    0x1.c6a7ad5930e3cp-43,
-    0x1.2d714371de852p-44,
-    0x1.18f1183648f22p-43,
-    0x1.253303606a824p-46,
     0x1.8daea1d7f4cf8p-18,
-    0x1.b25ffda505644p-30,
-    0x1.6a55e0d7d6a2p-42,
-    0x1.f98c50b21a73bp-43,
-    (-0x1.1e2d9d0862c0bp-44),
-    0x1.b74f00c74242cp-46,
-    (-0x1.e8abfd59a610cp-35),
-    (-0x1.abdaee9053a45p-47),
-    0x1.7550730118d23p-47,
-    0x1.2d714371de852p-43,
     0x1.2a42f961f79bbp-20,
-    0x1.665bfe0e8ad91p-33,
-    0x1.5539a11cac25ep-46,
-    (-0x1.abdaee9053a45p-46),
-    0x1.7550730118d23p-48,
-    0x1.5539a11cac25ep-45,
-    0x1.6a55e0d7d6a2p-41,
     (-0x1.47ae147ae147cp-8),
     0x1.65e9f80f29213p-21,
-    (-0x1.15fffe7e17ee4p-40),
-    0x1.53cc86b77f7efp-52,
     0x1.bf647612f3698p-23,
-    0x1.0756fe9271ab3p-34,
-    (-0x1.6ce08e9de44f5p-51),
-    0x1.3efe7e452ff59p-36,
-    0x1.2e014b3e6036ep-48,
-    0x1.388782c670d89p-50,
     1.0,
     (-0x1.463940c326d24p-13),
     0x1.a4ccfdb7dd391p-29,
-    (-0x1.c9822f419ddfdp-45),
-    (-0x1.65d33c98da80ep-61),
     (-0x1.d208a5a912e34p-16),
     (-0x1.2e3d0a5c72605p-26),
-    0x1.f44a25ec0fa3p-41,
-    (-0x1.acad451415c4dp-56),
     (-0x1.23a2326b2afeap-28),
-    (-0x1.7b6c4f3661cddp-40),
-    0x1.40d7e887822bbp-53,
-    (-0x1.2ae42f242403cp-42),
-    (-0x1.a31fbacde7077p-54),
-    (-0x1.2c2e5f233795cp-56),
     0x1.2a42f961f79bbp-20,
-    (-0x1.50a3fe2cb0fa8p-34),
-    0x1.3b8c918739b02p-48,
-    0x1.4c917e325820bp-33,
-    (-0x1.a343e0e720ad7p-46),
-    0x1.cc89e0c992eb8p-47,
     (-0x1.a831bdb32743dp-27),
-    0x1.c89131441d8cap-45,
-    (-0x1.118290e4a7046p-59),
     (-0x1.a831bdb32743dp-27),
-    (-0x1.a9170477aabp-44),
-    (-0x1.f2e4d795a4a57p-53),
-    (-0x1.9741588b01887p-40),
-    0x1.5133634dc128cp-53,
-    (-0x1.0e2cbf32dd3bp-53),
-    0x1.51d8e1b93d151p-36,
-    0x1.029082a703e4p-46,
-    0x1.9401cc24f6144p-49,
-    (-0x1.4d28a0bbaef6ep-39),
-    0x1.59f0949c1fb0ap-53,
-    (-0x1.89772ffb9bc65p-40),
-    (-0x1.0516b9f1db0b1p-51),
-    (-0x1.03bffb617f8f2p-52),
-    0x1.4334a350c4ddp-47,
-    (-0x1.5e12232a54239p-52),
-    (-0x1.df6188762d52dp-53),
     1.0,
     (-0x1.a36e2eb1c432ep-14),
     0x1.1d0efe744b89cp-29,
-    (-0x1.eb65e6e7a9919p-46),
-    (-0x1.bc325ce10f3eep-63),
     (-0x1.dd37f5698c2c5p-28),
-    0x1.4eec7cf6ff92dp-42,
-    (-0x1.7023bd4f30cd4p-57),
-    (-0x1.21ca47924c5fcp-41),
-    0x1.004b8f01b0814p-55,
-    (-0x1.76f932a97e319p-55),
     0x1.b4e81b4e81b4fp-7,
     (-0x1.1660a47d91c48p-20),
-    0x1.a0fffdbd23e55p-38,
-    (-0x1.77f29ff12591ep-52),
     0x1.2a42f961f79bbp-20,
-    (-0x1.aa3afdb053b0cp-33),
-    0x1.71ad9df78c5ddp-48,
-    0x1.a4ccfdb7dd392p-34,
-    (-0x1.9859e03418e95p-46),
-    0x1.363671b8970bep-47,
     (-0x1.36b06e70b7422p-16),
     0x1.8bea28851394ap-27,
-    (-0x1.239b1571faa02p-40),
-    0x1.16338ad649e1cp-55,
     (-0x1.cb8b382cbfdecp-29),
-    0x1.4ac4bbd60723cp-39,
-    (-0x1.a35f1c52e0961p-52),
-    (-0x1.0db403f49db15p-41),
-    0x1.3d0e27e9a09b9p-52,
-    (-0x1.c13b7642405a1p-55),
     0x1.091f168ff88a6p-22,
-    (-0x1.956aa877e2e61p-35),
-    (-0x1.2bbbe67e0107dp-49),
-    (-0x1.36b2e1deecbedp-34),
-    0x1.b003505a9fbe4p-46,
-    (-0x1.38522a8da91b7p-47),
     0x1.1acbd3ccc4d7fp-28,
-    (-0x1.e5077080915efp-40),
-    0x1.793ba8cda65adp-52,
-    (-0x1.d6b0131ea26c1p-48),
-    (-0x1.ec3c1e01e2bf2p-52),
-    (-0x1.54fcb63e03e36p-54),
-    0x1.29a09616fef42p-34,
-    (-0x1.a5d74283d8ad7p-46),
-    0x1.d1d9a48f07dd3p-47,
-    0x1.5c1ce37952ca9p-42,
-    0x1.fe8bdc5d9b513p-57,
-    (-0x1.4c3373aaab85ep-54),
-    0x1.e554d7698b07ep-48,
-    0x1.55a74a6a99b7p-55,
     1.0,
     0x1.5d867c3ece2a6p-14,
     (-0x1.316b7e5807ca7p-28),
-    (-0x1.a79e779b922ep-46),
-    (-0x1.48853f5bc89bep-58),
     0x1.dd37f5698c2c5p-29,
-    (-0x1.4af3cd718a33fp-41),
-    (-0x1.29ddc59d95e3dp-58),
-    0x1.7240c10a3903cp-43,
-    (-0x1.09041c21d6548p-54),
-    0x1.68c83dc25c7f2p-57,
     (-0x1.1111111111111p-7),
     0x1.2a42f961f79bbp-20,
-    (-0x1.049ffe96366f5p-36),
-    0x1.1827437ec712ep-50,
     (-0x1.36b06e70b7422p-21),
-    0x1.b9297d9b9979cp-33,
-    (-0x1.c3277cd27bae8p-48),
-    (-0x1.754a7df9d0a22p-36),
-    0x1.82c5e2455f773p-46,
-    (-0x1.3c0f3b3d12106p-50),
     0x1.36b06e70b7422p-15,
     (-0x1.f1b8a7f7c0d82p-30),
-    (-0x1.508ab182b421bp-43),
-    (-0x1.29ac6aafb5c5bp-58),
     (-0x1.2c78910991256p-27),
-    0x1.e0ccdb87cae96p-41,
-    (-0x1.59e24cab71363p-53),
-    (-0x1.bbe9af08344ecp-40),
-    0x1.bfc1818476ab4p-53,
-    (-0x1.a90cf9e27001fp-53),
     (-0x1.4b66dc33f6acfp-21),
-    0x1.ca81c49ff778p-36,
-    0x1.2bfc2a39122f1p-46,
-    (-0x1.69faa8b42f28ep-38),
-    (-0x1.97edee6fe2196p-51),
-    0x1.7b7df5d0b2f3fp-49,
     0x1.1acbd3ccc4d7fp-28,
-    (-0x1.8de0d68fe54c2p-40),
-    0x1.6f2a38b90adfap-56,
-    0x1.cba7f2abea9d8p-43,
-    (-0x1.80de28c620afp-51),
-    (-0x1.26a68af1e5ad2p-53),
-    (-0x1.056deb9e93d66p-34),
-    0x1.0afc0d1ee33dap-45,
-    (-0x1.c075fb7613a43p-49),
-    0x1.2b1536d0cc8ap-41,
-    (-0x1.9c741f2f284e8p-53),
-    (-0x1.899091d861e21p-53),
-    (-0x1.eb9b74ae37dcfp-48),
-    0x1.0ffbe35e85e33p-54,
     INFINITY,
 };
 
@@ -273,495 +94,287 @@ INLINE void coadjoint_guess(const double *RESTRICT mu, double *RESTRICT p, doubl
     const double t3 = __dmul_rn(mu[0], mu[0]);
     const double t5 = __dmul_rn(mu[1], mu[1]);
     const double t7 = __dmul_rn(mu[2], mu[2]);
-    const double t10 = __fma_rn(t7, coadjoint_slots[112], coadjoint_slots[111]);
-    const double t11 = __fma_rn(t5, coadjoint_slots[113], t10);
-    const double t12 = __fma_rn(t3, coadjoint_slots[119], t11);
-    const double t16 = __fma_rn(t7, coadjoint_slots[100], coadjoint_slots[99]);
-    const double t17 = __fma_rn(t5, coadjoint_slots[101], t16);
-    const double t20 = __fma_rn(t7, coadjoint_slots[98], coadjoint_slots[97]);
-    const double t22 = __fma_rn(t7, t20, coadjoint_slots[96]);
-    const double t23 = __fma_rn(t5, t17, t22);
-    const double t24 = __fma_rn(t3, t12, t23);
-    const double t28 = __fma_rn(t7, coadjoint_slots[79], coadjoint_slots[78]);
-    const double t29 = __fma_rn(t5, coadjoint_slots[80], t28);
-    const double t32 = __fma_rn(t7, coadjoint_slots[77], coadjoint_slots[76]);
-    const double t34 = __fma_rn(t7, t32, coadjoint_slots[75]);
-    const double t35 = __fma_rn(t5, t29, t34);
-    const double t38 = __fma_rn(t7, coadjoint_slots[74], coadjoint_slots[73]);
-    const double t40 = __fma_rn(t7, t38, coadjoint_slots[72]);
-    const double t42 = __fma_rn(t7, t40, coadjoint_slots[71]);
-    const double t43 = __fma_rn(t5, t35, t42);
-    const double t44 = __fma_rn(t3, t24, t43);
-    const double t45 = __dmul_rn(mu[1], mu[2]);
-    const double t46 = __dmul_rn(t44, t45);
-    const double t51 = __fma_rn(t7, coadjoint_slots[117], coadjoint_slots[116]);
-    const double t52 = __fma_rn(t5, coadjoint_slots[118], t51);
-    const double t53 = __fma_rn(t3, coadjoint_slots[121], t52);
-    const double t57 = __fma_rn(t7, coadjoint_slots[109], coadjoint_slots[108]);
-    const double t58 = __fma_rn(t5, coadjoint_slots[110], t57);
-    const double t61 = __fma_rn(t7, coadjoint_slots[107], coadjoint_slots[106]);
-    const double t63 = __fma_rn(t7, t61, coadjoint_slots[105]);
-    const double t64 = __fma_rn(t5, t58, t63);
-    const double t65 = __fma_rn(t3, t53, t64);
-    const double t69 = __fma_rn(t7, coadjoint_slots[94], coadjoint_slots[93]);
-    const double t70 = __fma_rn(t5, coadjoint_slots[95], t69);
-    const double t73 = __fma_rn(t7, coadjoint_slots[92], coadjoint_slots[91]);
-    const double t75 = __fma_rn(t7, t73, coadjoint_slots[90]);
-    const double t76 = __fma_rn(t5, t70, t75);
-    const double t79 = __fma_rn(t7, coadjoint_slots[89], coadjoint_slots[88]);
-    const double t81 = __fma_rn(t7, t79, coadjoint_slots[87]);
-    const double t83 = __fma_rn(t7, t81, coadjoint_slots[86]);
-    const double t84 = __fma_rn(t5, t76, t83);
-    const double t85 = __fma_rn(t3, t65, t84);
-    const double t89 = __fma_rn(t7, coadjoint_slots[115], coadjoint_slots[114]);
-    const double t90 = __fma_rn(t3, coadjoint_slots[120], t89);
-    const double t93 = __fma_rn(t7, coadjoint_slots[104], coadjoint_slots[103]);
-    const double t95 = __fma_rn(t7, t93, coadjoint_slots[102]);
-    const double t96 = __fma_rn(t3, t90, t95);
-    const double t99 = __fma_rn(t7, coadjoint_slots[85], coadjoint_slots[84]);
-    const double t101 = __fma_rn(t7, t99, coadjoint_slots[83]);
-    const double t103 = __fma_rn(t7, t101, coadjoint_slots[82]);
-    const double t104 = __fma_rn(t3, t96, t103);
-    const double t106 = __fma_rn(t7, t104, coadjoint_slots[81]);
-    const double t107 = __fma_rn(t5, t85, t106);
-    const double t108 = __fma_rn(mu[0], t107, t46);
-    const double t113 = __fma_rn(t7, coadjoint_slots[169], coadjoint_slots[168]);
-    const double t114 = __fma_rn(t5, coadjoint_slots[170], t113);
-    const double t115 = __fma_rn(t3, coadjoint_slots[172], t114);
-    const double t119 = __fma_rn(t7, coadjoint_slots[163], coadjoint_slots[162]);
-    const double t120 = __fma_rn(t5, coadjoint_slots[164], t119);
-    const double t123 = __fma_rn(t7, coadjoint_slots[161], coadjoint_slots[160]);
-    const double t125 = __fma_rn(t7, t123, coadjoint_slots[159]);
-    const double t126 = __fma_rn(t5, t120, t125);
-    const double t127 = __fma_rn(t3, t115, t126);
-    const double t131 = __fma_rn(t7, coadjoint_slots[151], coadjoint_slots[150]);
-    const double t132 = __fma_rn(t5, coadjoint_slots[152], t131);
-    const double t135 = __fma_rn(t7, coadjoint_slots[149], coadjoint_slots[148]);
-    const double t137 = __fma_rn(t7, t135, coadjoint_slots[147]);
-    const double t138 = __fma_rn(t5, t132, t137);
-    const double t141 = __fma_rn(t7, coadjoint_slots[146], coadjoint_slots[145]);
-    const double t143 = __fma_rn(t7, t141, coadjoint_slots[144]);
-    const double t145 = __fma_rn(t7, t143, coadjoint_slots[143]);
-    const double t146 = __fma_rn(t5, t138, t145);
-    const double t147 = __fma_rn(t3, t127, t146);
-    const double t151 = __fma_rn(t7, coadjoint_slots[131], coadjoint_slots[130]);
-    const double t152 = __fma_rn(t5, coadjoint_slots[132], t151);
-    const double t155 = __fma_rn(t7, coadjoint_slots[129], coadjoint_slots[128]);
-    const double t157 = __fma_rn(t7, t155, coadjoint_slots[127]);
-    const double t158 = __fma_rn(t5, t152, t157);
-    const double t161 = __fma_rn(t7, coadjoint_slots[126], coadjoint_slots[125]);
-    const double t163 = __fma_rn(t7, t161, coadjoint_slots[124]);
-    const double t165 = __fma_rn(t7, t163, coadjoint_slots[123]);
-    const double t166 = __fma_rn(t5, t158, t165);
-    const double t168 = __fma_rn(t7, t166, coadjoint_slots[122]);
-    const double t169 = __fma_rn(t3, t147, t168);
-    const double t170 = __dmul_rn(mu[1], t169);
-    const double t175 = __fma_rn(t7, coadjoint_slots[166], coadjoint_slots[165]);
-    const double t176 = __fma_rn(t5, coadjoint_slots[167], t175);
-    const double t177 = __fma_rn(t3, coadjoint_slots[171], t176);
-    const double t181 = __fma_rn(t7, coadjoint_slots[157], coadjoint_slots[156]);
-    const double t182 = __fma_rn(t5, coadjoint_slots[158], t181);
-    const double t185 = __fma_rn(t7, coadjoint_slots[155], coadjoint_slots[154]);
-    const double t187 = __fma_rn(t7, t185, coadjoint_slots[153]);
-    const double t188 = __fma_rn(t5, t182, t187);
-    const double t189 = __fma_rn(t3, t177, t188);
-    const double t193 = __fma_rn(t7, coadjoint_slots[141], coadjoint_slots[140]);
-    const double t194 = __fma_rn(t5, coadjoint_slots[142], t193);
-    const double t197 = __fma_rn(t7, coadjoint_slots[139], coadjoint_slots[138]);
-    const double t199 = __fma_rn(t7, t197, coadjoint_slots[137]);
-    const double t200 = __fma_rn(t5, t194, t199);
-    const double t203 = __fma_rn(t7, coadjoint_slots[136], coadjoint_slots[135]);
-    const double t205 = __fma_rn(t7, t203, coadjoint_slots[134]);
-    const double t207 = __fma_rn(t7, t205, coadjoint_slots[133]);
-    const double t208 = __fma_rn(t5, t200, t207);
-    const double t209 = __fma_rn(t3, t189, t208);
-    const double t210 = __dmul_rn(mu[0], mu[2]);
-    const double t211 = __fma_rn(t209, t210, t170);
-    const double t216 = __fma_rn(t7, coadjoint_slots[220], coadjoint_slots[219]);
-    const double t217 = __fma_rn(t5, coadjoint_slots[221], t216);
-    const double t218 = __fma_rn(t3, coadjoint_slots[223], t217);
-    const double t222 = __fma_rn(t7, coadjoint_slots[214], coadjoint_slots[213]);
-    const double t223 = __fma_rn(t5, coadjoint_slots[215], t222);
-    const double t226 = __fma_rn(t7, coadjoint_slots[212], coadjoint_slots[211]);
-    const double t228 = __fma_rn(t7, t226, coadjoint_slots[210]);
-    const double t229 = __fma_rn(t5, t223, t228);
-    const double t230 = __fma_rn(t3, t218, t229);
-    const double t234 = __fma_rn(t7, coadjoint_slots[202], coadjoint_slots[201]);
-    const double t235 = __fma_rn(t5, coadjoint_slots[203], t234);
-    const double t238 = __fma_rn(t7, coadjoint_slots[200], coadjoint_slots[199]);
-    const double t240 = __fma_rn(t7, t238, coadjoint_slots[198]);
-    const double t241 = __fma_rn(t5, t235, t240);
-    const double t244 = __fma_rn(t7, coadjoint_slots[197], coadjoint_slots[196]);
-    const double t246 = __fma_rn(t7, t244, coadjoint_slots[195]);
-    const double t248 = __fma_rn(t7, t246, coadjoint_slots[194]);
-    const double t249 = __fma_rn(t5, t241, t248);
-    const double t250 = __fma_rn(t3, t230, t249);
-    const double t254 = __fma_rn(t7, coadjoint_slots[182], coadjoint_slots[181]);
-    const double t255 = __fma_rn(t5, coadjoint_slots[183], t254);
-    const double t258 = __fma_rn(t7, coadjoint_slots[180], coadjoint_slots[179]);
-    const double t260 = __fma_rn(t7, t258, coadjoint_slots[178]);
-    const double t261 = __fma_rn(t5, t255, t260);
-    const double t264 = __fma_rn(t7, coadjoint_slots[177], coadjoint_slots[176]);
-    const double t266 = __fma_rn(t7, t264, coadjoint_slots[175]);
-    const double t268 = __fma_rn(t7, t266, coadjoint_slots[174]);
-    const double t269 = __fma_rn(t5, t261, t268);
-    const double t271 = __fma_rn(t5, t269, coadjoint_slots[173]);
-    const double t272 = __fma_rn(t3, t250, t271);
-    const double t273 = __dmul_rn(mu[2], t272);
-    const double t278 = __fma_rn(t7, coadjoint_slots[217], coadjoint_slots[216]);
-    const double t279 = __fma_rn(t5, coadjoint_slots[218], t278);
-    const double t280 = __fma_rn(t3, coadjoint_slots[222], t279);
-    const double t284 = __fma_rn(t7, coadjoint_slots[208], coadjoint_slots[207]);
-    const double t285 = __fma_rn(t5, coadjoint_slots[209], t284);
-    const double t288 = __fma_rn(t7, coadjoint_slots[206], coadjoint_slots[205]);
-    const double t290 = __fma_rn(t7, t288, coadjoint_slots[204]);
-    const double t291 = __fma_rn(t5, t285, t290);
-    const double t292 = __fma_rn(t3, t280, t291);
-    const double t296 = __fma_rn(t7, coadjoint_slots[192], coadjoint_slots[191]);
-    const double t297 = __fma_rn(t5, coadjoint_slots[193], t296);
-    const double t300 = __fma_rn(t7, coadjoint_slots[190], coadjoint_slots[189]);
-    const double t302 = __fma_rn(t7, t300, coadjoint_slots[188]);
-    const double t303 = __fma_rn(t5, t297, t302);
-    const double t306 = __fma_rn(t7, coadjoint_slots[187], coadjoint_slots[186]);
-    const double t308 = __fma_rn(t7, t306, coadjoint_slots[185]);
-    const double t310 = __fma_rn(t7, t308, coadjoint_slots[184]);
-    const double t311 = __fma_rn(t5, t303, t310);
-    const double t312 = __fma_rn(t3, t292, t311);
-    const double t313 = __dmul_rn(mu[0], mu[1]);
-    const double t314 = __fma_rn(t312, t313, t273);
-    const double t317 = fabs(mu[0]);
-    const double t318 = fabs(mu[1]);
-    const double t319 = (t318 <= t317) ? t317 : t318;
-    const double t320 = fabs(mu[2]);
-    const double t321 = (t320 <= t319) ? t319 : t320;
-    const double t322 = __dadd_rn(0x1p-126, t321);
-    const double t324 = __ddiv_rn(1.0, t322);
-    p[0] = t108;
-    p[1] = t211;
-    p[2] = t314;
-    k[0] = t324;
+    const double t10 = __fma_rn(t7, coadjoint_slots[10], coadjoint_slots[9]);
+    const double t11 = __fma_rn(t5, coadjoint_slots[11], t10);
+    const double t12 = __fma_rn(t3, coadjoint_slots[18], t11);
+    const double t13 = __dmul_rn(mu[1], mu[2]);
+    const double t14 = __dmul_rn(t12, t13);
+    const double t19 = __fma_rn(t7, coadjoint_slots[16], coadjoint_slots[15]);
+    const double t20 = __fma_rn(t5, coadjoint_slots[17], t19);
+    const double t21 = __fma_rn(t3, coadjoint_slots[20], t20);
+    const double t25 = __fma_rn(t7, coadjoint_slots[14], coadjoint_slots[13]);
+    const double t26 = __fma_rn(t3, coadjoint_slots[19], t25);
+    const double t28 = __fma_rn(t7, t26, coadjoint_slots[12]);
+    const double t29 = __fma_rn(t5, t21, t28);
+    const double t30 = __fma_rn(mu[0], t29, t14);
+    const double t35 = __fma_rn(t7, coadjoint_slots[29], coadjoint_slots[28]);
+    const double t36 = __fma_rn(t5, coadjoint_slots[30], t35);
+    const double t37 = __fma_rn(t3, coadjoint_slots[32], t36);
+    const double t41 = __fma_rn(t7, coadjoint_slots[23], coadjoint_slots[22]);
+    const double t42 = __fma_rn(t5, coadjoint_slots[24], t41);
+    const double t44 = __fma_rn(t7, t42, coadjoint_slots[21]);
+    const double t45 = __fma_rn(t3, t37, t44);
+    const double t46 = __dmul_rn(mu[1], t45);
+    const double t51 = __fma_rn(t7, coadjoint_slots[26], coadjoint_slots[25]);
+    const double t52 = __fma_rn(t5, coadjoint_slots[27], t51);
+    const double t53 = __fma_rn(t3, coadjoint_slots[31], t52);
+    const double t54 = __dmul_rn(mu[0], mu[2]);
+    const double t55 = __fma_rn(t53, t54, t46);
+    const double t60 = __fma_rn(t7, coadjoint_slots[41], coadjoint_slots[40]);
+    const double t61 = __fma_rn(t5, coadjoint_slots[42], t60);
+    const double t62 = __fma_rn(t3, coadjoint_slots[44], t61);
+    const double t66 = __fma_rn(t7, coadjoint_slots[35], coadjoint_slots[34]);
+    const double t67 = __fma_rn(t5, coadjoint_slots[36], t66);
+    const double t69 = __fma_rn(t5, t67, coadjoint_slots[33]);
+    const double t70 = __fma_rn(t3, t62, t69);
+    const double t71 = __dmul_rn(mu[2], t70);
+    const double t76 = __fma_rn(t7, coadjoint_slots[38], coadjoint_slots[37]);
+    const double t77 = __fma_rn(t5, coadjoint_slots[39], t76);
+    const double t78 = __fma_rn(t3, coadjoint_slots[43], t77);
+    const double t79 = __dmul_rn(mu[0], mu[1]);
+    const double t80 = __fma_rn(t78, t79, t71);
+    const double t83 = fabs(mu[0]);
+    const double t84 = fabs(mu[1]);
+    const double t85 = (t84 <= t83) ? t83 : t84;
+    const double t86 = fabs(mu[2]);
+    const double t87 = (t86 <= t85) ? t85 : t86;
+    const double t88 = __dadd_rn(0x1p-126, t87);
+    const double t90 = __ddiv_rn(1.0, t88);
+    p[0] = t30;
+    p[1] = t55;
+    p[2] = t80;
+    k[0] = t90;
     k[1] = 0.0;
 }
 
 INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT mu, const double *RESTRICT k, double *RESTRICT p_next, double *RESTRICT x, double *RESTRICT left, double *RESTRICT moved)
 {
     const double t8 = __dmul_rn(p[1], p[1]);
-    const double t9 = __dmul_rn(p[0], p[0]);
-    const double t12 = __dmul_rn(p[2], p[2]);
-    const double t15 = __fma_rn(t12, coadjoint_slots[13], coadjoint_slots[12]);
-    const double t16 = __fma_rn(t8, coadjoint_slots[14], t15);
-    const double t17 = __fma_rn(t9, coadjoint_slots[16], t16);
-    const double t21 = __fma_rn(t12, coadjoint_slots[8], coadjoint_slots[7]);
-    const double t22 = __fma_rn(t8, coadjoint_slots[9], t21);
-    const double t25 = __fma_rn(t12, coadjoint_slots[6], coadjoint_slots[5]);
-    const double t27 = __fma_rn(t12, t25, coadjoint_slots[4]);
-    const double t28 = __fma_rn(t8, t22, t27);
-    const double t29 = __fma_rn(t9, t17, t28);
-    const double t33 = __fma_rn(t12, coadjoint_slots[11], coadjoint_slots[10]);
-    const double t34 = __fma_rn(t9, coadjoint_slots[15], t33);
-    const double t37 = __fma_rn(t12, coadjoint_slots[3], coadjoint_slots[2]);
-    const double t39 = __fma_rn(t12, t37, coadjoint_slots[1]);
-    const double t40 = __fma_rn(t9, t34, t39);
-    const double t42 = __fma_rn(t12, t40, coadjoint_slots[0]);
-    const double t43 = __fma_rn(t8, t29, t42);
-    const double t44 = __dmul_rn(p[0], t43);
-    const double t48 = __fma_rn(t12, coadjoint_slots[28], coadjoint_slots[27]);
-    const double t49 = __fma_rn(t8, coadjoint_slots[14], t48);
-    const double t50 = __fma_rn(t9, coadjoint_slots[29], t49);
-    const double t54 = __fma_rn(t12, coadjoint_slots[25], coadjoint_slots[24]);
-    const double t55 = __fma_rn(t8, coadjoint_slots[26], t54);
-    const double t56 = __fma_rn(t8, t55, t27);
-    const double t57 = __fma_rn(t9, t50, t56);
-    const double t61 = __fma_rn(t12, coadjoint_slots[22], coadjoint_slots[21]);
-    const double t62 = __fma_rn(t8, coadjoint_slots[23], t61);
-    const double t65 = __fma_rn(t12, coadjoint_slots[20], coadjoint_slots[19]);
-    const double t67 = __fma_rn(t12, t65, coadjoint_slots[18]);
-    const double t68 = __fma_rn(t8, t62, t67);
-    const double t70 = __fma_rn(t12, t68, coadjoint_slots[17]);
-    const double t71 = __fma_rn(t9, t57, t70);
-    const double t72 = __dmul_rn(p[1], t71);
-    const double t75 = __fma_rn(t12, coadjoint_slots[11], coadjoint_slots[38]);
-    const double t76 = __fma_rn(t8, coadjoint_slots[28], t75);
-    const double t77 = __fma_rn(t9, coadjoint_slots[39], t76);
-    const double t79 = __fma_rn(t12, coadjoint_slots[37], coadjoint_slots[5]);
-    const double t80 = __fma_rn(t8, coadjoint_slots[8], t79);
-    const double t83 = __fma_rn(t12, coadjoint_slots[36], coadjoint_slots[35]);
-    const double t84 = __fma_rn(t12, t83, coadjoint_slots[1]);
-    const double t85 = __fma_rn(t8, t80, t84);
-    const double t86 = __fma_rn(t9, t77, t85);
-    const double t89 = __fma_rn(t12, coadjoint_slots[22], coadjoint_slots[33]);
-    const double t90 = __fma_rn(t8, coadjoint_slots[34], t89);
-    const double t93 = __fma_rn(t12, coadjoint_slots[32], coadjoint_slots[31]);
-    const double t94 = __fma_rn(t12, t93, coadjoint_slots[18]);
-    const double t95 = __fma_rn(t8, t90, t94);
-    const double t97 = __fma_rn(t8, t95, coadjoint_slots[30]);
-    const double t98 = __fma_rn(t9, t86, t97);
-    const double t99 = __dmul_rn(p[2], t98);
-    const double t104 = __fma_rn(t12, coadjoint_slots[43], coadjoint_slots[42]);
-    const double t105 = __fma_rn(t8, coadjoint_slots[44], t104);
-    const double t106 = __fma_rn(t9, coadjoint_slots[46], t105);
-    const double t110 = __fma_rn(t12, coadjoint_slots[41], coadjoint_slots[40]);
-    const double t111 = __fma_rn(t9, coadjoint_slots[45], t110);
-    const double t112 = __dmul_rn(t12, t111);
-    const double t113 = __fma_rn(t8, t106, t112);
-    const double t114 = __dmul_rn(t9, t113);
-    const double t115 = __dadd_rn(t43, t114);
-    const double t116 = __dmul_rn(p[0], p[1]);
-    const double t119 = __fma_rn(t8, coadjoint_slots[52], t104);
-    const double t120 = __fma_rn(t9, coadjoint_slots[53], t119);
-    const double t124 = __fma_rn(t12, coadjoint_slots[50], coadjoint_slots[49]);
-    const double t125 = __fma_rn(t8, coadjoint_slots[51], t124);
-    const double t127 = __fma_rn(t12, coadjoint_slots[37], coadjoint_slots[48]);
-    const double t129 = __fma_rn(t12, t127, coadjoint_slots[47]);
-    const double t130 = __fma_rn(t8, t125, t129);
-    const double t131 = __fma_rn(t9, t120, t130);
-    const double t132 = __dmul_rn(t116, t131);
-    const double t133 = __dmul_rn(p[0], p[2]);
-    const double t136 = __fma_rn(t12, coadjoint_slots[58], coadjoint_slots[40]);
-    const double t137 = __fma_rn(t8, coadjoint_slots[43], t136);
-    const double t138 = __fma_rn(t9, coadjoint_slots[59], t137);
-    const double t140 = __fma_rn(t12, coadjoint_slots[57], coadjoint_slots[48]);
-    const double t141 = __fma_rn(t8, coadjoint_slots[25], t140);
-    const double t144 = __fma_rn(t12, coadjoint_slots[56], coadjoint_slots[55]);
-    const double t146 = __fma_rn(t12, t144, coadjoint_slots[54]);
-    const double t147 = __fma_rn(t8, t141, t146);
-    const double t148 = __fma_rn(t9, t138, t147);
-    const double t149 = __dmul_rn(t133, t148);
-    const double t151 = __fma_rn(t8, coadjoint_slots[63], t124);
-    const double t152 = __fma_rn(t9, coadjoint_slots[44], t151);
-    const double t156 = __fma_rn(t12, coadjoint_slots[61], coadjoint_slots[60]);
-    const double t157 = __fma_rn(t8, coadjoint_slots[62], t156);
-    const double t158 = __dmul_rn(t12, t157);
-    const double t159 = __fma_rn(t9, t152, t158);
-    const double t160 = __dmul_rn(t8, t159);
-    const double t161 = __dadd_rn(t71, t160);
-    const double t162 = __dmul_rn(p[1], p[2]);
-    const double t163 = __fma_rn(t8, coadjoint_slots[50], t140);
-    const double t164 = __fma_rn(t9, coadjoint_slots[13], t163);
-    const double t167 = __fma_rn(t12, coadjoint_slots[67], coadjoint_slots[60]);
-    const double t168 = __fma_rn(t8, coadjoint_slots[68], t167);
-    const double t171 = __fma_rn(t12, coadjoint_slots[66], coadjoint_slots[65]);
-    const double t173 = __fma_rn(t12, t171, coadjoint_slots[64]);
-    const double t174 = __fma_rn(t8, t168, t173);
-    const double t175 = __fma_rn(t9, t164, t174);
-    const double t176 = __dmul_rn(t162, t175);
-    const double t178 = __fma_rn(t12, coadjoint_slots[70], coadjoint_slots[55]);
-    const double t179 = __fma_rn(t8, coadjoint_slots[57], t178);
-    const double t180 = __fma_rn(t9, coadjoint_slots[41], t179);
-    const double t182 = __fma_rn(t12, coadjoint_slots[69], coadjoint_slots[65]);
-    const double t183 = __fma_rn(t8, coadjoint_slots[61], t182);
-    const double t184 = __dmul_rn(t8, t183);
-    const double t185 = __fma_rn(t9, t180, t184);
-    const double t186 = __dmul_rn(t12, t185);
-    const double t187 = __dadd_rn(t98, t186);
-    const double t191 = __dmul_rn(t44, t44);
-    const double t192 = __fma_rn(t72, t72, t191);
-    const double t193 = __fma_rn(t99, t99, t192);
-    const double t204 = __fma_rn(t193, (-0x1.5555555555555p-5), 0x1p-1);
-    const double t205 = __fma_rn(t193, (-0x1.a01a01a01a01ap-16), 0x1.6c16c16c16c17p-10);
-    const double t206 = __fma_rn(t193, (-0x1.1eed8eff8d898p-29), 0x1.27e4fb7789f5cp-22);
-    const double t207 = __fma_rn(t193, (-0x1.ae7f3e733b81fp-45), 0x1.93974a8c07c9dp-37);
-    const double t208 = __fma_rn(t193, (-0x1.e542ba4020225p-62), 0x1.6827863b97d97p-53);
-    const double t209 = __dmul_rn(t193, t193);
-    const double t210 = __fma_rn(t205, t209, t204);
-    const double t211 = __fma_rn(t207, t209, t206);
-    const double t212 = __fma_rn(0x1.0ce396db7f853p-70, t209, t208);
-    const double t213 = __dmul_rn(t209, t209);
-    const double t214 = __fma_rn(t211, t213, t210);
-    const double t215 = __dmul_rn(t213, t213);
-    const double t216 = __fma_rn(t212, t215, t214);
-    const double t227 = __fma_rn(t193, (-0x1.1111111111111p-7), 0x1.5555555555555p-3);
-    const double t228 = __fma_rn(t193, (-0x1.71de3a556c734p-19), 0x1.a01a01a01a01ap-13);
-    const double t229 = __fma_rn(t193, (-0x1.6124613a86d09p-33), 0x1.ae64567f544e4p-26);
-    const double t230 = __fma_rn(t193, (-0x1.952c77030ad4ap-49), 0x1.ae7f3e733b81fp-41);
-    const double t231 = __fma_rn(t193, (-0x1.71b8ef6dcf572p-66), 0x1.2f49b46814157p-57);
-    const double t232 = __fma_rn(t209, t228, t227);
-    const double t233 = __fma_rn(t209, t230, t229);
-    const double t234 = __fma_rn(t213, t233, t232);
-    const double t235 = __fma_rn(t215, t231, t234);
-    const double t242 = __fma_rn(t193, 0x1.6c16c16c16c17p-9, (-0x1.5555555555555p-5));
-    const double t243 = __fma_rn(t193, 0x1.27e4fb7789f5cp-20, (-0x1.3813813813814p-14));
-    const double t244 = __fma_rn(t193, 0x1.2eb177e905d76p-34, (-0x1.66a8f2bf70ebep-27));
-    const double t245 = __fma_rn(t209, t243, t242);
-    const double t246 = __fma_rn(t209, (-0x1.78af56a4d411bp-42), t244);
-    const double t247 = __fma_rn(t213, t246, t245);
-    const double t254 = __fma_rn(t193, 0x1.a01a01a01a01ap-12, (-0x1.1111111111111p-7));
-    const double t255 = __fma_rn(t193, 0x1.ae64567f544e4p-24, (-0x1.1566abc011567p-17));
-    const double t256 = __fma_rn(t193, 0x1.42df6ed66ca17p-38, (-0x1.b96d79892884bp-31));
-    const double t257 = __fma_rn(t209, t255, t254);
-    const double t258 = __fma_rn(t209, (-0x1.6286e822a97a1p-46), t256);
-    const double t259 = __fma_rn(t213, t258, t257);
-    const double t260 = __dmul_rn(mu[1], t99);
-    const double t261 = -mu[2];
-    const double t262 = __fma_rn(t72, t261, t260);
-    const double t263 = __dmul_rn(mu[2], t44);
-    const double t264 = -mu[0];
-    const double t265 = __fma_rn(t99, t264, t263);
-    const double t266 = __dmul_rn(mu[0], t72);
-    const double t267 = -mu[1];
-    const double t268 = __fma_rn(t44, t267, t266);
-    const double t269 = __dmul_rn(t99, t265);
-    const double t270 = -t268;
-    const double t271 = __fma_rn(t72, t270, t269);
-    const double t272 = __dmul_rn(t44, t268);
-    const double t273 = -t262;
-    const double t274 = __fma_rn(t99, t273, t272);
-    const double t275 = __dmul_rn(t72, t262);
-    const double t276 = -t265;
-    const double t277 = __fma_rn(t44, t276, t275);
-    const double t278 = __fma_rn(t216, t262, mu[0]);
-    const double t279 = __fma_rn(t216, t265, mu[1]);
-    const double t280 = __fma_rn(t216, t268, mu[2]);
-    const double t281 = __fma_rn(t235, t271, t278);
-    const double t282 = __fma_rn(t235, t274, t279);
-    const double t283 = __fma_rn(t235, t277, t280);
-    const double t285 = __dmul_rn(t247, t262);
-    const double t286 = __dmul_rn(t247, t265);
-    const double t287 = __dmul_rn(t247, t268);
-    const double t288 = __fma_rn(t259, t271, t285);
-    const double t289 = __fma_rn(t259, t274, t286);
-    const double t290 = __fma_rn(t259, t277, t287);
-    const double t291 = __dmul_rn(2.0, t288);
-    const double t292 = __dmul_rn(2.0, t289);
-    const double t293 = __dmul_rn(2.0, t290);
-    const double t294 = -t235;
-    const double t295 = __fma_rn(mu[0], t294, t291);
-    const double t296 = __fma_rn(mu[1], t294, t292);
-    const double t297 = __fma_rn(mu[2], t294, t293);
-    const double t298 = __dmul_rn(mu[0], t216);
-    const double t299 = __dmul_rn(mu[1], t216);
-    const double t300 = __dmul_rn(mu[2], t216);
-    const double t301 = __fma_rn(t235, t262, t298);
-    const double t302 = __fma_rn(t235, t265, t299);
-    const double t303 = __fma_rn(t235, t268, t300);
-    const double t304 = __dmul_rn(mu[0], t44);
-    const double t305 = __fma_rn(mu[1], t72, t304);
-    const double t306 = __fma_rn(mu[2], t99, t305);
-    const double t307 = __dmul_rn(t235, t306);
-    const double t308 = -t301;
-    const double t309 = -t302;
-    const double t310 = -t303;
-    const double t311 = __fma_rn(t44, t295, t307);
-    const double t312 = __fma_rn(t72, t295, t310);
-    const double t313 = __fma_rn(t99, t295, t302);
-    const double t314 = __fma_rn(t44, t296, t303);
-    const double t315 = __fma_rn(t72, t296, t307);
-    const double t316 = __fma_rn(t99, t296, t308);
-    const double t317 = __fma_rn(t44, t297, t309);
-    const double t318 = __fma_rn(t72, t297, t301);
-    const double t319 = __fma_rn(t99, t297, t307);
-    const double t320 = __dmul_rn(t115, t311);
-    const double t321 = __fma_rn(t132, t312, t320);
-    const double t322 = __fma_rn(t149, t313, t321);
-    const double t323 = __dmul_rn(t132, t311);
-    const double t324 = __fma_rn(t161, t312, t323);
-    const double t325 = __fma_rn(t176, t313, t324);
-    const double t326 = __dmul_rn(t149, t311);
-    const double t327 = __fma_rn(t176, t312, t326);
-    const double t328 = __fma_rn(t187, t313, t327);
-    const double t329 = __dmul_rn(t115, t314);
-    const double t330 = __fma_rn(t132, t315, t329);
-    const double t331 = __fma_rn(t149, t316, t330);
-    const double t332 = __dmul_rn(t132, t314);
-    const double t333 = __fma_rn(t161, t315, t332);
-    const double t334 = __fma_rn(t176, t316, t333);
-    const double t335 = __dmul_rn(t149, t314);
-    const double t336 = __fma_rn(t176, t315, t335);
-    const double t337 = __fma_rn(t187, t316, t336);
-    const double t338 = __dmul_rn(t115, t317);
-    const double t339 = __fma_rn(t132, t318, t338);
-    const double t340 = __fma_rn(t149, t319, t339);
-    const double t341 = __dmul_rn(t132, t317);
-    const double t342 = __fma_rn(t161, t318, t341);
-    const double t343 = __fma_rn(t176, t319, t342);
-    const double t344 = __dmul_rn(t149, t317);
-    const double t345 = __fma_rn(t176, t318, t344);
-    const double t346 = __fma_rn(t187, t319, t345);
-    const double t347 = __dsub_rn(1.0, t322);
-    const double t348 = -t325;
-    const double t349 = -t328;
-    const double t350 = -t331;
-    const double t351 = __dsub_rn(1.0, t334);
-    const double t352 = -t337;
-    const double t353 = -t340;
-    const double t354 = -t343;
-    const double t355 = __dsub_rn(1.0, t346);
-    const double t356 = __dsub_rn(p[0], t281);
-    const double t357 = __dsub_rn(p[1], t282);
-    const double t358 = __dsub_rn(p[2], t283);
-    const double t359 = __ddiv_rn(1.0, t347);
-    const double t360 = __dmul_rn(t350, t359);
-    const double t361 = -t360;
-    const double t362 = __fma_rn(t348, t361, t351);
-    const double t363 = __fma_rn(t349, t361, t352);
-    const double t364 = __dmul_rn(t353, t359);
-    const double t365 = -t364;
-    const double t366 = __fma_rn(t348, t365, t354);
-    const double t367 = __fma_rn(t349, t365, t355);
-    const double t368 = __ddiv_rn(1.0, t362);
-    const double t369 = __dmul_rn(t366, t368);
-    const double t370 = -t369;
-    const double t371 = __fma_rn(t363, t370, t367);
-    const double t372 = __ddiv_rn(1.0, t371);
-    const double t373 = __fma_rn(t356, t361, t357);
-    const double t374 = __fma_rn(t356, t365, t358);
-    const double t375 = __fma_rn(t370, t373, t374);
-    const double t376 = __dmul_rn(t372, t375);
-    const double t377 = -t363;
-    const double t378 = __fma_rn(t376, t377, t373);
-    const double t379 = __dmul_rn(t368, t378);
-    const double t380 = __fma_rn(t325, t379, t356);
-    const double t381 = __fma_rn(t328, t376, t380);
-    const double t382 = __dmul_rn(t359, t381);
-    const double t383 = __dmul_rn(t115, t382);
-    const double t384 = __fma_rn(t132, t379, t383);
-    const double t385 = __fma_rn(t149, t376, t384);
-    const double t386 = __dmul_rn(t132, t382);
-    const double t387 = __fma_rn(t161, t379, t386);
-    const double t388 = __fma_rn(t176, t376, t387);
-    const double t389 = __dmul_rn(t149, t382);
-    const double t390 = __fma_rn(t176, t379, t389);
-    const double t391 = __fma_rn(t187, t376, t390);
-    const double t392 = __dsub_rn(p[0], t382);
-    const double t393 = __dsub_rn(p[1], t379);
-    const double t394 = __dsub_rn(p[2], t376);
-    const double t395 = __dsub_rn(t44, t385);
-    const double t396 = __dsub_rn(t72, t388);
-    const double t397 = __dsub_rn(t99, t391);
-    const double t398 = fabs(t382);
-    const double t399 = fabs(t379);
-    const double t400 = (t399 <= t398) ? t398 : t399;
-    const double t401 = fabs(t376);
-    const double t402 = (t401 <= t400) ? t400 : t401;
-    const double t403 = __dmul_rn(k[0], t402);
-    const double t404 = fabs(t385);
-    const double t405 = fabs(t388);
-    const double t406 = (t405 <= t404) ? t404 : t405;
-    const double t407 = fabs(t391);
-    const double t408 = (t407 <= t406) ? t406 : t407;
-    const double t409 = fabs(t44);
-    const double t410 = fabs(t72);
-    const double t411 = (t410 <= t409) ? t409 : t410;
-    const double t412 = fabs(t99);
-    const double t413 = (t412 <= t411) ? t411 : t412;
-    const double t414 = __dmul_rn(t413, t413);
-    const double t415 = __dmul_rn(0x1p-2, t414);
-    const double t416 = __dmul_rn(t403, t415);
-    const double t417 = __fma_rn(0x1p-1, t408, t416);
-    const double t418 = __dmul_rn(k[1], t403);
-    const double t419 = __fma_rn(t408, t417, t418);
-    const double t423 = __dmul_rn(0x1p-52, 4.0);
-    const double t424 = (t403 <= 0x1.0624dd2f1a9fcp-10) ? t419 : t403;
-    const double t425 = (t424 <= t403) ? t424 : t403;
-    const double t426 = (t403 <= t423) ? t425 : t424;
-    p_next[0] = t392;
-    p_next[1] = t393;
-    p_next[2] = t394;
-    x[0] = t395;
-    x[1] = t396;
-    x[2] = t397;
-    *left = t426;
-    *moved = t403;
+    const double t10 = __dmul_rn(p[2], p[2]);
+    const double t13 = __fma_rn(t10, coadjoint_slots[1], coadjoint_slots[0]);
+    const double t14 = __fma_rn(t8, coadjoint_slots[2], t13);
+    const double t15 = __dmul_rn(p[0], t14);
+    const double t16 = __dmul_rn(p[0], p[0]);
+    const double t19 = __fma_rn(t10, coadjoint_slots[4], coadjoint_slots[3]);
+    const double t20 = __fma_rn(coadjoint_slots[2], t16, t19);
+    const double t21 = __dmul_rn(p[1], t20);
+    const double t23 = __fma_rn(t8, coadjoint_slots[4], coadjoint_slots[5]);
+    const double t24 = __fma_rn(coadjoint_slots[1], t16, t23);
+    const double t25 = __dmul_rn(p[2], t24);
+    const double t26 = __dmul_rn(p[0], p[1]);
+    const double t28 = __dmul_rn(t26, coadjoint_slots[6]);
+    const double t29 = __dmul_rn(p[0], p[2]);
+    const double t31 = __dmul_rn(t29, coadjoint_slots[7]);
+    const double t32 = __dmul_rn(p[1], p[2]);
+    const double t34 = __dmul_rn(t32, coadjoint_slots[8]);
+    const double t38 = __dmul_rn(t15, t15);
+    const double t39 = __fma_rn(t21, t21, t38);
+    const double t40 = __fma_rn(t25, t25, t39);
+    const double t51 = __fma_rn(t40, (-0x1.5555555555555p-5), 0x1p-1);
+    const double t52 = __fma_rn(t40, (-0x1.a01a01a01a01ap-16), 0x1.6c16c16c16c17p-10);
+    const double t53 = __fma_rn(t40, (-0x1.1eed8eff8d898p-29), 0x1.27e4fb7789f5cp-22);
+    const double t54 = __fma_rn(t40, (-0x1.ae7f3e733b81fp-45), 0x1.93974a8c07c9dp-37);
+    const double t55 = __fma_rn(t40, (-0x1.e542ba4020225p-62), 0x1.6827863b97d97p-53);
+    const double t56 = __dmul_rn(t40, t40);
+    const double t57 = __fma_rn(t52, t56, t51);
+    const double t58 = __fma_rn(t54, t56, t53);
+    const double t59 = __fma_rn(0x1.0ce396db7f853p-70, t56, t55);
+    const double t60 = __dmul_rn(t56, t56);
+    const double t61 = __fma_rn(t58, t60, t57);
+    const double t62 = __dmul_rn(t60, t60);
+    const double t63 = __fma_rn(t59, t62, t61);
+    const double t74 = __fma_rn(t40, (-0x1.1111111111111p-7), 0x1.5555555555555p-3);
+    const double t75 = __fma_rn(t40, (-0x1.71de3a556c734p-19), 0x1.a01a01a01a01ap-13);
+    const double t76 = __fma_rn(t40, (-0x1.6124613a86d09p-33), 0x1.ae64567f544e4p-26);
+    const double t77 = __fma_rn(t40, (-0x1.952c77030ad4ap-49), 0x1.ae7f3e733b81fp-41);
+    const double t78 = __fma_rn(t40, (-0x1.71b8ef6dcf572p-66), 0x1.2f49b46814157p-57);
+    const double t79 = __fma_rn(t56, t75, t74);
+    const double t80 = __fma_rn(t56, t77, t76);
+    const double t81 = __fma_rn(t60, t80, t79);
+    const double t82 = __fma_rn(t62, t78, t81);
+    const double t89 = __fma_rn(t40, 0x1.6c16c16c16c17p-9, (-0x1.5555555555555p-5));
+    const double t90 = __fma_rn(t40, 0x1.27e4fb7789f5cp-20, (-0x1.3813813813814p-14));
+    const double t91 = __fma_rn(t40, 0x1.2eb177e905d76p-34, (-0x1.66a8f2bf70ebep-27));
+    const double t92 = __fma_rn(t56, t90, t89);
+    const double t93 = __fma_rn(t56, (-0x1.78af56a4d411bp-42), t91);
+    const double t94 = __fma_rn(t60, t93, t92);
+    const double t101 = __fma_rn(t40, 0x1.a01a01a01a01ap-12, (-0x1.1111111111111p-7));
+    const double t102 = __fma_rn(t40, 0x1.ae64567f544e4p-24, (-0x1.1566abc011567p-17));
+    const double t103 = __fma_rn(t40, 0x1.42df6ed66ca17p-38, (-0x1.b96d79892884bp-31));
+    const double t104 = __fma_rn(t56, t102, t101);
+    const double t105 = __fma_rn(t56, (-0x1.6286e822a97a1p-46), t103);
+    const double t106 = __fma_rn(t60, t105, t104);
+    const double t107 = __dmul_rn(mu[1], t25);
+    const double t108 = -mu[2];
+    const double t109 = __fma_rn(t21, t108, t107);
+    const double t110 = __dmul_rn(mu[2], t15);
+    const double t111 = -mu[0];
+    const double t112 = __fma_rn(t25, t111, t110);
+    const double t113 = __dmul_rn(mu[0], t21);
+    const double t114 = -mu[1];
+    const double t115 = __fma_rn(t15, t114, t113);
+    const double t116 = __dmul_rn(t25, t112);
+    const double t117 = -t115;
+    const double t118 = __fma_rn(t21, t117, t116);
+    const double t119 = __dmul_rn(t15, t115);
+    const double t120 = -t109;
+    const double t121 = __fma_rn(t25, t120, t119);
+    const double t122 = __dmul_rn(t21, t109);
+    const double t123 = -t112;
+    const double t124 = __fma_rn(t15, t123, t122);
+    const double t125 = __fma_rn(t63, t109, mu[0]);
+    const double t126 = __fma_rn(t63, t112, mu[1]);
+    const double t127 = __fma_rn(t63, t115, mu[2]);
+    const double t128 = __fma_rn(t82, t118, t125);
+    const double t129 = __fma_rn(t82, t121, t126);
+    const double t130 = __fma_rn(t82, t124, t127);
+    const double t132 = __dmul_rn(t94, t109);
+    const double t133 = __dmul_rn(t94, t112);
+    const double t134 = __dmul_rn(t94, t115);
+    const double t135 = __fma_rn(t106, t118, t132);
+    const double t136 = __fma_rn(t106, t121, t133);
+    const double t137 = __fma_rn(t106, t124, t134);
+    const double t138 = __dmul_rn(2.0, t135);
+    const double t139 = __dmul_rn(2.0, t136);
+    const double t140 = __dmul_rn(2.0, t137);
+    const double t141 = -t82;
+    const double t142 = __fma_rn(mu[0], t141, t138);
+    const double t143 = __fma_rn(mu[1], t141, t139);
+    const double t144 = __fma_rn(mu[2], t141, t140);
+    const double t145 = __dmul_rn(mu[0], t63);
+    const double t146 = __dmul_rn(mu[1], t63);
+    const double t147 = __dmul_rn(mu[2], t63);
+    const double t148 = __fma_rn(t82, t109, t145);
+    const double t149 = __fma_rn(t82, t112, t146);
+    const double t150 = __fma_rn(t82, t115, t147);
+    const double t151 = __dmul_rn(mu[0], t15);
+    const double t152 = __fma_rn(mu[1], t21, t151);
+    const double t153 = __fma_rn(mu[2], t25, t152);
+    const double t154 = __dmul_rn(t82, t153);
+    const double t155 = -t148;
+    const double t156 = -t149;
+    const double t157 = -t150;
+    const double t158 = __fma_rn(t15, t142, t154);
+    const double t159 = __fma_rn(t21, t142, t157);
+    const double t160 = __fma_rn(t25, t142, t149);
+    const double t161 = __fma_rn(t15, t143, t150);
+    const double t162 = __fma_rn(t21, t143, t154);
+    const double t163 = __fma_rn(t25, t143, t155);
+    const double t164 = __fma_rn(t15, t144, t156);
+    const double t165 = __fma_rn(t21, t144, t148);
+    const double t166 = __fma_rn(t25, t144, t154);
+    const double t167 = __dmul_rn(t14, t158);
+    const double t168 = __fma_rn(t28, t159, t167);
+    const double t169 = __fma_rn(t31, t160, t168);
+    const double t170 = __dmul_rn(t28, t158);
+    const double t171 = __fma_rn(t20, t159, t170);
+    const double t172 = __fma_rn(t34, t160, t171);
+    const double t173 = __dmul_rn(t31, t158);
+    const double t174 = __fma_rn(t34, t159, t173);
+    const double t175 = __fma_rn(t24, t160, t174);
+    const double t176 = __dmul_rn(t14, t161);
+    const double t177 = __fma_rn(t28, t162, t176);
+    const double t178 = __fma_rn(t31, t163, t177);
+    const double t179 = __dmul_rn(t28, t161);
+    const double t180 = __fma_rn(t20, t162, t179);
+    const double t181 = __fma_rn(t34, t163, t180);
+    const double t182 = __dmul_rn(t31, t161);
+    const double t183 = __fma_rn(t34, t162, t182);
+    const double t184 = __fma_rn(t24, t163, t183);
+    const double t185 = __dmul_rn(t14, t164);
+    const double t186 = __fma_rn(t28, t165, t185);
+    const double t187 = __fma_rn(t31, t166, t186);
+    const double t188 = __dmul_rn(t28, t164);
+    const double t189 = __fma_rn(t20, t165, t188);
+    const double t190 = __fma_rn(t34, t166, t189);
+    const double t191 = __dmul_rn(t31, t164);
+    const double t192 = __fma_rn(t34, t165, t191);
+    const double t193 = __fma_rn(t24, t166, t192);
+    const double t194 = __dsub_rn(1.0, t169);
+    const double t195 = -t172;
+    const double t196 = -t175;
+    const double t197 = -t178;
+    const double t198 = __dsub_rn(1.0, t181);
+    const double t199 = -t184;
+    const double t200 = -t187;
+    const double t201 = -t190;
+    const double t202 = __dsub_rn(1.0, t193);
+    const double t203 = __dsub_rn(p[0], t128);
+    const double t204 = __dsub_rn(p[1], t129);
+    const double t205 = __dsub_rn(p[2], t130);
+    const double t206 = __ddiv_rn(1.0, t194);
+    const double t207 = __dmul_rn(t197, t206);
+    const double t208 = -t207;
+    const double t209 = __fma_rn(t195, t208, t198);
+    const double t210 = __fma_rn(t196, t208, t199);
+    const double t211 = __dmul_rn(t200, t206);
+    const double t212 = -t211;
+    const double t213 = __fma_rn(t195, t212, t201);
+    const double t214 = __fma_rn(t196, t212, t202);
+    const double t215 = __ddiv_rn(1.0, t209);
+    const double t216 = __dmul_rn(t213, t215);
+    const double t217 = -t216;
+    const double t218 = __fma_rn(t210, t217, t214);
+    const double t219 = __ddiv_rn(1.0, t218);
+    const double t220 = __fma_rn(t203, t208, t204);
+    const double t221 = __fma_rn(t203, t212, t205);
+    const double t222 = __fma_rn(t217, t220, t221);
+    const double t223 = __dmul_rn(t219, t222);
+    const double t224 = -t210;
+    const double t225 = __fma_rn(t223, t224, t220);
+    const double t226 = __dmul_rn(t215, t225);
+    const double t227 = __fma_rn(t172, t226, t203);
+    const double t228 = __fma_rn(t175, t223, t227);
+    const double t229 = __dmul_rn(t206, t228);
+    const double t230 = __dmul_rn(t14, t229);
+    const double t231 = __fma_rn(t28, t226, t230);
+    const double t232 = __fma_rn(t31, t223, t231);
+    const double t233 = __dmul_rn(t28, t229);
+    const double t234 = __fma_rn(t20, t226, t233);
+    const double t235 = __fma_rn(t34, t223, t234);
+    const double t236 = __dmul_rn(t31, t229);
+    const double t237 = __fma_rn(t34, t226, t236);
+    const double t238 = __fma_rn(t24, t223, t237);
+    const double t239 = __dsub_rn(p[0], t229);
+    const double t240 = __dsub_rn(p[1], t226);
+    const double t241 = __dsub_rn(p[2], t223);
+    const double t242 = __dsub_rn(t15, t232);
+    const double t243 = __dsub_rn(t21, t235);
+    const double t244 = __dsub_rn(t25, t238);
+    const double t245 = fabs(t229);
+    const double t246 = fabs(t226);
+    const double t247 = (t246 <= t245) ? t245 : t246;
+    const double t248 = fabs(t223);
+    const double t249 = (t248 <= t247) ? t247 : t248;
+    const double t250 = __dmul_rn(k[0], t249);
+    const double t251 = fabs(t232);
+    const double t252 = fabs(t235);
+    const double t253 = (t252 <= t251) ? t251 : t252;
+    const double t254 = fabs(t238);
+    const double t255 = (t254 <= t253) ? t253 : t254;
+    const double t256 = fabs(t15);
+    const double t257 = fabs(t21);
+    const double t258 = (t257 <= t256) ? t256 : t257;
+    const double t259 = fabs(t25);
+    const double t260 = (t259 <= t258) ? t258 : t259;
+    const double t261 = __dmul_rn(t260, t260);
+    const double t262 = __dmul_rn(0x1p-2, t261);
+    const double t263 = __dmul_rn(t250, t262);
+    const double t264 = __fma_rn(0x1p-1, t255, t263);
+    const double t265 = __dmul_rn(k[1], t250);
+    const double t266 = __fma_rn(t255, t264, t265);
+    const double t270 = __dmul_rn(0x1p-52, 4.0);
+    const double t271 = (t250 <= 0x1.0624dd2f1a9fcp-10) ? t266 : t250;
+    const double t272 = (t271 <= t250) ? t271 : t250;
+    const double t273 = (t250 <= t270) ? t272 : t271;
+    p_next[0] = t239;
+    p_next[1] = t240;
+    p_next[2] = t241;
+    x[0] = t242;
+    x[1] = t243;
+    x[2] = t244;
+    *left = t273;
+    *moved = t250;
 }
 
 INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x, double left, double way, double *RESTRICT right)
@@ -778,13 +391,13 @@ INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x
     const double t24 = __dmul_rn(mu[0], mu[0]);
     const double t25 = __fma_rn(mu[1], mu[1], t24);
     const double t26 = __fma_rn(mu[2], mu[2], t25);
-    const double t30 = (coadjoint_slots[224] <= 0x1.fffffep+127) ? 4.0 : 9.0;
-    const double t31 = __dmul_rn(t23, t30);
-    const double t32 = (t26 <= coadjoint_slots[224]) ? 1.0 : 0.0;
-    const double t33 = (t31 <= 1.0) ? t32 : 0.0;
-    const double t34 = (way <= 0x1.999999999999ap-5) ? t33 : 0.0;
-    const double t35 = (left <= t10) ? t34 : 0.0;
-    *right = t35;
+    const double t31 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 0x1.3c0ca4587e6b8p+2 : 9.0;
+    const double t32 = __dmul_rn(t23, t31);
+    const double t33 = (t26 <= coadjoint_slots[45]) ? 1.0 : 0.0;
+    const double t34 = (t32 <= 1.0) ? t33 : 0.0;
+    const double t35 = (way <= 0x1.999999999999ap-5) ? t34 : 0.0;
+    const double t36 = (left <= t10) ? t35 : 0.0;
+    *right = t36;
 }
 
 INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT mu, const double *RESTRICT x, double *RESTRICT g_next, double *RESTRICT mu_next)

@@ -5,6 +5,7 @@ pub mod backends;
 pub mod bridge;
 pub mod catalogue;
 pub mod elliptic;
+pub mod emitted;
 pub mod erased;
 pub mod golden;
 pub mod kernels;
@@ -16,20 +17,6 @@ pub mod series;
 pub mod stress;
 pub mod toutatis;
 pub mod toutatis_figure;
-
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::parse::rust;
-
-/// The integrator that the attribute with `arguments` builds from the source of a function.
-///
-/// # Errors
-/// The messages of the attribute.
-pub fn from_function(arguments: &str, function: &str) -> syn::Result<Integrator> {
-    let problem = rust::lie_poisson(arguments.parse()?, &syn::parse_str(function)?)?;
-    Integrator::build(problem, TermLimit::default())
-        .map_err(|error| syn::Error::new(proc_macro2::Span::call_site(), error))
-}
 
 /// Makes the snippets of pages into tests.
 macro_rules! pages {

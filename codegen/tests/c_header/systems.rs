@@ -66,7 +66,7 @@ const SYSTEMS: &[System] = &[
     System {
         name: "rigid_body",
         text: "examples/rigid_body.toml",
-        truncation: 7,
+        truncation: 5,
         chart: Chart::Exponential,
         parameters: Parameters::Substituted,
         language: Language::C,
@@ -80,7 +80,7 @@ const SYSTEMS: &[System] = &[
         chart: Chart::Exponential,
         parameters: Parameters::Kept,
         language: Language::C,
-        golden: true,
+        golden: false,
         large: false,
     },
     System {
@@ -90,7 +90,7 @@ const SYSTEMS: &[System] = &[
         chart: Chart::Cayley,
         parameters: Parameters::Substituted,
         language: Language::C,
-        golden: true,
+        golden: false,
         large: false,
     },
     System {
@@ -109,8 +109,8 @@ const SYSTEMS: &[System] = &[
         truncation: 5,
         chart: Chart::Exponential,
         parameters: Parameters::Kept,
-        language: Language::Cpp,
-        golden: true,
+        language: Language::C,
+        golden: false,
         large: false,
     },
     System {
@@ -119,8 +119,8 @@ const SYSTEMS: &[System] = &[
         truncation: 3,
         chart: Chart::Cayley,
         parameters: Parameters::Kept,
-        language: Language::C,
-        golden: false,
+        language: Language::Cpp,
+        golden: true,
         large: false,
     },
     System {

@@ -4,15 +4,16 @@
 //! fails. `COADJOINT_BLESS=1` rewrites the golden files.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use std::path::PathBuf;
-
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Step, StepError};
 use coadjoint_codegen::system::{Options, read};
-use coadjoint_native::cards::{Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile};
+use coadjoint_native::cards::{
+    Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile,
+};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 use coadjoint_program::{Kernel, Precision, Stepper};
+use coadjoint_tests::golden;
 use nalgebra::DMatrix;
 
 /// A step with its folded coefficients.
@@ -135,27 +136,14 @@ fn moved(card: &mut Card, rows: &mut [Row], steps: u64) -> (Advanced, Vec<Status
 
 #[test]
 fn texts_are_the_committed_ones() {
-    for (name, text, truncation, h) in
-        [("rigid_body", RIGID_BODY, 7, 0.1), ("heavy_top", HEAVY_TOP, 3, 0.05)]
-    {
-        for (precision, kind) in [(Precision::Double, ""), (Precision::Single, "_single")] {
-            if precision == Precision::Single && name != "rigid_body" {
-                continue;
-            }
-            let ready = ready(text, truncation, h, precision);
-            for (language, ending) in [(DeviceLanguage::OpenCl, "cl"), (DeviceLanguage::Cuda, "cu")]
-            {
-                let about = format!("{name}, K = {truncation}, h = {h}");
-                let text = device_unit(ready.kernel(), &ready.slots, language, &about);
-                let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-                    .join(format!("golden/{name}{kind}.{ending}"));
-                if std::env::var_os("COADJOINT_BLESS").is_some() {
-                    std::fs::write(&path, &text).unwrap();
-                }
-                let committed = std::fs::read_to_string(&path).unwrap_or_default();
-                assert!(committed == text, "{} differs from what is printed now", path.display());
-            }
-        }
+    let texts = [
+        (DeviceLanguage::OpenCl, Precision::Single, "rigid_body.cl"),
+        (DeviceLanguage::Cuda, Precision::Double, "rigid_body.cu"),
+    ];
+    for (language, precision, file) in texts {
+        let ready = ready(RIGID_BODY, 3, 0.1, precision);
+        let about = "rigid_body, K = 3, h = 0.1";
+        golden::check(file, &device_unit(ready.kernel(), &ready.slots, language, about));
     }
 }
 

@@ -1,30 +1,31 @@
-//! The committed emitted code, compiled and run against the interpreter.
+//! Emitted code, compiled and run against the interpreter.
 
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{GeneratingFunction, Phase, SO3, StepError};
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_tests::{from_function, golden};
+use coadjoint::{GeneratingFunction, Kicked, LieGroup as _, Phase, SO3, StepError, steps::Rkn4};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::system::{Options, Parameters, read};
+use coadjoint_tests::emitted::{self, from_function};
 
 mod rigid_body {
-    include!("../../golden/rigid_body.rs");
+    include!(concat!(env!("OUT_DIR"), "/emitted/rigid_body.rs"));
 }
 mod cayley_body {
-    include!("../../golden/cayley_body.rs");
+    include!(concat!(env!("OUT_DIR"), "/emitted/cayley_body.rs"));
 }
 mod heavy_top {
-    include!("../../golden/heavy_top.rs");
+    include!(concat!(env!("OUT_DIR"), "/emitted/heavy_top.rs"));
 }
 mod comoving_body {
-    include!("../../golden/comoving_body.rs");
+    include!(concat!(env!("OUT_DIR"), "/emitted/comoving_body.rs"));
+}
+mod weighted_body {
+    include!("../../golden/weighted_body.rs");
 }
 mod three_wave {
-    include!("../../golden/three_wave.rs");
-}
-
-fn built(source: (&str, &str)) -> Integrator {
-    from_function(source.0, source.1).unwrap()
+    include!(concat!(env!("OUT_DIR"), "/emitted/three_wave.rs"));
 }
 
 /// Compares every function of a compiled step with the interpreter's, at a few points.
@@ -77,25 +78,50 @@ fn against_interpreter<const N: usize, S>(
 }
 
 #[test]
-fn compiled_steps_equal_the_interpreter() -> Result<(), StepError> {
+fn emitted_steps_equal_the_interpreter() -> Result<(), StepError> {
     let h = 0.3;
     let step = rigid_body::RigidBody::new(h)?;
-    against_interpreter(&built(golden::RIGID_BODY), &step, |mu| step.energy(mu), h, &[]);
+    against_interpreter(
+        &from_function(emitted::RIGID_BODY).unwrap(),
+        &step,
+        |mu| step.energy(mu),
+        h,
+        &[],
+    );
 
     let step = cayley_body::CayleyBody::new(h)?;
-    against_interpreter(&built(golden::CAYLEY_BODY), &step, |mu| step.energy(mu), h, &[]);
+    against_interpreter(
+        &from_function(emitted::CAYLEY_BODY).unwrap(),
+        &step,
+        |mu| step.energy(mu),
+        h,
+        &[],
+    );
 
     let step = heavy_top::HeavyTop::new(h, [1.5, 2.0, 2.5], 0.3, 9.81, 0.7)?;
     let parameters = [1.5, 2.0, 2.5, 0.3, 9.81, 0.7];
-    against_interpreter(&built(golden::HEAVY_TOP), &step, |mu| step.energy(mu), h, &parameters);
+    against_interpreter(
+        &from_function(emitted::HEAVY_TOP).unwrap(),
+        &step,
+        |mu| step.energy(mu),
+        h,
+        &parameters,
+    );
 
     let step = comoving_body::ComovingBody::new(h, [1.5, 0.8], [0.9, 1.4])?;
-    let (integrator, parameters) = (built(golden::COMOVING_BODY), [1.5, 0.8, 0.9, 1.4]);
+    let (integrator, parameters) =
+        (from_function(emitted::COMOVING_BODY).unwrap(), [1.5, 0.8, 0.9, 1.4]);
     assert_eq!(integrator.frame.len(), 2);
     against_interpreter(&integrator, &step, |mu| step.energy(mu), h, &parameters);
 
     let step = three_wave::ThreeWave::new(h, 0.7)?;
-    against_interpreter(&built(golden::THREE_WAVE), &step, |mu| step.energy(mu), h, &[0.7]);
+    against_interpreter(
+        &from_function(emitted::THREE_WAVE).unwrap(),
+        &step,
+        |mu| step.energy(mu),
+        h,
+        &[0.7],
+    );
     Ok(())
 }
 
@@ -135,5 +161,53 @@ fn many_steps_are_as_many_single_ones() -> Result<(), StepError> {
     assert!(step.advance_by(&mut state, 10).is_err());
     assert_eq!(state.momentum, before.momentum);
     assert_eq!(state.group_element, before.group_element);
+    Ok(())
+}
+
+/// The committed module of a potential in a comoving frame.
+#[test]
+fn a_kicked_body_follows_the_interpreter_and_keeps_its_integrals() -> Result<(), StepError> {
+    let text = include_str!("../../systems/weighted_body.toml");
+    let kept = Options { parameters: Parameters::Kept, ..Options::default() };
+    let system = read(text, kept).unwrap();
+    let integrator = Integrator::build(system.problem, TermLimit::default()).unwrap();
+    let parameters = [1.5, 2.0, 2.5, 0.8];
+    let [i1, i2, i3, m] = parameters;
+    let step = weighted_body::WeightedBody::new(0.3, i1, i2, i3, m)?;
+    assert_eq!(integrator.frame.len(), 1);
+    against_interpreter(&integrator, &step, |mu| step.energy(mu), 0.3, &parameters);
+
+    let weight = weighted_body::WeightedBodyPotential::new(i1, i2, i3, m)?;
+    let kick = Kick::build(system.potential.unwrap().0);
+    let group = SO3::<f64>::new();
+    let g = group.exp(&[0.4, -0.7, 0.2].into());
+    let matrix: Vec<f64> = (0..9).map(|at| group.matrix_entry(&g, at / 3, at % 3)).collect();
+    let symbols: Vec<f64> =
+        kick.potential.symbols.iter().map(|s| s.expr.evaluate(&parameters)).collect();
+    let run = |program: &coadjoint_codegen::graph::Program| {
+        let mut outputs = vec![f64::NAN; program.outputs().len()];
+        let slots = kick.coefficients.fold(1.0, &symbols);
+        coadjoint_codegen::graph::run(program, &matrix, &slots, &mut Vec::new(), &mut outputs);
+        outputs
+    };
+    assert_eq!(weight.torque(&g).as_slice(), run(&kick.torque));
+    assert_eq!(weight.energy(&g), run(&kick.energy)[0]);
+
+    // The weight leaves the momentum about the vertical; energy swings with h⁴.
+    let torque = |_: f64, g: &_| weight.torque(g);
+    let h = 0.05;
+    let kicked = Kicked::<Rkn4, _, _>::new(h, torque, |part| {
+        weighted_body::WeightedBody::new(part, i1, i2, i3, m)
+    })?;
+    let mut phase = Phase::<SO3>::new(g, [0.3, 0.9, -0.5]);
+    let energy =
+        |phase: &Phase<SO3>| step.energy(&phase.momentum) + weight.energy(&phase.group_element);
+    let (about, before) = (phase.spatial_momentum(&group), energy(&phase));
+    for n in 0..200 {
+        kicked.advance(&mut phase, f64::from(n) * h)?;
+    }
+    let now = phase.spatial_momentum(&group);
+    assert!((now.z - about.z).abs() < 1e-13 && (now.x - about.x).abs() > 0.1, "{now} {about}");
+    assert!((energy(&phase) - before).abs() < 1e-5, "{} {before}", energy(&phase));
     Ok(())
 }

@@ -1,0 +1,64 @@
+//! Systems whose Rust the build script emits, for `tests/all/emitted_steps.rs` to compile and compare: arguments of the
+//! attribute, and the function.
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::parse::rust;
+
+/// All of them.
+pub const SYSTEMS: [(&str, &str); 5] =
+    [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE];
+
+/// The integrator that the attribute with `arguments` builds from the source of a function.
+///
+/// # Errors
+/// The messages of the attribute.
+pub fn from_function((arguments, function): (&str, &str)) -> syn::Result<Integrator> {
+    let function: syn::ItemFn = syn::parse_str(function)?;
+    let problem = rust::lie_poisson(arguments.parse()?, &function)?;
+    Integrator::build(problem, TermLimit::default())
+        .map_err(|error| syn::Error::new_spanned(&function.sig.ident, error))
+}
+
+/// The paper's rigid body, its Hessian truncated for Newton's method.
+pub const RIGID_BODY: (&str, &str) = (
+    "group = SO3, truncation = 9",
+    "fn rigid_body(mu: [f64; 3]) -> f64 {
+        let [x, y, z] = mu;
+        0.5 * (x * x / 1.5 + y * y / 2.0 + z * z / 2.5)
+    }",
+);
+
+/// A cubic Hamiltonian in the Cayley chart.
+pub const CAYLEY_BODY: (&str, &str) = (
+    "group = SO3, truncation = 3, chart = cayley",
+    "fn cayley_body(mu: [f64; 3]) -> f64 {
+        mu[0] * mu[0] / 3.0 + mu[1] * mu[1] / 4.0 + mu[2] * mu[2] / 5.0 + 0.1 * mu[0].powi(3)
+    }",
+);
+
+/// A heavy top on SE(3), H linear in part.
+pub const HEAVY_TOP: (&str, &str) = (
+    "group = SE3, truncation = 3",
+    "fn heavy_top(mu: [f64; 6], inertia: [f64; 3], m: f64, g: f64, l: f64) -> f64 {
+        let [a, b, c, _, _, up] = mu;
+        0.5 * (a * a / inertia[0] + b * b / inertia[1] + c * c / inertia[2]) + m * g * l * up
+    }",
+);
+
+/// A symmetric body in a fluid: a spin and a Casimir move the frame.
+pub const COMOVING_BODY: (&str, &str) = (
+    "group = SE3, truncation = 3, frame = comoving",
+    "fn comoving_body(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
+        let [a, b, c, u, v, w] = mu;
+        0.5 * ((a * a + b * b) / inertia[0] + c * c / inertia[1] + (u * u + v * v) / mass[0] + w * w / mass[1])
+    }",
+);
+
+/// The resonant three-wave interaction on SL(2,R), a group the runtime has tables for.
+pub const THREE_WAVE: (&str, &str) = (
+    "group = SL2, truncation = 5",
+    "fn three_wave(mu: [f64; 3], s: f64) -> f64 {
+        mu[0] * mu[0] / 8.0 + s * mu[1] * mu[2]
+    }",
+);
