@@ -14,6 +14,7 @@ mod documents;
 mod emitted_steps;
 mod front_ends;
 mod golden_files;
+mod hygiene;
 mod inline_algebra;
 mod kernels;
 mod kicked;

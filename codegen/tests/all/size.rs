@@ -1,5 +1,4 @@
 //! Large systems: work and code grow in proportion to the number of sites.
-#![cfg(feature = "system")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint_codegen::emit;

@@ -1,8 +1,5 @@
 //! Compilers and caches that are broken: a clear error, or the step all the same.
-#![cfg(unix)]
 #![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::fs;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
@@ -11,9 +8,9 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use crate::common::{bits, kernel, lane, state};
 use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
 use coadjoint_program::{Kernel, Stepper};
-use common::{bits, kernel, lane, state};
 
 fn alive(pid: &str) -> bool {
     let status = Command::new("kill").args(["-0", pid.trim()]).stderr(Stdio::null()).status();
@@ -177,7 +174,7 @@ fn no_compiler_outlives_a_process_that_is_killed() {
     let started = folder.path().join("started");
     let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
     let mut child = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "no_compiler_outlives_a_process_that_is_killed"])
+        .args(["--exact", "faults::no_compiler_outlives_a_process_that_is_killed"])
         .env(HANGING, script(folder.path(), ":", &hangs).compiler.unwrap())
         .stdout(Stdio::null())
         .spawn()
@@ -199,7 +196,7 @@ fn the_cache_works_under_any_umask() {
     let cache = folder.path().join("cache");
     for _ in 0..2 {
         let status = Command::new("sh")
-            .args(["-c", "umask 002; exec \"$0\" --exact a_process_compiles"])
+            .args(["-c", "umask 002; exec \"$0\" --exact faults::a_process_compiles"])
             .arg(std::env::current_exe().unwrap())
             .env(CHILD, &cache)
             .stdout(Stdio::null())
@@ -267,7 +264,7 @@ fn a_full_disk_is_done_without() {
     let cache = folder.path().join("cache");
     fs::DirBuilder::new().mode(0o700).create(&cache).unwrap();
     let full = format!(
-        "{mount} && echo filled > \"$0/file\" && \"$1\" --exact a_process_compiles && ls -A \"$0\""
+        "{mount} && echo filled > \"$0/file\" && \"$1\" --exact faults::a_process_compiles && ls -A \"$0\""
     );
     let output = namespace()
         .args([full.as_str(), cache.to_str().unwrap()])
@@ -333,7 +330,7 @@ fn entries_of_other_steps_and_versions_are_never_called() {
     Native::by_c(&kernel, &options(&one)).unwrap();
     let entry = entries(&one).remove(0);
     // A library with other sizes under this entry's name, hash and all.
-    Native::by_c(&common::kernel(1, [4, 4, 1], 20, true, 0.05), &options(&two)).unwrap();
+    Native::by_c(&crate::common::kernel(1, [4, 4, 1], 20, true, 0.05), &options(&two)).unwrap();
     let replace = |from: &Path| {
         for name in ["step.so", "sha256"] {
             fs::remove_file(entry.join(name)).unwrap();
@@ -396,7 +393,7 @@ fn a_process_compiles() {
 
 fn child(cache: &Path) -> std::process::Child {
     Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "a_process_compiles"])
+        .args(["--exact", "faults::a_process_compiles"])
         .env(CHILD, cache)
         .stdout(Stdio::null())
         .spawn()

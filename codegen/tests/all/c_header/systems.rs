@@ -11,7 +11,7 @@ use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters};
 use num_traits::ToPrimitive;
 
-use super::tools::{FLAGS_CPP, Tool, output};
+use crate::tools::{FLAGS_CPP, Tool, output};
 
 /// A system and how it is written.
 pub struct System {

@@ -1,12 +1,9 @@
 //! A compiled step has the bits of the interpreter, in scalars and in lanes, whatever is refused.
-#![cfg(unix)]
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common::{bits, kernel, lane, state};
 use coadjoint_native::{COptions, CacheFolder, Entry, Native};
 use coadjoint_program::{Kernel, Stepper, Trajectories, WIDTH};
-use common::{bits, kernel, lane, state};
 
 fn compiled(kernel: &Kernel) -> Entry {
     let options = COptions { cache: CacheFolder::None, ..COptions::default() };

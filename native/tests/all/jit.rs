@@ -1,14 +1,11 @@
 //! Machine code by Cranelift has the interpreter's bits.
-#![cfg(feature = "jit")]
 #![allow(clippy::unwrap_used, clippy::type_complexity)]
 
-mod samples;
-
+use crate::samples::chance::Chance;
+use crate::samples::wild::{self, Shape};
+use crate::samples::{Sample, Seen, compare, rigid};
 use coadjoint_native::jit::{self, JitError};
 use coadjoint_program::Trajectories;
-use samples::chance::Chance;
-use samples::wild::{self, Shape};
-use samples::{Sample, Seen, compare, rigid};
 
 const STEPS: [u64; 9] = [0, 1, 2, 7, 255, 256, 257, 512, 700];
 

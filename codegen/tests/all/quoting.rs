@@ -1,10 +1,7 @@
 //! Texts of users never become code: what is emitted for hostile names is what is emitted for plain ones, but for comments.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-#[path = "c_header/tools.rs"]
-#[allow(dead_code)]
-mod tools;
-
+use crate::tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options as RustOptions, file, potential_items};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
@@ -12,7 +9,6 @@ use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters, System};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
-use tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 
 /// Texts that end comments, strings, elements and lines, that continue lines, or that are words of some language.
 fn hostile() -> Vec<String> {

@@ -116,7 +116,7 @@ mod my {
             mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2]
         }
 
-        #[coadjoint::potential(crate = crate::my::coadjoint, group = SO3)]
+        #[coadjoint::potential(crate = crate::hygiene::my::coadjoint, group = SO3)]
         pub fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
             weight * g[2][2]
         }

@@ -5,15 +5,12 @@
 //! its part out, with a line that says so; with `COADJOINT_REQUIRE_TOOLS` set it fails.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-#[path = "c_header/systems.rs"]
 mod systems;
-#[path = "c_header/tools.rs"]
-mod tools;
 
+use crate::tools::{self, FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_program::{Scratch, Stepper};
 use systems::Built;
-use tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 
 /// Steps of a run: more than a block.
 const STEPS: u64 = 300;

@@ -1,5 +1,4 @@
 //! Sums over sites in system files, and coordinates and momenta given for one copy.
-#![cfg(feature = "system")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint_codegen::system::{Options, System, read};

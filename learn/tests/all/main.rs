@@ -1,0 +1,12 @@
+//! Tests of learning, each in a module of its own: one program, which is linked once.
+#![allow(missing_docs)]
+
+mod choice;
+mod data;
+mod fold;
+mod geometry;
+mod models;
+mod networks;
+mod poisson;
+mod polynomial;
+mod session;

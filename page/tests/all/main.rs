@@ -1,0 +1,7 @@
+//! Tests of the page: one program, which is linked once.
+#![allow(missing_docs)]
+
+mod gallery;
+mod mistakes;
+mod run;
+mod texts;
