@@ -114,19 +114,6 @@ fn every_measurement_is_listed() {
     }
 }
 
-/// Every test that the page of defects names is there.
-#[test]
-fn every_defect_has_its_test() {
-    let page = read("docs/measurements/defects.md");
-    let mut count = 0;
-    for word in page.split('`').filter(|word| word.contains(".rs::")) {
-        let (file, name) = word.split_once("::").unwrap();
-        assert!(read(file).contains(&format!("fn {name}(")), "{word}");
-        count += 1;
-    }
-    assert!(count > 50, "{count}");
-}
-
 /// Every file of Rust, outside folders of builds.
 fn sources() -> Vec<PathBuf> {
     let (mut folders, mut sources) = (vec![root()], Vec::new());
