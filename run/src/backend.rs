@@ -27,41 +27,28 @@ pub enum Backend {
     Jit,
 }
 
-/// Nanoseconds that an operation takes.
-struct Pace {
-    interpreted: f64,
-    by_c: f64,
-    #[cfg(feature = "jit")]
-    by_cranelift: f64,
+/// The cost of steps by a backend; measured on a processor of 2022 (`docs/measurements/backends.md`,
+/// `docs/measurements/python.md`), and enough to tell seconds from minutes.
+struct Cost {
+    backend: Backend,
+    /// Seconds until it is ready: to start, and for each operation.
+    ready: [f64; 2],
+    /// Nanoseconds that an operation takes: of one trajectory, and of [`WIDTH`](coadjoint_program::WIDTH) side by side.
+    pace: [f64; 2],
 }
 
-/// Of one trajectory, and of [`WIDTH`](coadjoint_program::WIDTH) side by side; measured on a processor of 2022
-/// (`docs/measurements/backends.md`, `docs/measurements/python.md`), and enough to tell seconds from minutes.
-const ONE: Pace = Pace {
-    interpreted: 2.0,
-    by_c: 0.2,
-    #[cfg(feature = "jit")]
-    by_cranelift: 0.34,
-};
-const LANES: Pace = Pace {
-    interpreted: 7.5,
-    by_c: 0.6,
-    #[cfg(feature = "jit")]
-    by_cranelift: 1.6,
-};
+const INTERPRETER: Cost =
+    Cost { backend: Backend::Interpreter, ready: [0.0, 0.0], pace: [2.0, 7.5] };
 
-/// Seconds that a C compiler takes: to start, and for each operation.
-const COMPILER_STARTS: f64 = 0.25;
-const COMPILER_OPERATION: f64 = 2.2e-4;
+/// Backends that compile.
+const COMPILERS: &[Cost] = &[
+    #[cfg(feature = "jit")]
+    Cost { backend: Backend::Jit, ready: [4e-3, 8e-6], pace: [0.34, 1.6] },
+    Cost { backend: Backend::C, ready: [0.25, 2.2e-4], pace: [0.2, 0.6] },
+];
 
 /// Programs of more operations than this are not given to a C compiler unless it is named: its time grows faster.
 const MOST_FOR_COMPILER: f64 = 40_000.0;
-
-/// The same of Cranelift.
-#[cfg(feature = "jit")]
-const JIT_STARTS: f64 = 4e-3;
-#[cfg(feature = "jit")]
-const JIT_OPERATION: f64 = 8e-6;
 
 /// The backends that made the steps of a run.
 #[derive(Clone, Debug)]
@@ -251,26 +238,21 @@ impl Backend {
     }
 }
 
-/// The backends that take less time for this number of steps than the interpreter, the best one first.
+/// The backends that take less time for so many steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
     let operations = operations(kernel) as f64;
-    let pace = if trajectories == Trajectories::Lanes { LANES } else { ONE };
-    let run = |each: f64| steps * operations * each * 1e-9;
-    let interpreted = run(pace.interpreted);
-    let by_c = COMPILER_STARTS + operations * COMPILER_OPERATION + run(pace.by_c);
-    let mut plan = Vec::new();
-    #[cfg(feature = "jit")]
-    {
-        let by_cranelift = JIT_STARTS + operations * JIT_OPERATION + run(pace.by_cranelift);
-        let slower = operations <= MOST_FOR_COMPILER && by_c < by_cranelift;
-        if by_cranelift < interpreted && !slower {
-            plan.push(Backend::Jit);
-        }
-    }
-    if by_c < interpreted && operations <= MOST_FOR_COMPILER {
-        plan.push(Backend::C);
-    }
-    plan
+    let lanes = usize::from(trajectories == Trajectories::Lanes);
+    let time = |cost: &Cost| {
+        let [start, each] = cost.ready;
+        start + operations * (each + steps * cost.pace[lanes] * 1e-9)
+    };
+    let worth = |cost: &&Cost| {
+        let small = cost.backend != Backend::C || operations <= MOST_FOR_COMPILER;
+        small && time(cost) < time(&INTERPRETER)
+    };
+    let mut plan: Vec<&Cost> = COMPILERS.iter().filter(worth).collect();
+    plan.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    plan.into_iter().map(|cost| cost.backend).collect()
 }
 
 /// The operations of a step, if one correction is enough.

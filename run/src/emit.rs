@@ -45,7 +45,7 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
     };
     let style = Options::for_problem(&system.problem.name);
     let integrator = integrator(path, system.problem)?;
-    check_size(&integrator).map_err(|error| RunError::Size { file: path.into(), source: error })?;
+    check_size(&integrator).map_err(RunError::of(path))?;
     let mut module = file(&integrator, &style);
     if let Some(line) = choice.as_ref().map(chosen) {
         module.insert_str(0, &format!("//! {line}\n"));
@@ -83,8 +83,8 @@ pub fn header(
     };
     let prefix = prefix.unwrap_or_else(|| problem.name.clone());
     let integrator = integrator(path, problem)?;
-    let text = c::header(&integrator, &HeaderOptions { prefix, ..style })
-        .map_err(|error| RunError::Header { file: path.into(), source: error })?;
+    let text =
+        c::header(&integrator, &HeaderOptions { prefix, ..style }).map_err(RunError::of(path))?;
     let line = choice.as_ref().map(|choice| format!("/* {} */\n", chosen(choice)));
     Ok(line.unwrap_or_default() + &text)
 }

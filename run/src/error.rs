@@ -1,12 +1,8 @@
 //! The errors of a run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use coadjoint::{StepError, groups::ElementError, groups::TableError};
-use coadjoint_codegen::emit::TooManyTerms;
-use coadjoint_codegen::emit::c::HeaderError;
-use coadjoint_codegen::hamilton_jacobi::DeriveError;
-use coadjoint_codegen::tolerance::ToleranceError;
+use coadjoint::StepError;
 
 /// Why a run failed.
 ///
@@ -32,53 +28,13 @@ pub enum RunError {
         /// The option that replaces it.
         option: &'static str,
     },
-    /// The series cannot be derived, or is too large.
+    /// A system that has no series, no steps of this accuracy, no group, or no text in another language.
     #[error("{}: {source}", .file.display())]
-    Derive {
+    System {
         /// The system file.
         file: PathBuf,
         /// Why.
-        source: Box<DeriveError>,
-    },
-    /// No truncation and step can be picked.
-    #[error("{}: {source}", .file.display())]
-    Tolerance {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: Box<ToleranceError>,
-    },
-    /// The series is too large to write as Rust.
-    #[error("{}: {source}", .file.display())]
-    Size {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: TooManyTerms,
-    },
-    /// The system is not written as C.
-    #[error("{}: {source}", .file.display())]
-    Header {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: HeaderError,
-    },
-    /// The data defines no group.
-    #[error("{}: {source}", .file.display())]
-    Group {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: TableError,
-    },
-    /// The initial group element is none.
-    #[error("{}: `group_element` in [initial]: {source}", .file.display())]
-    Element {
-        /// The system file.
-        file: PathBuf,
-        /// Why.
-        source: ElementError,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A step that could not be made.
     #[error("at time {time}: {source}")]
@@ -115,18 +71,18 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// The error of a system, which is called `file`.
+    pub fn of<E>(file: &Path) -> impl Fn(E) -> Self + '_
+    where
+        E: Into<Box<dyn std::error::Error + Send + Sync>>,
+    {
+        |source| Self::System { file: file.into(), source: source.into() }
+    }
+
     /// Whether what was given is at fault, not what became of it.
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Input(_)
-            | Self::Option(_)
-            | Self::Missing { .. }
-            | Self::Derive { .. }
-            | Self::Tolerance { .. }
-            | Self::Size { .. }
-            | Self::Header { .. }
-            | Self::Group { .. }
-            | Self::Element { .. } => true,
+            Self::Input(_) | Self::Option(_) | Self::Missing { .. } | Self::System { .. } => true,
             Self::Step { .. } | Self::Run { .. } | Self::Halted { .. } | Self::Device(_) => false,
             Self::Learn(error) => error.is_input(),
         }

@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod backend;
-pub mod bits;
 pub mod check;
 pub mod emit;
 pub mod engine;

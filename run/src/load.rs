@@ -33,8 +33,7 @@ pub fn read_with(name: &str, text: &str, options: Options) -> Result<System, Run
 /// # Errors
 /// Where the series cannot be derived, or is too large.
 pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
-    Integrator::build(problem, TermLimit::default())
-        .map_err(|source| RunError::Derive { file: path.into(), source: source.into() })
+    Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
 }
 
 /// A system with its series as programs.
@@ -125,8 +124,7 @@ pub fn meet_tolerance(
         region: asked.region.map(Region::Ball).or_else(|| run.region.clone()),
         truncation: asked.truncation.or(run.truncation),
     };
-    let choice = tolerance::choose(problem, &target, AFFORDABLE)
-        .map_err(|source| RunError::Tolerance { file: path.into(), source: source.into() })?;
+    let choice = tolerance::choose(problem, &target, AFFORDABLE).map_err(RunError::of(path))?;
     problem.truncation = choice.truncation;
     *run = Run { step: Some(choice.step), ..run.clone() };
     Ok(Some(choice))

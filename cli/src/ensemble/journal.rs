@@ -35,16 +35,14 @@ pub struct Journal {
     /// Where the next row begins in the input.
     pub position: u64,
     /// The largest drift of J_L so far, if one is known.
-    #[serde(with = "coadjoint_run::bits")]
     pub spatial_momentum: Option<f64>,
     /// The largest drift of Casimirs so far, if one is known.
-    #[serde(with = "coadjoint_run::bits")]
     pub casimirs: Option<f64>,
     /// Rows whose drift could not be measured.
     #[serde(default)]
     pub unmeasured: u64,
     /// The largest ratio of the last two terms of the series worth a warning so far.
-    #[serde(default, with = "coadjoint_run::bits")]
+    #[serde(default)]
     pub ratio: f64,
     /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
     #[serde(default)]

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, casimirs, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
+use coadjoint_run::series::sum;
 use num_traits::{One, Signed, Zero};
 
 use crate::error::CliError;
@@ -88,28 +89,35 @@ impl Facts {
     pub fn entries(&self, i: usize) -> String {
         let matrix = self.algebra.basis().and_then(|basis| basis.get(i));
         let entries = matrix.into_iter().flat_map(RationalMatrix::entries);
-        let terms: Vec<(String, Rational)> = entries
-            .map(|(a, b, value)| (format!("E({},{})", a + 1, b + 1), value.clone()))
-            .collect();
-        sum(&terms)
+        let (names, terms): (Vec<_>, Vec<_>) = entries
+            .enumerate()
+            .map(|(k, (a, b, value))| (format!("E({},{})", a + 1, b + 1), (vec![k], value.clone())))
+            .unzip();
+        written(&names, terms)
     }
 
     /// The brackets \[e_i, e_j\], i < j, that are not zero: i and j from 1, and the value.
     pub fn brackets(&self) -> Vec<(usize, usize, String)> {
-        let mut found: BTreeMap<(usize, usize), Vec<(String, Rational)>> = BTreeMap::new();
+        let mut found: BTreeMap<(usize, usize), Vec<Term>> = BTreeMap::new();
         for c in self.algebra.structure().iter().filter(|c| c.i < c.j) {
-            let term = (format!("e{}", c.k + 1), c.value.clone());
-            found.entry((c.i + 1, c.j + 1)).or_default().push(term);
+            found.entry((c.i + 1, c.j + 1)).or_default().push((vec![c.k], c.value.clone()));
         }
-        found.into_iter().map(|((i, j), terms)| (i, j, sum(&terms))).collect()
+        let names = self.names(&["e"]);
+        found.into_iter().map(|((i, j), terms)| (i, j, written(&names, terms))).collect()
     }
 
     /// (ad*_ξ μ)_j = Σ ξ_i c_ij^l μ_l, written out for j from 0.
     pub fn ad_star(&self, j: usize) -> String {
         let terms = self.algebra.structure().iter().filter(|c| c.j == j);
-        let terms: Vec<(String, Rational)> =
-            terms.map(|c| (format!("ξ{}*μ{}", c.i + 1, c.k + 1), c.value.clone())).collect();
-        sum(&terms)
+        let dim = self.algebra.dim();
+        let terms = terms.map(|c| (vec![c.i, dim + c.k], c.value.clone())).collect();
+        written(&self.names(&["ξ", "μ"]), terms)
+    }
+
+    /// Names of coordinates with these letters, counted from 1.
+    fn names(&self, letters: &[&str]) -> Vec<String> {
+        let indices = 1..=self.algebra.dim();
+        letters.iter().flat_map(|name| indices.clone().map(move |i| format!("{name}{i}"))).collect()
     }
 
     /// Whether the algebra has the constants of this group.
@@ -169,18 +177,18 @@ impl Facts {
 
     /// A Casimir in μ1, μ2, ….
     pub fn casimir(&self, casimir: &Polynomial) -> String {
-        let terms: Vec<(String, Rational)> = casimir
-            .factors()
-            .map(|(factors, value)| {
-                let power = |(variable, power): (u32, u32)| match power {
-                    1 => format!("μ{}", variable + 1),
-                    power => format!("μ{}^{power}", variable + 1),
-                };
-                (factors.into_iter().map(power).collect::<Vec<_>>().join("*"), value)
-            })
-            .collect();
-        sum(&terms)
+        sum(casimir, &self.names(&["μ"]), &[])
     }
+}
+
+/// Variables to be multiplied, and a coefficient.
+type Term = (Vec<usize>, Rational);
+
+/// A sum of such terms in variables with these names.
+fn written(names: &[String], terms: Vec<Term>) -> String {
+    let factors = |list: Vec<usize>| list.into_iter().map(|i| (i as u32, 1)).collect();
+    let terms = terms.into_iter().map(|(list, value)| (factors(list), value));
+    sum(&Polynomial::from_factors(names.len(), terms), names, &[])
 }
 
 fn refused(reason: &dyn std::fmt::Display) -> CliError {
@@ -217,23 +225,4 @@ fn complex(a: &Rational, b: &Rational) -> String {
     let divisor = if size.is_integer() { String::new() } else { format!("/{}", size.denom()) };
     let imaginary = format!("{sign}{numerator}{divisor}");
     if a.is_zero() { imaginary } else { format!("{a}+{imaginary}") }
-}
-
-/// A sum of numbers times names: `e3 - 1/2*e1`.
-fn sum(terms: &[(String, Rational)]) -> String {
-    let mut text = String::new();
-    for (name, value) in terms {
-        text.push_str(match (text.is_empty(), value.is_negative()) {
-            (true, true) => "-",
-            (true, false) => "",
-            (false, true) => " - ",
-            (false, false) => " + ",
-        });
-        let size = value.abs();
-        if !size.is_one() {
-            text.push_str(&format!("{size}*"));
-        }
-        text.push_str(name);
-    }
-    if text.is_empty() { "0".to_owned() } else { text }
 }

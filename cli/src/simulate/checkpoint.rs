@@ -1,6 +1,5 @@
 //! How far a run has come, on the disk.
 
-use coadjoint_codegen::file::Extent;
 use coadjoint_run::simulate::Resume;
 use serde::{Deserialize, Serialize};
 
@@ -27,11 +26,4 @@ pub struct Checkpoint {
     pub samples: Option<Samples>,
     /// Whether the run has finished.
     pub complete: bool,
-}
-
-impl Checkpoint {
-    /// The part of the file of records that the checksum covers, and the number of records in it.
-    pub fn extent(&self) -> (Extent, u64) {
-        (Extent { bytes: self.bytes, crc32: self.records_crc32 }, self.rows)
-    }
 }

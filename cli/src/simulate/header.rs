@@ -98,6 +98,11 @@ impl Header {
         self
     }
 
+    /// The value of this name in words.
+    pub fn text(&self, name: &str) -> String {
+        self.get(name).map(text).unwrap_or_default()
+    }
+
     /// The value of this name.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)

@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::time::Instant;
 
-use coadjoint_codegen::file::Output;
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{Begun, Halt, Moment, Outcome, Record, Resume, Sink, Standing};
 use indicatif::ProgressBar;
@@ -108,28 +107,20 @@ impl Keeper<'_> {
             None => None,
             Some((path, _)) => note::read(path, "checkpoint", ANEW)?,
         };
-        let (Some(found), Some((path, _))) = (found, checkpoint) else {
-            let begin = |target| Records::begin(target, output, header, names);
-            self.records = settings.out.as_ref().map(begin).transpose()?;
-            return Ok(None);
-        };
-        let advice = "give the same command as then, or another --checkpoint";
-        note::agree(path, &found.identity, &self.identity(), advice)?;
-        if found.samples.as_ref().is_some_and(|samples| !samples.fits(begun.coordinates.len())) {
-            return Err(CliError::Option(format!(
-                "{} does not hold a state of this system: {ANEW}",
-                path.display()
-            )));
-        }
-        let resume = |target: &Target| {
-            // After an earlier end the name may have been given already.
-            let fresh = output.as_ref().is_some_and(Output::is_fresh);
-            if found.complete && fresh && target.path.exists() {
-                return Ok(Records::done(target, found.rows));
+        if let (Some(found), Some((path, _))) = (&found, checkpoint) {
+            let advice = "give the same command as then, or another --checkpoint";
+            note::agree(path, &found.identity, &self.identity(), advice)?;
+            let samples = found.samples.as_ref();
+            if samples.is_some_and(|samples| !samples.fits(begun.coordinates.len())) {
+                return Err(CliError::Option(format!(
+                    "{} does not hold a state of this system: {ANEW}",
+                    path.display()
+                )));
             }
-            Records::resume(target, output, header, names, found.extent())
-        };
-        self.records = settings.out.as_ref().map(resume).transpose()?;
+        }
+        let open = |target| Records::open(target, output, header, names, found.as_ref());
+        self.records = settings.out.as_ref().map(open).transpose()?;
+        let (Some(found), Some((path, _))) = (found, checkpoint) else { return Ok(None) };
         let path = path.display();
         if found.complete {
             eprintln!(

@@ -36,25 +36,21 @@ pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
         return learned::run(path, options);
     }
     let out = setup::check_names(options)?;
-    let Runs { runs, heading, units } = runs(options, out.as_ref())?;
+    let (runs, units) = runs(options, out.as_ref())?;
     if let Some(path) = &options.plot {
         let inputs = setup::inputs(options);
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
-        plot::draw(path, &inputs, &plot::picture(&heading, &runs))?;
+        plot::draw(path, &inputs, &runs, &units)?;
     }
     print(&runs, &units, options, out.as_ref());
     Ok(())
 }
 
-/// The runs asked for.
-struct Runs {
-    runs: Vec<Trajectory>,
-    heading: plot::Heading,
-    units: Units,
-}
-
 /// Runs every truncation asked for, and the rival.
-fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliError> {
+fn runs(
+    options: &SimulateOptions,
+    out: Option<&Target>,
+) -> Result<(Vec<Trajectory>, Units), CliError> {
     let source = options.input.source(None);
     let path = &source.file;
     // Read once: all runs are of this text, and its hash is that of what was run.
@@ -72,7 +68,6 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
     };
     let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
-    let mut heading = plot::Heading::new(&systems[0]);
     let units = systems[0].units.clone();
     for (mut system, out) in systems.into_iter().zip(outs) {
         let truncation = system.problem.truncation;
@@ -83,7 +78,6 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
         let setup = setup::setup(options, path, &system)?;
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
-        heading.step(setup.schedule.step);
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
@@ -108,7 +102,7 @@ fn runs(options: &SimulateOptions, out: Option<&Target>) -> Result<Runs, CliErro
     if options.compare.is_some() {
         runs.rotate_left(1);
     }
-    Ok(Runs { runs, heading, units })
+    Ok((runs, units))
 }
 
 /// Prints the report.

@@ -3,66 +3,55 @@
 use std::path::Path;
 
 use coadjoint_codegen::file;
-use coadjoint_codegen::system::{System, Units};
+use coadjoint_codegen::system::Units;
 use coadjoint_draw::run::{Picture, Run, Series, render};
+use serde_json::Value;
 
 use super::trajectory::Trajectory;
 use crate::error::{CliError, unwritten};
 
-/// Writes the picture.
-pub fn draw(path: &Path, inputs: &[&Path], picture: &Picture) -> Result<(), CliError> {
-    file::write(path, inputs, render(picture).as_bytes()).map_err(unwritten(path))
+/// Writes the picture of some runs of one system.
+pub fn draw(
+    path: &Path,
+    inputs: &[&Path],
+    runs: &[Trajectory],
+    units: &Units,
+) -> Result<(), CliError> {
+    let name = runs.first().and_then(|run| run.header.get("name")?.as_str());
+    let picture = Picture {
+        name: name.unwrap_or_default().to_owned(),
+        settings: settings(runs, units),
+        time_unit: units.time.clone(),
+        runs: runs.iter().map(|run| curves(run, units)).collect(),
+    };
+    file::write(path, inputs, render(&picture).as_bytes()).map_err(unwritten(path))
 }
 
-/// The heading above a picture's panels.
-#[derive(Clone, Debug)]
-pub struct Heading {
-    name: String,
-    group: String,
-    chart: &'static str,
-    units: Units,
-    /// The step size of each run of ours.
-    steps: Vec<f64>,
-}
-
-impl Heading {
-    /// The heading of a system; [`Heading::step`] adds the steps of its runs.
-    pub fn new(system: &System) -> Self {
-        let System { problem, units, .. } = system;
-        Self {
-            name: problem.name.clone(),
-            group: problem.algebra.name().to_owned(),
-            chart: problem.chart.name(),
-            units: units.clone(),
-            steps: Vec::new(),
-        }
-    }
-
-    /// Takes note of the step size of a run.
-    pub fn step(&mut self, step: f64) {
-        self.steps.push(step);
-    }
-
-    /// Group, chart, K, step and duration, and what else is said of a run in its label.
-    fn settings(&self, runs: &[Trajectory]) -> Vec<String> {
-        let unit = self.units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
-        let ours = || runs.iter().filter_map(|run| Some((run, run.truncation?)));
-        let mut settings = vec![format!("group {}", self.group), format!("chart {}", self.chart)];
-        let orders: Vec<String> = ours().map(|(_, k)| k.to_string()).collect();
-        settings.push(format!("K = {}", orders.join(", ")));
-        let mut steps: Vec<String> = self.steps.iter().map(|h| brief(*h)).collect();
-        steps.dedup();
-        settings.push(format!("h = {}{unit}", steps.join(", ")));
-        if let Some(run) = runs.first() {
-            settings.push(format!("T = {}{unit}", brief(run.outcome.time)));
-        }
-        if let Some((run, k)) = ours().next() {
-            let usual = format!("K = {k}, {}", self.chart);
-            let more = run.label.strip_prefix(&usual).unwrap_or(&run.label);
-            settings.extend(more.split(", ").filter(|t| !t.is_empty()).map(str::to_owned));
-        }
-        settings
-    }
+/// Group, chart, K, step and duration, and what else is said of a run in its label.
+fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
+    let unit = units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
+    let ours = || runs.iter().filter(|run| run.truncation.is_some());
+    let Some(first) = ours().next() else { return Vec::new() };
+    let said = |name| first.header.text(name);
+    let all = |text: fn(&Trajectory) -> String| {
+        let mut list: Vec<String> = ours().map(text).collect();
+        list.dedup();
+        list.join(", ")
+    };
+    let step = |run: &Trajectory| {
+        run.header.get("step").and_then(Value::as_f64).map(brief).unwrap_or_default()
+    };
+    let mut settings = vec![
+        format!("group {}", said("group")),
+        format!("chart {}", said("chart")),
+        format!("K = {}", all(|run| run.header.text("truncation"))),
+        format!("h = {}{unit}", all(step)),
+        format!("T = {}{unit}", brief(first.outcome.time)),
+    ];
+    let usual = format!("K = {}, {}", said("truncation"), said("chart"));
+    let more = first.label.strip_prefix(&usual).unwrap_or(&first.label);
+    settings.extend(more.split(", ").filter(|t| !t.is_empty()).map(str::to_owned));
+    settings
 }
 
 /// A number in at most nine digits.
@@ -73,16 +62,6 @@ pub fn brief(value: f64) -> String {
         format!("{short}")
     } else {
         format!("{short:e}")
-    }
-}
-
-/// The picture of some runs of one system.
-pub fn picture(heading: &Heading, trajectories: &[Trajectory]) -> Picture {
-    Picture {
-        name: heading.name.clone(),
-        settings: heading.settings(trajectories),
-        time_unit: heading.units.time.clone(),
-        runs: trajectories.iter().map(|run| curves(run, &heading.units)).collect(),
     }
 }
 

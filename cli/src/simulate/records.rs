@@ -9,6 +9,7 @@ use coadjoint_learn::npy_header;
 use coadjoint_run::number::shortest;
 use serde_json::{Value, json};
 
+use super::checkpoint::Checkpoint;
 use super::header::Header;
 use super::target::{Form, Place, Target};
 use crate::error::{CliError, unwritten};
@@ -38,52 +39,57 @@ pub struct Records {
 }
 
 impl Records {
-    /// Begins anew; `output` is what the target has opened.
+    /// Begins anew, or goes on where a checkpoint was made: what came after it is cut off, and nothing is added to a file
+    /// that an earlier run has completed. `output` is the file that the target has opened.
     ///
     /// # Errors
-    /// Where it cannot be written.
-    pub fn begin(
+    /// Where it cannot be written, or is not the file of the checkpoint.
+    pub fn open(
         target: &Target,
         output: Option<Output>,
         header: Header,
         names: Vec<String>,
+        found: Option<&Checkpoint>,
     ) -> Result<Self, CliError> {
-        let mut records = Self::new(target, output, header, names);
+        // After an earlier end the name may have been given already.
+        let fresh = output.as_ref().is_some_and(Output::is_fresh);
+        let closed = found.is_some_and(|found| found.complete) && fresh && target.path.exists();
+        let mut records = Self {
+            target: target.clone(),
+            header,
+            names,
+            output: output.filter(|_| !closed),
+            closed,
+            broken: false,
+            buffer: Vec::with_capacity(BUFFER + 4096),
+            written: found.map_or(0, |found| found.rows),
+            waiting: 0,
+            flushed: Instant::now(),
+        };
         let head = match target.form {
             Form::Csv => Vec::new(),
             Form::Npy => records.npy_header(),
         };
-        if let Some(output) = &mut records.output {
-            output.begin(&head).map_err(unwritten(&target.part()))?;
-        }
-        match target.form {
-            Form::Csv => {
-                for line in records.header.lines() {
-                    records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
-                }
-                records.buffer.extend_from_slice(names_line(&records.names)?.as_bytes());
+        let Some(found) = found else {
+            if let Some(output) = &mut records.output {
+                output.begin(&head).map_err(unwritten(&target.part()))?;
             }
-            Form::Npy => records.describe(false)?,
-        }
-        records.flush()?;
-        Ok(records)
-    }
-
-    /// Goes on where a checkpoint was made; what came after it is cut off.
-    ///
-    /// # Errors
-    /// Where the file is not that of which the checkpoint is.
-    pub fn resume(
-        target: &Target,
-        output: Option<Output>,
-        header: Header,
-        names: Vec<String>,
-        (extent, rows): (Extent, u64),
-    ) -> Result<Self, CliError> {
-        let mut records = Self::new(target, output, header, names);
-        let head = if target.form == Form::Npy { records.npy_header().len() as u64 } else { 0 };
+            match target.form {
+                Form::Csv => {
+                    for line in records.header.lines() {
+                        records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
+                    }
+                    records.buffer.extend_from_slice(names_line(&records.names)?.as_bytes());
+                }
+                Form::Npy => records.describe(false)?,
+            }
+            records.flush()?;
+            return Ok(records);
+        };
         if let Some(output) = &mut records.output {
-            output.resume(extent, head).map_err(|error| match error.kind() {
+            let extent = Extent { bytes: found.bytes, crc32: found.records_crc32 };
+            let resumed = output.resume(extent, head.len() as u64);
+            resumed.map_err(|error| match error.kind() {
                 ErrorKind::InvalidData => CliError::Option(format!(
                     "{}: {error}: bring the file back, or remove the checkpoint to begin anew",
                     target.part().display()
@@ -91,30 +97,8 @@ impl Records {
                 _ => unwritten(&target.part())(error),
             })?;
         }
-        records.written = rows;
         records.head()?;
         Ok(records)
-    }
-
-    fn new(target: &Target, output: Option<Output>, header: Header, names: Vec<String>) -> Self {
-        Self {
-            target: target.clone(),
-            header,
-            names,
-            output,
-            closed: false,
-            broken: false,
-            buffer: Vec::with_capacity(BUFFER + 4096),
-            written: 0,
-            waiting: 0,
-            flushed: Instant::now(),
-        }
-    }
-
-    /// A file that an earlier run has completed; nothing is added.
-    pub fn done(target: &Target, rows: u64) -> Self {
-        let records = Self::new(target, None, Header::default(), Vec::new());
-        Self { closed: true, written: rows, ..records }
     }
 
     /// How many records there are.

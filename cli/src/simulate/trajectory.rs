@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use coadjoint_run::bits;
-use coadjoint_run::simulate::{Drift, Outcome};
+use coadjoint_run::simulate::{Drift, DriftFields, Outcome};
 use serde::{Deserialize, Serialize};
 
 use super::header::Header;
@@ -12,13 +11,11 @@ use super::header::Header;
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Record {
     /// t.
-    #[serde(with = "bits")]
     pub time: f64,
     /// μ.
-    #[serde(with = "bits")]
     pub momentum: Vec<f64>,
     /// The largest differences since the record before.
-    #[serde(with = "bits")]
+    #[serde(with = "DriftFields")]
     pub drift: Drift,
 }
 

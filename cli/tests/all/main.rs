@@ -20,7 +20,6 @@ mod refused;
 mod resume;
 mod simulate;
 mod simulate_records;
-mod simulate_resume;
 mod size;
 mod support;
 mod tolerance;

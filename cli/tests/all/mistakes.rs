@@ -1,6 +1,6 @@
 //! Bad input: exit code 2, the file, the line, and what to write instead.
 
-use crate::support::{file, run};
+use crate::support::{Folder, file, run};
 
 const GOOD: &str = r#"
 group = "SO3"
@@ -131,53 +131,19 @@ fn a_problem_too_large_says_so() {
     assert!(error.contains("too large") && error.contains("lower the truncation"), "{error}");
 }
 
-/// A reader that stops reading (`| head`) is no failure, and nothing to complain about; a full disk is.
-#[test]
-#[cfg(target_os = "linux")]
-fn a_closed_pipe_is_no_failure_and_a_full_disk_is_one() {
-    use std::process::{Command, Stdio};
-
-    let start = |arguments: &[&str], output: Stdio| {
-        Command::new(env!("CARGO_BIN_EXE_coadjoint"))
-            .args(arguments)
-            .current_dir(crate::support::root())
-            .stdout(output)
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap()
-    };
-    let emit = |output| start(&["emit", "examples/rigid_body.toml"], output);
-    let records = ["simulate", "examples/rigid_body.toml", "--time", "1e7", "--out", "-"];
-    for mut child in [emit(Stdio::piped()), start(&records, Stdio::piped())] {
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
-    }
-
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let output = emit(full.into()).wait_with_output().unwrap();
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    assert!(message.starts_with("error: standard output cannot be written"), "{message}");
-}
-
 /// The messages give the place of bytes that are not UTF-8, and name other encodings and separators.
 #[test]
 fn files_that_are_not_the_text_they_should_be_are_refused_with_the_reason() {
-    let directory = tempfile::tempdir().unwrap();
-    let write = |name: &str, bytes: &[u8]| {
-        let path = directory.path().join(name);
-        std::fs::write(&path, bytes).unwrap();
-        path.to_str().unwrap().to_owned()
-    };
+    let folder = Folder::new();
+    let write = |name: &str, bytes: &[u8]| folder.write(name, bytes);
     let utf16 = |text: &str| -> Vec<u8> {
         "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect()
     };
     let rows = "mu_1;mu_2;mu_3\n1;2,5;3\n";
-    let out = directory.path().join("out.csv");
+    let out = folder.name("out.csv");
     let ensemble = |states: &str| {
-        let (body, out) = ("examples/rigid_body.toml", out.to_str().unwrap());
-        run(&["ensemble", body, "--initial", states, "--out", out, "--time", "1"])
+        let body = "examples/rigid_body.toml";
+        run(&["ensemble", body, "--initial", states, "--out", &out, "--time", "1"])
     };
     let learn = |data: &str| run(&["learn", data, "--dt", "0.1"]);
     let verify = |data: &str| run(&["verify", "examples/rigid_body.toml", data]);

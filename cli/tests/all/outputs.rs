@@ -2,59 +2,41 @@
 #![cfg(unix)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use crate::support::{coadjoint, root, run};
+use crate::support::{Folder, coadjoint, root, run, said};
 
 const BODY: &str = "examples/rigid_body.toml";
 
 /// A folder with a system, a table of momenta, and pairs to learn from.
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new() -> Self {
-        let place = Self(tempfile::tempdir().unwrap());
-        fs::copy(root().join(BODY), place.at("body.toml")).unwrap();
-        let rows: String =
-            (0..40).map(|i| format!("{},0.5,1\n", 1.0 + f64::from(i) / 40.0)).collect();
-        fs::write(place.at("states.csv"), format!("mu_1,mu_2,mu_3\n{rows}")).unwrap();
-        let pair = |i: i32| {
-            let (sin, cos) = (f64::from(i) / 40.0).sin_cos();
-            format!("{cos},{sin},1,{},{},1\n", cos * 0.995 - sin * 0.1, sin * 0.995 + cos * 0.1)
-        };
-        let names = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
-        let pairs: String = (0..40).map(pair).collect();
-        fs::write(place.at("pairs.csv"), format!("{names}{pairs}")).unwrap();
-        fs::write(place.at("times"), "0.5 1").unwrap();
-        place
-    }
-
-    fn at(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<String> =
-            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        let mut command = coadjoint();
-        command.current_dir(self.0.path()).args(arguments.split(' ')).output().unwrap()
-    }
+fn place() -> Folder {
+    let place = Folder::new();
+    fs::copy(root().join(BODY), place.at("body.toml")).unwrap();
+    let rows: String = (0..40).map(|i| format!("{},0.5,1\n", 1.0 + f64::from(i) / 40.0)).collect();
+    place.write("states.csv", format!("mu_1,mu_2,mu_3\n{rows}"));
+    let pair = |i: i32| {
+        let (sin, cos) = (f64::from(i) / 40.0).sin_cos();
+        format!("{cos},{sin},1,{},{},1\n", cos * 0.995 - sin * 0.1, sin * 0.995 + cos * 0.1)
+    };
+    let names = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
+    let pairs: String = (0..40).map(pair).collect();
+    place.write("pairs.csv", format!("{names}{pairs}"));
+    place.write("times", "0.5 1");
+    place
 }
 
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+fn names(place: &Folder) -> Vec<String> {
+    let entries = fs::read_dir(place.path()).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
 }
 
 #[test]
 fn an_output_is_never_an_input() {
-    let place = Place::new();
+    let place = place();
     for (arguments, input) in [
         ("emit body.toml --out OUT", "body.toml"),
         ("emit body.toml --language c --out OUT", "body.toml"),
@@ -94,20 +76,20 @@ fn an_output_is_never_an_input() {
         refused(link);
         fs::remove_file(passing).unwrap();
     }
-    assert_eq!(place.names(), ["body.toml", "pairs.csv", "states.csv", "times"]);
+    assert_eq!(names(&place), ["body.toml", "pairs.csv", "states.csv", "times"]);
 }
 
 /// The command in a shell that limits files to this number of blocks of 512 bytes.
-fn limited(place: &Place, blocks: u32, arguments: &str) -> Output {
+fn limited(place: &Folder, blocks: u32, arguments: &str) -> Output {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" {arguments}");
     let mut command = Command::new("sh");
-    command.current_dir(place.0.path()).args(["-c", &script]).arg(env!("CARGO_BIN_EXE_coadjoint"));
+    command.current_dir(place.path()).args(["-c", &script]).arg(env!("CARGO_BIN_EXE_coadjoint"));
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).output().unwrap()
 }
 
 #[test]
 fn a_full_disk_leaves_what_was_there_and_whole_records() {
-    let place = Place::new();
+    let place = place();
     fs::write(place.at("old"), "what was there").unwrap();
     for arguments in ["emit body.toml --out old", "simulate body.toml --plot old.svg --time 1"] {
         let output = limited(&place, 2, arguments);
@@ -115,7 +97,7 @@ fn a_full_disk_leaves_what_was_there_and_whole_records() {
         assert!(said(&output).contains("cannot write old"), "{}", said(&output));
     }
     assert_eq!(fs::read(place.at("old")).unwrap(), b"what was there");
-    assert!(!place.names().iter().any(|name| name.contains(".partial") || name.contains(".svg")));
+    assert!(!names(&place).iter().any(|name| name.contains(".partial") || name.contains(".svg")));
     for name in ["t.csv", "t.npy"] {
         let output = limited(&place, 16, &format!("simulate body.toml --time 100 --out {name}"));
         assert_eq!(output.status.code(), Some(1), "{}", said(&output));
@@ -134,10 +116,42 @@ fn a_full_disk_leaves_what_was_there_and_whole_records() {
     }
 }
 
+/// A reader that stops reading (`| head`) is no failure, and nothing to complain about; a full disk is one, and is named.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_pipe_is_no_failure_and_a_full_device_is_one() {
+    let start = |arguments: &[&str], output: Stdio| {
+        let mut command = coadjoint();
+        command.args(arguments).stdout(output).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let emit = ["emit", BODY];
+    let records = |time| ["simulate", BODY, "--time", time, "--out", "-"];
+    for arguments in [&emit[..], &records("1e7")] {
+        let mut child = start(arguments, Stdio::piped());
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    }
+    let place = place();
+    std::os::unix::fs::symlink("/dev/full", place.at("full.csv")).unwrap();
+    let link = place.name("full.csv");
+    for (arguments, expected) in [
+        (&emit[..], "error: standard output cannot be written".to_owned()),
+        (&records("50"), "cannot write the standard output".into()),
+        (&["simulate", BODY, "--out", "/dev/full"], "cannot write /dev/full".into()),
+        (&["simulate", BODY, "--out", &link], format!("cannot write {link}")),
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = start(arguments, full.into()).wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+        assert!(said(&output).contains(&expected), "{}", said(&output));
+    }
+}
+
 /// One bit of whatever a run goes on from: an error, or the same result.
 #[test]
 fn a_changed_bit_never_gives_another_result() {
-    let place = Place::new();
+    let place = place();
     let simulate =
         "simulate body.toml --time 4 --out t.csv --checkpoint state --checkpoint-interval 0";
     let ensemble = "ensemble body.toml --initial states.csv --time 1 --out e.csv --keep";
@@ -175,7 +189,7 @@ fn a_changed_bit_never_gives_another_result() {
 /// Inputs that never end, or that are larger than what is read, are refused before they are read.
 #[test]
 fn devices_pipes_and_large_files_are_refused() {
-    let place = Place::new();
+    let place = place();
     let status = Command::new("mkfifo").arg(place.at("pipe.csv")).status().unwrap();
     assert!(status.success());
     fs::copy(place.at("pipe.csv").with_file_name("body.toml"), place.at("large.toml")).unwrap();
@@ -204,8 +218,10 @@ fn devices_pipes_and_large_files_are_refused() {
         raised.env("COADJOINT_MAX_MEGABYTES", "100").arg("derive").arg(place.at("large.toml"));
     let output = raised.output().unwrap();
     assert!(!said(&output).contains("MB"), "{}", said(&output));
-    let text = fs::read(place.at("body.toml")).unwrap();
-    let piped = coadjoint().args(["derive", "/dev/stdin"]).write_stdin(text).output().unwrap();
+    let script = "cat body.toml | \"$0\" derive /dev/stdin";
+    let mut shell = Command::new("sh");
+    shell.current_dir(place.path()).args(["-c", script, env!("CARGO_BIN_EXE_coadjoint")]);
+    let piped = shell.output().unwrap();
     assert!(piped.status.success(), "{}", said(&piped));
     assert_eq!(run(&["derive", BODY]).1.as_bytes(), piped.stdout);
 }

@@ -15,61 +15,22 @@ fn picture(arguments: &[&str]) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// The values of an attribute in all elements of a name.
-fn attributes(svg: &str, element: &str, attribute: &str) -> Vec<String> {
-    let opening = format!("<{element} ");
-    let elements = svg.split(&opening).skip(1);
-    let value = |text: &str| {
-        let inside = text.split('>').next()?;
-        let rest = inside.split(&format!("{attribute}=\"")).nth(1)?;
-        Some(rest.split('"').next()?.to_owned())
-    };
-    elements.filter_map(value).collect()
-}
-
-/// A text with the place of its baseline, its size, and its position relative to the baseline.
-struct Text {
-    x: f64,
-    y: f64,
-    size: f64,
-    anchor: String,
-    text: String,
-}
-
-fn texts(svg: &str) -> Vec<Text> {
-    let read = |part: &str| {
-        let (head, rest) = part.split_once('>').unwrap();
-        let of = |name: &str| {
-            let value = head.split(&format!("{name}=\"")).nth(1)?;
-            Some(value.split('"').next()?.to_owned())
-        };
-        Text {
-            x: of(" x").or_else(|| of("x")).unwrap().parse().unwrap(),
-            y: of(" y").unwrap().parse().unwrap(),
-            size: of("font-size").map_or(13.0, |size| size.parse().unwrap()),
-            anchor: of("text-anchor").unwrap(),
-            text: rest
-                .split("</text>")
-                .next()
-                .unwrap()
-                .replace("&lt;", "<")
-                .replace("&gt;", ">")
-                .replace("&quot;", "\"")
-                .replace("&amp;", "&"),
-        }
-    };
-    svg.split("<text ").skip(1).map(read).collect()
-}
-
 /// No two texts overlap, and none leaves the picture. Widths are those of a wide font.
 fn assert_legible(svg: &str) {
-    let width: f64 = attributes(svg, "svg", "width")[0].parse().unwrap();
-    let height: f64 = attributes(svg, "svg", "height")[0].parse().unwrap();
-    let boxes: Vec<(f64, f64, f64, f64, String)> = texts(svg)
-        .into_iter()
-        .map(|Text { x, y, size, anchor, text }| {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    let number = |node: &roxmltree::Node<'_, '_>, name| -> Option<f64> {
+        node.attribute(name).map(|value| value.parse().unwrap())
+    };
+    let root = document.root_element();
+    let [width, height] = ["width", "height"].map(|name| number(&root, name).unwrap());
+    let texts = document.descendants().filter(|node| node.tag_name().name() == "text");
+    let boxes: Vec<(f64, f64, f64, f64, String)> = texts
+        .map(|node| {
+            let [x, y] = ["x", "y"].map(|name| number(&node, name).unwrap());
+            let size = number(&node, "font-size").unwrap_or(13.0);
+            let text = node.text().unwrap_or_default().to_owned();
             let wide = 0.6 * size * text.chars().count() as f64;
-            let left = match anchor.as_str() {
+            let left = match node.attribute("text-anchor").unwrap() {
                 "start" => x,
                 "middle" => x - wide / 2.0,
                 _ => x - wide,

@@ -1,8 +1,8 @@
 //! Systems that once ran to a wrong end with a good report: each is refused with the time, or right to the end.
 
-use crate::support::{file, run};
-use tempfile::TempDir;
+use crate::support::{Folder, run};
 
+const BODY: &str = "examples/rigid_body.toml";
 const MANAKOV: &str = "group = \"SO4\"\nhamiltonian = \"mu[0]^2/6 + mu[1]^2/8 + mu[2]^2/10 + mu[3]^2/10 + \
                        mu[4]^2/12 + mu[5]^2/14\"\n[integrator]\ntruncation = 5\nstep = 1.0\n[initial]\n\
                        momentum = [9.3, -10.0, -8.6, 9.4, 6.4, 9.7]\n[run]\ntime = 5.0\n";
@@ -10,34 +10,56 @@ const QUARTIC: &str = "group = \"SO3*SO3\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/
                        mu[3]^2/2\"\n[integrator]\ntruncation = 9\nstep = 1\n[initial]\n\
                        momentum = [2.0, 0.5, 1.0, 1.0, 0.0, 0.0]\n[run]\ntime = 10\n";
 
-/// The run fails with the time, the step, the size of x, the ratio, and a step that works: with that one it ends well.
-fn refused(system: &str, options: &[&str]) {
-    let (code, out, error) = run(&[&["simulate", system], options].concat());
-    assert!(code == 1 && out.is_empty(), "{out}{error}");
-    for word in ["at time 0, step 1: ", "|x| = ", "in the ratio ", "; a step of "] {
-        assert!(error.contains(word), "{word}: {error}");
+/// A refused step names the time, the size of x, the ratio, and a step that was tried: that step works.
+#[test]
+fn a_refused_step_names_one_that_works() {
+    let folder = Folder::new();
+    let (manakov, quartic) =
+        (folder.write("manakov.toml", MANAKOV), folder.write("quartic.toml", QUARTIC));
+    let usable = |error: &str| -> String {
+        for word in ["|x| = ", "in the ratio ", "; a step of "] {
+            assert!(error.contains(word), "{word}: {error}");
+        }
+        let step = error.split("; a step of ").nth(1).unwrap();
+        step.split(" works here").next().unwrap().to_owned()
+    };
+    for (system, options) in [
+        (BODY, &["--step", "8", "--time", "40"][..]),
+        ("examples/satellite.toml", &["--step", "20", "--time", "40"]),
+        ("examples/lagrange_top.toml", &["--step", "10", "--time", "40"]),
+        // Several turns in four dimensions; then one factor of a product that breaks the step.
+        (&manakov, &[]),
+        (&manakov, &["--format", "json"]),
+        (&quartic, &[]),
+        (&quartic, &["--solver", "fixed_point"]),
+    ] {
+        let (code, out, error) = run(&[&["simulate", system], options].concat());
+        assert!(code == 1 && out.is_empty(), "{out}{error}");
+        assert!(error.starts_with("error: at time 0, step 1: "), "{error}");
+        let step = usable(&error);
+        let (code, _, error) = run(&["simulate", system, "--step", &step, "--time", &step]);
+        assert_eq!(code, 0, "{system}, {step}: {error}");
     }
-    let step = error.split("; a step of ").nth(1).unwrap().split(' ').next().unwrap();
-    let (code, _, error) = run(&["simulate", system, "--step", step, "--time", step]);
-    assert_eq!(code, 0, "{step}: {error}");
+    let (code, _, error) = run(&["check", BODY, "--step", "20"]);
+    assert_eq!(code, 1, "{error}");
+    assert_eq!(run(&["check", BODY, "--step", &usable(&error)]).0, 0);
+
+    // Rows of an ensemble: each its own.
+    let states = folder.write("states.csv", "mu_1,mu_2,mu_3\n0.1,0,0.1\n20,5,10\n200,50,100\n");
+    let out = folder.name("ends.csv");
+    let advance =
+        ["ensemble", BODY, "--initial", &states, "--out", &out, "--step", "0.5", "--time", "300"];
+    let (code, _, error) = run(&advance);
+    assert_eq!(code, 0, "{error}");
+    let list = folder.text("ends.csv.rejected.csv");
+    let steps: Vec<f64> = list.lines().skip(1).map(|line| usable(line).parse().unwrap()).collect();
+    assert!(steps.len() == 2 && steps[1] < steps[0] && steps[0] < 0.5, "{list}");
+    assert!(list.contains("\n2,1,\"") && list.contains("\n3,1,\""), "{list}");
 }
 
+/// A Cayley step so long that nothing moved.
 #[test]
-fn a_step_over_several_turns_in_four_dimensions() {
-    let directory = TempDir::new().unwrap();
-    refused(&file(&directory, MANAKOV), &[]);
-}
-
-#[test]
-fn one_factor_of_a_product_breaks_the_step() {
-    let directory = TempDir::new().unwrap();
-    let system = file(&directory, QUARTIC);
-    refused(&system, &[]);
-    refused(&system, &["--solver", "fixed_point"]);
-}
-
-#[test]
-fn a_cayley_step_so_long_that_nothing_moves() {
+fn a_cayley_step_of_thirty_is_refused() {
     let options = ["--truncation", "9", "--chart", "cayley", "--step", "30", "--time", "300"];
     let (code, out, error) =
         run(&[&["simulate", "examples/manakov_so4.toml"], &options[..]].concat());
@@ -48,9 +70,8 @@ fn a_cayley_step_so_long_that_nothing_moves() {
 /// Random steps of the same system: with a momentum the run is refused, or its Casimirs are kept.
 #[test]
 fn random_starts_are_refused_or_keep_their_casimirs() {
-    let directory = TempDir::new().unwrap();
-    let system = file(&directory, MANAKOV);
-    let states = directory.path().join("states.csv");
+    let folder = Folder::new();
+    let system = folder.write("manakov.toml", MANAKOV);
     let mut text = "mu_1,mu_2,mu_3,mu_4,mu_5,mu_6\n".to_owned();
     let mut seed = 0x2545_f491_4f6c_dd1d_u64;
     for _ in 0..400 {
@@ -64,25 +85,23 @@ fn random_starts_are_refused_or_keep_their_casimirs() {
             .collect();
         text += &(numbers.join(",") + "\n");
     }
-    std::fs::write(&states, text).unwrap();
+    let (states, out) = (folder.write("states.csv", text), folder.name("ends.csv"));
     let mut ended = 0;
     for (truncation, step) in [("3", "0.5"), ("5", "0.5"), ("5", "1.0"), ("5", "0.05")] {
-        let out = directory.path().join("ends.csv");
-        let [states, out] = [&states, &out].map(|path| path.to_str().unwrap());
         let options =
             ["--truncation", truncation, "--step", step, "--time", step, "--format", "json"];
-        let run = run(
-            &[&["ensemble", &system, "--initial", states, "--out", out], &options[..]].concat()
-        );
+        let run =
+            run(&[&["ensemble", &system, "--initial", &states, "--out", &out], &options[..]]
+                .concat());
         let report: serde_json::Value = serde_json::from_str(&run.1).unwrap();
         let failed = report["failed"].as_u64().unwrap();
         assert!(report["drift"]["casimirs"].as_f64().unwrap() < 1e-12, "{report}");
         assert!(report["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-12, "{report}");
         ended += 400 - failed;
-        for (number, line) in std::fs::read_to_string(out).unwrap().lines().skip(1).enumerate() {
+        for (number, line) in folder.text("ends.csv").lines().skip(1).enumerate() {
             let finite = line.split(',').all(|cell| cell.parse::<f64>().unwrap().is_finite());
             let listed = || {
-                let list = std::fs::read_to_string(format!("{out}.rejected.csv")).unwrap();
+                let list = folder.text("ends.csv.rejected.csv");
                 list.contains(&format!("\n{},1,\"", number + 1))
             };
             assert!(finite || listed(), "row {}", number + 1);

@@ -40,8 +40,7 @@ pub fn cayley_group(
 ) -> Result<DirectProduct<CayleyMatrixGroup>, RunError> {
     let factors: Result<Vec<_>, TableError> =
         group.factors().map(|factor| factor.clone().into_cayley()).collect();
-    let failed = |source| RunError::Group { file: path.into(), source };
-    Ok(DirectProduct::new(factors.map_err(failed)?))
+    Ok(DirectProduct::new(factors.map_err(RunError::of(path))?))
 }
 
 /// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole. With a potential, only
@@ -73,9 +72,7 @@ fn matrix_group(
     };
     let kept = |casimir: &&Polynomial| potential.is_none_or(|v| v.keeps(casimir));
     let terms = lie::watched_casimirs(algebra).iter().filter(kept).map(terms).collect();
-    group
-        .and_then(|group| group.with_casimirs(terms))
-        .map_err(|source| RunError::Group { file: path.into(), source })
+    group.and_then(|group| group.with_casimirs(terms)).map_err(RunError::of(path))
 }
 
 fn float(value: &Rational) -> f64 {

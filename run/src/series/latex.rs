@@ -1,14 +1,12 @@
 //! The series for papers.
 
-use std::fmt::Write;
-
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
 use num_traits::{One, Signed};
 
 use super::Series;
-use super::coefficient::terms;
+use super::terms::{joined, terms};
 
 /// An `align` environment with one row per order that does not vanish; in a comoving frame S generates
 /// the flow of H₀.
@@ -26,45 +24,27 @@ pub fn series(derived: &Series) -> String {
 
 /// A polynomial in the momentum.
 pub fn polynomial(problem: &Problem, polynomial: &Polynomial) -> String {
-    let mut out = String::new();
-    for term in terms(problem, polynomial) {
-        let negative = term.number().is_some_and(Rational::is_negative);
-        let sign = match (out.is_empty(), negative) {
-            (true, true) => "-",
-            (true, false) => "",
-            (false, true) => "- ",
-            (false, false) => "+ ",
-        };
-        out.push_str(sign);
-        let powers: String = problem
-            .coordinates
-            .iter()
-            .zip(&term.exponents)
-            .filter(|(_, power)| **power > 0)
-            .map(|(name, power)| factor(&name_in_math(name), *power))
-            .collect();
-        match term.number() {
-            Some(number) if number.abs().is_one() && !powers.is_empty() => {}
-            Some(number) if number.is_integer() => {
-                let _ = write!(out, "{} ", number.numer().abs());
-            }
+    let power = |name: &str, power| match power {
+        1 => format!("{} ", name_in_math(name)),
+        _ => format!("{}^{{{power}}} ", name_in_math(name)),
+    };
+    joined(terms(polynomial, problem.algebra.dim()).iter().map(|term| {
+        let powers = term.powers(&problem.coordinates, power).concat();
+        let size = match term.number() {
+            Some(number) if number.abs().is_one() && !powers.is_empty() => String::new(),
+            Some(number) if number.is_integer() => format!("{} ", number.numer().abs()),
             Some(number) => {
-                let (n, d) = (number.numer().abs(), number.denom());
-                let _ = write!(out, "\\tfrac{{{n}}}{{{d}}} ");
+                format!("\\tfrac{{{}}}{{{}}} ", number.numer().abs(), number.denom())
             }
             None => {
-                let text = term.coefficient(problem).replace('_', "\\_").replace('^', "\\^{}");
-                let _ = write!(out, "\\left(\\text{{{text}}}\\right) ");
+                let text = term.coefficient(&problem.symbols);
+                let text = text.replace('_', "\\_").replace('^', "\\^{}");
+                format!("\\left(\\text{{{text}}}\\right) ")
             }
-        }
-        out.push_str(&powers);
-    }
-    let out = out.trim_end();
-    if out.is_empty() { "0".to_owned() } else { out.to_owned() }
-}
-
-fn factor(name: &str, power: u32) -> String {
-    if power == 1 { format!("{name} ") } else { format!("{name}^{{{power}}} ") }
+        };
+        let text = (size + &powers).trim_end().to_owned();
+        (term.number().is_some_and(Rational::is_negative), text)
+    }))
 }
 
 /// `x1` as x₁, `Pi_x` as Π with index x, `mu[0]` as μ with index 0.

@@ -1,8 +1,8 @@
 //! The exact series, and how it is written.
 
-mod coefficient;
 mod json;
 mod latex;
+mod terms;
 mod text;
 
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::error::RunError;
 
 pub use json::series as json;
 pub use latex::{polynomial as latex_polynomial, series as latex};
-pub use text::{polynomial, series as text};
+pub use text::{polynomial, series as text, sum};
 
 /// A system with its series.
 pub struct Series {
@@ -37,7 +37,7 @@ impl Series {
             problem.truncation,
             TermLimit::default(),
         )
-        .map_err(|source| RunError::Derive { file: file.into(), source: source.into() })?;
+        .map_err(RunError::of(file))?;
         Ok(Self { problem, series })
     }
 }

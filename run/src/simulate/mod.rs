@@ -16,7 +16,9 @@ mod warning;
 pub use blocks::{Block, Kind, matrix, split};
 pub use learned::{algebra_of, run_model, schedule_of};
 pub use motion::{Matrices, Space};
-pub use recorder::{Drift, Moment, Outcome, Recorder, Scales, Solver, Tally, Unknown, Watched};
+pub use recorder::{
+    Drift, DriftFields, Moment, Outcome, Recorder, Scales, Solver, Tally, Unknown, Watched,
+};
 pub use schedule::Schedule;
 pub use setup::Setup;
 pub use single::Single;

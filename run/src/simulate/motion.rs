@@ -63,8 +63,7 @@ impl<G: Restore> Space for Matrices<'_, G> {
     }
 
     fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
-        let phase = phase_of(self.0, &state.g, &state.mu);
-        phase.spatial_momentum(self.0).as_slice().to_vec()
+        phase_of(self.0, &state.g, &state.mu).spatial_momentum(self.0).as_slice().to_vec()
     }
 }
 

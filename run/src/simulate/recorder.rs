@@ -10,7 +10,6 @@ use super::motion::Space;
 use super::sink::Begun;
 use super::warning::{Steep, Warning};
 use crate::backend::Used;
-use crate::bits;
 use crate::engine::{Numbers, STEEP};
 use crate::number::maximum;
 
@@ -29,7 +28,6 @@ pub struct Solver {
     /// The most Newton iterations, or evaluations of the fixed point, of a step.
     pub most_iterations: u64,
     /// The largest residual left, relative to the momentum.
-    #[serde(with = "bits")]
     pub max_residual: f64,
 }
 
@@ -116,14 +114,22 @@ impl Watched<'_> {
     }
 }
 
-/// The maxima and sums so far.
+/// The fields of a [`Drift`], for `#[serde(with = "DriftFields")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Drift")]
+pub struct DriftFields {
+    spatial_momentum: Option<f64>,
+    casimirs: Option<f64>,
+    energy: Option<f64>,
+}
+
+/// The maxima and sums so far. Numbers in files are decimals that read back as the same numbers.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Tally {
     /// The largest drifts.
-    #[serde(with = "bits")]
+    #[serde(with = "DriftFields")]
     pub drift: Drift,
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
-    #[serde(with = "bits")]
     pub unmeasured: [Option<f64>; 3],
     /// How the solves went, where residuals were measured.
     pub solver: Option<Solver>,

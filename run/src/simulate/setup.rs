@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use coadjoint::groups::ElementError;
+
 use super::schedule::Schedule;
 use super::times::Times;
 use crate::backend::Backend;
@@ -57,9 +59,14 @@ impl Setup {
                 }
                 group
                     .element_from_matrix(|i, j| rows[i][j])
-                    .map_err(|source| RunError::Element { file: file.into(), source })?
+                    .map_err(|error| not_an_element(file, &error))?
             }
         };
         Ok(Numbers { g: entries_of(group, &element), mu: self.momentum.clone() })
     }
+}
+
+/// The error of a matrix that is no element of the group.
+pub fn not_an_element(file: &Path, why: &ElementError) -> RunError {
+    RunError::of(file)(format!("`group_element` in [initial]: {why}"))
 }

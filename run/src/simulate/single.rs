@@ -5,6 +5,7 @@ use coadjoint::{Cayley, Chart, Exponential, LieGroup, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 
+use super::setup::not_an_element;
 use crate::backend::Backend;
 use crate::engine::{
     Compiled, Interpreter, Numbers, Restore, advise, cayley_group, entries_of, phase_of,
@@ -81,7 +82,7 @@ impl<S: AsRef<Derived>> Single<S> {
             Group::Exponential(group) => nearest(group, matrix),
             Group::Cayley(group) => nearest(group, matrix),
         };
-        let found = found.map_err(|source| RunError::Element { file: file.clone(), source })?;
+        let found = found.map_err(|error| not_an_element(file, &error))?;
         let far = found.iter().zip(matrix).any(|(a, b)| (a - b).abs() > SAME * (1.0 + a.abs()));
         Ok(if far { found } else { matrix.to_vec() })
     }

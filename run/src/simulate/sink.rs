@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::blocks::Block;
 use super::recorder::{Moment, Scales, Tally};
-use crate::bits;
 
 /// A sink ends the run here; it knows why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,10 +80,8 @@ pub struct Resume {
     /// Steps made.
     pub step: u64,
     /// μ.
-    #[serde(with = "bits")]
     pub momentum: Vec<f64>,
     /// The numbers of g, as what makes the steps has them.
-    #[serde(with = "bits")]
     pub element: Vec<f64>,
     /// How many of the times asked for are recorded.
     pub times: usize,

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::bits;
 use crate::engine::STEEP;
 use crate::number::shortest;
 
@@ -13,10 +12,8 @@ pub struct Steep {
     /// The number of the step, from 1.
     pub step: u64,
     /// The time from which it went.
-    #[serde(with = "bits")]
     pub time: f64,
     /// The ratio of S_K to S_{K−2}, in their gradients.
-    #[serde(with = "bits")]
     pub ratio: f64,
 }
 
