@@ -130,7 +130,7 @@ pub fn kernel(
     let integrator = integrator(path, problem)?;
     let problem = &integrator.problem;
     // Coefficients are those of the step, whatever the group's elements are made of.
-    let group = whole_group(path, &problem.algebra, None)?;
+    let group = whole_group(path, &problem.algebra)?;
     let interpreter = Interpreter::<_, Exponential>::new(&integrator, group, step)
         .map_err(|source| RunError::Step { time: 0.0, source })?;
     let chosen = choice.as_ref().map(|choice| format!("\n{}", chosen(choice)));

@@ -4,12 +4,9 @@ use std::path::Path;
 
 use coadjoint::{
     groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup, groups::TableError,
-    groups::Terms,
 };
-use coadjoint_codegen::lie::{self, LieAlgebra, RationalMatrix};
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::potential::Potential;
 use nalgebra::DMatrix;
 use num_traits::ToPrimitive;
 
@@ -25,7 +22,7 @@ pub fn product_group(
         if let Some((_, group)) = known.iter().find(|(other, _)| *other == factor) {
             return Ok(group.clone());
         }
-        let group = matrix_group(path, &factor, None)?;
+        let group = matrix_group(path, &factor)?;
         known.push((factor, group.clone()));
         Ok(group)
     };
@@ -43,24 +40,16 @@ pub fn cayley_group(
     Ok(DirectProduct::new(factors.map_err(RunError::of(path))?))
 }
 
-/// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole. With a potential, only
-/// the Casimirs that its kicks leave as they are are watched.
+/// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole.
 pub fn whole_group(
     path: &Path,
     algebra: &LieAlgebra,
-    potential: Option<&Potential>,
 ) -> Result<DirectProduct<MatrixGroup>, RunError> {
-    Ok(DirectProduct::new(vec![matrix_group(path, algebra, potential)?]))
+    Ok(DirectProduct::new(vec![matrix_group(path, algebra)?]))
 }
 
-/// The group whose Lie algebra this is, with its Casimirs of low degree: matrices of the basis's
-/// size, or adjoint matrices where only brackets are known. With a potential, only the Casimirs
-/// that its kicks leave as they are.
-fn matrix_group(
-    path: &Path,
-    algebra: &LieAlgebra,
-    potential: Option<&Potential>,
-) -> Result<MatrixGroup, RunError> {
+/// The group whose Lie algebra this is: matrices of the basis's size, or adjoint matrices where only brackets are known.
+fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, RunError> {
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
     let group = match algebra.basis() {
@@ -70,9 +59,7 @@ fn matrix_group(
         }
         None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
     };
-    let kept = |casimir: &&Polynomial| potential.is_none_or(|v| v.keeps(casimir));
-    let terms = lie::watched_casimirs(algebra).iter().filter(kept).map(terms).collect();
-    group.and_then(|group| group.with_casimirs(terms)).map_err(RunError::of(path))
+    group.map_err(RunError::of(path))
 }
 
 fn float(value: &Rational) -> f64 {
@@ -85,14 +72,4 @@ fn matrix(exact: &RationalMatrix) -> DMatrix<f64> {
         result[(i, j)] = float(value);
     }
     result
-}
-
-fn terms(polynomial: &Polynomial) -> Terms {
-    polynomial
-        .terms()
-        .map(|(exponents, value)| {
-            let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
-            (float(&value), powers.collect())
-        })
-        .collect()
 }

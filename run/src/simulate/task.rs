@@ -1,10 +1,7 @@
 //! The runs of systems: flows, or flows and kicks, from the initial state to the end.
 
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint::{
-    Cayley, Chart, Exponential, GeneratingFunction, Phase, StepError, solve::Solution,
-    solve::solve, steps::reconstruct,
-};
+use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance};
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
@@ -20,7 +17,6 @@ use crate::engine::{
 };
 use crate::error::RunError;
 use crate::load::Derived;
-use crate::number::largest;
 
 /// Runs a system from the start to the end.
 ///
@@ -50,7 +46,7 @@ impl Derived {
     pub fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
         let algebra = &self.integrator.problem.algebra;
         match &self.forces {
-            Some(forces) => whole_group(&self.file, algebra, Some(&forces.kick.potential)),
+            Some(_) => whole_group(&self.file, algebra),
             None => product_group(&self.file, algebra),
         }
     }
@@ -134,19 +130,14 @@ fn flow<G: Restore, C: Chart<G>>(
     let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
     let interpreter = series(h).map_err(at_start)?;
     let steepness = Steepness::new(&interpreter);
-    let one = |step: &Interpreter<'_, G, C>, phase: &mut Phase<G>| {
-        let solution = solve(step, &phase.momentum)?;
-        let residual = residual(step, &phase.momentum, &solution);
-        reconstruct(step, phase, &solution.x)?;
-        Ok((solution.iterations, residual))
-    };
     let advised = |error, phase: &Phase<G>| {
-        advise(error, h, |h| series(h).is_ok_and(|step| one(&step, &mut phase.clone()).is_ok()))
+        advise(error, h, |h| series(h).is_ok_and(|step| advance(&step, &mut phase.clone()).is_ok()))
     };
     let step = |_, phase: &mut Phase<G>| -> Result<Solves, StepError> {
-        one(&interpreter, phase).map(Some).map_err(|error| advised(error, phase))
+        let report = advance(&interpreter, phase).map_err(|error| advised(error, phase))?;
+        Ok(Some((report.iterations, report.residual)))
     };
-    let side = |_, part, phase: &mut Phase<G>| one(&series(part)?, phase).map(drop);
+    let side = |_, part, phase: &mut Phase<G>| advance(&series(part)?, phase).map(drop);
     let ratio = |mu: &DVector<f64>| steepness.ratio(mu);
     let steps = Steps { group, schedule, step: &step, side: &side, ratio: &ratio };
     let start = setup.start(subject.file, group)?;
@@ -165,17 +156,4 @@ fn flow<G: Restore, C: Chart<G>>(
 
 fn at_start(source: StepError) -> RunError {
     RunError::Step { time: 0.0, source }
-}
-
-/// The residual of J_L(x, p) = μ, relative to the largest coordinate of μ: measured, where
-/// the step itself reports an estimate. NaN where anything is NaN.
-fn residual<G: Restore, C: Chart<G>>(
-    step: &Interpreter<'_, G, C>,
-    mu: &DVector<f64>,
-    solution: &Solution<DVector<f64>, f64>,
-) -> f64 {
-    let reached = C::default().left_momentum(step.group(), &solution.x, &solution.p);
-    let left = largest((reached - mu).iter().copied());
-    let size = largest(mu.iter().copied());
-    if size == 0.0 { left } else { left / size }
 }
