@@ -437,7 +437,7 @@ impl Core {
                 (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)
             };
             let laws = laws.into_iter().map(law).collect();
-            Ok((laws, steep.map(check::Steep::text)))
+            Ok((laws, steep.map(check::steep)))
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }

@@ -34,16 +34,16 @@ pub struct Journal {
     pub rejected: u64,
     /// Where the next row begins in the input.
     pub position: u64,
-    /// The largest drift of J_L so far, if one is known.
-    pub spatial_momentum: Option<f64>,
-    /// The largest drift of Casimirs so far, if one is known.
-    pub casimirs: Option<f64>,
+    /// The largest drift of J_L so far, as bits, if one is known.
+    pub spatial_momentum: Option<u64>,
+    /// The largest drift of Casimirs so far, as bits, if one is known.
+    pub casimirs: Option<u64>,
     /// Rows whose drift could not be measured.
     #[serde(default)]
     pub unmeasured: u64,
-    /// The largest ratio of the last two terms of the series worth a warning so far.
+    /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
     #[serde(default)]
-    pub ratio: f64,
+    pub ratio: u64,
     /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
     #[serde(default)]
     pub made_by: Vec<String>,
@@ -70,16 +70,18 @@ impl Journal {
 
     /// The largest drifts so far.
     pub fn drift(&self) -> Drift {
-        let Self { spatial_momentum, casimirs, unmeasured, ratio, .. } = *self;
+        let [spatial_momentum, casimirs] =
+            [self.spatial_momentum, self.casimirs].map(|drift| drift.map(f64::from_bits));
         let conserved = step::Drift { spatial_momentum, casimirs, energy: None };
-        Drift { conserved, unmeasured, ratio }
+        Drift { conserved, unmeasured: self.unmeasured, ratio: f64::from_bits(self.ratio) }
     }
 
     /// Takes note of drifts, and of what has made the steps.
     pub fn raise(&mut self, drift: Drift, engine: &dyn Engine) {
         let Drift { conserved, unmeasured, ratio } = self.drift().max(drift);
-        (self.spatial_momentum, self.casimirs) = (conserved.spatial_momentum, conserved.casimirs);
-        (self.unmeasured, self.ratio) = (unmeasured, ratio);
+        self.spatial_momentum = conserved.spatial_momentum.map(f64::to_bits);
+        self.casimirs = conserved.casimirs.map(f64::to_bits);
+        (self.unmeasured, self.ratio) = (unmeasured, ratio.to_bits());
         let maker = engine.device().map_or_else(|| engine.backend(), |device| device.to_string());
         if !self.made_by.contains(&maker) {
             self.made_by.push(maker);

@@ -1,12 +1,10 @@
 //! The report of an ensemble, for people and for programs.
 
-use std::fmt::Write;
-
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_program::Precision;
 use coadjoint_run::engine::STEEP;
-use coadjoint_run::ensemble::Engine;
-use serde_json::json;
+use coadjoint_run::ensemble::{Engine, Rejected};
+use serde_json::{Value, json};
 
 use super::run::Outcome;
 use crate::named::Format;
@@ -30,30 +28,25 @@ pub fn report(
     engine: &dyn Engine,
     format: Format,
 ) -> String {
-    let truncation = integrator.problem.truncation;
-    let chart = integrator.problem.chart;
-    let drift = outcome.journal.drift();
-    let made_by = &outcome.journal.made_by;
-    let (failed, redone) = (outcome.journal.rejected, outcome.journal.redone);
-    let conserved = drift.conserved;
+    let (truncation, chart) = (integrator.problem.truncation, integrator.problem.chart);
+    let Outcome { trajectories, resumed, kept, first, list, journal, seconds } = outcome;
+    let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
+    let drift = journal.drift();
+    let drifts = [
+        ("spatial_momentum", drift.conserved.spatial_momentum),
+        ("casimirs", drift.conserved.casimirs),
+    ];
     if format == Format::Json {
         // An unknown value has no key.
-        let known =
-            [("spatial_momentum", conserved.spatial_momentum), ("casimirs", conserved.casimirs)];
-        let known: serde_json::Map<_, _> = known
-            .iter()
-            .filter_map(|(name, drift)| Some(((*name).into(), json!((*drift)?))))
-            .collect();
-        let first = outcome.first.iter();
-        let first: Vec<_> =
-            first.map(|r| json!({ "row": r.row, "step": r.step, "reason": r.reason })).collect();
+        let known = drifts.iter().filter_map(|(name, drift)| Some((*name, (*drift)?)));
+        let row = |r: &Rejected| json!({ "row": r.row, "step": r.step, "reason": r.reason });
         let value = json!({
-            "trajectories": outcome.trajectories,
-            "resumed_at": outcome.resumed,
-            "kept": outcome.kept,
+            "trajectories": trajectories,
+            "resumed_at": resumed,
+            "kept": kept,
             "failed": failed,
-            "first_failed": first,
-            "rejected": outcome.list,
+            "first_failed": first.iter().map(row).collect::<Value>(),
+            "rejected": list,
             "truncation": truncation,
             "chart": chart.to_string(),
             "step": step,
@@ -65,65 +58,57 @@ pub fn report(
                 "precision": by.precision.to_string(),
                 "redone": redone,
             })),
-            "drift": known,
+            "drift": known.map(|(name, drift)| (name, json!(drift))).collect::<Value>(),
             "drift_not_measured": drift.unmeasured,
             "warnings": warning(outcome).iter().map(|text| json!({
                 "kind": "series_ratio",
                 "ratio": drift.ratio,
                 "text": text,
-            })).collect::<Vec<_>>(),
-            "seconds": outcome.seconds,
+            })).collect::<Value>(),
+            "seconds": seconds,
         });
         return format!("{value:#}\n");
     }
-    let mut out = String::new();
-    // Writing into a string cannot fail.
-    let _ = writeln!(
-        out,
-        "K = {truncation}, {chart}: {} trajectories of {steps} steps of {step}",
-        outcome.trajectories
-    );
-    if outcome.kept {
-        let _ = writeln!(out, "  finished by an earlier run, and kept");
-    } else if outcome.resumed > 0 {
-        let _ = writeln!(out, "  {} of them by an earlier run", outcome.resumed);
+    let mut lines = vec![format!(
+        "K = {truncation}, {chart}: {trajectories} trajectories of {steps} steps of {step}"
+    )];
+    if *kept {
+        lines.push("  finished by an earlier run, and kept".to_owned());
+    } else if *resumed > 0 {
+        lines.push(format!("  {resumed} of them by an earlier run"));
     }
-    let _ = writeln!(out, "  steps by {}", made_by.join(", then by "));
+    lines.push(format!("  steps by {}", made_by.join(", then by ")));
     if let Some(by) = engine.device() {
         let backend = engine.backend();
-        let _ = writeln!(out, "    rows with steps it refused, made by {backend}: {redone}");
+        lines.push(format!("    rows with steps it refused, made by {backend}: {redone}"));
         if by.precision == Precision::Single {
-            let _ = writeln!(out, "    in single precision drifts are at 1e-7 and above");
+            lines.push("    in single precision drifts are at 1e-7 and above".to_owned());
         }
     }
-    if let Some(text) = warning(outcome) {
-        let _ = writeln!(out, "  warning: {text}");
-    }
-    let _ = writeln!(out, "  failed           {:>10}", failed);
-    for rejected in &outcome.first {
-        let _ = match rejected.step {
-            0 => writeln!(out, "    row {}: {}", rejected.row, rejected.reason),
-            step => writeln!(out, "    row {}, step {step}: {}", rejected.row, rejected.reason),
-        };
-    }
-    if let Some(list) = &outcome.list {
-        let _ = writeln!(out, "    all of them are in {}", list.display());
-    }
-    let _ = writeln!(out, "  largest relative drift");
-    let number = |drift: Option<f64>| match drift {
-        Some(drift) => format!("{drift:>10.1e}"),
-        None => "not measurable".to_owned(),
+    lines.extend(warning(outcome).map(|text| format!("  warning: {text}")));
+    lines.push(format!("  failed           {failed:>10}"));
+    lines.extend(first.iter().map(|Rejected { row, step, reason }| match step {
+        0 => format!("    row {row}: {reason}"),
+        step => format!("    row {row}, step {step}: {reason}"),
+    }));
+    lines.extend(list.iter().map(|list| format!("    all of them are in {}", list.display())));
+    lines.push("  largest relative drift".to_owned());
+    let casimirs = match engine.casimirs() {
+        0 => "Casimirs         none known".to_owned(),
+        count => format!("Casimirs ({count})    "),
     };
-    let _ = writeln!(out, "    spatial momentum {}", number(conserved.spatial_momentum));
-    let _ = match engine.casimirs() {
-        0 => writeln!(out, "    Casimirs         none known"),
-        count => writeln!(out, "    Casimirs ({count})     {}", number(conserved.casimirs)),
-    };
+    for ((_, drift), name) in drifts.into_iter().zip(["spatial momentum", &casimirs]) {
+        lines.push(match drift {
+            _ if name.ends_with("none known") => format!("    {name}"),
+            Some(drift) => format!("    {name} {drift:>10.1e}"),
+            None => format!("    {name} not measurable"),
+        });
+    }
     if drift.unmeasured > 0 {
         let rows = drift.unmeasured;
-        let _ =
-            writeln!(out, "    not measurable in {rows} rows: rounding of large numbers hides it");
+        lines
+            .push(format!("    not measurable in {rows} rows: rounding of large numbers hides it"));
     }
-    let _ = writeln!(out, "  {:.1} s", outcome.seconds);
-    out
+    lines.push(format!("  {seconds:.1} s\n"));
+    lines.join("\n")
 }

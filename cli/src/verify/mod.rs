@@ -46,8 +46,8 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
     if let Some(what) = all.iter().find_map(|found| found.wrong.as_ref()) {
         return Err(CliError::Laws(format!("{}: {what}", output.display())));
     }
-    let unjudged: u64 = all.iter().map(|found| found.unjudged).sum();
-    match all.iter().find_map(|found| found.why.as_ref()) {
+    let unjudged: u64 = all.iter().map(|found| found.not_judged).sum();
+    match all.iter().find_map(|found| found.why_not_judged.as_ref()) {
         None => Ok(()),
         Some(why) => Err(CliError::NotJudged(format!(
             "{}: not verified: {unjudged} rows could not be judged, the first because of {why}",

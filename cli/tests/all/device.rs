@@ -7,19 +7,14 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::support::{json, root, run};
+use crate::support::{Folder, json, root, run};
 use serde_json::Value;
-use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
 const TOP: &str = "examples/heavy_top.toml";
 
-fn at(directory: &TempDir, name: &str) -> String {
-    directory.path().join(name).to_str().unwrap().to_owned()
-}
-
 /// States of which the last twenty are driven so hard that the programs refuse steps, and the very last beyond the chart.
-fn states(directory: &TempDir, dim: usize, rows: usize) -> String {
+fn states(folder: &Folder, dim: usize, rows: usize) -> String {
     let mut text = (1..=dim).map(|i| format!("mu_{i}")).collect::<Vec<_>>().join(",") + "\n";
     for row in 0..rows {
         let size = match rows - row {
@@ -30,15 +25,13 @@ fn states(directory: &TempDir, dim: usize, rows: usize) -> String {
         let of = |i: usize| format!("{}", size * (1.3 + 2.1 * i as f64 + 0.1 * row as f64).sin());
         text += &((0..dim).map(of).collect::<Vec<_>>().join(",") + "\n");
     }
-    let path = at(directory, "states.csv");
-    std::fs::write(&path, text).unwrap();
-    path
+    folder.write("states.csv", text)
 }
 
 /// Whether the command is built for OpenCL, and there is a device.
-fn there_is_one(directory: &TempDir) -> bool {
-    let initial = states(directory, 3, 40);
-    let out = at(directory, "probe.csv");
+fn there_is_one(folder: &Folder) -> bool {
+    let initial = states(folder, 3, 40);
+    let out = folder.name("probe.csv");
     let words = ["ensemble", BODY, "--initial", &initial, "--out", &out];
     let (code, _, said) = run(&[&words[..], &["--device", "opencl", "--time", "1"]].concat());
     if code == 0 {
@@ -64,13 +57,13 @@ fn ensemble(file: &str, initial: &str, out: &str, more: &[&str]) -> Value {
 
 #[test]
 fn a_device_writes_the_bytes_of_the_interpreter() {
-    let directory = TempDir::new().unwrap();
-    if !there_is_one(&directory) {
+    let folder = Folder::new();
+    if !there_is_one(&folder) {
         return;
     }
     for (file, dim) in [(BODY, 3), (TOP, 6)] {
-        let initial = states(&directory, dim, 700);
-        let [cpu, device] = ["cpu.csv", "device.csv"].map(|name| at(&directory, name));
+        let initial = states(&folder, dim, 700);
+        let [cpu, device] = ["cpu.csv", "device.csv"].map(|name| folder.name(name));
         let backend = ["--backend", "interpreter", "--time", "60"];
         let expected = ensemble(file, &initial, &cpu, &backend);
         let mut more = backend.to_vec();
@@ -92,13 +85,13 @@ fn a_device_writes_the_bytes_of_the_interpreter() {
 
 #[test]
 fn single_precision_is_as_good_as_its_rounding() {
-    let directory = TempDir::new().unwrap();
-    if !there_is_one(&directory) {
+    let folder = Folder::new();
+    if !there_is_one(&folder) {
         return;
     }
     for (file, dim) in [(BODY, 3), (TOP, 6), ("examples/su3_quadratic.toml", 8)] {
-        let initial = states(&directory, dim, 60);
-        let out = at(&directory, "single.csv");
+        let initial = states(&folder, dim, 60);
+        let out = folder.name("single.csv");
         let more = ["--device", "opencl", "--precision", "single", "--time", "5"];
         let report = ensemble(file, &initial, &out, &more);
         assert_eq!(report["device"]["precision"], "single", "{file}");
@@ -107,16 +100,13 @@ fn single_precision_is_as_good_as_its_rounding() {
         assert!(drift("spatial_momentum") > 1e-9 && drift("spatial_momentum") < 1e-3, "{report}");
     }
     // A run in another precision is another run. One that is killed leaves its journal.
-    let initial = states(&directory, 3, 60_000);
-    let out = at(&directory, "killed.csv");
+    let initial = states(&folder, 3, 60_000);
+    let out = folder.name("killed.csv");
     let words = ["ensemble", BODY, "--initial", &initial, "--out", &out, "--time", "500"];
     let single = ["--device", "opencl", "--precision", "single"];
-    let mut child = Command::new(env!("CARGO_BIN_EXE_coadjoint"))
-        .current_dir(root())
-        .args([&words[..], &single].concat())
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coadjoint"));
+    command.current_dir(root()).args([&words[..], &single].concat()).stdout(Stdio::null());
+    let mut child = command.spawn().unwrap();
     while !Path::new(&format!("{out}.journal")).exists() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -132,9 +122,9 @@ fn single_precision_is_as_good_as_its_rounding() {
 
 #[test]
 fn a_device_that_cannot_be_had_ends_the_run_with_a_line() {
-    let directory = TempDir::new().unwrap();
-    let initial = states(&directory, 3, 5);
-    let out = at(&directory, "out.csv");
+    let folder = Folder::new();
+    let initial = states(&folder, 3, 5);
+    let out = folder.name("out.csv");
     let words = ["ensemble", BODY, "--initial", &initial, "--out", &out];
     for (more, expected) in [
         (vec!["--device", "opencl:99"], "--device: "),

@@ -1,17 +1,9 @@
 //! `verify`: right files are found right, and whatever was changed in them is found, by time or row.
 
-#[cfg(not(feature = "parquet"))]
-use std::path::Path;
-
-use crate::support::{file, json, root, run};
+use crate::support::{Folder, json, root, run};
 use serde_json::Value;
-use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
-
-fn at(directory: &TempDir, name: &str) -> String {
-    directory.path().join(name).to_str().unwrap().to_owned()
-}
 
 /// The records of a run.
 fn simulate(arguments: &[&str], out: &str) {
@@ -58,17 +50,13 @@ fn changed(text: &str, line: usize, column: usize, cell: &dyn Fn(f64) -> f64) ->
     lines.collect::<Vec<_>>().join("\n") + "\n"
 }
 
-fn read(path: &str) -> String {
-    std::fs::read_to_string(path).unwrap()
-}
-
 #[test]
 fn runs_of_every_kind_are_right() {
-    let directory = TempDir::new().unwrap();
+    let folder = Folder::new();
     let so2 = "hamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 5\nstep = 0.2\n\
                [initial]\nmomentum = [1.0, 0.3, 0.5]\n[run]\ntime = 4\n";
-    let su2 = file(&directory, &format!("group = \"SU2\"\n{so2}"));
-    let mixed = at(&directory, "mixed.toml");
+    let su2 = folder.write("system.toml", &format!("group = \"SU2\"\n{so2}"));
+    let mixed = folder.name("mixed.toml");
     let product = "group = \"SO3*SE2\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]*mu[3] + \
                    mu[3]^2/2 + mu[4]^2/3\"\n[integrator]\ntruncation = 3\nstep = 0.1\n[initial]\n\
                    momentum = [1.0, 0.3, 0.5, 0.2, 0.4, 0.1]\n[run]\ntime = 2\n";
@@ -86,7 +74,7 @@ fn runs_of_every_kind_are_right() {
         (mixed.as_str(), &[]),
     ] {
         for name in ["run.csv", "run.npy"] {
-            let out = at(&directory, name);
+            let out = folder.name(name);
             simulate(&[&[system], more].concat(), &out);
             let found = right(&[&out]);
             assert!(found["momentum"].as_f64().unwrap() <= 1.0, "{system}: {found}");
@@ -97,8 +85,8 @@ fn runs_of_every_kind_are_right() {
 
 #[test]
 fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
-    let directory = TempDir::new().unwrap();
-    let out = at(&directory, "run.csv");
+    let folder = Folder::new();
+    let out = folder.name("run.csv");
     simulate(&[BODY, "--time", "10"], &out);
     let judged = |n: &str| {
         let (code, out, error) = run(&["verify", &out, "--sample", n, "--format", "json"]);
@@ -113,7 +101,7 @@ fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
     let all = judged("1000");
     assert_eq!((all["rows"].as_u64(), &all["verdict"]), (Some(100), &"no row is wrong".into()));
     // The last row is always in it; of the element of a row that is not in it nothing is said.
-    let text = read(&out);
+    let text = std::fs::read_to_string(&out).unwrap();
     for (line, code) in [(101, 1), (50, 0)] {
         std::fs::write(&out, changed(&text, line, 4, &|x| x + 1e-9)).unwrap();
         assert_eq!(run(&["verify", &out, "--sample", "1"]).0, code, "line {line}");
@@ -124,8 +112,8 @@ fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
 
 #[test]
 fn a_report_is_judged_from_its_start_to_its_end() {
-    let directory = TempDir::new().unwrap();
-    let out = at(&directory, "report.json");
+    let folder = Folder::new();
+    let out = folder.name("report.json");
     let written = |more: &[&str]| {
         let arguments = ["simulate", BODY, "--time", "10", "--format", "json"];
         let report = json(&[&arguments, more].concat());
@@ -158,11 +146,11 @@ fn a_report_is_judged_from_its_start_to_its_end() {
 
 #[test]
 fn what_was_changed_is_found_where_it_is() {
-    let directory = TempDir::new().unwrap();
-    let out = at(&directory, "run.csv");
+    let folder = Folder::new();
+    let out = folder.name("run.csv");
     simulate(&[BODY, "--time", "3"], &out);
     right(&[&out]);
-    let text = read(&out);
+    let text = std::fs::read_to_string(&out).unwrap();
     let names: Vec<&str> =
         text.lines().find(|line| !line.starts_with('#')).unwrap().split(',').collect();
     let column = |name: &str| names.iter().position(|known| *known == name).unwrap();
@@ -183,7 +171,7 @@ fn what_was_changed_is_found_where_it_is() {
     std::fs::write(&out, gone.join("\n")).unwrap();
     said(&[&out], 1, &["there are 30 rows, and the file says that it has 31"]);
     // A matrix without names.
-    let out = at(&directory, "run.npy");
+    let out = folder.name("run.npy");
     simulate(&[BODY, "--time", "3"], &out);
     right(&[&out]);
     let mut bytes = std::fs::read(&out).unwrap();
@@ -200,23 +188,28 @@ fn what_was_changed_is_found_where_it_is() {
 /// Only runs of the exact series of the system file as it is can be judged; all others are refused by name.
 #[test]
 fn what_cannot_be_judged_is_refused() {
-    let directory = TempDir::new().unwrap();
-    let out = at(&directory, "run.csv");
+    let folder = Folder::new();
+    let out = folder.name("run.csv");
     simulate(&["examples/satellite.toml", "--time", "1"], &out);
     said(&[&out], 2, &["a system with a potential is not judged"]);
     // Earlier versions made such runs.
     simulate(&[BODY, "--time", "3"], &out);
     for (entry, refusal) in [("tuned: true", "was tuned"), ("fitted: 10", "was fitted")] {
-        let text = read(&out).replacen("# steps:", &format!("# {entry}\n# steps:"), 1);
+        let text = std::fs::read_to_string(&out).unwrap().replacen(
+            "# steps:",
+            &format!("# {entry}\n# steps:"),
+            1,
+        );
         std::fs::write(&out, text).unwrap();
         said(&[&out], 2, &[refusal]);
         simulate(&[BODY, "--time", "3"], &out);
     }
-    let system = at(&directory, "body.toml");
+    let system = folder.name("body.toml");
     std::fs::copy(root().join(BODY), &system).unwrap();
     simulate(&[&system, "--time", "3"], &out);
     right(&[&out]);
-    let text = read(&system).replace("I1 = 1.5", "I1 = 1.6") + "\n# another\n";
+    let text =
+        std::fs::read_to_string(&system).unwrap().replace("I1 = 1.5", "I1 = 1.6") + "\n# another\n";
     std::fs::write(&system, text).unwrap();
     said(&[&out], 2, &["is not the system file of this run"]);
     // A file that is no run, and a run without a row, are refused.
@@ -228,11 +221,11 @@ fn what_cannot_be_judged_is_refused() {
 /// A part of a run is right as far as it goes, and is said to be a part.
 #[test]
 fn a_part_is_said_to_be_one() {
-    let directory = TempDir::new().unwrap();
-    let (whole, part) = (at(&directory, "t.csv"), at(&directory, "t.csv.partial"));
+    let folder = Folder::new();
+    let (whole, part) = (folder.name("t.csv"), folder.name("t.csv.partial"));
     simulate(&[BODY, "--time", "3"], &whole);
     // As a run that is interrupted leaves it.
-    let text = read(&whole);
+    let text = std::fs::read_to_string(&whole).unwrap();
     let kept: Vec<&str> = text.lines().take_while(|line| !line.starts_with("1.5,")).collect();
     std::fs::write(&part, kept.join("\n") + "\n# part: interrupted at time 1.4\n").unwrap();
     let (code, said, error) = run(&["verify", &part]);
@@ -243,13 +236,13 @@ fn a_part_is_said_to_be_one() {
 /// Momenta that grow by tens of orders on a group that is not compact: no right row is called wrong.
 #[test]
 fn growing_momenta_are_judged_as_far_as_can_be() {
-    let directory = TempDir::new().unwrap();
-    let system = file(
-        &directory,
+    let folder = Folder::new();
+    let system = folder.write(
+        "system.toml",
         "group = \"SL2\"\nhamiltonian = \"mu[0]^2/2+mu[1]*mu[2]\"\n[integrator]\ntruncation = 3\n\
          step = 0.1\n[initial]\nmomentum = [1,0.5,0.5]\n[run]\ntime = 10000\n",
     );
-    let out = at(&directory, "t.csv");
+    let out = folder.name("t.csv");
     assert_eq!(run(&["simulate", &system, "--out", &out]).0, 1);
     let (code, found, error) = run(&["verify", &format!("{out}.partial")]);
     assert!(code == 0 || code == 3, "{found}{error}");
@@ -260,8 +253,8 @@ fn growing_momenta_are_judged_as_far_as_can_be() {
 /// The end states of rows that were advanced, by momenta and attitudes in two forms.
 #[test]
 fn ensembles_are_judged_from_their_starts() {
-    let directory = TempDir::new().unwrap();
-    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
+    let folder = Folder::new();
+    let (states, out) = (folder.name("states.csv"), folder.name("ends.csv"));
     let rows = "mu_1,name,mu_2,mu_3,q_w,q_x,q_y,q_z\n2.0,\"a, b\",0.5,1.0,1,0,0,0\n1.0,c,0.5,-1.0,0.6,0,0.8,0\n\
                 NaN,d,0,0,1,0,0,0\n0.1,e,0.2,0.3,0,0,0,1\n";
     std::fs::write(&states, rows).unwrap();
@@ -284,7 +277,7 @@ fn ensembles_are_judged_from_their_starts() {
     let judged = [BODY, out.as_str(), "--input", &states, "--steps", "50", "--step", "0.1"];
     let found = right(&judged);
     assert!(found["rows"] == 3 && found["refused"] == 1 && found["steps"] == 150, "{found}");
-    let text = read(&out);
+    let text = std::fs::read_to_string(&out).unwrap();
     std::fs::write(&out, changed(&text, 2, 2, &|x| x + 1e-10)).unwrap();
     said(&judged, 1, &["row 2: "]);
     std::fs::write(&out, changed(&text, 4, 5, &|x| x + 1e-8)).unwrap();
@@ -296,8 +289,8 @@ fn ensembles_are_judged_from_their_starts() {
     // Rows are counted.
     let short: Vec<&str> = text.lines().take(4).collect();
     std::fs::write(&out, short.join("\n")).unwrap();
-    advance(&at(&directory, "again.csv"));
-    std::fs::copy(at(&directory, "again.csv.rejected.csv"), format!("{out}.rejected.csv")).unwrap();
+    advance(&folder.name("again.csv"));
+    std::fs::copy(folder.name("again.csv.rejected.csv"), format!("{out}.rejected.csv")).unwrap();
     said(&judged, 1, &["the input has more than the 3 rows of the output"]);
     // Another number of steps leads elsewhere.
     std::fs::write(&out, &text).unwrap();
@@ -308,8 +301,8 @@ fn ensembles_are_judged_from_their_starts() {
 /// A row of numbers so large that the judge has none for what follows is not right, and not wrong.
 #[test]
 fn what_the_judge_cannot_tell_is_no_success() {
-    let directory = TempDir::new().unwrap();
-    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
+    let folder = Folder::new();
+    let (states, out) = (folder.name("states.csv"), folder.name("ends.csv"));
     let text = "mu_1,mu_2,mu_3\n1e300,0,0\n";
     std::fs::write(&states, text).unwrap();
     std::fs::write(&out, text).unwrap();
@@ -320,8 +313,8 @@ fn what_the_judge_cannot_tell_is_no_success() {
 #[cfg(feature = "parquet")]
 #[test]
 fn parquet_files_are_judged_too() {
-    let directory = TempDir::new().unwrap();
-    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.parquet"));
+    let folder = Folder::new();
+    let (states, out) = (folder.name("states.csv"), folder.name("ends.parquet"));
     std::fs::write(&states, "mu_1,mu_2,mu_3\n2.0,0.5,1.0\n1.0,0.5,-1.0\n").unwrap();
     let advance = |states: &str, out: &str| {
         let arguments = ["ensemble", BODY, "--initial", states, "--out", out, "--time", "5"];
@@ -331,7 +324,7 @@ fn parquet_files_are_judged_too() {
     let judged = [BODY, out.as_str(), "--input", &states, "--steps", "50", "--step", "0.1"];
     right(&judged);
     // The ends of other starts.
-    let other = at(&directory, "other.csv");
+    let other = folder.name("other.csv");
     std::fs::write(&other, "mu_1,mu_2,mu_3\n2.0,0.5,1.0\n1.0,0.5,-1.0000000001\n").unwrap();
     advance(&other, &out);
     said(&judged, 1, &["row 2: "]);
@@ -340,8 +333,8 @@ fn parquet_files_are_judged_too() {
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn parquet_files_need_the_feature() {
-    let directory = TempDir::new().unwrap();
-    let out = at(&directory, "ends.parquet");
-    std::fs::write(Path::new(&out), "").unwrap();
+    let folder = Folder::new();
+    let out = folder.name("ends.parquet");
+    std::fs::write(&out, "").unwrap();
     said(&[BODY, &out], 2, &["without the feature `parquet`"]);
 }

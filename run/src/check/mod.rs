@@ -10,7 +10,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Forces, Group, Interpreter, STEEP, Steepness, advise, cayley_group, product_group,
+    Group, Interpreter, STEEP, Steepness, Step, advise, cayley_group, product_group,
 };
 use crate::error::RunError;
 use crate::load::Derived;
@@ -33,22 +33,12 @@ pub struct Law {
     pub pass: bool,
 }
 
-/// The series hardly converges at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steep {
-    /// The largest ratio of its last two terms.
-    pub ratio: f64,
-}
-
-impl Steep {
-    /// For people.
-    pub fn text(self) -> String {
-        format!(
-            "the series hardly converges at the points tried: its last two terms have the ratio {:.3}, above {STEEP}; \
-             take a smaller step",
-            self.ratio
-        )
-    }
+/// A warning of a series whose last two terms have this ratio.
+pub fn steep(ratio: f64) -> String {
+    format!(
+        "the series hardly converges at the points tried: its last two terms have the ratio {ratio:.3}, above {STEEP}; \
+         take a smaller step"
+    )
 }
 
 /// A trial: a step size, and random points.
@@ -91,24 +81,19 @@ impl Trial {
     }
 }
 
-/// Tries all laws; and what there is to be said of the series.
+/// Tries all laws; and the largest ratio of the last two terms of the series at the points, where it is worth a warning.
 ///
 /// # Errors
 /// Where a step cannot be made.
-pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<Steep>), RunError> {
-    let path = &system.file;
+pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let problem = &system.integrator.problem;
-    let group = product_group(path, &problem.algebra)?;
-    let tried = Tried { system, trial };
+    let group = product_group(&system.file, &problem.algebra)?;
     match problem.chart {
-        lie::Chart::Exponential => tried.laws::<_, Exponential>(group),
-        lie::Chart::Cayley => tried.laws::<_, Cayley>(cayley_group(path, &group)?),
+        lie::Chart::Exponential => laws_of::<_, Exponential>(system, trial, group),
+        lie::Chart::Cayley => {
+            laws_of::<_, Cayley>(system, trial, cayley_group(&system.file, &group)?)
+        }
     }
-}
-
-struct Tried<'a> {
-    system: &'a Derived,
-    trial: &'a Trial,
 }
 
 /// The laws of [`coadjoint::laws::check`] that are printed: its name, ours, and what it says.
@@ -121,87 +106,82 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-impl Tried<'_> {
-    fn laws<G: Group, C: Chart<G>>(&self, group: G) -> Result<(Vec<Law>, Option<Steep>), RunError> {
-        let mut random = ChaCha8Rng::seed_from_u64(self.trial.seed);
-        let points: Vec<_> =
-            (0..self.trial.points).map(|_| random_phase(&group, self.trial, &mut random)).collect();
-        let at = |source| RunError::Step { time: 0.0, source };
-        let make = |h| Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h);
-        let map = |h| make(h).map_err(at);
-        let there = map(self.trial.step)?;
-        let steepness = Steepness::new(&there);
-        let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
-        let ratio = ratios.fold(0.0, worse);
-        let steep = (ratio > STEEP).then_some(Steep { ratio });
-        let tried =
-            laws::check(&there, Some(&map(-self.trial.step)?), &points).map_err(|error| {
-                let works = |step: &Interpreter<'_, G, C>| {
-                    points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
-                };
-                at(advise(error, self.trial.step, |h| make(h).is_ok_and(|step| works(&step))))
-            })?;
-        let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
-            let law = tried.iter().find(|law| law.name == known)?;
-            let (value, bound, pass) = (law.value, law.bound, law.pass());
-            Some(Law { name, statement, value, bound, pass })
-        });
-        let mut laws: Vec<Law> = printed.collect();
-        let starts = [(); STARTS].map(|()| random_phase(&group, self.trial, &mut random));
-        let expected = self.system.integrator.order() as f64;
-        laws.push(order::measure(self.trial.step, expected, &group, &starts, |h, steps, state| {
-            let map = Interpreter::<G, C>::new(&self.system.integrator, group.clone(), h)?;
-            (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
-        }));
-        if let Some(forces) = &self.system.forces {
-            laws.extend(self.kicked::<G, C>(forces, &group, &points, &starts).map_err(at)?);
-        }
-        Ok((laws, steep))
-    }
-
-    /// The laws that are left to the whole step where a potential breaks the symmetry.
-    fn kicked<G: Group, C: Chart<G>>(
-        &self,
-        forces: &Forces,
-        group: &G,
-        points: &[Phase<G>],
-        starts: &[Phase<G>],
-    ) -> Result<Vec<Law>, StepError> {
-        let make = |h| forces.step::<G, C>(&self.system.integrator, group, h);
-        let (there, back) = (make(self.trial.step)?, make(-self.trial.step)?);
-        let (mut symplectic, mut symmetric) = (None, 0.0_f64);
-        for point in points {
-            let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0))?;
-            symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
-            let mut state = point.clone();
-            there(&mut state, 0.0)?;
-            back(&mut state, self.trial.step)?;
-            let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
-            symmetric = worse(symmetric, difference);
-        }
-        let law = |name, statement, value: f64, bound: f64| Law {
-            name,
-            statement,
-            value,
-            bound,
-            pass: value <= bound,
+fn laws_of<G: Group, C: Chart<G>>(
+    system: &Derived,
+    trial: &Trial,
+    group: G,
+) -> Result<(Vec<Law>, Option<f64>), RunError> {
+    let (integrator, h) = (&system.integrator, trial.step);
+    let mut random = ChaCha8Rng::seed_from_u64(trial.seed);
+    let mut phase = || random_phase(&group, trial, &mut random);
+    let points: Vec<_> = (0..trial.points).map(|_| phase()).collect();
+    let starts = [(); STARTS].map(|()| phase());
+    let at = |source| RunError::Step { time: 0.0, source };
+    let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
+    let there = make(h).map_err(at)?;
+    let steepness = Steepness::new(&there);
+    let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
+    let ratio = Some(ratios.fold(0.0, worse)).filter(|ratio| *ratio > STEEP);
+    let back = make(-h).map_err(at)?;
+    let tried = laws::check(&there, Some(&back), &points).map_err(|error| {
+        let works = |step: &Interpreter<'_, G, C>| {
+            points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
         };
-        let mut result = Vec::new();
-        if let Some(value) = symplectic {
-            result.push(law("symplectic+V", "flows and kicks: Φ*ω = ω on T*G", value, 1e-9));
-        }
-        let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
-        result.push(law("symmetric+V", statement, symmetric, 1e-11));
-        let expected = forces.order().min(self.system.integrator.order() as u32);
-        let order =
-            order::measure(self.trial.step, expected.into(), group, starts, |h, steps, state| {
-                let step = make(h)?;
-                (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
-            });
-        let statement = "flows and kicks: that of the splitting";
-        result.push(Law { name: "order+V", statement, ..order });
-        Ok(result)
+        at(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
+    })?;
+    let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
+        let law = tried.iter().find(|law| law.name == known)?;
+        let (value, bound, pass) = (law.value, law.bound, law.pass());
+        Some(Law { name, statement, value, bound, pass })
+    });
+    let mut laws: Vec<Law> = printed.collect();
+    let expected = integrator.order() as f64;
+    laws.push(order::measure(h, expected, &group, &starts, |h, steps, state| {
+        let map = make(h)?;
+        (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
+    }));
+    if let Some(forces) = &system.forces {
+        let make = |h| forces.step::<G, C>(integrator, &group, h);
+        let expected = forces.order().min(integrator.order() as u32);
+        laws.extend(kicked(h, make, expected.into(), &group, (&points, &starts)).map_err(at)?);
     }
+    Ok((laws, ratio))
+}
+
+/// The laws that are left to the whole step where a potential breaks the symmetry.
+fn kicked<'a, G: Group>(
+    h: f64,
+    make: impl Fn(f64) -> Result<Step<'a, G>, StepError>,
+    expected: f64,
+    group: &G,
+    (points, starts): (&[Phase<G>], &[Phase<G>]),
+) -> Result<Vec<Law>, StepError> {
+    let (there, back) = (make(h)?, make(-h)?);
+    let (mut symplectic, mut symmetric) = (None, 0.0_f64);
+    for point in points {
+        let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0))?;
+        symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
+        let mut state = point.clone();
+        there(&mut state, 0.0)?;
+        back(&mut state, h)?;
+        let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
+        symmetric = worse(symmetric, difference);
+    }
+    let law = |name, statement, value: f64, bound: f64| {
+        let pass = value <= bound;
+        Law { name, statement, value, bound, pass }
+    };
+    let statement = "flows and kicks: Φ*ω = ω on T*G";
+    let symplectic = symplectic.map(|value| law("symplectic+V", statement, value, 1e-9));
+    let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
+    let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
+    let order = order::measure(h, expected, group, starts, |h, steps, state| {
+        let step = make(h)?;
+        (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
+    });
+    let statement = "flows and kicks: that of the splitting";
+    let order = Law { name: "order+V", statement, ..order };
+    Ok(symplectic.into_iter().chain([symmetric, order]).collect())
 }
 
 /// The larger; NaN stays.

@@ -14,7 +14,7 @@ pub use card::{card, device_text};
 pub use compiled::{Compiled, Kept, Numbers};
 pub use group::{cayley_group, product_group, whole_group};
 pub use interpreter::Interpreter;
-pub use kick::{Forces, Torque};
+pub use kick::{Forces, Step, Torque};
 pub use restore::{Restore, entries_of, phase_of};
 pub use steep::{STEEP, Steepness};
 

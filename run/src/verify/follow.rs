@@ -203,7 +203,7 @@ impl<'a> Follower<'a> {
         found: &mut Found,
     ) {
         if self.sample.is_some_and(|sample| !sample.holds(number)) {
-            found.left_out += 1;
+            *found.not_sampled.get_or_insert(0) += 1;
             return;
         }
         let made = found.steps;
@@ -246,7 +246,7 @@ impl<'a> Follower<'a> {
                 .then(|| format!("{place}: the {what} is off by {deviation:.2e} times its bound"))
         };
         let wrong = compare(&mut found.momentum, "momentum", momentum);
-        let other = element.and_then(|g| compare(&mut found.element, "group element", g));
+        let other = element.and_then(|g| compare(&mut found.group_element, "group element", g));
         wrong.into_iter().chain(other).for_each(|what| found.blame(what));
     }
 
@@ -275,7 +275,7 @@ impl<'a> Follower<'a> {
             None if g.iter().chain(next).any(|x| x.abs() > LONG) => {}
             None => found.blame(format!("{place}: the group element has no inverse")),
             Some(drift) => {
-                found.spatial = maximum(found.spatial, drift);
+                found.spatial_momentum = maximum(found.spatial_momentum, drift);
                 if !(drift <= most) {
                     found.blame(format!("{place}: the spatial momentum drifts by {drift:.2e}"));
                 }

@@ -1,0 +1,77 @@
+//! `coadjoint check`: the laws of the method, tried on this system at random points.
+
+use coadjoint_codegen::system::Parameters;
+use coadjoint_run::Derived;
+use coadjoint_run::check::{Law, Trial, check, steep};
+use serde_json::{Value, json};
+
+use crate::arguments::CheckOptions;
+use crate::error::CliError;
+use crate::load;
+use crate::named::Format;
+
+/// Tries all laws, prints them, and fails if one does not hold.
+pub fn run(options: &CheckOptions) -> Result<(), CliError> {
+    let path = &options.source.file;
+    let (system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
+    let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;
+    let system = Derived::of_file(path, system)?;
+    let (laws, ratio) = check(&system, &trial)?;
+    if let Some(ratio) = ratio {
+        eprintln!("warning: {}", steep(ratio));
+    }
+    let problem = &system.integrator.problem;
+    let (name, group) = (&problem.name, problem.algebra.name());
+    let (chart, truncation) = (problem.chart, problem.truncation);
+    let Trial { step, points, seed, .. } = trial;
+    if options.format == Format::Json {
+        let object = json!({
+            "system": name,
+            "group": group,
+            "chart": chart.to_string(),
+            "truncation": truncation,
+            "step": step,
+            "points": points,
+            "about": trial.about,
+            "laws": laws.iter().map(object).collect::<Value>(),
+            "warnings": ratio.iter().map(|&ratio| json!({
+                "kind": "series_ratio",
+                "ratio": ratio,
+                "text": steep(ratio),
+            })).collect::<Value>(),
+        });
+        outln!("{object:#}");
+    } else {
+        let place = trial.place();
+        outln!(
+            "{name}: group {group}, chart {chart}, K = {truncation}, h = {step}, {points} random points {place} (seed {seed})"
+        );
+        ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
+        laws.iter().for_each(|law| outln!("  {}", line(law)));
+    }
+    let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(CliError::Laws(format!("these laws do not hold: {}", failed.join(", "))))
+}
+
+fn object(law: &Law) -> Value {
+    let mut object = json!({ "name": law.name, "bound": law.bound, "pass": law.pass });
+    // JSON has no infinity: an order beyond measure, or a value that is no number, has no key.
+    if law.value.is_finite() {
+        object["value"] = json!(law.value);
+    }
+    object
+}
+
+fn line(law: &Law) -> String {
+    let (relation, value, bound) = if law.name.starts_with("order") {
+        (">=", format!("{:.2}", law.value), format!("{:.1}", law.bound))
+    } else {
+        ("<=", format!("{:.1e}", law.value), format!("{:.0e}", law.bound))
+    };
+    let verdict = if law.pass { "holds" } else { "FAILS" };
+    let (name, statement) = (law.name, law.statement);
+    format!("{name:<12} {value:>8} {relation} {bound:<6} {verdict}   {statement}")
+}
