@@ -174,7 +174,8 @@ pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
     let last = coefficients.last_orders(truncation).map(|(number, order, base)| {
         (parts[number], order, coefficients.monomials()[base].as_slice())
     });
-    let radius = coadjoint::plumbing::radius_of(truncation, last);
+    let factors = integrator.problem.algebra.factor_of_coordinates();
+    let radius = coadjoint::plumbing::radius_of(truncation, &factors, last);
     step.slots(&coefficients.slots_of_parts(&parts), radius)
 }
 

@@ -30,6 +30,8 @@ pub struct Table {
     pub slots: &'static [(u32, u32)],
     /// The monomials of the series S₁ + … + S_K, S_k having the power k of h; its bases are the first.
     pub monomials: &'static [Monomial],
+    /// The direct factor of the group that each coordinate belongs to, ascending from 0.
+    pub factors: &'static [u32],
 }
 
 /// The parts for one step size and parameter set. No power of h reaches `POWERS`, no
@@ -136,7 +138,7 @@ pub fn last_terms<T: Scalar, const PARTS: usize, const LAST: usize>(
 
 /// The numbers of the parts of S_K and S_{K−2}, and the order of each.
 #[inline(always)]
-fn last_orders(table: &Table, truncation: usize) -> impl Iterator<Item = (usize, usize)> {
+fn last_orders(table: &Table, truncation: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     let end = table.monomials.len().checked_sub(1).and_then(|last| table.bases.get(last));
     let parts = table.parts.get(..end.map_or(0, |&end| end as usize)).unwrap_or(&[]);
     let orders = parts.iter().map(|&(power, _)| usize::from(power)).enumerate();
@@ -149,7 +151,7 @@ fn of_last<'a, T: Scalar>(
     table: &'a Table,
     last: &'a [T],
     truncation: usize,
-) -> impl Iterator<Item = (T, usize, Monomial)> + 'a {
+) -> impl Iterator<Item = (T, usize, Monomial)> + Clone + 'a {
     let numbers = last_orders(table, truncation).zip(last);
     let mut base = 0;
     numbers.filter_map(move |((number, order), &value)| {
@@ -162,7 +164,7 @@ fn of_last<'a, T: Scalar>(
 
 /// [`GeneratingFunction::radius`](crate::GeneratingFunction::radius) of a table's series.
 pub fn radius<T: Scalar>(table: &Table, last: &[T], truncation: usize) -> T {
-    crate::generating::series::radius(truncation, of_last(table, last, truncation))
+    crate::generating::series::radius(truncation, table.factors, of_last(table, last, truncation))
 }
 
 /// [`GeneratingFunction::series_ratio`](crate::GeneratingFunction::series_ratio) of a table's series.
@@ -175,7 +177,8 @@ pub fn series_ratio<T: Scalar, const N: usize>(
     truncation: usize,
     p: &[T; N],
 ) -> T {
-    crate::generating::series::ratio(truncation, of_last(table, last, truncation), |i| {
+    let (terms, mut sums) = (of_last(table, last, truncation), [[T::of(0.0); 2]; N]);
+    crate::generating::series::ratio(truncation, table.factors, terms, &mut sums, |i| {
         p.get(i).copied().unwrap_or(T::of(0.0))
     })
 }

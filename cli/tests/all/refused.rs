@@ -67,6 +67,45 @@ fn a_cayley_step_of_thirty_is_refused() {
     assert!(error.contains("at time 0, step 1: ") && error.contains("; a step of "), "{error}");
 }
 
+/// A body whose step is refused alone is refused beside seven slow ones that do not touch it, and says why.
+#[test]
+fn idle_factors_do_not_hide_a_fast_one() {
+    let directory = TempDir::new().unwrap();
+    let fast = "-0.45927998697067629,-24.812225295827826,1.8406638635157002";
+    let slow = ",0.45,3.75,3".repeat(7);
+    for (copies, momenta) in [(1, fast.to_owned()), (8, format!("{fast}{slow}"))] {
+        let system = file(
+            &directory,
+            &format!(
+                "group = \"SO3^{copies}\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \
+                 \"sum(i, 0..{copies}, x[i]^2/2 + y[i]^2/18 + z[i]^2/20)\"\n[integrator]\ntruncation = 5\n\
+                 step = 1\nsolver = \"newton\"\n"
+            ),
+        );
+        let [states, ends] = ["states.csv", "ends.csv"].map(|name| directory.path().join(name));
+        let names: Vec<String> = (1..=3 * copies).map(|i| format!("mu_{i}")).collect();
+        std::fs::write(&states, format!("{}\n{momenta}\n", names.join(","))).unwrap();
+        let [states, ends] = [&states, &ends].map(|path| path.to_str().unwrap());
+        let (_, _, error) = run(&[
+            "ensemble",
+            &system,
+            "--initial",
+            states,
+            "--out",
+            ends,
+            "--step",
+            "1",
+            "--time",
+            "1",
+        ]);
+        let list = std::fs::read_to_string(format!("{ends}.rejected.csv")).unwrap();
+        assert!(
+            list.contains("the series means nothing for so long a step"),
+            "{copies}: {list}{error}"
+        );
+    }
+}
+
 /// Random steps of the same system: with a momentum the run is refused, or its Casimirs are kept.
 #[test]
 fn random_starts_are_refused_or_keep_their_casimirs() {

@@ -55,8 +55,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let last = Literal::usize_unsuffixed(last);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, options, "mu", count);
-    let table =
-        table_item(krate, &integrator.coefficients, &Products::of(&integrator.coefficients));
+    let products = Products::of(&integrator.coefficients);
+    let algebra = &integrator.problem.algebra;
+    let table = table_item(krate, &integrator.coefficients, &products, algebra);
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     let allow = allow();

@@ -32,7 +32,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let all = Products::of(&kick.coefficients);
     let Sizes { powers, products, parts, bases } = Sizes::of(&kick.coefficients, &all);
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
-    let table = table_item(krate, &kick.coefficients, &all);
+    let table = table_item(krate, &kick.coefficients, &all, &potential.algebra);
 
     let count = kick.coefficients.slots().len();
     let energy = scalar_function(&kick.energy, options, "g", count);

@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::number::float;
 use crate::integrator::{Coefficients, Products};
+use crate::lie::LieAlgebra;
 
 /// The sizes of a table, as the literals that generic functions want.
 pub struct Sizes {
@@ -34,9 +35,14 @@ impl Sizes {
 }
 
 /// The static `TABLE`, a `coadjoint::plumbing::Table` holding `coefficients`, whose symbols make
-/// these products.
+/// these products; `algebra` tells the factor of each coordinate.
 #[must_use]
-pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Products) -> TokenStream {
+pub fn table_item(
+    krate: &TokenStream,
+    coefficients: &Coefficients,
+    all: &Products,
+    algebra: &LieAlgebra,
+) -> TokenStream {
     let pair = |&(of, symbol): &(usize, usize)| {
         let (of, symbol) = (Literal::usize_unsuffixed(of), Literal::usize_unsuffixed(symbol));
         quote!((#of, #symbol))
@@ -65,6 +71,7 @@ pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Produc
         quote!((#base, #scale))
     });
     let monomials = coefficients.monomials().iter().map(|factors| monomial(factors));
+    let factors = algebra.factor_of_coordinates().into_iter().map(Literal::u32_unsuffixed);
     quote! {
         /// All coefficients as data. A base is Σ h^power Σ factor · product, a slot `c[i]` a base
         /// times an integer.
@@ -82,6 +89,8 @@ pub fn table_item(krate: &TokenStream, coefficients: &Coefficients, all: &Produc
             /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
             /// first bases.
             monomials: &[#(#monomials),*],
+            /// The direct factor of the group that each coordinate belongs to.
+            factors: &[#(#factors),*],
         };
     }
 }

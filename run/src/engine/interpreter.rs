@@ -39,7 +39,7 @@ fn fold_parts(integrator: &Integrator, step: f64) -> Result<Vec<f64>, StepError>
 pub(super) fn of_last<'a>(
     integrator: &'a Integrator,
     last: &'a [f64],
-) -> impl Iterator<Item = (f64, usize, &'a [(u32, u32)])> {
+) -> impl Iterator<Item = (f64, usize, &'a [(u32, u32)])> + Clone {
     let coefficients = &integrator.coefficients;
     coefficients
         .last_orders(integrator.problem.truncation)
@@ -54,9 +54,10 @@ pub struct Interpreter<'a, G, C> {
     pub(super) group: G,
     /// The folded coefficients C_m(h).
     pub(super) slots: Vec<f64>,
-    /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is at most ½ in
-    /// every direction.
+    /// The coefficients of the last two terms of the series, the direct factor of each coordinate, and the |μ| of each up
+    /// to which their ratio is at most ½ in every direction.
     pub(super) last: Vec<f64>,
+    pub(super) factors: Vec<u32>,
     pub(super) radius: f64,
     pub(super) chart: PhantomData<C>,
 }
@@ -69,9 +70,10 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
         let truncation = integrator.problem.truncation;
         let last: Vec<f64> =
             coefficients.last_orders(truncation).map(|(number, ..)| parts[number]).collect();
-        let radius = plumbing::radius_of(truncation, of_last(integrator, &last));
+        let factors = integrator.problem.algebra.factor_of_coordinates();
+        let radius = plumbing::radius_of(truncation, &factors, of_last(integrator, &last));
         let slots = coefficients.slots_of_parts(&parts);
-        Ok(Self { integrator, group, slots, last, radius, chart: PhantomData })
+        Ok(Self { integrator, group, slots, last, factors, radius, chart: PhantomData })
     }
 
     /// Evaluates a program and hands its outputs to `read`.
@@ -163,7 +165,9 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
         let terms = of_last(self.integrator, &self.last);
         let terms = terms.map(|(value, order, monomial)| (Scalar::of(value), order, monomial));
-        plumbing::ratio_of(self.integrator.problem.truncation, terms, |i| p[i])
+        let mut sums = vec![[Scalar::of(0.0); 2]; self.factors.len()];
+        let truncation = self.integrator.problem.truncation;
+        plumbing::ratio_of(truncation, &self.factors, terms, &mut sums, |i| p[i])
     }
 }
 

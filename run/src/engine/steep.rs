@@ -23,7 +23,7 @@ impl<'s, 'a, G: LieGroup<Scalar = f64>, C: Chart<G>> Steepness<'s, Interpreter<'
         let doubled = of_last(step.integrator, &step.last).map(|(value, order, monomial)| {
             (if order == truncation { 2.0 * value } else { value }, order, monomial)
         });
-        Self { step, quiet: plumbing::radius_of(truncation, doubled) }
+        Self { step, quiet: plumbing::radius_of(truncation, &step.factors, doubled) }
     }
 
     /// The ratio at p; 0 where it is known to be at most [`STEEP`] and p need not be looked at.

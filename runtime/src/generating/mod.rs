@@ -68,8 +68,8 @@ pub trait GeneratingFunction {
         None
     }
 
-    /// The Euclidean norm of μ up to which [`GeneratingFunction::series_ratio`] is at most ½ in every
-    /// direction; larger momenta are judged one by one. Unbounded where S is no truncated series.
+    /// The Euclidean norm of μ, in each direct factor of the group, up to which [`GeneratingFunction::series_ratio`] is at
+    /// most ½ in every direction; larger momenta are judged one by one. Unbounded where S is no truncated series.
     #[inline(always)]
     fn radius(&self) -> ScalarOf<Self> {
         Scalar::of(f64::MAX)
@@ -83,8 +83,8 @@ pub trait GeneratingFunction {
     }
 
     /// Where S is a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by
-    /// the sum of the absolute values of all monomials of its gradient. Steps are refused above ½, where the
-    /// series has stopped to mean something. Zero for any other S.
+    /// the sum of the absolute values of all monomials of its gradient, in the direct factor of the group where it is
+    /// largest. Steps are refused above ½, where the series has stopped to mean something. Zero for any other S.
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
         let _ = p;
         Scalar::of(0.0)

@@ -48,7 +48,9 @@ struct TruncatedSeries {
     truncation: usize,
     /// The terms of S_K and S_{K−2} as (coefficient, order, monomial).
     last: Vec<Term>,
-    /// Up to which |p| their ratio is at most ½ in every direction.
+    /// The direct factor of the group that each coordinate belongs to.
+    factors: Vec<u32>,
+    /// Up to which |p| of each factor their ratio is at most ½ in every direction.
     radius: f64,
 }
 
@@ -111,9 +113,10 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
                 (*c, *order, factors.collect())
             })
             .collect();
+        let factors = factor_of_coordinates(&group);
         let function = Self::new(group, chart, terms.into_iter().map(|(_, c, f)| (c, f)))?;
-        let radius = series::radius(truncation, by_reference(&last));
-        Ok(Self { series: Some(TruncatedSeries { truncation, last, radius }), ..function })
+        let radius = series::radius(truncation, &factors, by_reference(&last));
+        Ok(Self { series: Some(TruncatedSeries { truncation, last, factors, radius }), ..function })
     }
 
     fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {
@@ -127,8 +130,35 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
 }
 
 /// Terms as the functions of a series read them.
-fn by_reference(last: &[Term]) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> {
+fn by_reference(last: &[Term]) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> + Clone {
     last.iter().map(|(c, order, monomial)| (*c, *order, monomial.as_slice()))
+}
+
+/// The number of the direct factor that each coordinate belongs to, ascending from 0: consecutive coordinates belong to one
+/// where a bracket leads across.
+fn factor_of_coordinates<G: LieGroup>(group: &G) -> Vec<u32> {
+    let dim = group.dim();
+    let one = |i| {
+        let entry = |j| G::Scalar::of(if i == j { 1.0 } else { 0.0 });
+        G::Vector::from_entries(dim, entry)
+    };
+    let mut begins = alloc::vec![true; dim];
+    for i in 0..dim {
+        for j in i + 1..dim {
+            let bracket = group.bracket(&one(i), &one(j));
+            let reached = (0..dim).filter(|&k| bracket[k].largest_lane() != 0.0);
+            let (first, last) = reached.fold((dim, 0), |(a, b), k| (a.min(k), b.max(k)));
+            if first < dim {
+                begins[first.min(i) + 1..=last.max(j)].fill(false);
+            }
+        }
+    }
+    let mut factor = 0;
+    let count = |(i, begins): (usize, bool)| {
+        factor += u32::from(begins && i > 0);
+        factor
+    };
+    begins.into_iter().enumerate().map(count).collect()
 }
 
 /// p^power
@@ -181,11 +211,12 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        let Some(TruncatedSeries { truncation, last, .. }) = &self.series else {
+        let Some(TruncatedSeries { truncation, last, factors, .. }) = &self.series else {
             return Scalar::of(0.0);
         };
         let terms = by_reference(last).map(|(c, order, monomial)| (Scalar::of(c), order, monomial));
-        series::ratio(*truncation, terms, |i| p[i])
+        let mut sums = alloc::vec![[Scalar::of(0.0); 2]; factors.len()];
+        series::ratio(*truncation, factors, terms, &mut sums, |i| p[i])
     }
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {

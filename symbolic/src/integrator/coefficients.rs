@@ -81,7 +81,9 @@ impl Coefficients {
     }
 
     /// For each base its parts: the summands of one power of h.
-    pub fn parts(&self) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]>> {
+    pub fn parts(
+        &self,
+    ) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]> + Clone> + Clone {
         self.bases.iter().map(|base| base.chunk_by(|a, b| a.step_power == b.step_power))
     }
 
@@ -100,7 +102,10 @@ impl Coefficients {
     }
 
     /// The numbers of these parts, each with its order and the number of its monomial.
-    pub fn last_orders(&self, truncation: usize) -> impl Iterator<Item = (usize, usize, usize)> {
+    pub fn last_orders(
+        &self,
+        truncation: usize,
+    ) -> impl Iterator<Item = (usize, usize, usize)> + Clone {
         let parts = self.parts().enumerate().take(self.series());
         let orders = parts.flat_map(|(base, parts)| {
             parts.map(move |part| (base, part.first().map_or(0, |term| term.step_power as usize)))

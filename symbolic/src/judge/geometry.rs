@@ -37,6 +37,8 @@ fn exact(value: &Rational) -> DoubleDouble {
 #[derive(Clone, Debug)]
 pub(super) struct Geometry {
     pub(super) dim: usize,
+    /// The direct factor of each coordinate, ascending from 0.
+    pub(super) factors: Vec<usize>,
     pub(super) chart: Chart,
     /// \[e_i, e_j\] contains c·e_k.
     structure: Vec<Entry<3>>,
@@ -104,6 +106,7 @@ impl Geometry {
         let place_of = place_of.collect();
         let mut geometry = Self {
             dim,
+            factors: algebra.factor_of_coordinates().iter().map(|&f| f as usize).collect(),
             chart,
             places,
             place_of,

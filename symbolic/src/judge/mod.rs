@@ -79,7 +79,7 @@ impl Judge {
     pub fn new(algebra: &LieAlgebra, series: &GeneratingSeries) -> Result<Self, JudgeError> {
         let geometry = Geometry::new(algebra, series.chart())?;
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
-        let series = Series::new(algebra.dim(), orders);
+        let series = Series::new(&geometry.factors, orders);
         Ok(Self { geometry, series, frame: Vec::new() })
     }
 
@@ -108,7 +108,7 @@ impl Judge {
         terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
     ) -> Result<Self, JudgeError> {
         let geometry = Geometry::new(algebra, chart)?;
-        let mut series = Series::from_terms(algebra.dim(), terms)?;
+        let mut series = Series::from_terms(&geometry.factors, terms)?;
         series.step_is_counted();
         Ok(Self { geometry, series, frame: Vec::new() })
     }
@@ -116,8 +116,8 @@ impl Judge {
     /// The same where S generates the motion in a comoving frame, whose own motion follows each step.
     #[must_use]
     pub fn with_frame(mut self, frame: &Frame) -> Self {
-        let dim = self.geometry.dim;
-        self.frame = frame.parts().map(|part| Series::new(dim, [(1, part)])).collect();
+        let factors = &self.geometry.factors;
+        self.frame = frame.parts().map(|part| Series::new(factors, [(1, part)])).collect();
         self
     }
 

@@ -32,9 +32,14 @@ pub(super) struct Plan {
     products: Vec<(usize, usize)>,
     first: Vec<First>,
     second: Vec<Second>,
-    /// The degree of each monomial, and a bound on its gradient on the unit sphere: D Π (mᵢ/D)^{mᵢ/2}
-    /// (O. Kellogg, Math. Z. 27 (1928) 55).
-    bounds: Vec<(u32, f64)>,
+    /// The degree of each monomial.
+    degrees: Vec<u32>,
+    /// For each monomial, and each direct factor of the group that it has coordinates of: a bound on the gradient in these
+    /// where |p| of every factor is one, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part in factor g being
+    /// Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
+    bounds: Vec<Vec<(usize, f64)>>,
+    /// The direct factor of each coordinate.
+    factors: Vec<usize>,
 }
 
 type Factors = Vec<(usize, u32)>;
@@ -46,8 +51,8 @@ fn without(factors: &[(usize, u32)], i: usize) -> Factors {
 }
 
 impl Plan {
-    pub(super) fn new(dim: usize, monomials: &[Factors]) -> Self {
-        let mut plan = Self { dim, ..Self::default() };
+    pub(super) fn new(factors: &[usize], monomials: &[Factors]) -> Self {
+        let mut plan = Self { dim: factors.len(), factors: factors.to_vec(), ..Self::default() };
         let mut known = BTreeMap::new();
         for (monomial, factors) in monomials.iter().enumerate() {
             for (at, &(i, a)) in factors.iter().enumerate() {
@@ -63,12 +68,16 @@ impl Plan {
                     }
                 }
             }
-            let degree = factors.iter().map(|f| f.1).sum::<u32>();
-            let share = |&(_, m): &(usize, u32)| {
-                (f64::from(m) / f64::from(degree)).powf(0.5 * f64::from(m))
+            let mut degrees: BTreeMap<usize, u32> = BTreeMap::new();
+            factors.iter().for_each(|&(i, m)| *degrees.entry(plan.factors[i]).or_insert(0) += m);
+            let share = |&(i, m): &(usize, u32)| {
+                let degree = f64::from(degrees[&plan.factors[i]]);
+                (f64::from(m) / degree).powf(0.5 * f64::from(m))
             };
             let highest: f64 = factors.iter().map(share).product();
-            plan.bounds.push((degree, f64::from(degree) * highest));
+            let bounds = degrees.iter().map(|(&own, &degree)| (own, f64::from(degree) * highest));
+            plan.bounds.push(bounds.collect());
+            plan.degrees.push(factors.iter().map(|f| f.1).sum());
         }
         plan
     }
@@ -127,16 +136,16 @@ impl Plan {
     pub(super) fn growth(&self, size: &[f64]) -> Vec<(u32, f64, f64)> {
         let n = self.dim;
         let mut by_degree: BTreeMap<u32, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
-        for &(degree, _) in &self.bounds {
+        for &degree in &self.degrees {
             by_degree.entry(degree).or_insert_with(|| (vec![0.0; n], vec![0.0; n * n]));
         }
         for first in &self.first {
-            if let Some((gradient, _)) = by_degree.get_mut(&self.bounds[first.monomial].0) {
+            if let Some((gradient, _)) = by_degree.get_mut(&self.degrees[first.monomial]) {
                 gradient[first.i] += size[first.monomial] * first.power;
             }
         }
         for &Second { monomial, i, j, powers, .. } in &self.second {
-            if let Some((_, hessian)) = by_degree.get_mut(&self.bounds[monomial].0) {
+            if let Some((_, hessian)) = by_degree.get_mut(&self.degrees[monomial]) {
                 hessian[i * n + j] += size[monomial] * powers;
                 if i != j {
                     hessian[j * n + i] += size[monomial] * powers;
@@ -150,35 +159,44 @@ impl Plan {
     pub(super) fn part(&self, coefficients: &[f64]) -> Part {
         let entries = self.first.iter().filter(|first| coefficients[first.monomial] != 0.0);
         let entries = entries
-            .map(|first| (first.product, coefficients[first.monomial].abs() * first.power))
+            .map(|first| {
+                let size = coefficients[first.monomial].abs() * first.power;
+                (self.factors[first.i], first.product, size)
+            })
             .collect();
-        let mut degrees: BTreeMap<u32, f64> = BTreeMap::new();
-        for (&(degree, bound), c) in self.bounds.iter().zip(coefficients) {
-            if degree > 0 && *c != 0.0 {
-                *degrees.entry(degree - 1).or_insert(0.0) += bound * c.abs();
+        let mut bounds: BTreeMap<(usize, u32), f64> = BTreeMap::new();
+        for ((own, &degree), c) in self.bounds.iter().zip(&self.degrees).zip(coefficients) {
+            for &(factor, bound) in own.iter().filter(|_| *c != 0.0) {
+                *bounds.entry((factor, degree - 1)).or_insert(0.0) += bound * c.abs();
             }
         }
-        Part { entries, degrees: degrees.into_iter().collect() }
+        let factors = self.factors.last().map_or(0, |last| last + 1);
+        Part { factors, entries, bounds: bounds.into_iter().collect() }
     }
 }
 
-/// The sizes of the terms of a gradient.
+/// The sizes of the terms of a gradient, by the direct factors of the group.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
-    /// Products and what they are multiplied by.
-    entries: Vec<(usize, f64)>,
-    /// Powers of |p|, and Kellogg's bound for them.
-    degrees: Vec<(u32, f64)>,
+    factors: usize,
+    /// Factors, products, and what these are multiplied by.
+    entries: Vec<(usize, usize, f64)>,
+    /// Factors and powers of |p|, and Kellogg's bound for them.
+    bounds: Vec<((usize, u32), f64)>,
 }
 
 impl Part {
-    /// The sum of the absolute values of all terms, given the products at |p|.
-    pub(super) fn at(&self, products: &[f64]) -> f64 {
-        self.entries.iter().map(|&(product, c)| c * products[product]).sum()
+    /// The sum of the absolute values of all terms of each factor, given the products at |p|.
+    pub(super) fn at(&self, products: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.factors];
+        self.entries.iter().for_each(|&(f, product, c)| sums[f] += c * products[product]);
+        sums
     }
 
-    /// A bound on the gradient in every direction at |p| = r.
-    pub(super) fn anywhere(&self, r: f64) -> f64 {
-        self.degrees.iter().map(|&(power, bound)| bound * r.powi(power as i32)).sum()
+    /// A bound on the gradient of each factor in every direction, |p| of all factors being r.
+    pub(super) fn anywhere(&self, r: f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.factors];
+        self.bounds.iter().for_each(|&((f, power), bound)| sums[f] += bound * r.powi(power as i32));
+        sums
     }
 }

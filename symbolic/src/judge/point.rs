@@ -1,7 +1,7 @@
 //! One x of a step, with what judging it needs more than once.
 
 use super::branch::RightSolution;
-use super::series::norm;
+use super::series::{maximum, norm};
 use super::step::Step;
 use super::{Branch, DoubleDouble, JudgeError};
 
@@ -12,9 +12,9 @@ pub struct Point<'a> {
     x: &'a [f64],
     p: Vec<f64>,
     defect: Vec<f64>,
-    /// The sums of the absolute values of the terms of ∂S at p̂, and those of its last two orders.
+    /// The sums of the absolute values of the terms of ∂S at p̂, and those of its last two orders by direct factors.
     terms: Vec<f64>,
-    last_two: [f64; 2],
+    last_two: [Vec<f64>; 2],
 }
 
 /// |x − ∂S(p̂)| and its bound.
@@ -57,9 +57,10 @@ impl<'a> Point<'a> {
         Residual { residual: norm(&self.defect), bound }
     }
 
-    /// The ratio of the last two terms of the series: at p̂, of the sums of the absolute values of all monomials of
-    /// their gradients; or of the bounds on these for all momenta as long as μ, if that is less. Terms below rounding of
-    /// a scalar of this unit roundoff do not count. `None` where the series has one term.
+    /// The ratio of the last two terms of the series in the direct factor of the group where it is largest: at p̂, of the
+    /// sums of the absolute values of all monomials of their gradients; or of the bounds on these for all momenta as long
+    /// as the longest part of μ in a factor, if that is less. Terms below rounding of a scalar of this unit roundoff do
+    /// not count. `None` where the series has one term.
     #[must_use]
     pub fn series_ratio(&self, unit: f64) -> Option<f64> {
         let series = &self.step.folded.series;
@@ -69,12 +70,15 @@ impl<'a> Point<'a> {
         // Nothing to compare with is no ratio, and a term below rounding of coordinates of order one is what cancels
         // (in a spherical body, say).
         let negligible = 32.0 * unit;
-        let ratio = |[last, before]: [f64; 2]| {
-            let compares = before > 0.0 && !(last <= negligible);
-            if compares { last / before } else { 0.0 * last }
+        let ratio = |[last, before]: &[Vec<f64>; 2]| {
+            let ratios = last.iter().zip(before).map(|(&last, &before)| {
+                let compares = before > 0.0 && !(last <= negligible);
+                if compares { last / before } else { 0.0 * last }
+            });
+            ratios.fold(0.0, |a: f64, b| if b.is_nan() { b } else { maximum(a, b) })
         };
-        let anywhere = series.last_two_anywhere(norm(&self.step.double));
-        Some(ratio(self.last_two).min(ratio(anywhere)))
+        let anywhere = series.last_two_anywhere(self.step.largest_factor());
+        Some(ratio(&self.last_two).min(ratio(&anywhere)))
     }
 
     /// Whether x is the right solution, and that solution: the exact one next to x.

@@ -25,7 +25,8 @@ pub(super) struct Term {
 /// S = Σ t^k S_k(p), ready for a step size.
 #[derive(Clone, Debug)]
 pub(super) struct Series {
-    pub(super) dim: usize,
+    /// The direct factor of each coordinate.
+    factors: Vec<usize>,
     pub(super) monomials: Vec<Vec<(usize, u32)>>,
     pub(super) terms: Vec<Term>,
     /// How they are evaluated; none before all terms are known.
@@ -37,18 +38,20 @@ pub(super) struct Series {
 }
 
 impl Series {
-    fn empty(dim: usize) -> Self {
+    fn empty(factors: &[usize]) -> Self {
         let (monomials, terms, plan) = (Vec::new(), Vec::new(), Arc::default());
-        Self { dim, monomials, terms, plan, last: None, counted: false }
+        Self { factors: factors.to_vec(), monomials, terms, plan, last: None, counted: false }
     }
 
-    /// From the polynomials S₁, S₂, … (any orders), whose variables from `dim` on are symbols.
+    /// From the polynomials S₁, S₂, … (any orders), whose variables beyond the coordinates are symbols; `factors` has the
+    /// direct factor of each coordinate.
     pub(super) fn new<'a>(
-        dim: usize,
+        factors: &[usize],
         orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
     ) -> Self {
+        let dim = factors.len();
         let mut index = BTreeMap::new();
-        let mut result = Self::empty(dim);
+        let mut result = Self::empty(factors);
         let mut known = Vec::new();
         for (order, polynomial) in orders {
             known.push(order);
@@ -66,15 +69,16 @@ impl Series {
 
     /// From terms (order, c, [(coordinate, power), …]) whose coefficients count the step size already.
     pub(super) fn from_terms(
-        dim: usize,
+        factors: &[usize],
         terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
     ) -> Result<Self, JudgeError> {
+        let dim = factors.len();
         let mut index = BTreeMap::new();
-        let mut result = Self::empty(dim);
+        let mut result = Self::empty(factors);
         let mut known = Vec::new();
-        for (order, value, factors) in terms {
+        for (order, value, powers) in terms {
             let mut merged: BTreeMap<usize, u32> = BTreeMap::new();
-            for (i, power) in factors {
+            for (i, power) in powers {
                 if i >= dim {
                     return Err(JudgeError::Coordinate { index: i, dim });
                 }
@@ -108,7 +112,7 @@ impl Series {
 
     /// Once all terms are known, of these orders.
     fn finish(&mut self, mut known: Vec<u32>) {
-        self.plan = Arc::new(Plan::new(self.dim, &self.monomials));
+        self.plan = Arc::new(Plan::new(&self.factors, &self.monomials));
         // S is odd in t.
         known.retain(|order| order % 2 == 1);
         let last = known.iter().max().copied();
@@ -191,16 +195,16 @@ impl Folded {
     }
 
     /// The sums of the absolute values of the terms of ∂S/∂p at |p|, and of all monomials of ∂S_K/∂p and of
-    /// ∂S_{K−2}/∂p.
-    pub(super) fn absolute(&self, p: &[f64]) -> (Vec<f64>, [f64; 2]) {
+    /// ∂S_{K−2}/∂p in each direct factor.
+    pub(super) fn absolute(&self, p: &[f64]) -> (Vec<f64>, [Vec<f64>; 2]) {
         let p: Vec<f64> = p.iter().map(|p| p.abs()).collect();
         let products = self.plan.products(&p);
         let last_two = [&self.last, &self.before].map(|part| part.at(&products));
         (self.plan.first(&self.size, &products), last_two)
     }
 
-    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| in every direction at |p| = r.
-    pub(super) fn last_two_anywhere(&self, r: f64) -> [f64; 2] {
+    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| of each direct factor in every direction, |p| of all factors being r.
+    pub(super) fn last_two_anywhere(&self, r: f64) -> [Vec<f64>; 2] {
         [&self.last, &self.before].map(|part| part.anywhere(r))
     }
 
@@ -222,6 +226,6 @@ pub(super) fn norm(v: &[f64]) -> f64 {
 }
 
 /// The larger of two numbers; NaN where one is, unlike `f64::max`.
-fn maximum(a: f64, b: f64) -> f64 {
+pub(super) fn maximum(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

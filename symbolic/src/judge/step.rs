@@ -107,6 +107,15 @@ impl Step<'_> {
         self.at(x).ok()?.series_ratio(unit)
     }
 
+    /// The length of the longest part of μ in a direct factor of the group.
+    pub(super) fn largest_factor(&self) -> f64 {
+        let parts = self.geometry.factors.chunk_by(|a, b| a == b).scan(0, |start, factor| {
+            *start += factor.len();
+            Some(norm(&self.double[*start - factor.len()..*start]))
+        });
+        parts.fold(0.0, f64::max)
+    }
+
     /// The bound on the residual at x, where p̂ and the terms of ∂S there are known; and ‖Hess S‖ there.
     pub(super) fn bound(&self, x: &[f64], p: &[f64], terms: &[f64], unit: f64) -> (f64, f64) {
         let hessian = self.hessian_norm(p);

@@ -52,6 +52,14 @@ impl LieAlgebra {
             .collect()
     }
 
+    /// The number of the direct factor that each coordinate belongs to, ascending from 0.
+    #[must_use]
+    pub fn factor_of_coordinates(&self) -> Vec<u32> {
+        let starts: Vec<usize> = self.blocks().iter().map(|block| block.element).collect();
+        let factor = |i| starts.partition_point(|&start| start <= i).saturating_sub(1) as u32;
+        (0..self.dim()).map(factor).collect()
+    }
+
     /// Where the factors begin.
     fn blocks(&self) -> Vec<Block> {
         let mut blocks: Vec<Block> = Vec::new();

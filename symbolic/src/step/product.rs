@@ -31,10 +31,10 @@ impl Product {
         factors.map(|(part, (own, element))| Factor { part: part.as_ref(), own, element }).collect()
     }
 
-    /// The coordinates of those factors that have one of these.
-    pub fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<usize> {
+    /// The coordinates of those factors that have one of these, factor by factor.
+    pub fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<Range<usize>> {
         let factors = self.factors().into_iter().map(|factor| factor.own);
-        factors.filter(|own| own.clone().any(|i| coordinates.contains(&i))).flatten().collect()
+        factors.filter(|own| own.clone().any(|i| coordinates.contains(&i))).collect()
     }
 
     /// The rows of a factor's matrices.

@@ -6,7 +6,7 @@ use num_traits::ToPrimitive;
 use super::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::solving::{ROUNDINGS, Scheme, square_of_series, tolerance};
+use super::solving::{ROUNDINGS, Scheme, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
@@ -56,7 +56,6 @@ fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let (tolerance, near) = (tolerance(&mut graph), graph.constant(NEAR));
     let extent = group.extent(&mut graph, &x);
     let one = graph.constant(1.0);
-    let square = square_of_series(&mut graph, integrator, group, &mu);
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     let longest = integrator.problem.longest_turn().unwrap_or(1.0);
@@ -70,7 +69,10 @@ fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
     let extent = graph.mul(extent, share);
-    let tests = [(left, tolerance), (way, near), (extent, one), (square, radius)];
+    let mut tests = vec![(left, tolerance), (way, near), (extent, one)];
+    // A factor of the group that hardly moves must not hide another.
+    let squares = squares_of_series(&mut graph, integrator, group, &mu);
+    tests.extend(squares.into_iter().map(|square| (square, radius)));
     let verdict = all_at_most(&mut graph, &tests);
     graph.finish(2 * n + 2, &[verdict])
 }

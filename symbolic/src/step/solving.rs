@@ -102,17 +102,16 @@ impl Scheme {
     }
 }
 
-/// |μ|², as far as it says how S₃ … S_K converge: without the factors of the group on which they do not depend, such as
-/// the translations of a free body.
-pub fn square_of_series(
+/// |μ|² of each factor of the group on which S₃ … S_K depend: what says how they converge. The translations of a free
+/// body are not among them.
+pub fn squares_of_series(
     graph: &mut Graph,
     integrator: &Integrator,
     group: &Product,
     mu: &[Id],
-) -> Id {
-    let coordinates = group.whole_factors(&integrator.coefficients.beyond_first());
-    let mu: Vec<Id> = coordinates.into_iter().map(|i| mu[i]).collect();
-    dot(graph, &mu, &mu)
+) -> Vec<Id> {
+    let factors = group.whole_factors(&integrator.coefficients.beyond_first());
+    factors.into_iter().map(|own| dot(graph, &mu[own.clone()], &mu[own])).collect()
 }
 
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
@@ -136,7 +135,10 @@ fn start(
     let inverse_scale = graph.div(one, scale);
     let mut bound = graph.zero();
     if bound_len > 0 {
-        let square = square_of_series(graph, integrator, group, mu);
+        let mut square = graph.zero();
+        for own in squares_of_series(graph, integrator, group, mu) {
+            square = graph.add(square, own);
+        }
         let size = graph.sqrt(square);
         for degree in (0..bound_len).rev() {
             let coefficient = graph.slot(base + degree);

@@ -8,7 +8,7 @@ use coadjoint_program::{Node, Program};
 
 use super::dialect::decimal;
 use super::fold_table::Table;
-use super::fold_text::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, SYMBOLS, WITHIN};
+use super::fold_text::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, SYMBOLS, WITHIN};
 use super::names::Names;
 use super::radius::{LastTerm, last_terms};
 use super::{HeaderError, HeaderOptions, parameter};
@@ -124,12 +124,10 @@ impl Fold {
             let _ = writeln!(text, "    double product[{}];", table.products.len() + 1);
         }
         let _ = writeln!(text, "    double power[{}];", table.powers);
-        let degrees = self.degrees();
-        if degrees > 0 {
-            let zeros = "0.0, ".repeat(degrees);
-            let zeros = zeros.trim_end_matches(", ");
-            let _ = writeln!(text, "    double last[{degrees}] = {{{zeros}}};");
-            let _ = writeln!(text, "    double before[{degrees}] = {{{zeros}}};");
+        let places = self.last_places();
+        if places > 0 {
+            let _ = writeln!(text, "    double last[{places}] = {{0.0}};");
+            let _ = writeln!(text, "    double before[{places}] = {{0.0}};");
         }
         let mut next = String::new();
         if !self.bound.is_empty() {
@@ -180,11 +178,17 @@ impl Fold {
         );
         let radius = match self.last.is_empty() {
             true => "    radius = DBL_MAX;\n".to_owned(),
-            false => "    radius = @p@_internal_radius(last, before);\n".to_owned(),
+            false => RADIUS.replace("/*PLACES*/", &format!("{places}u")),
         };
         text.push_str(&END.replace("/*RADIUS*/", &radius));
-        let text = text.replace("/*DEGREES*/", &format!("{degrees}u"));
+        let text = text.replace("/*DEGREES*/", &format!("{}u", self.degrees()));
         names.fill(&text)
+    }
+
+    /// How many coefficients the polynomials have that bound the last terms, of all factors of the group.
+    pub fn last_places(&self) -> usize {
+        let factors = self.last.iter().map(|term| term.factor as usize + 1).max().unwrap_or(0);
+        factors * self.degrees()
     }
 
     /// How many degrees the polynomials have that bound the last terms.

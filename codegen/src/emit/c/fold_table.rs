@@ -67,7 +67,7 @@ impl Table {
     /// The doubles that folding puts on the stack.
     pub fn stack(&self, fold: &Fold) -> usize {
         let products = if self.products.is_empty() { 0 } else { 2 * self.products.len() + 1 };
-        products + self.powers + 2 * fold.degrees() + 16
+        products + self.powers + 2 * fold.last_places() + 16
     }
 
     /// The tables.
@@ -106,7 +106,9 @@ impl Table {
                 fold.last.iter().map(|term| read(term, highest)).collect::<Vec<_>>()
             };
             integers("last_part", &self.last_part, text);
-            integers("last_degree", &of(|term, _| term.degree as usize), text);
+            let degrees = fold.degrees();
+            let place = |term: &LastTerm| term.factor as usize * degrees + term.degree as usize;
+            integers("last_place", &fold.last.iter().map(place).collect::<Vec<_>>(), text);
             integers("last_is_highest", &of(|term, k| usize::from(term.order == k)), text);
             let weights: Vec<f64> = fold.last.iter().map(|term| term.weight).collect();
             numbers("last_weight", &weights, text);

@@ -119,7 +119,7 @@ pub const BOUND: &str =
 pub const LAST: &str =
     "            if ((next_last < /*LASTS*/) && (last_part[next_last] == part)) {
                 const double size = fabs(sum) * last_weight[next_last];
-                i = last_degree[next_last];
+                i = last_place[next_last];
                 if (last_is_highest[next_last] == 1u) {
                     last[i] = last[i] + size;
                 } else {
@@ -151,6 +151,14 @@ pub const LOOP: &str = "    power[0] = 1.0;
             map->c[slot] = value * (double)scale[slot];
         }
 /*BOUND*/    }
+";
+
+/// The smallest radius of a factor of the group.
+pub const RADIUS: &str = "    radius = DBL_MAX;
+    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
+        const double own = @p@_internal_radius(&last[i], &before[i]);
+        radius = (own < radius) ? own : radius;
+    }
 ";
 
 /// The radius, and whether all is finite.

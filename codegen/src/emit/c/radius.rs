@@ -6,16 +6,18 @@ use crate::integrator::Integrator;
 /// Degrees that the bound on all directions knows of, as in the runtime.
 const DEGREES: u32 = 64;
 
-/// A monomial of one of the last two terms of the series.
+/// A monomial of one of the last two terms of the series, in the coordinates of one direct factor of the group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LastTerm {
     /// The number of the base of its coefficient.
     pub base: usize,
     /// Its order, K or K − 2.
     pub order: usize,
+    /// The factor.
+    pub factor: u32,
     /// The degree of its gradient.
     pub degree: u32,
-    /// The weight of its coefficient: a bound on the gradient over the unit sphere.
+    /// The weight of its coefficient: a bound on the gradient in these coordinates where |p| of each factor is one.
     pub weight: f64,
 }
 
@@ -25,6 +27,7 @@ pub struct LastTerm {
 /// [`HeaderError::Degree`] for one of too high a degree.
 pub fn last_terms(integrator: &Integrator) -> Result<Vec<LastTerm>, HeaderError> {
     let coefficients = &integrator.coefficients;
+    let factors = integrator.problem.algebra.factor_of_coordinates();
     let mut terms = Vec::new();
     for (_, order, base) in coefficients.last_orders(integrator.problem.truncation) {
         let monomial = coefficients.monomials().get(base).map_or(&[][..], Vec::as_slice);
@@ -32,11 +35,21 @@ pub fn last_terms(integrator: &Integrator) -> Result<Vec<LastTerm>, HeaderError>
         if degree > DEGREES {
             return Err(HeaderError::Degree { degree, limit: DEGREES });
         }
-        if degree > 0 {
-            let highest: f64 = monomial.iter().map(|&(_, power)| half_power(power)).product();
-            let weight = f64::from(degree) * highest / half_power(degree);
-            terms.push(LastTerm { base, order, degree: degree - 1, weight });
+        // The degree in the coordinates of each factor.
+        let mut degrees: Vec<(u32, u32)> = Vec::new();
+        for &(i, power) in monomial {
+            let factor = factors.get(i as usize).copied().unwrap_or(0);
+            match degrees.iter_mut().find(|(own, _)| *own == factor) {
+                Some((_, sum)) => *sum += power,
+                None => degrees.push((factor, power)),
+            }
         }
+        let highest: f64 = monomial.iter().map(|&(_, power)| half_power(power)).product();
+        let spheres: f64 = degrees.iter().map(|&(_, own)| half_power(own)).product();
+        terms.extend(degrees.into_iter().map(|(factor, own)| {
+            let weight = f64::from(own) * highest / spheres;
+            LastTerm { base, order, factor, degree: degree - 1, weight }
+        }));
     }
     Ok(terms)
 }
