@@ -87,5 +87,6 @@ pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
         source: format!("learned from {} samples, dt = {}", file.training.samples, file.step),
         chart,
         truncation: 1,
+        learned: true,
     })
 }

@@ -626,7 +626,7 @@ class Verdict:
 def hardly_converges(ratio: float) -> str:
     """The warning of an ensemble in which the last two terms of the series have this ratio."""
     return (
-        f"the series hardly converges for some rows: its last two terms have the ratio {ratio:.3f}, above 0.25; "
+        f"the series hardly converges for some rows: its terms have the ratio {ratio:.3f}, above 0.25; "
         "the motion may be inaccurate: take a smaller step"
     )
 

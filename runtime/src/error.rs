@@ -39,20 +39,8 @@ pub enum StepError {
         /// The circumstances of the step.
         at: Circumstances,
     },
-    /// The step turns farther than a series of so few terms can follow.
-    #[error(
-        "the step turns by {share:.2} of a half turn, and with so low a truncation at most {longest:.2} is accepted: raise the truncation, or take a smaller step; {at}"
-    )]
-    TooLong {
-        /// The length of x as a share of a half turn.
-        share: f64,
-        /// The largest share that is accepted.
-        longest: f64,
-        /// The circumstances of the step.
-        at: Circumstances,
-    },
     /// The series of the generating function has stopped to converge at this momentum.
-    #[error("the series means nothing for so long a step: its last two terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
+    #[error("the series means nothing for so long a step: its terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
     SeriesDiverges {
         /// The circumstances of the step.
         at: Circumstances,
@@ -94,7 +82,8 @@ pub enum StepError {
 pub struct Circumstances {
     /// The largest coordinate of the x that was found; it solves nothing where the step did not converge.
     pub x: f64,
-    /// The ratio of the last two terms of the series at the momentum; zero where S is no series.
+    /// The ratio of the last two terms of the series at the momentum, or what stands for it where the series has few
+    /// terms; zero where S is no series.
     pub ratio: f64,
     /// A step size that was tried here and works, where one was looked for.
     pub usable_step: Option<f64>,
@@ -127,7 +116,6 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
-            | Self::TooLong { at, .. }
             | Self::SeriesDiverges { at } => at.usable_step = Some(step),
             _ => {}
         }
@@ -141,7 +129,6 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
-            | Self::TooLong { at, .. }
             | Self::SeriesDiverges { at } => Some(at),
             _ => None,
         }

@@ -7,7 +7,7 @@ use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
 
 pub use crate::number::lift::Lift;
-pub use crate::solve::{Driven, DrivenOf};
+pub use crate::solve::{Driven, DrivenOf, estimated_ratio};
 pub use crate::step::drive::{Number, Programs, drive};
 pub use crate::step::numbers::ElementNumbers;
 

@@ -176,21 +176,11 @@ pub struct Problem {
     pub solver: Option<Solver>,
     /// The comoving frame, if S is to generate the motion in it.
     pub comoving: Option<Frame>,
+    /// Whether h·H_red is the generating function of a learned map, and not the first term of a series.
+    pub learned: bool,
 }
 
 impl Problem {
-    /// The share of a half turn up to which a step is accepted, where the truncation alone says so: for K = 1 and 3 the ratio
-    /// of the last two terms of the series tells too little. Of random free bodies, steps up to it were at most a fifth off
-    /// (`docs/measurements/acceptance.md`).
-    #[must_use]
-    pub fn longest_turn(&self) -> Option<f64> {
-        match self.truncation {
-            1 => Some(0.25),
-            3 => Some(0.45),
-            _ => None,
-        }
-    }
-
     /// The Hamiltonian whose flow S generates: H_red, less the summand f of a comoving frame.
     #[must_use]
     pub fn generated(&self) -> &Polynomial {

@@ -14,7 +14,7 @@ pub fn warning(outcome: &Outcome) -> Option<String> {
     let ratio = outcome.journal.drift().ratio;
     (ratio != 0.0).then(|| {
         format!(
-            "the series hardly converges for some rows: its last two terms have the ratio \
+            "the series hardly converges for some rows: its terms have the ratio \
              {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step"
         )
     })

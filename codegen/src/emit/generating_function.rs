@@ -67,16 +67,11 @@ pub fn generating_function(
                 }
             }
         });
-    let longest = integrator.problem.longest_turn().map(|share| {
-        // Where S₃ vanishes S₁ is all there is; at K = 1 nobody knows.
-        let share = match integrator.problem.truncation {
-            1 => quote!(#share),
-            _ => quote!(if self.radius.largest_lane() < f64::MAX { #share } else { 1.0 }),
-        };
+    let largest_rate = integrator.largest_rate().map(|rate| {
         quote! {
             #[inline]
-            fn longest_turn(&self) -> f64 {
-                #share
+            fn largest_rate(&self) -> f64 {
+                #rate
             }
         }
     });
@@ -106,7 +101,7 @@ pub fn generating_function(
 
             #judged
 
-            #longest
+            #largest_rate
         }
     }
 }

@@ -104,6 +104,7 @@ pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, D
         truncation,
         solver: draft.solver,
         comoving: frame,
+        learned: false,
     })
 }
 

@@ -36,7 +36,7 @@ pub struct Law {
 /// A warning of a series whose last two terms have this ratio.
 pub fn steep(ratio: f64) -> String {
     format!(
-        "the series hardly converges at the points tried: its last two terms have the ratio {ratio:.3}, above {STEEP}; \
+        "the series hardly converges at the points tried: its terms have the ratio {ratio:.3}, above {STEEP}; \
          take a smaller step"
     )
 }

@@ -155,11 +155,8 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
         Scalar::of(self.radius)
     }
 
-    fn longest_turn(&self) -> f64 {
-        // Where S₃ vanishes S₁ is all there is; at K = 1 nobody knows.
-        let problem = &self.integrator.problem;
-        let known = problem.truncation == 1 || self.radius < f64::MAX;
-        problem.longest_turn().filter(|_| known).unwrap_or(1.0)
+    fn largest_rate(&self) -> f64 {
+        self.integrator.largest_rate().unwrap_or(f64::MAX)
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {

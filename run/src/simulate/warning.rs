@@ -31,7 +31,7 @@ impl Warning {
     pub fn text(&self) -> String {
         match self {
             Self::Steep(Steep { step, time, ratio }) => format!(
-                "the series hardly converges: from step {step}, at time {}, its last two terms have the ratio \
+                "the series hardly converges: from step {step}, at time {}, its terms have the ratio \
                  {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step",
                 shortest(*time)
             ),

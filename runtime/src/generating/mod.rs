@@ -75,11 +75,12 @@ pub trait GeneratingFunction {
         Scalar::of(f64::MAX)
     }
 
-    /// The share of a half turn up to which steps are accepted; less than 1 where S is a series of so few terms that their
-    /// ratio tells too little.
+    /// The largest rate at which motions may part in a step, √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|) of Z = ad_xᵀ + 2 ∂p/∂x·Hess S; unbounded
+    /// but where S is a series of so few terms that their ratio tells too little. The share of it counts as twice the
+    /// ratio of terms.
     #[inline(always)]
-    fn longest_turn(&self) -> f64 {
-        1.0
+    fn largest_rate(&self) -> f64 {
+        f64::MAX
     }
 
     /// Where S is a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by

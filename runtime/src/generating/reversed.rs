@@ -35,8 +35,8 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
         self.0.radius()
     }
 
-    fn longest_turn(&self) -> f64 {
-        self.0.longest_turn()
+    fn largest_rate(&self) -> f64 {
+        self.0.largest_rate()
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {

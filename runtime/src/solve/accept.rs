@@ -8,6 +8,7 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
 use super::confirm::{confirm, keeps_digits};
 use super::continuation::follow;
+use super::rate::estimated_ratio;
 use super::{Candidate, CandidateOf, Integrator, NEAR, Settings};
 use crate::chart::Chart;
 use crate::error::{Circumstances, StepError};
@@ -26,7 +27,7 @@ type Verdict<S> = <ScalarOf<S> as SimdValue>::SimdBool;
 
 /// In which lanes a candidate is solved, near its guess, a short way into the chart, and of a series that converges.
 /// Comparisons with what is not a number do not hold.
-fn accept<S: GeneratingFunction + ?Sized>(
+fn accept<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: &CandidateOf<S>,
@@ -38,11 +39,10 @@ fn accept<S: GeneratingFunction + ?Sized>(
     let within = mu.pairing(mu).simd_le(radius * radius);
     let of = |share| ScalarOf::<S>::of(share);
     let is_series = radius.simd_lt(of(f64::MAX));
-    let longest = generating.longest_turn();
-    let inverse = 1.0 / <S::Group as LieGroup>::ESTIMATED.min(longest);
-    let other = 1.0 / OF_OTHERS.min(longest);
+    let [inverse, other] = [<S::Group as LieGroup>::ESTIMATED, OF_OTHERS].map(|share| 1.0 / share);
     let share = of(inverse * inverse).select(is_series, of(other * other));
-    solved(candidate, settings) & (extent * share).simd_le(one) & within
+    let follows = estimated_ratio(generating, mu, &candidate.x).simd_le(of(LARGEST_RATIO));
+    solved(candidate, settings) & (extent * share).simd_le(one) & within & follows
 }
 
 /// In which lanes a candidate is solved, and near its guess.
@@ -98,13 +98,7 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
         let outside = |at| StepError::OutsideChart { extent, at };
         return Err(refuse(generating, mu, &candidate, outside));
     }
-    let longest = generating.longest_turn();
-    if !extent.simd_le(ScalarOf::<S>::of(longest * longest)).all() && !settings.takes_any_ratio() {
-        let share = extent.simd_sqrt().largest_lane();
-        let too_long = |at| StepError::TooLong { share, longest, at };
-        return Err(refuse(generating, mu, &candidate, too_long));
-    }
-    let ratio = generating.series_ratio(&largest_p(generating, mu, &candidate.x));
+    let ratio = ratio(generating, mu, &candidate.x);
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, &candidate, |at| StepError::SeriesDiverges { at }));
     }
@@ -118,6 +112,17 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
     confirm(generating, mu, candidate.clone(), settings).map_err(|reached| {
         refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
     })
+}
+
+/// The ratio of terms by which the step of this increment is judged: of the last two of the series, or what the rate at
+/// which motions part stands for.
+fn ratio<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    x: &VectorOf<S>,
+) -> ScalarOf<S> {
+    let of_terms = generating.series_ratio(&largest_p(generating, mu, x));
+    of_terms.worse(estimated_ratio(generating, mu, x))
 }
 
 /// |p| of an increment, coordinate by coordinate, and what rounding may have done to it: where the terms of p cancel, as
@@ -139,12 +144,13 @@ fn largest_p<S: GeneratingFunction + ?Sized>(
 }
 
 /// A refusal with its circumstances.
-fn refuse<S: GeneratingFunction + ?Sized>(
+fn refuse<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: &CandidateOf<S>,
     error: impl FnOnce(Circumstances) -> StepError,
 ) -> StepError {
-    let ratio = generating.series_ratio(mu).largest_lane();
+    let estimated = estimated_ratio(generating, mu, &candidate.x);
+    let ratio = generating.series_ratio(mu).worse(estimated).largest_lane();
     error(Circumstances { x: candidate.x.largest_entry().largest_lane(), ratio, usable_step: None })
 }

@@ -11,6 +11,7 @@ mod continuation;
 mod fixed_point;
 mod newton;
 mod plain;
+mod rate;
 mod settings;
 
 pub use fixed_point::MAX_EVALUATIONS;
@@ -18,6 +19,8 @@ pub use newton::MAX_ITERATIONS;
 pub use settings::Settings;
 
 pub(crate) use accept::{judge, rescue};
+#[doc(hidden)]
+pub use rate::estimated_ratio;
 
 use crate::chart::Chart;
 use crate::error::StepError;

@@ -19,6 +19,9 @@ use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
 use crate::problem::{Problem, Solver};
 
+/// [`Integrator::largest_rate`] of K = 1, 3, 5.
+const LARGEST_RATES: [f64; 3] = [0.95, 1.9, 3.0];
+
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
 /// programs over them.
 ///
@@ -54,6 +57,23 @@ pub struct Integrator {
 }
 
 impl Integrator {
+    /// The largest rate at which motions may part in a step, where the ratio of the last terms of the series tells too
+    /// little: with Z = ad_xᵀ + 2 ∂p/∂x·Hess S, to first order h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ, the rate is
+    /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₃ … S_K vanish, so that
+    /// S₁ is the whole series, and for learned maps.
+    #[must_use]
+    pub fn largest_rate(&self) -> Option<f64> {
+        let problem = &self.problem;
+        let whole = problem.truncation > 1 && self.coefficients.beyond_first().is_empty();
+        match problem.truncation {
+            _ if problem.learned || whole => None,
+            1 => Some(LARGEST_RATES[0]),
+            3 => Some(LARGEST_RATES[1]),
+            5 => Some(LARGEST_RATES[2]),
+            _ => None,
+        }
+    }
+
     /// Derives the series and lowers it.
     ///
     /// # Errors

@@ -19,6 +19,9 @@ const NEAR: f64 = 0.05;
 /// Up to which share of a half turn steps are accepted at once where S is no series with a radius; else it is the group's.
 const OF_OTHERS: f64 = 1.0 / 3.0;
 
+/// The rate at which motions part that a half turn counts as, as in the runtime (`solve::rate`).
+const RATE_OF_HALF_TURN: f64 = 4.0;
+
 pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
@@ -35,7 +38,7 @@ pub fn kernel(
     let programs = Programs {
         guess,
         correct,
-        accept: accept(integrator, group, base + bound_len),
+        accept: accept(integrator, scheme, group, base + bound_len),
         transport: transport(group),
         frame: frame(integrator, group)?,
         sound: sound(group),
@@ -48,7 +51,7 @@ pub fn kernel(
 }
 
 /// μ, x, what is left, the way ↦ 1 where the step is right.
-fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
+fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usize) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
@@ -58,13 +61,10 @@ fn accept(integrator: &Integrator, group: &Product, radius: usize) -> Program {
     let one = graph.constant(1.0);
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
-    let longest = integrator.problem.longest_turn().unwrap_or(1.0);
-    let series = inverse_square(group.estimated().min(longest));
-    // Where S₃ vanishes S₁ is all there is; at K = 1 nobody knows.
-    let others = match integrator.problem.truncation {
-        1 => inverse_square(OF_OTHERS.min(longest)),
-        _ => inverse_square(OF_OTHERS),
-    };
+    // Newton's method judges the rate at which motions part with its matrices, the fixed point by the turn.
+    let rate = integrator.largest_rate().filter(|_| scheme == Scheme::FixedPoint);
+    let most = rate.map_or(1.0, |rate| rate / RATE_OF_HALF_TURN);
+    let [series, others] = [group.estimated(), OF_OTHERS].map(|share| inverse_square(share.min(most)));
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);

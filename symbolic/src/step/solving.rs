@@ -3,9 +3,11 @@
 use super::part::Part;
 use super::product::Product;
 use super::programs::inputs;
+use super::tables::both_orders;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
+use crate::lie::LieAlgebra;
 
 /// The largest residual accepted, relative to the largest coordinate of μ, in units of rounding.
 pub const ROUNDINGS: f64 = 4.0;
@@ -57,6 +59,9 @@ struct Corrected {
 struct Matrices {
     hessian: Matrix,
     jacobian: Eliminated,
+    /// The square of the rate and of the largest one that is accepted, where the truncation limits it: see
+    /// [`Integrator::largest_rate`].
+    rate: Option<(Id, Id)>,
 }
 
 impl Scheme {
@@ -187,7 +192,36 @@ fn linearised(
     });
     let residual = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
     let jacobian = Eliminated::new(graph, &jacobian);
-    (x.to_vec(), residual, Matrices { hessian, jacobian })
+    let rate = integrator.largest_rate().map(|largest| {
+        let rate = square_of_rate(graph, &integrator.problem.algebra, x, &product);
+        (rate, graph.constant(largest * largest))
+    });
+    (x.to_vec(), residual, Matrices { hessian, jacobian, rate })
+}
+
+/// maxᵢ Σⱼ |ZᵢⱼZⱼᵢ| of Z = ad_xᵀ + 2 D·Hess S, which to first order is h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ: a
+/// bound on how fast motions part that does not depend on the units of the coordinates.
+fn square_of_rate(graph: &mut Graph, algebra: &LieAlgebra, x: &[Id], product: &Matrix) -> Id {
+    let n = x.len();
+    let two = graph.constant(2.0);
+    let mut z = Matrix::new(n, n, |i, j| graph.mul(two, product.at(i, j)));
+    for (i, j, k, c) in both_orders(algebra) {
+        let c = graph.constant(c);
+        let value = graph.times_plus(c, x[i], z.at(j, k));
+        z.set(j, k, value);
+    }
+    let rows: Vec<Id> = (0..n)
+        .map(|i| {
+            let mut sum = graph.zero();
+            for j in 0..n {
+                let pair = graph.mul(z.at(i, j), z.at(j, i));
+                let pair = graph.abs(pair);
+                sum = graph.add(sum, pair);
+            }
+            sum
+        })
+        .collect();
+    largest(graph, &rows)
 }
 
 impl Matrices {
@@ -206,7 +240,12 @@ impl Matrices {
         };
         let (p, x) = (less(p, &correction), less(x, &shift));
         let length = largest(graph, &correction);
-        let relative = graph.mul(length, inverse_scale);
+        let mut relative = graph.mul(length, inverse_scale);
+        if let Some((rate, most)) = self.rate {
+            // Too long a step is not near anything.
+            let far = graph.constant(f64::from(f32::MAX));
+            relative = graph.select(rate, most, relative, far);
+        }
         let stretch = largest(graph, &shift);
         Corrected { p, x, relative, stretch }
     }
@@ -280,7 +319,8 @@ fn chord(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> (Pr
     };
     let hessian = Matrix::new(n, n, |i, j| rename(matrices.hessian.at(i, j)));
     let jacobian = matrices.jacobian.map(&mut rename);
-    let matrices = Matrices { hessian, jacobian };
+    // The rate has been judged with the guess.
+    let matrices = Matrices { hessian, jacobian, rate: None };
     let inputs_of_chord = n + outputs.len();
     let guess = graph.finish(n, &outputs);
     let correct = chord_correction(chord, integrator, group, &matrices, inputs_of_chord);

@@ -39,19 +39,25 @@ fn float(value: &Rational) -> f64 {
     value.to_f64().unwrap_or(f64::NAN)
 }
 
+/// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
+pub fn both_orders(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
+    let mut structure = Vec::new();
+    for c in algebra.structure() {
+        for (i, j, value) in [(c.i, c.j, float(&c.value)), (c.j, c.i, -float(&c.value))] {
+            if !structure.iter().any(|&(a, b, k, _)| (a, b, k) == (i, j, c.k)) {
+                structure.push((i, j, c.k, value));
+            }
+        }
+    }
+    structure
+}
+
 impl Tables {
     /// The group of this algebra, of whose derivatives as much as `slope` may be left out. `None` where its matrices are
     /// not linearly independent.
     pub fn new(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Option<Self> {
         let dim = algebra.dim();
-        let mut structure = Vec::new();
-        for c in algebra.structure() {
-            for (i, j, value) in [(c.i, c.j, float(&c.value)), (c.j, c.i, -float(&c.value))] {
-                if !structure.iter().any(|&(a, b, k, _)| (a, b, k) == (i, j, c.k)) {
-                    structure.push((i, j, c.k, value));
-                }
-            }
-        }
+        let structure = both_orders(algebra);
         let adjoint;
         let matrices = match algebra.basis() {
             Some(matrices) => matrices,
