@@ -90,13 +90,16 @@ fn hamiltonian(group: &str, dim: usize, random: &mut ChaCha8Rng) -> (String, Opt
                 let inertia = loop {
                     let [a, b, c] = [(); 3].map(|()| random.random_range(0.01..1.0));
                     let all = [b + c, a + c, a + b];
-                    let (low, high) = all.iter().fold((f64::MAX, 0.0_f64), |(low, high), &i| (low.min(i), high.max(i)));
+                    let (low, high) = all
+                        .iter()
+                        .fold((f64::MAX, 0.0_f64), |(low, high), &i| (low.min(i), high.max(i)));
                     if high <= 10.0 * low {
                         least = Some(low);
                         break all;
                     }
                 };
-                terms.extend((0..3).map(|i| format!("mu[{}]^2/{}", 3 * body + i, 2.0 * inertia[i])));
+                terms
+                    .extend((0..3).map(|i| format!("mu[{}]^2/{}", 3 * body + i, 2.0 * inertia[i])));
             }
         }
         // A heavy top as often as a body in a fluid.
@@ -233,7 +236,11 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let velocity = velocity.map(|v| FloatPolynomial::new(&v, dim, &problem.symbols)).collect();
     let truth = Truth::new(&algebra, velocity, compact);
     let group = product_group(name.as_ref(), &algebra).map_err(|error| said(&error))?;
-    let step = Interpreter::<DirectProduct<MatrixGroup>, Exponential>::new(&integrator, group.clone(), 1.0);
+    let step = Interpreter::<DirectProduct<MatrixGroup>, Exponential>::new(
+        &integrator,
+        group.clone(),
+        1.0,
+    );
     let step = step.map_err(|error| said(&error))?;
     let compiled =
         Compiled::new(&step, Backend::Interpreter, 1.0, Trajectories::One, &Kept::default());
@@ -244,7 +251,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     for _ in 0..rows {
         let mu = momentum(&truth, &mut random);
         let length = mu.iter().copied().fold(0.0, f64::hypot);
-        let promised = name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
+        let promised =
+            name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut state = Numbers { g: identity.clone(), mu: mu.clone() };
         let made = compiled.advance(&mut state, 1, |own| compiled.rescue(&step, own)).is_ok();
         tally.rows += 1;
@@ -264,7 +272,9 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
             tally.unwarned += usize::from(error.is_nan() || error > WARNED);
         }
         if error.is_nan() || error > if warned { OFF } else { WARNED } {
-            eprintln!("{name}, K = {truncation}: {error:.3} off, warned: {warned}, H = {energy}, μ = {mu:?}");
+            eprintln!(
+                "{name}, K = {truncation}: {error:.3} off, warned: {warned}, H = {energy}, μ = {mu:?}"
+            );
         }
     }
     Ok(tally)
@@ -299,7 +309,11 @@ fn table(count: usize, seed: u64) -> Result<bool, String> {
             let percent = |part: usize| 100.0 * part as f64 / own.rows.max(1) as f64;
             println!(
                 "| {name} | {truncation} | {} | {:.1} % | {:.1} % | {:.1} % | {:.1} % |",
-                own.rows, percent(own.accepted), percent(own.warned), 100.0 * own.worst, 100.0 * own.worst_unwarned
+                own.rows,
+                percent(own.accepted),
+                percent(own.warned),
+                100.0 * own.worst,
+                100.0 * own.worst_unwarned
             );
         }
     }

@@ -977,10 +977,6 @@ const _: () = {
             )
         }
 
-        #[inline]
-        fn longest_turn(&self) -> f64 {
-            0.25f64
-        }
     }
 
     impl<T: ::coadjoint::Scalar> Learned<T> {
@@ -1227,6 +1223,7 @@ const _: () = {
         ],
         /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
         /// first bases.
+        factors: &[0, 0, 0],
         monomials: &[
             &[], &[(2, 1)], &[(2, 2)], &[(2, 3)], &[(1, 1)], &[(1, 1), (2, 1)], &[(1, 1), (2, 2)],
             &[(1, 2)], &[(1, 2), (2, 1)], &[(1, 3)], &[(0, 1)], &[(0, 1), (2, 1)],

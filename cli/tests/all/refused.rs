@@ -84,7 +84,8 @@ fn idle_factors_do_not_hide_a_fast_one() {
             ),
         );
         let [states, ends] = ["states.csv", "ends.csv"].map(|name| directory.path().join(name));
-        let names: Vec<String> = (1..=momenta.split(',').count()).map(|i| format!("mu_{i}")).collect();
+        let names: Vec<String> =
+            (1..=momenta.split(',').count()).map(|i| format!("mu_{i}")).collect();
         std::fs::write(&states, format!("{}\n{momenta}\n", names.join(","))).unwrap();
         let [states, ends] = [&states, &ends].map(|path| path.to_str().unwrap());
         let ensemble = ["ensemble", &system, "--initial", states, "--out", ends];
