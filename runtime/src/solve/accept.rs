@@ -116,11 +116,7 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
 
 /// The ratio of terms by which the step of this increment is judged: of the last two of the series, or what the rate at
 /// which motions part stands for.
-fn ratio<S: Integrator + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-    x: &VectorOf<S>,
-) -> ScalarOf<S> {
+fn ratio<S: Integrator + ?Sized>(generating: &S, mu: &VectorOf<S>, x: &VectorOf<S>) -> ScalarOf<S> {
     let of_terms = generating.series_ratio(&largest_p(generating, mu, x));
     of_terms.worse(estimated_ratio(generating, mu, x))
 }

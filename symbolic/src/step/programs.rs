@@ -64,7 +64,8 @@ fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usiz
     // Newton's method judges the rate at which motions part with its matrices, the fixed point by the turn.
     let rate = integrator.largest_rate().filter(|_| scheme == Scheme::FixedPoint);
     let most = rate.map_or(1.0, |rate| rate / RATE_OF_HALF_TURN);
-    let [series, others] = [group.estimated(), OF_OTHERS].map(|share| inverse_square(share.min(most)));
+    let [series, others] =
+        [group.estimated(), OF_OTHERS].map(|share| inverse_square(share.min(most)));
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
