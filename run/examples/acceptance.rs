@@ -9,10 +9,10 @@ use std::process::ExitCode;
 use coadjoint::{Exponential, LieGroup, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
 use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
 use coadjoint_program::Trajectories;
 use coadjoint_run::engine::{
-    Compiled, FloatPolynomial, Interpreter, Kept, Numbers, STEEP, Steepness, entries_of,
-    product_group,
+    Compiled, Interpreter, Kept, Numbers, STEEP, Steepness, entries_of, product_group,
 };
 use coadjoint_run::{Backend, integrator, read};
 use nalgebra::DVector;
@@ -116,9 +116,31 @@ fn hamiltonian(group: &str, dim: usize, random: &mut ChaCha8Rng) -> (String, Opt
     (terms.join(" + "), least)
 }
 
+/// A polynomial: its coefficients, and the coordinates and powers of its monomials.
+struct Terms(Vec<(f64, Vec<(u32, u32)>)>);
+
+impl Terms {
+    fn new(polynomial: &Polynomial) -> Self {
+        let terms = polynomial.factors();
+        Self(terms.map(|(factors, value)| (float(&value), factors)).collect())
+    }
+
+    fn evaluate(&self, x: &[f64]) -> f64 {
+        let power = |&(i, power): &(u32, u32)| x[i as usize].powi(power as i32);
+        self.0
+            .iter()
+            .map(|(value, factors)| value * factors.iter().map(power).product::<f64>())
+            .sum()
+    }
+}
+
+fn float(value: &Rational) -> f64 {
+    num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
+}
+
 /// The exact flow, and what is compared with it.
 struct Truth {
-    velocity: Vec<FloatPolynomial>,
+    velocity: Vec<Terms>,
     structure: Vec<(usize, usize, usize, f64)>,
     /// The factor of each coordinate.
     factors: Vec<u32>,
@@ -126,8 +148,7 @@ struct Truth {
 }
 
 impl Truth {
-    fn new(algebra: &LieAlgebra, velocity: Vec<FloatPolynomial>, compact: bool) -> Self {
-        let float = |value: &Rational| num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN);
+    fn new(algebra: &LieAlgebra, velocity: Vec<Terms>, compact: bool) -> Self {
         let mut structure = Vec::new();
         for c in algebra.structure() {
             for entry in [(c.i, c.j, c.k, float(&c.value)), (c.j, c.i, c.k, -float(&c.value))] {
@@ -232,8 +253,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let system = read(name, &text).map_err(|error| said(&error))?;
     let integrator = integrator(name.as_ref(), system.problem).map_err(|error| said(&error))?;
     let problem = &integrator.problem;
-    let velocity = problem.hamiltonian.gradient(dim).into_iter();
-    let velocity = velocity.map(|v| FloatPolynomial::new(&v, dim, &problem.symbols)).collect();
+    let velocity = problem.hamiltonian.gradient(dim).iter().map(Terms::new).collect();
     let truth = Truth::new(&algebra, velocity, compact);
     let group = product_group(name.as_ref(), &algebra).map_err(|error| said(&error))?;
     let step = Interpreter::<DirectProduct<MatrixGroup>, Exponential>::new(

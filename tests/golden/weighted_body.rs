@@ -1016,8 +1016,8 @@ const _: () = {
         }
 
         #[inline]
-        fn longest_turn(&self) -> f64 {
-            if self.radius.largest_lane() < f64::MAX { 0.45f64 } else { 1.0 }
+        fn largest_rate(&self) -> f64 {
+            1.9f64
         }
     }
 
@@ -1098,6 +1098,7 @@ const _: () = {
         ],
         /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
         /// first bases.
+        factors: &[0, 0, 0, 0, 0, 0],
         monomials: &[&[(2, 2)], &[(1, 2), (2, 2)], &[(0, 2)], &[(0, 2), (1, 2)]],
     };
 };
@@ -1209,6 +1210,7 @@ const _: () = {
         slots: &[(0, 1), (1, 1), (2, 1)],
         /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
         /// first bases.
+        factors: &[0, 0, 0],
         monomials: &[],
     };
 };

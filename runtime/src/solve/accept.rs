@@ -6,7 +6,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use super::confirm::{confirm, keeps_digits};
+use super::confirm::confirm;
 use super::continuation::follow;
 use super::rate::estimated_ratio;
 use super::{Candidate, CandidateOf, Integrator, NEAR, Settings};
@@ -101,10 +101,6 @@ pub(crate) fn rescue<S: Integrator + ?Sized>(
     let ratio = ratio(generating, mu, &candidate.x);
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, &candidate, |at| StepError::SeriesDiverges { at }));
-    }
-    if !keeps_digits(generating, mu, &candidate.x) {
-        let not_followed = |at| StepError::NotFollowed { reached: 1.0, at };
-        return Err(refuse(generating, mu, &candidate, not_followed));
     }
     if !known {
         return Ok(candidate);

@@ -16,9 +16,6 @@ pub(super) const LARGEST: usize = 32;
 /// Solutions nearer than this, relative to the largest coordinate of x, are the same.
 const SAME: f64 = 1e-6;
 
-/// How many times as large as p and μ, weighed with Hess S, the terms may be from which p is summed.
-const CANCELLED: f64 = 2.0;
-
 /// The findings at x: p = (d^R τ_x)ᵀ μ, whether x = ∂S(p) to rounding and the tolerance, and whether
 /// ‖∂p/∂x·Hess S‖ < 1, so that s ∂S∘p has no fold or fork at x for any s from 0 to 1.
 struct Findings<S: GeneratingFunction + ?Sized> {
@@ -90,26 +87,6 @@ pub(super) fn confirm<S: Integrator + ?Sized>(
         true => Ok(followed),
         false => Err(1.0),
     }
-}
-
-/// Whether p of this x has all its digits: on groups with hyperbolic elements the terms from which it is summed grow as
-/// exp ‖ad_x‖, and may leave little of themselves; no measurement with p shows that. Not asked beyond [`LARGEST`]
-/// dimensions.
-pub(super) fn keeps_digits<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    mu: &VectorOf<S>,
-    x: &VectorOf<S>,
-) -> bool {
-    let dim = mu.dim();
-    if dim > LARGEST {
-        return true;
-    }
-    let (p, derivative) = S::Chart::default().pull_back_with_derivative(generating.group(), x, mu);
-    let hessian = generating.gradient_and_hessian(&p).1;
-    let (stiffness, longest) = (row_sums::<S>(dim, &hessian), x.largest_entry());
-    let terms = row_sums::<S>(dim, &derivative) * longest;
-    let bearable = longest + stiffness * (p.largest_entry() + mu.largest_entry());
-    (stiffness * terms).simd_le(ScalarOf::<S>::of(CANCELLED) * bearable).all()
 }
 
 /// Whether det(1 − s ∂p/∂x·Hess S) is positive at the x of a solution for s·S, as it is at s = 0; not asked beyond

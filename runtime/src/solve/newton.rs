@@ -13,16 +13,12 @@ use crate::number::scalar::Scalar;
 /// Newton iterations allowed before the solver gives up.
 pub const MAX_ITERATIONS: u32 = 20;
 
-/// Up to this size of the first correction, relative to μ, the estimate of what Newton's method leaves is a bound
+/// Up to this size of a correction, relative to μ, the estimate of what Newton's method leaves is a bound
 /// (tried by the program `stress`); beyond it, what is left is measured by another correction.
 const TRUSTED: f64 = 1e-3;
 
-/// Shrinking steps show the residual down to this share of the estimate (tested by the program `stress`).
-const BELOW_ESTIMATE: f64 = 1.0 / 64.0;
-
-/// The solution from this guess. A correction leaves about |μ| |δx|²/3 from the chart and |μ| |S‴ δp δp|/2 from S; from
-/// the second correction on they tell by what they shrink, but where the first goes another way than what is left, along
-/// an axis of the body say, they tell too little: what is left counts as a sixty-fourth of the estimate at least.
+/// The solution from this guess. A correction leaves about |μ| |δx|²/3 from the chart and |μ| |S‴ δp δp|/2 from S: what is
+/// left is estimated so where the correction is short, and counts as the correction itself where it is not.
 pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -36,7 +32,6 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     let (inverse_scale, tolerance) = (inverse_scale(mu), settings.tolerance());
     let mut p = guess;
     let mut way = of(0.0);
-    let mut previous: Option<ScalarOf<S>> = None;
     let mut iterations = 0;
     loop {
         iterations += 1;
@@ -53,15 +48,8 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let relative = correction.largest_entry() * inverse_scale;
         let stretch = shift.largest_entry();
         let estimate = stretch * (of(0.5) * stretch + relative);
-        let left = match previous {
-            Some(previous) => {
-                let shrunk = of(2.0) * relative * relative / previous;
-                estimate.simd_min(shrunk.simd_max(of(BELOW_ESTIMATE) * estimate))
-            }
-            None => estimate.select(relative.simd_le(of(TRUSTED)), relative),
-        };
+        let left = estimate.select(relative.simd_le(of(TRUSTED)), relative);
         let left = left.simd_min(relative).select(relative.simd_le(tolerance), left);
-        previous = Some(relative + of(f64::from(f32::MIN_POSITIVE)));
         way += relative;
         // A point far from its guess will not be accepted, nor will NaN.
         let open = left.simd_gt(tolerance) & way.simd_le(of(NEAR));

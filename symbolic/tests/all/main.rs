@@ -8,6 +8,7 @@
     missing_docs
 )]
 
+mod acceptance;
 mod casimirs;
 mod catalogue;
 mod derivation;

@@ -1,0 +1,91 @@
+//! The program that accepts a step: each of its conditions, a hair inside and outside.
+
+use coadjoint_symbolic::hamilton_jacobi::TermLimit;
+use coadjoint_symbolic::integrator::Integrator;
+use coadjoint_symbolic::lie::{Chart, catalogue};
+use coadjoint_symbolic::number::ratio;
+use coadjoint_symbolic::poly::Polynomial;
+use coadjoint_symbolic::problem::{Problem, Solver};
+use coadjoint_symbolic::step::Step;
+
+/// The step of h·Σ pᵢ²/(2Iᵢ), I = (3, 4, 5)/2 in turn.
+fn step(group: &str, truncation: usize, solver: Option<Solver>) -> (Step, Vec<f64>) {
+    let algebra = catalogue::lookup(group).unwrap();
+    let n = algebra.dim();
+    let square = |i: usize| Polynomial::variable(n, i).pow(2).scale(&ratio(1, 3 + (i % 3) as i64));
+    let hamiltonian = (0..n).fold(Polynomial::zero(n), |sum, i| &sum + &square(i));
+    let problem = Problem {
+        name: "body".to_owned(),
+        algebra,
+        coordinates: (0..n).map(|i| format!("m{i}")).collect(),
+        hamiltonian,
+        symbols: Vec::new(),
+        parameters: Vec::new(),
+        source: String::new(),
+        chart: Chart::Exponential,
+        truncation,
+        solver,
+        comoving: None,
+        learned: false,
+    };
+    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
+    let step = Step::build(&integrator).unwrap();
+    (step, integrator.coefficients.fold(1.0, &[]))
+}
+
+/// The verdict on x, what is left and the way, where the radius of the series is this.
+fn verdict(group: &str, radius: f64, mu: &[f64], x: &[f64], left: f64, way: f64) -> bool {
+    let (step, folded) = step(group, 7, None);
+    let inputs = [mu, x, &[left, way]].concat();
+    let mut accepted = [0.0];
+    let program = &step.kernel().programs().accept;
+    program.run(&inputs, &step.slots(&folded, radius), &mut Vec::new(), &mut accepted);
+    accepted[0] == 1.0
+}
+
+#[test]
+fn each_condition_counts() {
+    let (mu, x) = ([0.3, 0.4, 0.5], [0.1, 0.2, 0.3]);
+    let unit = f64::EPSILON;
+    let of = |left, way| verdict("SO3", 1.0, &mu, &x, left, way);
+    assert!(of(0.0, 0.0) && of(4.0 * unit, 0.05));
+    assert!(!of(4.01 * unit, 0.0) && !of(f64::NAN, 0.0));
+    assert!(!of(0.0, 0.0501) && !of(0.0, f64::NAN));
+    // The radius, of each factor by itself.
+    let size = 0.5_f64.sqrt();
+    let at = |radius| verdict("SO3", radius, &mu, &x, 0.0, 0.0);
+    assert!(at(1.001 * size) && !at(0.999 * size));
+    let two = |radius| verdict("SO3*SO3", radius, &[mu, mu].concat(), &[x, x].concat(), 0.0, 0.0);
+    assert!(two(1.001 * size) && !two(0.999 * size));
+    // A quarter turn with a radius, a sixth of a turn without.
+    let turned = |radius, by: f64| verdict("SO3", radius, &mu, &[0.0, by, 0.0], 0.0, 0.0);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    assert!(turned(1.0, 0.999 * quarter) && !turned(1.0, 1.001 * quarter));
+    let sixth = std::f64::consts::FRAC_PI_3;
+    assert!(turned(f64::MAX, 0.999 * sixth) && !turned(f64::MAX, 1.001 * sixth));
+    assert!(!turned(1.0, f64::NAN) && !turned(1.0, f64::INFINITY));
+}
+
+/// What K = 1, 3 and 5 limit: the rate at which motions part, by Newton's method with its matrices, by the fixed point as
+/// the turn. From K = 7 on the ratio of terms tells.
+#[test]
+fn series_of_few_terms_limit_the_rate() {
+    let accepted = |group: &str, truncation, solver, mu: [f64; 3]| {
+        let (step, folded) = step(group, truncation, solver);
+        step.kernel().increment(&step.slots(&folded, 1e3), &mu).is_some()
+    };
+    let newton = |group: &str, truncation, size: f64| {
+        accepted(group, truncation, Some(Solver::Newton), [0.3 * size, 0.1 * size, 0.9 * size])
+    };
+    // h|Ω| is about 0.4 |μ|.
+    assert!(newton("SO3", 1, 1.5) && !newton("SO3", 1, 3.0));
+    assert!(newton("SO3", 3, 3.0));
+    // Boosts of SL(2) part faster, and turn nothing.
+    assert!(newton("SL2", 1, 0.3) && !newton("SL2", 1, 1.0));
+    assert!(newton("SL2", 3, 0.8) && !newton("SL2", 3, 2.0));
+    let fixed = |truncation, size: f64| {
+        accepted("SO3", truncation, Some(Solver::FixedPoint), [0.0, 0.0, size])
+    };
+    assert!(fixed(1, 1.8) && !fixed(1, 1.95));
+    assert!(fixed(7, 1.95));
+}
