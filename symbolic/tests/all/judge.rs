@@ -234,3 +234,22 @@ fn spoilt_steps_are_told() {
         }
     }
 }
+
+/// The judge knows of a step only its definition: the algebra, the exact series, the frame, the problem.
+#[test]
+fn shares_no_code_with_the_steps_it_judges() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/judge");
+    let known = ["comoving", "hamilton_jacobi", "lie", "number", "poly", "problem"];
+    let mut read = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(!text.contains("coadjoint_program"), "{}", path.display());
+        for module in text.split(" crate::").skip(1) {
+            let name = module.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap();
+            assert!(known.contains(&name), "{}: crate::{name}", path.display());
+            read += 1;
+        }
+    }
+    assert!(read > 5, "{read}");
+}
