@@ -25,7 +25,7 @@ const TRUSTED: f64 = 1e-3;
 const CORRECTIONS: u32 = 12;
 const EVALUATIONS: u32 = 60;
 
-/// Rounding of p by the fixed point may stay above the tolerance: by so many units for each dimension, and at most.
+/// Rounding of p by the fixed point may stay above the tolerance: by this number of units for each dimension, and at most.
 const ROUNDINGS_EACH: f64 = 4.0;
 const MOST_ROUNDINGS: f64 = 32.0;
 
