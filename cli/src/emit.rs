@@ -14,7 +14,7 @@ use crate::named::Target;
 use crate::{load, progress};
 
 /// Writes the code to `--out` or the standard output.
-pub fn run(options: &EmitOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &EmitOptions) -> Result<(), CliError> {
     let (step, precision) = (options.step, options.precision);
     let is_kernel = matches!(options.language, Target::Kernel(_));
     let header_only = "--prefix is for --language c and cpp alone";

@@ -8,7 +8,7 @@ use coadjoint_run::RunError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
-pub enum CliError {
+pub(crate) enum CliError {
     /// A run that failed, or what was given for it.
     #[error(transparent)]
     Run(Box<RunError>),
@@ -66,18 +66,18 @@ impl From<RunError> for CliError {
 }
 
 /// The error of a file that cannot be read.
-pub fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
+pub(crate) fn unread(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
     |source| CliError::Read { path: path.into(), source }
 }
 
 /// The error of a file that cannot be written.
-pub fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
+pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> CliError + '_ {
     |source| CliError::Write { path: path.into(), source }
 }
 
 impl CliError {
     /// 2 for bad input, 3 for what could not be judged, 130 for an interruption, 1 for everything else.
-    pub fn exit_code(&self) -> u8 {
+    pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::NobodyReads => 0,
             Self::Option(_) | Self::Read { .. } => 2,
@@ -99,7 +99,7 @@ impl CliError {
     }
 
     /// The message for the terminal, with its line end.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         if matches!(self, Self::NobodyReads) {
             return String::new();
         }

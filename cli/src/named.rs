@@ -8,10 +8,10 @@ use coadjoint_program::{Precision, print::DeviceLanguage};
 use coadjoint_run::Backend;
 
 /// Names, descriptions and values; names without a description are understood, and not listed.
-pub type Names<T> = [(&'static str, &'static str, T)];
+pub(crate) type Names<T> = [(&'static str, &'static str, T)];
 
 /// Reads one of these names.
-pub fn named<T>(list: &'static Names<T>) -> impl TypedValueParser<Value = T>
+pub(crate) fn named<T>(list: &'static Names<T>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync + 'static,
 {
@@ -25,18 +25,18 @@ where
 }
 
 /// Charts.
-pub const CHARTS: &Names<Chart> =
+pub(crate) const CHARTS: &Names<Chart> =
     &[("exp", "The exponential", Chart::Exponential), ("cayley", "The Cayley map", Chart::Cayley)];
 
 /// Solvers.
-pub const SOLVERS: &Names<Solver> = &[
+pub(crate) const SOLVERS: &Names<Solver> = &[
     ("newton", "Newton's method, with the Hessian", Solver::Newton),
     ("fixed_point", "The fixed point, with the gradient alone", Solver::FixedPoint),
     ("fixed-point", "", Solver::FixedPoint),
 ];
 
 /// Backends.
-pub const BACKENDS: &Names<Backend> = &[
+pub(crate) const BACKENDS: &Names<Backend> = &[
     ("auto", "The cheapest for this run: a short one never waits for a compiler", Backend::Auto),
     ("interpreter", "The interpreter of the programs, which is always there", Backend::Interpreter),
     ("c", "The system's C compiler, for this processor", Backend::C),
@@ -45,7 +45,7 @@ pub const BACKENDS: &Names<Backend> = &[
 ];
 
 /// Precisions.
-pub const PRECISIONS: &Names<Precision> = &[
+pub(crate) const PRECISIONS: &Names<Precision> = &[
     ("double", "64 bits: the bits of every other way", Precision::Double),
     (
         "single",
@@ -56,7 +56,7 @@ pub const PRECISIONS: &Names<Precision> = &[
 
 /// A language to emit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Target {
+pub(crate) enum Target {
     /// Rust.
     Rust,
     /// A header.
@@ -66,7 +66,7 @@ pub enum Target {
 }
 
 /// Languages to emit.
-pub const LANGUAGES: &Names<Target> = &[
+pub(crate) const LANGUAGES: &Names<Target> = &[
     ("rust", "A Rust module", Target::Rust),
     ("c", "One header of C99, for embedded and flight software", Target::Header(Language::C)),
     ("cpp", "The same with a class of C++11", Target::Header(Language::Cpp)),
@@ -79,12 +79,12 @@ pub const LANGUAGES: &Names<Target> = &[
 ];
 
 /// Formats for people, and for programs.
-pub const FORMATS: &Names<Format> =
+pub(crate) const FORMATS: &Names<Format> =
     &[("text", "For people", Format::Text), ("json", "For programs", Format::Json)];
 
 /// For people or for programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub(crate) enum Format {
     /// For people.
     Text,
     /// For programs.

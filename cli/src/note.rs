@@ -12,10 +12,10 @@ use serde::de::DeserializeOwned;
 use crate::error::{CliError, unread, unwritten};
 
 /// The description of a run; one that goes on must agree in every entry.
-pub type Identity = BTreeMap<String, String>;
+pub(crate) type Identity = BTreeMap<String, String>;
 
 /// The note at `path`, a `kind` of file in a word; `None` where there is none. `advice` says how to begin anew.
-pub fn read<T: DeserializeOwned>(
+pub(crate) fn read<T: DeserializeOwned>(
     path: &Path,
     kind: &str,
     advice: &str,
@@ -38,14 +38,19 @@ pub fn read<T: DeserializeOwned>(
 }
 
 /// Writes a note: the old note is there or the new one, never a piece.
-pub fn write<T: Serialize>(note: &T, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+pub(crate) fn write<T: Serialize>(note: &T, path: &Path, inputs: &[&Path]) -> Result<(), CliError> {
     let text = serde_json::to_string(note).map_err(Error::other);
     let written = text.and_then(|text| file::write(path, inputs, file::seal(&text).as_bytes()));
     written.map_err(unwritten(path))
 }
 
 /// Refuses the note at `path` of a run that `was` another, by the first entry that differs.
-pub fn agree(path: &Path, was: &Identity, is: &Identity, advice: &str) -> Result<(), CliError> {
+pub(crate) fn agree(
+    path: &Path,
+    was: &Identity,
+    is: &Identity,
+    advice: &str,
+) -> Result<(), CliError> {
     for key in was.keys().chain(is.keys()) {
         let [was, is] = [was, is].map(|identity| identity.get(key));
         if was != is {

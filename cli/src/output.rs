@@ -15,7 +15,7 @@ macro_rules! outln {
 
 /// Writes to standard output. Where nobody reads on the work goes on, files are still to be written;
 /// any other failure (a full disk) ends the program with a message and exit code 1.
-pub fn write(text: Arguments<'_>) {
+pub(crate) fn write(text: Arguments<'_>) {
     let mut out = stdout().lock();
     match out.write_fmt(text).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

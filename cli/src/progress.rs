@@ -6,10 +6,10 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 /// How often a bar is worth telling its position.
-pub const INTERVAL: Duration = Duration::from_millis(100);
+pub(crate) const INTERVAL: Duration = Duration::from_millis(100);
 
 /// A bar of `length` steps; hidden where the error stream is no terminal.
-pub fn bar(length: u64, what: &str) -> ProgressBar {
+pub(crate) fn bar(length: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), target());
     // A run that fails leaves no piece of a bar before its message.
     let bar = bar.with_finish(ProgressFinish::AndClear);
@@ -22,7 +22,7 @@ pub fn bar(length: u64, what: &str) -> ProgressBar {
 }
 
 /// Whether anybody sees a bar.
-pub fn visible() -> bool {
+pub(crate) fn visible() -> bool {
     std::io::stderr().is_terminal()
 }
 
@@ -31,10 +31,10 @@ fn target() -> ProgressDrawTarget {
 }
 
 /// Work of unknown length; its line is there while this lives.
-pub struct Phase(ProgressBar);
+pub(crate) struct Phase(ProgressBar);
 
 /// Shows what is being done, and for how long already; hidden where the error stream is no terminal.
-pub fn phase(what: &str) -> Phase {
+pub(crate) fn phase(what: &str) -> Phase {
     let spinner = ProgressBar::with_draw_target(None, target());
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
         spinner.set_style(style);

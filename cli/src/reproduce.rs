@@ -6,13 +6,13 @@ use crate::error::CliError;
 
 /// Whatever was asked of the verb.
 #[derive(Args, Debug)]
-pub struct ReproduceOptions {
+pub(crate) struct ReproduceOptions {
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     rest: Vec<String>,
 }
 
 /// Refuses, with the command to use.
-pub fn run(options: &ReproduceOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &ReproduceOptions) -> Result<(), CliError> {
     let rest = if options.rest.is_empty() {
         "all --quick --html report.html".into()
     } else {

@@ -7,7 +7,7 @@ mod run;
 mod shard;
 mod states;
 
-pub use shard::Shard;
+pub(crate) use shard::Shard;
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ use run::Job;
 use states::{Form, States};
 
 /// Reads, advances and writes.
-pub fn run(options: &EnsembleOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let (path, initial) = (options.source.file.as_path(), options.initial.as_path());
     let inputs: [&Path; 2] = [path, initial];
     let mut system = load::source(&options.source, Parameters::Substituted)?;

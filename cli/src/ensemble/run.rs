@@ -26,7 +26,7 @@ const TOLD: usize = 5;
 const LIST: &[u8] = b"row,step,reason\n";
 
 /// A run that is set up.
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// Advances rows.
     pub engine: &'a dyn Engine,
     /// Where rows come from.
@@ -50,7 +50,7 @@ pub struct Job<'a> {
 
 /// The outcome of a run.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// Rows of the output.
     pub trajectories: u64,
     /// Rows already written by an earlier run that was stopped.
@@ -68,7 +68,7 @@ pub struct Outcome {
 }
 
 /// The names of the files of a run.
-pub struct Files {
+pub(crate) struct Files {
     out: PathBuf,
     /// A Parquet file that is whole but for its name.
     parquet: PathBuf,
@@ -79,7 +79,7 @@ pub struct Files {
 
 impl Files {
     /// Of this output.
-    pub fn of(out: &Path) -> Self {
+    pub(crate) fn of(out: &Path) -> Self {
         Self {
             out: out.into(),
             parquet: passing(&beside(out, ".parquet")),
@@ -90,7 +90,7 @@ impl Files {
     }
 
     /// Refuses names that are inputs of the run.
-    pub fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
+    pub(crate) fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
         let names = [&self.out, &self.parquet, &self.list, &self.journal, &self.done];
         names.iter().try_for_each(|name| file::check(name, inputs).map_err(unwritten(name)))
     }
@@ -108,7 +108,7 @@ struct Run<'a> {
 }
 
 /// Runs from the beginning, or from where an earlier run was stopped; or keeps what one has finished.
-pub fn run(job: Job<'_>) -> Result<Outcome, CliError> {
+pub(crate) fn run(job: Job<'_>) -> Result<Outcome, CliError> {
     let begun = Instant::now();
     let files = Files::of(job.out);
     // Before anything is read that another process may write.

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 /// Share number `index` of `count`, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
+pub(crate) struct Shard {
     index: u64,
     count: u64,
 }
@@ -37,11 +37,11 @@ impl std::fmt::Display for Shard {
 
 impl Shard {
     /// All of it.
-    pub const WHOLE: Self = Self { index: 1, count: 1 };
+    pub(crate) const WHOLE: Self = Self { index: 1, count: 1 };
 
     /// Its rows of `total`, counted from 0. Shares are consecutive, differ by one row at most, and
     /// together are everything.
-    pub fn rows(self, total: u64) -> Range<u64> {
+    pub(crate) fn rows(self, total: u64) -> Range<u64> {
         let end =
             |index: u64| (u128::from(total) * u128::from(index) / u128::from(self.count)) as u64;
         end(self.index - 1)..end(self.index)

@@ -15,7 +15,7 @@ const PIECE: usize = 256;
 
 /// The format of a file, by the ending of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Names, then a line per row, in the shortest decimals that read back as the same numbers.
     Csv,
     /// One matrix of 64-bit floats.
@@ -27,7 +27,7 @@ pub enum Form {
 
 impl Form {
     /// By the ending of the name that `option` gives.
-    pub fn of(path: &Path, option: &str) -> Result<Self, CliError> {
+    pub(crate) fn of(path: &Path, option: &str) -> Result<Self, CliError> {
         let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             Some("csv") => Ok(Self::Csv),
@@ -45,7 +45,7 @@ impl Form {
 
 /// A piece of an ensemble.
 #[derive(Clone, Debug, Default)]
-pub struct Piece {
+pub(crate) struct Piece {
     /// The states.
     pub rows: Rows,
     /// The rows as they were read, where cells are carried through.
@@ -53,7 +53,7 @@ pub struct Piece {
 }
 
 /// A file of states, read forwards.
-pub struct States {
+pub(crate) struct States {
     table: Table,
     /// The columns of states.
     pub found: Found,
@@ -64,7 +64,12 @@ pub struct States {
 
 impl States {
     /// Opens a file; the states at the end are going to be written in this form.
-    pub fn open(path: &Path, form: Form, shape: Shape, known: &Known) -> Result<Self, CliError> {
+    pub(crate) fn open(
+        path: &Path,
+        form: Form,
+        shape: Shape,
+        known: &Known,
+    ) -> Result<Self, CliError> {
         Form::of(path, "--initial")?;
         let table = Table::open(path)?;
         let found = Found::of(shape, known, table.names(), table.width())?;
@@ -88,22 +93,22 @@ impl States {
     }
 
     /// The number of rows.
-    pub fn count(&self) -> Result<u64, CliError> {
+    pub(crate) fn count(&self) -> Result<u64, CliError> {
         Ok(self.table.count()?)
     }
 
     /// Goes to a row, counted from 0; `position` is what [`States::position`] said there, if it is known.
-    pub fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), CliError> {
+    pub(crate) fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), CliError> {
         Ok(self.table.seek(row, position)?)
     }
 
     /// Where the next row begins.
-    pub fn position(&self) -> u64 {
+    pub(crate) fn position(&self) -> u64 {
         self.table.position()
     }
 
     /// Reads the next `count` rows in place of those of a piece.
-    pub fn read(&mut self, count: u64, piece: &mut Piece) -> Result<(), CliError> {
+    pub(crate) fn read(&mut self, count: u64, piece: &mut Piece) -> Result<(), CliError> {
         let (width, layout) = (self.table.width(), self.found.layout);
         piece.rows.clear(self.table.number() + 1);
         piece.cells.clear();
@@ -135,7 +140,7 @@ impl States {
     }
 
     /// The bytes before the first of `count` rows that are written.
-    pub fn header(&self, count: u64) -> Vec<u8> {
+    pub(crate) fn header(&self, count: u64) -> Vec<u8> {
         match self.form {
             Form::Csv => lines(std::iter::once(self.written.iter().map(|(name, _)| name))),
             Form::Npy => npy_header(&[count, self.found.layout.width() as u64]),
@@ -145,7 +150,7 @@ impl States {
     }
 
     /// The bytes of rows.
-    pub fn encode(&self, piece: &Piece) -> Vec<u8> {
+    pub(crate) fn encode(&self, piece: &Piece) -> Vec<u8> {
         if self.form != Form::Csv {
             return piece.rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
         }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::facts::Facts;
 
 /// The list of groups.
-pub fn list(all: &[Facts]) -> Value {
+pub(crate) fn list(all: &[Facts]) -> Value {
     all.iter()
         .map(|facts| {
             json!({
@@ -19,7 +19,7 @@ pub fn list(all: &[Facts]) -> Value {
 }
 
 /// Everything about one group. Indices count from 1, numbers are exact texts.
-pub fn group(facts: &Facts) -> Value {
+pub(crate) fn group(facts: &Facts) -> Value {
     let algebra = &facts.algebra;
     let dim = algebra.dim();
     let constant = |c: &coadjoint_codegen::lie::StructureConstant| json!({ "i": c.i + 1, "j": c.j + 1, "k": c.k + 1, "value": c.value.to_string() });

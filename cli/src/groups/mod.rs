@@ -14,7 +14,7 @@ use crate::named::Format;
 use facts::Facts;
 
 /// Prints the list of groups, or one group.
-pub fn run(options: &GroupOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &GroupOptions) -> Result<(), CliError> {
     let json = options.json || options.format == Format::Json;
     let Some(name) = &options.name else {
         let all: Vec<Facts> =

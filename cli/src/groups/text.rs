@@ -33,7 +33,7 @@ A group of your own is the table [algebra] in place of `group`: a `basis` of squ
 ";
 
 /// One line for each group.
-pub fn list(all: &[Facts]) -> String {
+pub(crate) fn list(all: &[Facts]) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{:<12} {:>9}  {:<11} group and basis", "name", "dimension", "charts");
     for facts in all {
@@ -52,7 +52,7 @@ pub fn list(all: &[Facts]) -> String {
 }
 
 /// Everything about one group.
-pub fn group(facts: &Facts) -> String {
+pub(crate) fn group(facts: &Facts) -> String {
     let mut out = String::new();
     let algebra = &facts.algebra;
     let what = facts.summary.as_ref().map(|summary| format!(": {summary}")).unwrap_or_default();

@@ -10,7 +10,7 @@ const MOST_BLOCKS: usize = 12;
 const WIDEST: usize = 12;
 
 /// Lines that say what the element is; zero blocks are left out.
-pub fn lines(blocks: &[Block], entries: &[f64]) -> Vec<String> {
+pub(crate) fn lines(blocks: &[Block], entries: &[f64]) -> Vec<String> {
     let several = blocks.len() > 1;
     let mut lines = Vec::new();
     for (number, (block, entries)) in split(blocks, entries).take(MOST_BLOCKS).enumerate() {

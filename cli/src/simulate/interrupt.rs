@@ -32,18 +32,18 @@ fn flags() -> &'static Flags {
 }
 
 /// While it lives the first signal only asks the run to stop.
-pub struct Guard(());
+pub(crate) struct Guard(());
 
 impl Guard {
     /// Begins to watch.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         flags().asked.store(false, Ordering::SeqCst);
         flags().immediate.store(false, Ordering::SeqCst);
         Self(())
     }
 
     /// Whether the run is to stop.
-    pub fn asked(&self) -> bool {
+    pub(crate) fn asked(&self) -> bool {
         flags().asked.load(Ordering::Relaxed)
     }
 }

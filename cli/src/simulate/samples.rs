@@ -17,7 +17,7 @@ const NUMBERS: usize = 1 << 18;
 /// The first moments of a run, and every 2^k-th of the rest with the largest drift since the one before,
 /// so that thinning hides no peak.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-pub struct Samples {
+pub(crate) struct Samples {
     records: Vec<Record>,
     most: usize,
     stride: u64,
@@ -29,13 +29,13 @@ pub struct Samples {
 
 impl Samples {
     /// For momenta of this dimension.
-    pub fn new(dim: usize) -> Self {
+    pub(crate) fn new(dim: usize) -> Self {
         let most = (NUMBERS / (dim + 5)).clamp(FEWEST, MOST) & !1;
         Self { records: Vec::new(), most, stride: 1, offered: 0, pending: None }
     }
 
     /// Offers the next moment.
-    pub fn offer(&mut self, time: f64, momentum: &[f64], mut drift: Drift) {
+    pub(crate) fn offer(&mut self, time: f64, momentum: &[f64], mut drift: Drift) {
         if let Some(pending) = &self.pending {
             drift.raise(pending.drift);
         }
@@ -75,13 +75,13 @@ impl Samples {
     }
 
     /// The records, the last moment offered among them.
-    pub fn finish(mut self) -> Vec<Record> {
+    pub(crate) fn finish(mut self) -> Vec<Record> {
         self.records.extend(self.pending);
         self.records
     }
 
     /// Whether all momenta have this dimension, as those of a file need not.
-    pub fn fits(&self, dim: usize) -> bool {
+    pub(crate) fn fits(&self, dim: usize) -> bool {
         self.stride > 0 && self.records.iter().chain(&self.pending).all(|r| r.momentum.len() == dim)
     }
 }

@@ -14,7 +14,7 @@ use crate::error::{CliError, unwritten};
 
 /// The settings of a run, and what is kept of it.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// The system file.
     pub file: PathBuf,
     /// The SHA-256 of its text.
@@ -36,7 +36,7 @@ impl Settings {
     ///
     /// # Errors
     /// Where the interval of checkpoints is no duration.
-    pub fn new(
+    pub(crate) fn new(
         options: &SimulateOptions,
         (file, hash): (&Path, &str),
         out: Option<Target>,
@@ -61,7 +61,7 @@ impl Settings {
     }
 
     /// Everything the run reads.
-    pub fn inputs(&self) -> Vec<&Path> {
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
         self.inputs.iter().map(PathBuf::as_path).collect()
     }
 }
@@ -70,7 +70,11 @@ impl Settings {
 ///
 /// # Errors
 /// A setting that is missing or makes no sense.
-pub fn setup(options: &SimulateOptions, file: &Path, system: &System) -> Result<Setup, CliError> {
+pub(crate) fn setup(
+    options: &SimulateOptions,
+    file: &Path,
+    system: &System,
+) -> Result<Setup, CliError> {
     let run = &system.run;
     let schedule = Schedule::new(file, options.accuracy.step, options.time, run)?;
     let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
@@ -90,7 +94,7 @@ pub fn setup(options: &SimulateOptions, file: &Path, system: &System) -> Result<
 }
 
 /// Everything a run reads.
-pub fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
+pub(crate) fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
     let times = options.at.iter().map(PathBuf::from);
     let system = options.input.model.clone().unwrap_or_else(|| options.input.source(None).file);
     std::iter::once(system).chain(times).collect()
@@ -100,7 +104,7 @@ pub fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Where it is 0.
-pub fn every(steps: usize) -> Result<u64, CliError> {
+pub(crate) fn every(steps: usize) -> Result<u64, CliError> {
     match steps {
         0 => Err(CliError::Option("--every counts steps from 1; try --every 1".to_owned())),
         steps => Ok(steps as u64),
@@ -111,7 +115,7 @@ pub fn every(steps: usize) -> Result<u64, CliError> {
 ///
 /// # Errors
 /// By the name of the option.
-pub fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
+pub(crate) fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
     let refuse = |what: String| Err(CliError::Option(what));
     let inputs = inputs(options);
     let out = options.out.as_deref().map(|out| Target::new(out, &inputs)).transpose()?;

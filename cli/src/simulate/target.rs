@@ -8,7 +8,7 @@ use crate::error::{CliError, unwritten};
 
 /// The format of a file of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Comment lines, a line of names, a line for each record, a closing comment line.
     Csv,
     /// A matrix of 64-bit floats; what CSV has in comments and names is in a JSON file beside it.
@@ -17,7 +17,7 @@ pub enum Form {
 
 /// The kind of place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub(crate) enum Place {
     /// The standard output.
     Standard,
     /// A device or a pipe, written as it is.
@@ -28,7 +28,7 @@ pub enum Place {
 
 /// Where records go.
 #[derive(Clone, Debug)]
-pub struct Target {
+pub(crate) struct Target {
     /// The name given.
     pub path: PathBuf,
     /// The format.
@@ -44,7 +44,7 @@ impl Target {
     ///
     /// # Errors
     /// Where the name has no known ending, its folder is not there, or it is one of the inputs.
-    pub fn new(path: &Path, inputs: &[PathBuf]) -> Result<Self, CliError> {
+    pub(crate) fn new(path: &Path, inputs: &[PathBuf]) -> Result<Self, CliError> {
         let target = |form, place| {
             let target = Self { path: path.to_owned(), form, place, inputs: inputs.to_vec() };
             target.check()?;
@@ -80,7 +80,7 @@ impl Target {
     ///
     /// # Errors
     /// Where the place is no file.
-    pub fn numbered(&self, truncation: usize) -> Result<Self, CliError> {
+    pub(crate) fn numbered(&self, truncation: usize) -> Result<Self, CliError> {
         if self.place != Place::File {
             return Err(CliError::Option(format!(
                 "--out {}: several truncations need several files; give a name such as t.csv",
@@ -96,7 +96,7 @@ impl Target {
     }
 
     /// The names of the files that are written.
-    pub fn names(&self) -> Vec<PathBuf> {
+    pub(crate) fn names(&self) -> Vec<PathBuf> {
         match (self.place, self.form) {
             (Place::File, Form::Csv) => vec![self.path.clone(), self.part()],
             (Place::File, Form::Npy) => vec![self.path.clone(), self.part(), self.description()],
@@ -115,14 +115,14 @@ impl Target {
     ///
     /// # Errors
     /// Where it cannot be written, or another run writes it.
-    pub fn open(&self) -> Result<Option<Output>, CliError> {
+    pub(crate) fn open(&self) -> Result<Option<Output>, CliError> {
         let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
         let opened = (self.place != Place::Standard).then(|| Output::open(&self.path, &inputs));
         opened.transpose().map_err(unwritten(&self.part()))
     }
 
     /// The name that is written to until all is there.
-    pub fn part(&self) -> PathBuf {
+    pub(crate) fn part(&self) -> PathBuf {
         match self.place {
             Place::File => passing(&self.path),
             _ => self.path.clone(),
@@ -130,7 +130,7 @@ impl Target {
     }
 
     /// The JSON file beside a matrix.
-    pub fn description(&self) -> PathBuf {
+    pub(crate) fn description(&self) -> PathBuf {
         beside(&self.path, ".json")
     }
 }

@@ -13,7 +13,7 @@ use crate::load;
 ///
 /// # Errors
 /// Where it cannot be read or holds no such report.
-pub fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
+pub(crate) fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
     let damaged = |what: String| CliError::Option(format!("{}: {what}", path.display()));
     let text = load::text(path)?;
     let mut reports = Vec::new();

@@ -302,7 +302,7 @@ fn other_columns_are_carried_through_unchanged() {
             assert!(line.split(',').any(|cell| cell == number), "{line}\n{plain}");
         }
     }
-    // What is written is read again: the second run carries the same cells.
+    // The output can be read again: the second run carries the same cells.
     ensemble(&folder, "out.csv", "again.csv", &["--time", "1"]);
     let again = folder.text("again.csv");
     assert!(
@@ -315,7 +315,7 @@ fn other_columns_are_carried_through_unchanged() {
     assert!(error.contains("not carried through") && error.contains("id, name, note"), "{error}");
 }
 
-/// What `simulate` writes, `ensemble` reads: coordinates by their own names, matrices of products by their blocks.
+/// `ensemble` reads the output of `simulate`: coordinates by their own names, matrices of products by their blocks.
 #[test]
 fn records_of_runs_are_states() {
     let folder = Folder::new();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{Read, Result, Seek, SeekFrom};
 
 /// Passes bytes on, and takes note of the lines `# name: value` among them.
-pub struct Remarks<R> {
+pub(crate) struct Remarks<R> {
     inner: R,
     /// The values by their names.
     pub head: BTreeMap<String, String>,
@@ -16,7 +16,7 @@ pub struct Remarks<R> {
 
 impl<R> Remarks<R> {
     /// From the beginning of a line on.
-    pub fn new(inner: R) -> Self {
+    pub(crate) fn new(inner: R) -> Self {
         Self { inner, head: BTreeMap::new(), line: None, fresh: true }
     }
 

@@ -185,6 +185,6 @@ pub fn engine<'a>(
 }
 
 /// The larger of two numbers; what is no number is larger than any.
-pub fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

@@ -44,7 +44,7 @@ impl Block {
 }
 
 /// The blocks of elements that are matrices of `size` rows: one for each factor of the algebra, or all in one.
-pub fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
+pub(crate) fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
     let factors = algebra.factors();
     let mut found: Vec<Block> = Vec::with_capacity(factors.len());
     let mut end = 0;

@@ -29,7 +29,7 @@ impl Pace {
 
 /// A run as its driver knows it: of a system, or of a learned map.
 #[derive(Clone)]
-pub struct Subject<'a> {
+pub(crate) struct Subject<'a> {
     /// The name of the system in messages.
     pub file: &'a Path,
     /// From where, how far, in which steps.
@@ -60,7 +60,11 @@ impl Subject<'_> {
     ///
     /// # Errors
     /// Why the run stopped.
-    pub fn run(&self, motion: &mut dyn Motion, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+    pub(crate) fn run(
+        &self,
+        motion: &mut dyn Motion,
+        sink: &mut dyn Sink,
+    ) -> Result<Outcome, RunError> {
         let setup = self.setup;
         self.warnings.iter().for_each(|warning| sink.warn(&warning.text()));
         let mut recorder = Recorder::new(self.watched, &*motion, motion.state());

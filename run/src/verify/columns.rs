@@ -8,33 +8,33 @@ use crate::ensemble::{Attitude, Found, Known, Shape};
 use crate::error::RunError;
 
 /// The places of the time, the energy and the state in a row.
-pub struct Columns {
+pub(crate) struct Columns {
     pub time: Option<usize>,
     pub energy: Option<usize>,
     found: Found,
 }
 
 /// A state of a file: the momentum and, where it is given, the matrix of the element, row by row.
-pub struct State {
+pub(crate) struct State {
     pub momentum: Vec<f64>,
     pub element: Option<Vec<f64>>,
 }
 
 impl State {
     /// All its numbers.
-    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         self.momentum.iter().chain(self.element.iter().flatten()).copied()
     }
 }
 
 /// A defect of a table.
-pub fn refused(table: &Table, what: impl std::fmt::Display) -> RunError {
+pub(crate) fn refused(table: &Table, what: impl std::fmt::Display) -> RunError {
     RunError::Option(format!("{}: {what}", table.path().display()))
 }
 
 impl Columns {
     /// By names, or by the number of columns where there are none.
-    pub fn find(problem: &Problem, table: &Table) -> Result<Self, RunError> {
+    pub(crate) fn find(problem: &Problem, table: &Table) -> Result<Self, RunError> {
         let (shape, names) = (Shape::of(&problem.algebra), table.names());
         let shape = Shape { quaternions: shape.dim == 3 && shape.matrix_size == 3, ..shape };
         let found = Found::of(shape, &Known::of(problem, &[]), names, table.width());
@@ -44,7 +44,7 @@ impl Columns {
     }
 
     /// The state of a row.
-    pub fn state(&self, row: &[f64]) -> State {
+    pub(crate) fn state(&self, row: &[f64]) -> State {
         let numbers = self.found.places.iter().map(|place| place.map_or(0.0, |place| row[place]));
         let mut momentum: Vec<f64> = numbers.collect();
         let attitude = momentum.split_off(self.found.layout.shape.dim);
@@ -62,7 +62,7 @@ impl Columns {
 }
 
 /// The next row of a table, if there is one.
-pub fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
+pub(crate) fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
     let mut row = Row::default();
     if !table.read(&mut row)? {
         return Ok(None);

@@ -25,7 +25,7 @@ const BESIDE: f64 = 1e-8;
 const SAFETY: f64 = 10.0;
 
 /// Why the judge stops at a step.
-pub enum Trouble {
+pub(crate) enum Trouble {
     /// The step is wrong.
     Wrong(String),
     /// Nothing can be said of it.
@@ -45,7 +45,7 @@ impl From<Stop> for Trouble {
 }
 
 /// A motion that is judged.
-pub struct Course {
+pub(crate) struct Course {
     motion: Motion,
     /// Rows of the group's matrices.
     size: usize,
@@ -66,13 +66,13 @@ struct Twins {
 
 impl Course {
     /// From this momentum, over `steps` steps, in a group whose matrices have `size` rows.
-    pub fn new(mu: &[f64], steps: u64, size: usize) -> Self {
+    pub(crate) fn new(mu: &[f64], steps: u64, size: usize) -> Self {
         let twins = (steps > PROVEN).then(|| Twins::new(mu));
         Self { motion: Motion::new(mu), size, twins }
     }
 
     /// One step by its right solution, which must lie inside the chart and be of a series that means something.
-    pub fn step(&mut self, setting: &mut Setting<'_>) -> Result<(), Trouble> {
+    pub(crate) fn step(&mut self, setting: &mut Setting<'_>) -> Result<(), Trouble> {
         let step = self.motion.here(setting).map_err(Stop::Judge)?;
         let right = step.right_solution().map_err(Stop::Branch)?;
         let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
@@ -103,7 +103,7 @@ impl Course {
     }
 
     /// By how much the motion stretches: the product of the norms of its element and the inverse, where there is one.
-    pub fn stretch(&self) -> Option<f64> {
+    pub(crate) fn stretch(&self) -> Option<f64> {
         let element = square(&element(&self.motion, self.size));
         Some(element.norm() * element.try_inverse()?.norm())
     }
@@ -112,7 +112,11 @@ impl Course {
     ///
     /// # Errors
     /// Where that is so much that nothing can be said.
-    pub fn deviations(&self, before: &State, after: &State) -> Result<(f64, Option<f64>), String> {
+    pub(crate) fn deviations(
+        &self,
+        before: &State,
+        after: &State,
+    ) -> Result<(f64, Option<f64>), String> {
         let elements = before.element.as_ref().zip(after.element.as_ref());
         let Some(twins) = &self.twins else {
             let element = elements.map(|(g, next)| self.motion.element_deviation(g, next));

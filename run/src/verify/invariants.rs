@@ -13,10 +13,10 @@ use crate::engine::{phase_of, product_group};
 use crate::error::RunError;
 
 /// The drift allowed a step, relative to the sum of the absolute values of the invariant's terms.
-pub const DRIFT: f64 = 64.0 * f64::EPSILON;
+pub(crate) const DRIFT: f64 = 64.0 * f64::EPSILON;
 
 /// The invariants of a problem, computed from its exact data.
-pub struct Invariants {
+pub(crate) struct Invariants {
     casimirs: Vec<Numeric>,
     hamiltonian: Numeric,
     /// The group, as tables.
@@ -25,7 +25,7 @@ pub struct Invariants {
 
 impl Invariants {
     /// The invariants of a problem whose parameters have values.
-    pub fn new(problem: &Problem) -> Result<Self, RunError> {
+    pub(crate) fn new(problem: &Problem) -> Result<Self, RunError> {
         let dim = problem.algebra.dim();
         let float = |polynomial| Numeric::new(polynomial, dim, &values(&problem.symbols));
         Ok(Self {
@@ -36,12 +36,16 @@ impl Invariants {
     }
 
     /// The energy of a momentum, and the sum of the absolute values of its terms.
-    pub fn energy(&self, mu: &[f64]) -> (f64, f64) {
+    pub(crate) fn energy(&self, mu: &[f64]) -> (f64, f64) {
         (self.hamiltonian.value(mu), self.hamiltonian.magnitude(mu))
     }
 
     /// By how much each Casimir drifts from one momentum to another, relative to its terms.
-    pub fn casimir_drifts(&self, before: &[f64], after: &[f64]) -> impl Iterator<Item = f64> {
+    pub(crate) fn casimir_drifts(
+        &self,
+        before: &[f64],
+        after: &[f64],
+    ) -> impl Iterator<Item = f64> {
         self.casimirs.iter().map(move |casimir| {
             let difference = (casimir.value(before) - casimir.value(after)).abs();
             let [a, b] = [before, after].map(|mu| casimir.magnitude(mu));
@@ -51,7 +55,7 @@ impl Invariants {
 
     /// By how much the spatial momentum Ad\*_g μ drifts from one state to another, relative to what rounding of g and μ may
     /// leave of it; none where a matrix has no inverse, or no element is given.
-    pub fn spatial_drift(&self, before: &State, after: &State) -> Option<f64> {
+    pub(crate) fn spatial_drift(&self, before: &State, after: &State) -> Option<f64> {
         let spatial = |state: &State| {
             let matrix = square(state.element.as_ref()?);
             let size = matrix.norm() * matrix.clone().try_inverse()?.norm();
@@ -65,7 +69,7 @@ impl Invariants {
 }
 
 /// A square matrix with these entries, row by row.
-pub fn square(entries: &[f64]) -> DMatrix<f64> {
+pub(crate) fn square(entries: &[f64]) -> DMatrix<f64> {
     let size = entries.len().isqrt();
     DMatrix::from_row_slice(size, size, &entries[..size * size])
 }
