@@ -238,7 +238,7 @@ impl Backend {
     }
 }
 
-/// The backends that take less time for so many steps than the interpreter, the best one first.
+/// The backends that take less time for this number of steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
     let operations = operations(kernel) as f64;
     let lanes = usize::from(trajectories == Trajectories::Lanes);

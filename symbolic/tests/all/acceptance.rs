@@ -66,7 +66,7 @@ fn each_condition_counts() {
     assert!(!turned(1.0, f64::NAN) && !turned(1.0, f64::INFINITY));
 }
 
-/// What K = 1, 3 and 5 limit: the rate at which motions part, by Newton's method with its matrices, by the fixed point as
+/// The limit of K = 1, 3 and 5: the rate at which motions part, by Newton's method with its matrices, by the fixed point as
 /// the turn. From K = 7 on the ratio of terms tells.
 #[test]
 fn series_of_few_terms_limit_the_rate() {
