@@ -64,7 +64,9 @@ impl Invariants {
         };
         let ((one, size), (other, next)) = (spatial(before)?, spatial(after)?);
         let difference = (one - other).amax();
-        Some(if difference == 0.0 { 0.0 } else { difference / (size + next) })
+        // The inverse of a long element may overflow.
+        let drift = if difference == 0.0 { 0.0 } else { difference / (size + next) };
+        (!drift.is_nan()).then_some(drift)
     }
 }
 
