@@ -116,8 +116,9 @@ impl States {
         let mut row = Row::default();
         for _ in 0..count {
             if !self.table.read(&mut row)? {
-                let what = "the file of states has become shorter while it was read";
-                return Err(CliError::Option(what.to_owned()));
+                let path = self.table.path().display();
+                let what = format!("{path}: it has become shorter while it was read");
+                return Err(CliError::Option(what));
             }
             let mut bad =
                 (row.len() != width).then(|| format!("{} cells instead of {width}", row.len()));

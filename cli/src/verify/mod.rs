@@ -58,7 +58,8 @@ pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
 
 /// The tables of a file: one for each run that a report holds, else one.
 fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
-    match path.extension().and_then(|ending| ending.to_str()) {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match ending.to_str() {
         Some("json" | "jsonl") => report::tables(path),
         _ => Ok(vec![Table::open(path)?]),
     }
