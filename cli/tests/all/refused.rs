@@ -70,25 +70,24 @@ fn a_cayley_step_of_thirty_is_refused() {
 /// A body whose step is refused alone is refused beside seven slow ones that do not touch it, and says why.
 #[test]
 fn idle_factors_do_not_hide_a_fast_one() {
-    let directory = TempDir::new().unwrap();
+    let folder = Folder::new();
     let fast = "-0.45927998697067629,-24.812225295827826,1.8406638635157002";
     let slow = ",0.45,3.75,3".repeat(7);
     let one = ("SO3", "x^2/2 + y^2/18 + z^2/20", fast.to_owned());
     let sum = "sum(i, 0..8, x[i]^2/2 + y[i]^2/18 + z[i]^2/20)";
     for (group, energy, momenta) in [one, ("SO3^8", sum, format!("{fast}{slow}"))] {
-        let system = file(
-            &directory,
-            &format!(
+        let system = folder.write(
+            "system.toml",
+            format!(
                 "group = \"{group}\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"{energy}\"\n\
                  [integrator]\ntruncation = 5\nstep = 1\nsolver = \"newton\"\n"
             ),
         );
-        let [states, ends] = ["states.csv", "ends.csv"].map(|name| directory.path().join(name));
         let names: Vec<String> =
             (1..=momenta.split(',').count()).map(|i| format!("mu_{i}")).collect();
-        std::fs::write(&states, format!("{}\n{momenta}\n", names.join(","))).unwrap();
-        let [states, ends] = [&states, &ends].map(|path| path.to_str().unwrap());
-        let ensemble = ["ensemble", &system, "--initial", states, "--out", ends];
+        let states = folder.write("states.csv", format!("{}\n{momenta}\n", names.join(",")));
+        let ends = folder.name("ends.csv");
+        let ensemble = ["ensemble", &system, "--initial", &states, "--out", &ends];
         let (code, out, error) = run(&[&ensemble[..], &["--step", "1", "--time", "1"]].concat());
         assert!(code == 1 && error.contains("all 1 rows failed"), "{group}: {out}{error}");
         assert!(out.contains("the series means nothing for so long a step"), "{group}: {out}");
