@@ -18,10 +18,9 @@ pub use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
 pub use crate::linear::coordinates::Factors;
 pub use crate::table::{
-    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, SL2, SL2Algebra, SO4,
-    SO4Algebra, SO5, SO5Algebra, SU3, SU3Algebra, SU4, SU4Algebra, StaticAlgebra,
-    StaticMatrixGroup, StaticTables, StructureConstant, TableGroup, Tables, U2, U2Algebra, U3,
-    U3Algebra,
+    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, Rotations, SL2,
+    SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, StaticAlgebra, StaticMatrixGroup, StaticTables,
+    StructureConstant, TableGroup, Tables, U2, U3, Unitary,
 };
 #[cfg(feature = "alloc")]
 pub use crate::table::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};

@@ -3,7 +3,6 @@
 
 pub mod backends;
 pub mod bridge;
-pub mod catalogue;
 pub mod elliptic;
 pub mod emitted;
 pub mod erased;

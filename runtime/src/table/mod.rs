@@ -16,7 +16,10 @@ mod membership;
 #[cfg(feature = "alloc")]
 pub(crate) use algebra::monomial;
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables};
-pub use catalogue::*;
+pub use catalogue::{
+    Aff1, Aff1Algebra, Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, U2, U3,
+    Unitary,
+};
 pub use cayley::CayleyTables;
 #[cfg(feature = "alloc")]
 pub use dynamic::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};

@@ -12,7 +12,6 @@ mod acceptance;
 mod casimirs;
 mod catalogue;
 mod derivation;
-mod elliptic;
 mod graph;
 #[cfg(feature = "judge")]
 mod judge;

@@ -1,31 +1,12 @@
-//! The runtime's groups against codegen's catalogue: the tables are the catalogue's, and closed
-//! forms agree with table-driven groups of the same basis.
+//! The runtime's closed forms agree with table-driven groups of the same basis.
 #![allow(clippy::unwrap_used)]
-
-use std::path::Path;
 
 use coadjoint::{
     Coordinates, LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::MatrixGroup,
 };
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_tests::bridge::matrix_group;
-use coadjoint_tests::catalogue::{GROUPS, source};
 use nalgebra::DVector;
-
-/// With `BLESS=1` the files are written anew.
-#[test]
-fn tables_in_the_runtime_are_those_of_the_catalogue() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/table/catalogue");
-    for (name, what, basis) in GROUPS {
-        let text = source(&lookup(name).unwrap(), what, basis).unwrap();
-        let path = folder.join(format!("{}.rs", name.to_lowercase()));
-        if std::env::var_os("BLESS").is_some() {
-            std::fs::write(&path, &text).unwrap();
-        }
-        let found = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(found == text, "{name} differs from the catalogue: run this test with BLESS=1");
-    }
-}
 
 /// Numbers in (−1, 1) from a fixed seed.
 fn numbers(mut seed: u64, count: usize) -> Vec<f64> {

@@ -2,16 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::{
-    Phase, StepError, groups::Aff1Algebra, groups::SL2Algebra, groups::SO4, groups::SO4Algebra,
-    groups::SO5Algebra, groups::SU3Algebra, groups::SU4Algebra, groups::StaticAlgebra,
-    groups::U2Algebra, groups::U3Algebra, lie_poisson,
+use coadjoint::groups::{
+    Aff1Algebra, CayleyAlgebra, Rotations, SL2Algebra, SO4, SpecialUnitary, StaticAlgebra, Unitary,
 };
+use coadjoint::{Phase, StepError, lie_poisson};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::lie::catalogue::lookup;
+use coadjoint_codegen::lie::{Chart, LieAlgebra, casimirs};
 use coadjoint_codegen::system;
 use num_traits::ToPrimitive;
 
@@ -57,19 +56,40 @@ fn agrees<A: StaticAlgebra>(name: &str) -> Result<(), Box<dyn std::error::Error>
     basis.retain(|_, value| *value != 0.0);
     let here = A::BASIS.unwrap_or_default().iter();
     assert_eq!(here.map(|&(i, r, c, v)| ((i, r, c), v)).collect::<BTreeMap<_, _>>(), basis);
+
+    let invariants = casimirs(&algebra, if A::DIM <= 9 { 3 } else { 2 })?;
+    let terms = invariants.iter().map(|casimir| {
+        let terms = casimir.factors().map(|(factors, value)| (factors, value.to_f64()));
+        terms.collect::<BTreeMap<_, _>>()
+    });
+    let here = A::CASIMIRS.iter().map(|casimir| {
+        casimir
+            .iter()
+            .map(|&(value, factors)| (factors.to_vec(), Some(value)))
+            .collect::<BTreeMap<_, _>>()
+    });
+    assert_eq!(here.collect::<Vec<_>>(), terms.collect::<Vec<_>>(), "{name}");
     Ok(())
+}
+
+/// The same of an algebra with the Cayley chart.
+fn agrees_with_cayley<A: CayleyAlgebra>(name: &str) -> Result<(), Box<dyn std::error::Error>> {
+    Chart::Cayley.check(&lookup(name)?)?;
+    agrees::<A>(name)
 }
 
 #[test]
 fn the_runtimes_tables_are_the_catalogues() -> Result<(), Box<dyn std::error::Error>> {
-    agrees::<Aff1Algebra>("Aff1")?;
-    agrees::<SL2Algebra>("SL2")?;
-    agrees::<SO4Algebra>("SO4")?;
-    agrees::<SO5Algebra>("SO5")?;
-    agrees::<SU3Algebra>("SU3")?;
-    agrees::<SU4Algebra>("SU4")?;
-    agrees::<U2Algebra>("U2")?;
-    agrees::<U3Algebra>("U3")?;
+    agrees_with_cayley::<Aff1Algebra>("Aff1")?;
+    agrees_with_cayley::<SL2Algebra>("SL2")?;
+    agrees_with_cayley::<Rotations<4>>("SO4")?;
+    agrees_with_cayley::<Rotations<5>>("SO5")?;
+    agrees_with_cayley::<Unitary<2>>("U2")?;
+    agrees_with_cayley::<Unitary<3>>("U3")?;
+    assert!(Chart::Cayley.check(&lookup("SU3")?).is_err());
+    assert!(Chart::Cayley.check(&lookup("SU4")?).is_err());
+    agrees::<SpecialUnitary<3>>("SU3")?;
+    agrees::<SpecialUnitary<4>>("SU4")?;
     assert_eq!(emit::RUNTIME_TABLES.len(), 8);
     Ok(())
 }

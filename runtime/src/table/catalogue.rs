@@ -1,0 +1,361 @@
+//! Groups known by name that have no closed forms here. Their bases are given; the brackets follow from them at
+//! compile time. A test compares all with codegen's exact catalogue.
+
+use super::algebra::{BasisEntry, CasimirTerm, StructureConstant};
+use super::fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup};
+
+/// The group SO4: rotations of four-dimensional space, as [`Rotations`]. Both charts.
+pub type SO4<T = f64> = StaticMatrixGroup<Rotations<4>, 6, 4, T>;
+/// The group SO5: rotations of five-dimensional space, as [`Rotations`]. Both charts.
+pub type SO5<T = f64> = StaticMatrixGroup<Rotations<5>, 10, 5, T>;
+/// The unitary group of ℂ², as [`Unitary`]. Both charts.
+pub type U2<T = f64> = StaticMatrixGroup<Unitary<2>, 4, 4, T>;
+/// The unitary group of ℂ³, as [`Unitary`]. Both charts.
+pub type U3<T = f64> = StaticMatrixGroup<Unitary<3>, 9, 6, T>;
+/// The special unitary group of ℂ³, as [`SpecialUnitary`]. The exponential chart only: xξx leaves the algebra.
+pub type SU3<T = f64> = StaticMatrixGroup<SpecialUnitary<3>, 8, 6, T>;
+/// The special unitary group of ℂ⁴, as [`SpecialUnitary`]. The exponential chart only: xξx leaves the algebra.
+pub type SU4<T = f64> = StaticMatrixGroup<SpecialUnitary<4>, 15, 8, T>;
+/// The group SL2: real 2×2 matrices of determinant 1. Basis: E_11 − E_22, E_12, E_21. Both charts.
+pub type SL2<T = f64> = StaticMatrixGroup<SL2Algebra, 3, 2, T>;
+/// The group Aff1: affine maps of the line, as 2×2 matrices. Basis: the scaling E_11 and the translation E_12. Both
+/// charts; it has no polynomial Casimir.
+pub type Aff1<T = f64> = StaticMatrixGroup<Aff1Algebra, 2, 2, T>;
+
+/// 𝔰𝔬(`D`). Basis: E_ba − E_ab for a < b, in lexicographic order.
+#[derive(Clone, Copy, Debug)]
+pub struct Rotations<const D: usize>;
+
+/// 𝔲(`N`), as real matrices ((A, −B), (B, A)) of A + iB. Basis: E_ab − E_ba and i(E_ab + E_ba) for a < b in
+/// lexicographic order; then iE_kk.
+#[derive(Clone, Copy, Debug)]
+pub struct Unitary<const N: usize>;
+
+/// 𝔰𝔲(`N`), as [`Unitary`], but the basis ends with i(E_kk − E_k+1,k+1).
+#[derive(Clone, Copy, Debug)]
+pub struct SpecialUnitary<const N: usize>;
+
+/// The Lie algebra of [`SL2`].
+#[derive(Clone, Copy, Debug)]
+pub struct SL2Algebra;
+
+/// The Lie algebra of [`Aff1`].
+#[derive(Clone, Copy, Debug)]
+pub struct Aff1Algebra;
+
+impl<const D: usize> StaticAlgebra for Rotations<D> {
+    const DIM: usize = D * (D - 1) / 2;
+    const MATRIX_SIZE: usize = D;
+    const STRUCTURE: &'static [StructureConstant] = const { &brackets(&rotations(D)) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(const { &rotations(D) }.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] = match D {
+        4 => &[SQUARES.split_at(6).0, PFAFFIAN],
+        _ => &[SQUARES.split_at(Self::DIM).0],
+    };
+}
+
+impl<const N: usize> StaticAlgebra for Unitary<N> {
+    const DIM: usize = N * N;
+    const MATRIX_SIZE: usize = 2 * N;
+    const STRUCTURE: &'static [StructureConstant] =
+        const { &brackets(&unitary(N, false)) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(const { &unitary(N, false) }.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] = match N {
+        2 => &[U2_TRACE, U2_SQUARES],
+        3 => &[U3_TRACE, U3_SQUARES, U3_CUBES],
+        _ => &[],
+    };
+}
+
+impl<const N: usize> StaticAlgebra for SpecialUnitary<N> {
+    const DIM: usize = N * N - 1;
+    const MATRIX_SIZE: usize = 2 * N;
+    const STRUCTURE: &'static [StructureConstant] =
+        const { &brackets(&unitary(N, true)) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(const { &unitary(N, true) }.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] = match N {
+        3 => &[SU3_SQUARES, SU3_CUBES],
+        4 => &[SU4_SQUARES],
+        _ => &[],
+    };
+}
+
+impl StaticAlgebra for SL2Algebra {
+    const DIM: usize = 3;
+    const MATRIX_SIZE: usize = 2;
+    const STRUCTURE: &'static [StructureConstant] = const { &brackets(&SL2_BASIS) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(SL2_BASIS.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] =
+        &[&[(1.0, &[(0, 2)]), (4.0, &[(1, 1), (2, 1)])]];
+}
+
+impl StaticAlgebra for Aff1Algebra {
+    const DIM: usize = 2;
+    const MATRIX_SIZE: usize = 2;
+    const STRUCTURE: &'static [StructureConstant] = const { &brackets(&AFF1_BASIS) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(AFF1_BASIS.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] = &[];
+}
+
+impl<const D: usize> CayleyAlgebra for Rotations<D> {}
+impl<const N: usize> CayleyAlgebra for Unitary<N> {}
+impl CayleyAlgebra for SL2Algebra {}
+impl CayleyAlgebra for Aff1Algebra {}
+
+static SL2_BASIS: Entries =
+    Entries::EMPTY.with(0, 0, 0, 1.0).with(0, 1, 1, -1.0).with(1, 0, 1, 1.0).with(2, 1, 0, 1.0);
+
+static AFF1_BASIS: Entries = Entries::EMPTY.with(0, 0, 0, 1.0).with(1, 0, 1, 1.0);
+
+/// Room for the structure constants of SU4, the largest table here; a larger one does not compile.
+const CAPACITY: usize = 192;
+/// Room for the matrices and the basis of SU4.
+const MAX_SIZE: usize = 8;
+const MAX_DIM: usize = 15;
+
+/// A table as it grows.
+struct Entries {
+    all: [(usize, usize, usize, f64); CAPACITY],
+    len: usize,
+}
+
+impl Entries {
+    const EMPTY: Self = Self { all: [(0, 0, 0, 0.0); CAPACITY], len: 0 };
+
+    const fn with(mut self, i: usize, j: usize, k: usize, value: f64) -> Self {
+        self.all[self.len] = (i, j, k, value);
+        self.len += 1;
+        self
+    }
+
+    const fn entries(&self) -> &[(usize, usize, usize, f64)] {
+        self.all.split_at(self.len).0
+    }
+}
+
+/// The basis of [`Rotations`].
+const fn rotations(size: usize) -> Entries {
+    let (mut basis, mut i, mut a) = (Entries::EMPTY, 0, 0);
+    while a < size {
+        let mut b = a + 1;
+        while b < size {
+            basis = basis.with(i, a, b, -1.0).with(i, b, a, 1.0);
+            (i, b) = (i + 1, b + 1);
+        }
+        a += 1;
+    }
+    basis
+}
+
+/// The basis of [`Unitary`] or [`SpecialUnitary`].
+const fn unitary(n: usize, special: bool) -> Entries {
+    let (mut basis, mut i, mut a) = (Entries::EMPTY, 0, 0);
+    while a < n {
+        let mut b = a + 1;
+        while b < n {
+            basis = basis.with(i, a, b, 1.0).with(i, b, a, -1.0);
+            basis = basis.with(i, n + a, n + b, 1.0).with(i, n + b, n + a, -1.0);
+            basis = basis.with(i + 1, a, n + b, -1.0).with(i + 1, b, n + a, -1.0);
+            basis = basis.with(i + 1, n + a, b, 1.0).with(i + 1, n + b, a, 1.0);
+            (i, b) = (i + 2, b + 1);
+        }
+        a += 1;
+    }
+    let mut k = 0;
+    while k + (special as usize) < n {
+        basis = basis.with(i, k, n + k, -1.0).with(i, n + k, k, 1.0);
+        if special {
+            basis = basis.with(i, k + 1, n + k + 1, 1.0).with(i, n + k + 1, k + 1, -1.0);
+        }
+        (i, k) = (i + 1, k + 1);
+    }
+    basis
+}
+
+/// The structure constants of a basis in which the first entry of each matrix is zero in all that follow it.
+const fn brackets(basis: &Entries) -> Entries {
+    // Where the entries of each matrix begin.
+    let (mut start, mut dim, mut at) = ([0; MAX_DIM + 1], 0, 0);
+    while at < basis.len {
+        if basis.all[at].0 == dim {
+            start[dim] = at;
+            dim += 1;
+        }
+        at += 1;
+    }
+    start[dim] = basis.len;
+    let (mut structure, mut i) = (Entries::EMPTY, 0);
+    while i < dim * dim {
+        let (first, second) = (i / dim, i % dim);
+        let mut rest = [[0.0; MAX_SIZE]; MAX_SIZE];
+        add_product(
+            &mut rest,
+            basis,
+            (start[first], start[first + 1]),
+            (start[second], start[second + 1]),
+            1.0,
+        );
+        add_product(
+            &mut rest,
+            basis,
+            (start[second], start[second + 1]),
+            (start[first], start[first + 1]),
+            -1.0,
+        );
+        let mut k = 0;
+        while k < dim {
+            let (_, row, column, value) = basis.all[start[k]];
+            let coordinate = rest[row][column] / value;
+            if coordinate != 0.0 {
+                structure = structure.with(first, second, k, coordinate);
+                let mut at = start[k];
+                while at < start[k + 1] {
+                    let (_, row, column, value) = basis.all[at];
+                    rest[row][column] -= coordinate * value;
+                    at += 1;
+                }
+            }
+            k += 1;
+        }
+        i += 1;
+    }
+    structure
+}
+
+/// Adds `sign` times the product of two matrices, whose entries are given by where they begin and end.
+const fn add_product(
+    sum: &mut [[f64; MAX_SIZE]; MAX_SIZE],
+    basis: &Entries,
+    left: (usize, usize),
+    right: (usize, usize),
+    sign: f64,
+) {
+    let mut a = left.0;
+    while a < left.1 {
+        let (_, row, inner, value) = basis.all[a];
+        let mut b = right.0;
+        while b < right.1 {
+            let (_, other, column, factor) = basis.all[b];
+            if inner == other {
+                sum[row][column] += sign * value * factor;
+            }
+            b += 1;
+        }
+        a += 1;
+    }
+}
+
+/// The square of the momentum: of 𝔰𝔬(5), and its beginning of 𝔰𝔬(4).
+const SQUARES: &[CasimirTerm] = &[
+    (1.0, &[(0, 2)]),
+    (1.0, &[(1, 2)]),
+    (1.0, &[(2, 2)]),
+    (1.0, &[(3, 2)]),
+    (1.0, &[(4, 2)]),
+    (1.0, &[(5, 2)]),
+    (1.0, &[(6, 2)]),
+    (1.0, &[(7, 2)]),
+    (1.0, &[(8, 2)]),
+    (1.0, &[(9, 2)]),
+];
+
+/// The second Casimir of 𝔰𝔬(4).
+const PFAFFIAN: &[CasimirTerm] =
+    &[(1.0, &[(0, 1), (5, 1)]), (-1.0, &[(1, 1), (4, 1)]), (1.0, &[(2, 1), (3, 1)])];
+
+const U2_TRACE: &[CasimirTerm] = &[(1.0, &[(2, 1)]), (1.0, &[(3, 1)])];
+
+const U2_SQUARES: &[CasimirTerm] =
+    &[(1.0, &[(0, 2)]), (1.0, &[(1, 2)]), (2.0, &[(2, 2)]), (2.0, &[(3, 2)])];
+
+const U3_TRACE: &[CasimirTerm] = &[(1.0, &[(6, 1)]), (1.0, &[(7, 1)]), (1.0, &[(8, 1)])];
+
+const U3_SQUARES: &[CasimirTerm] = &[
+    (1.0, &[(0, 2)]),
+    (1.0, &[(1, 2)]),
+    (1.0, &[(2, 2)]),
+    (1.0, &[(3, 2)]),
+    (1.0, &[(4, 2)]),
+    (1.0, &[(5, 2)]),
+    (2.0, &[(6, 2)]),
+    (2.0, &[(7, 2)]),
+    (2.0, &[(8, 2)]),
+];
+
+const U3_CUBES: &[CasimirTerm] = &[
+    (3.0, &[(0, 2), (8, 1)]),
+    (-3.0, &[(0, 1), (2, 1), (5, 1)]),
+    (3.0, &[(0, 1), (3, 1), (4, 1)]),
+    (3.0, &[(1, 2), (8, 1)]),
+    (-3.0, &[(1, 1), (2, 1), (4, 1)]),
+    (-3.0, &[(1, 1), (3, 1), (5, 1)]),
+    (3.0, &[(2, 2), (7, 1)]),
+    (3.0, &[(3, 2), (7, 1)]),
+    (3.0, &[(4, 2), (6, 1)]),
+    (3.0, &[(5, 2), (6, 1)]),
+    (2.0, &[(6, 3)]),
+    (6.0, &[(6, 2), (7, 1)]),
+    (6.0, &[(6, 2), (8, 1)]),
+    (6.0, &[(6, 1), (7, 2)]),
+    (6.0, &[(6, 1), (8, 2)]),
+    (2.0, &[(7, 3)]),
+    (6.0, &[(7, 2), (8, 1)]),
+    (6.0, &[(7, 1), (8, 2)]),
+    (2.0, &[(8, 3)]),
+];
+
+const SU3_SQUARES: &[CasimirTerm] = &[
+    (3.0, &[(0, 2)]),
+    (3.0, &[(1, 2)]),
+    (3.0, &[(2, 2)]),
+    (3.0, &[(3, 2)]),
+    (3.0, &[(4, 2)]),
+    (3.0, &[(5, 2)]),
+    (4.0, &[(6, 2)]),
+    (4.0, &[(6, 1), (7, 1)]),
+    (4.0, &[(7, 2)]),
+];
+
+const SU3_CUBES: &[CasimirTerm] = &[
+    (9.0, &[(0, 2), (6, 1)]),
+    (18.0, &[(0, 2), (7, 1)]),
+    (27.0, &[(0, 1), (2, 1), (5, 1)]),
+    (-27.0, &[(0, 1), (3, 1), (4, 1)]),
+    (9.0, &[(1, 2), (6, 1)]),
+    (18.0, &[(1, 2), (7, 1)]),
+    (27.0, &[(1, 1), (2, 1), (4, 1)]),
+    (27.0, &[(1, 1), (3, 1), (5, 1)]),
+    (9.0, &[(2, 2), (6, 1)]),
+    (-9.0, &[(2, 2), (7, 1)]),
+    (9.0, &[(3, 2), (6, 1)]),
+    (-9.0, &[(3, 2), (7, 1)]),
+    (-18.0, &[(4, 2), (6, 1)]),
+    (-9.0, &[(4, 2), (7, 1)]),
+    (-18.0, &[(5, 2), (6, 1)]),
+    (-9.0, &[(5, 2), (7, 1)]),
+    (8.0, &[(6, 3)]),
+    (12.0, &[(6, 2), (7, 1)]),
+    (-12.0, &[(6, 1), (7, 2)]),
+    (-8.0, &[(7, 3)]),
+];
+
+const SU4_SQUARES: &[CasimirTerm] = &[
+    (2.0, &[(0, 2)]),
+    (2.0, &[(1, 2)]),
+    (2.0, &[(2, 2)]),
+    (2.0, &[(3, 2)]),
+    (2.0, &[(4, 2)]),
+    (2.0, &[(5, 2)]),
+    (2.0, &[(6, 2)]),
+    (2.0, &[(7, 2)]),
+    (2.0, &[(8, 2)]),
+    (2.0, &[(9, 2)]),
+    (2.0, &[(10, 2)]),
+    (2.0, &[(11, 2)]),
+    (3.0, &[(12, 2)]),
+    (4.0, &[(12, 1), (13, 1)]),
+    (2.0, &[(12, 1), (14, 1)]),
+    (4.0, &[(13, 2)]),
+    (4.0, &[(13, 1), (14, 1)]),
+    (3.0, &[(14, 2)]),
+];
