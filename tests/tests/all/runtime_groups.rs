@@ -59,7 +59,10 @@ fn agrees<A: StaticAlgebra>(name: &str) -> Result<(), Box<dyn std::error::Error>
 
     let invariants = casimirs(&algebra, if A::DIM <= 9 { 3 } else { 2 })?;
     let terms = invariants.iter().map(|casimir| {
-        let terms = casimir.factors().map(|(factors, value)| (factors, value.to_f64()));
+        let own = |factors: Vec<(u32, u32)>| {
+            factors.into_iter().map(|(i, power)| (i as usize, power)).collect::<Vec<_>>()
+        };
+        let terms = casimir.factors().map(|(factors, value)| (own(factors), value.to_f64()));
         terms.collect::<BTreeMap<_, _>>()
     });
     let here = A::CASIMIRS.iter().map(|casimir| {
