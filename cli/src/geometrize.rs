@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use coadjoint::Chart;
+use coadjoint::groups::Chart;
 use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::{Problem, values};

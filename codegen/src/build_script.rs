@@ -17,7 +17,7 @@ use crate::system::{self, Parameters};
 ///
 /// ```toml
 /// [build-dependencies]
-/// coadjoint-codegen = "0.1" # or { version = "0.1", default-features = false, features = ["system"] }
+/// coadjoint-codegen = "0.2" # or { version = "0.2", default-features = false, features = ["system"] }
 /// ```
 ///
 /// in `build.rs`:

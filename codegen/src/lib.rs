@@ -25,10 +25,10 @@
 //!
 //! ```toml
 //! [dependencies]
-//! coadjoint = "0.1"
+//! coadjoint = "0.2"
 //!
 //! [build-dependencies]
-//! coadjoint-codegen = "0.1"
+//! coadjoint-codegen = "0.2"
 //! ```
 //!
 //! # Limits

@@ -1,6 +1,7 @@
 //! Groups and charts by name.
 
-use coadjoint::{Cayley, Chart, Exponential, SE3, SO3, groups::MatrixGroup};
+use coadjoint::groups::{Cayley, Chart, Exponential, MatrixGroup};
+use coadjoint::{SE3, SO3};
 use coadjoint_codegen::lie::{LieAlgebra, catalogue, watched_casimirs};
 use nalgebra::DMatrix;
 use num_rational::BigRational;

@@ -1,6 +1,8 @@
 //! How good a map is: errors of x, μ″ and g″ on pairs, and drifts over many steps.
 
-use coadjoint::{Chart, Coordinates, LieGroup, Phase, advance, poisson_map};
+use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::steps::{advance, poisson_map};
+use coadjoint::{LieGroup, Phase};
 use serde::{Deserialize, Serialize};
 
 use crate::data::{MomentumPairs, PairRows, ReducedData};

@@ -2,7 +2,9 @@
 
 use core::marker::PhantomData;
 
-use coadjoint::{Chart, Coordinates, GeneratingFunction, Integrator, LieGroup};
+use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::solve::Integrator;
+use coadjoint::{GeneratingFunction, LieGroup};
 use coadjoint_codegen::cancel;
 
 /// A smooth function f: 𝔤\* → ℝ in the coordinates dual to the basis, with its derivatives.

@@ -1,6 +1,7 @@
 //! Reading group elements from data.
 
-use coadjoint::{Coordinates, LieGroup, SE3, SO3, groups::CayleyMatrixGroup, groups::MatrixGroup};
+use coadjoint::groups::{CayleyMatrixGroup, Coordinates, MatrixGroup};
+use coadjoint::{LieGroup, SE3, SO3};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// A group whose elements can be read from data.

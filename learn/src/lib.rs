@@ -7,7 +7,9 @@
 //! Casimir to rounding; data decide only how close it is to the true one.
 //!
 //! ```
-//! use coadjoint::{Exponential, Phase, SO3, advance};
+//! use coadjoint::{Phase, SO3};
+//! use coadjoint::groups::Exponential;
+//! use coadjoint::steps::advance;
 //! use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
 //! use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 //! use coadjoint_learn::{Generating, polynomial::fit_polynomial};

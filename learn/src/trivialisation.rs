@@ -1,6 +1,7 @@
 //! Trivialised derivatives of a chart as matrices, from what [`Chart`] offers.
 
-use coadjoint::{Chart, Coordinates, Exponential, LieGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::{Chart, Coordinates, Exponential};
 use nalgebra::DMatrix;
 
 use crate::function::{entries, vector};

@@ -2,7 +2,7 @@
 
 use coadjoint_program::{Kernel, Stepper};
 
-use crate::system::{System, fold};
+use crate::system::System;
 
 /// Halves of a refused step that are tried.
 const MOST_HALVINGS: u32 = 20;
@@ -90,7 +90,7 @@ pub fn usable(system: &System, g: &[f64], mu: &[f64]) -> Option<f64> {
     let mut shorter = system.h;
     (0..MOST_HALVINGS).find_map(|_| {
         shorter *= 0.5;
-        let slots = fold(&system.integrator, &system.step, shorter);
+        let slots = system.step.fold(shorter, &[]).unwrap_or_default();
         let made = system.step.kernel().advance(&slots, &mut g.to_vec(), &mut mu.to_vec(), 1);
         (made.steps == 1).then_some(shorter)
     })

@@ -18,7 +18,9 @@ use crate::system::System;
 /// Expressions of more operations are left to the system file.
 const MOST_OPERATIONS: usize = 4000;
 /// Closed forms that the runtime has at its root.
-const AT_ROOT: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
+const AT_ROOT: [&str; 2] = ["SE3", "SO3"];
+/// Other groups that it has closed forms of.
+const CLOSED_FORMS: [&str; 3] = ["Heisenberg", "SE2", "SU2"];
 /// Names that mean something else in the function.
 const TAKEN: [&str; 2] = ["mu", "f64"];
 
@@ -66,7 +68,7 @@ pub fn program(system: &System) -> Result<String, String> {
     let name = problem.algebra.name();
     let (import, ty) = if known && AT_ROOT.contains(&name) {
         (format!("use coadjoint::{{lie_poisson, Phase, {name}}};"), name.to_owned())
-    } else if known && RUNTIME_TABLES.contains(&name) {
+    } else if known && CLOSED_FORMS.iter().chain(&RUNTIME_TABLES).any(|known| *known == name) {
         (format!("use coadjoint::{{groups::{name}, lie_poisson, Phase}};"), name.to_owned())
     } else {
         ("use coadjoint::{lie_poisson, Phase};".to_owned(), format!("{title}Group"))

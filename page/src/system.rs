@@ -4,7 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Parameter, Problem, values};
+use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_codegen::step::{Invariants, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
@@ -114,7 +114,7 @@ impl System {
             );
             return Err(vec![Mistake::of("truncation", message, "lower the truncation")]);
         }
-        let slots = fold(&integrator, &step, h);
+        let slots = step.fold(h, &[]).map_err(|error| refused(&error))?;
         let algebra = &integrator.problem.algebra;
         let invariants = Invariants::new(&integrator.problem, None);
         let energy = invariants.hamiltonian.clone().unwrap_or_default();
@@ -162,21 +162,6 @@ impl System {
 fn kept(fields: &Fields) -> Option<Problem> {
     let options = Options { parameters: Parameters::Kept, ..Options::default() };
     system::read(&File::of(fields).text, options).ok().map(|read| read.problem)
-}
-
-/// The coefficients for a step size, and with them the radius of the series.
-#[must_use]
-pub fn fold(integrator: &Integrator, step: &Step, h: f64) -> Vec<f64> {
-    let symbols = values(&integrator.problem.symbols);
-    let coefficients = &integrator.coefficients;
-    let truncation = integrator.problem.truncation;
-    let parts = coefficients.fold_parts(h, &symbols);
-    let last = coefficients.last_orders(truncation).map(|(number, order, base)| {
-        (parts[number], order, coefficients.monomials()[base].as_slice())
-    });
-    let factors = integrator.problem.algebra.factor_of_coordinates();
-    let radius = coadjoint::plumbing::radius_of(truncation, &factors, last);
-    step.slots(&coefficients.slots_of_parts(&parts), radius)
 }
 
 /// The factors of a group as the programs of its steps have them.

@@ -151,7 +151,6 @@ hamiltonian = "x^2/3 + y^2/4 + z^2/5"
 /// Steps of one size, as programs, from the text of a system.
 pub struct Steps {
     step: Step,
-    integrator: Integrator,
 }
 
 impl Steps {
@@ -165,7 +164,7 @@ impl Steps {
         };
         let system = read(system, options).map_err(|e| e.render("system", system))?;
         let integrator = Integrator::build(system.problem, TermLimit::default())?;
-        Ok(Self { step: Step::build(&integrator)?, integrator })
+        Ok(Self { step: Step::build(&integrator)? })
     }
 
     /// The programs.
@@ -177,8 +176,8 @@ impl Steps {
     /// corrections were made. `None` where a step is refused.
     pub fn walk(&self, h: f64, steps: usize, start: &[f64]) -> Option<(Vec<State>, u64)> {
         // However large the momentum, the step is to be made: how far the series converges is what is looked at.
-        let radius = 1e100;
-        let slots = self.step.slots(&self.integrator.coefficients.fold(h, &[]), radius);
+        let mut slots = self.step.fold(h, &[]).ok()?;
+        slots[self.step.radius_at()] = 1e200;
         let kernel = self.kernel();
         let matrix = &kernel.programs().matrix;
         let size = matrix.outputs().len().isqrt();

@@ -4,38 +4,64 @@
 //! - [`Kernel`] is a whole step as programs: guess, correction, acceptance, transport, and the loop that drives them.
 //! - [`Stepper`] is what makes the steps of a kernel. The kernel itself is one, the interpreter, the reference for all
 //!   targets.
+//! - [`fold::Fold`] is how the coefficients of a kernel follow from a step size and parameters; it is all that there is
+//!   without the features.
 //! - [`print`](mod@print) writes programs and kernels in other languages.
 //!
 //! A fused product is an operation of the program, so that targets agree to the bit.
 #![no_std]
 
+#[cfg(feature = "programs")]
 extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
-#[cfg(not(any(feature = "std", feature = "libm")))]
+#[cfg(all(feature = "programs", not(any(feature = "std", feature = "libm"))))]
 compile_error!("coadjoint-program needs one of its features `std` (the default) and `libm`");
 
+#[cfg(feature = "programs")]
 mod dispatch;
+#[cfg(feature = "programs")]
 mod drive;
+#[cfg(feature = "programs")]
 mod error;
+#[cfg(feature = "programs")]
 mod evaluate;
+pub mod fold;
+#[cfg(feature = "programs")]
 mod kernel;
+#[cfg(feature = "programs")]
 mod node;
+#[cfg(feature = "programs")]
 mod number;
+#[cfg(feature = "programs")]
 mod packed;
+#[cfg(feature = "programs")]
 mod precision;
+#[cfg(feature = "programs")]
 pub mod print;
+#[cfg(feature = "programs")]
 mod program;
+#[cfg(feature = "programs")]
 pub mod quoting;
+#[cfg(feature = "programs")]
 pub mod schedule;
+#[cfg(feature = "programs")]
 mod stepper;
 
+#[cfg(feature = "programs")]
 pub use drive::Scratch;
+#[cfg(feature = "programs")]
 pub use error::ProgramError;
+#[cfg(feature = "programs")]
 pub use kernel::{BLOCK, Kernel, Programs};
+#[cfg(feature = "programs")]
 pub use node::{Cost, Graph, Id, Node};
+#[cfg(feature = "programs")]
 pub use number::{Lanes, Number};
+#[cfg(feature = "programs")]
 pub use precision::Precision;
+#[cfg(feature = "programs")]
 pub use program::Program;
+#[cfg(feature = "programs")]
 pub use stepper::{Outcome, Stepper, Trajectories, WIDTH};

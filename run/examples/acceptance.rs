@@ -6,7 +6,8 @@
 
 use std::process::ExitCode;
 
-use coadjoint::{Exponential, LieGroup, groups::DirectProduct, groups::MatrixGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;

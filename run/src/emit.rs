@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use coadjoint::Exponential;
+use coadjoint::groups::Exponential;
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
 use coadjoint_codegen::integrator::Kick;

@@ -8,7 +8,8 @@
 //! `cargo run --release -p coadjoint --example satellite`
 
 use coadjoint::nalgebra::{UnitQuaternion, Vector3};
-use coadjoint::{Kicked, LieGroup, Phase, SO3, lie_poisson, potential, steps::Rkn6};
+use coadjoint::steps::{Kicked, Rkn6};
+use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
 
 const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
 

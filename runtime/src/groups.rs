@@ -9,6 +9,7 @@
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
+pub use crate::chart::{Cayley, Chart, Exponential};
 pub use crate::group::element_error::ElementError;
 pub use crate::group::heisenberg::Heisenberg;
 #[cfg(feature = "alloc")]
@@ -16,7 +17,7 @@ pub use crate::group::product::DirectProduct;
 pub use crate::group::product::{Power, Product};
 pub use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
-pub use crate::linear::coordinates::Factors;
+pub use crate::linear::coordinates::{Coordinates, Factors};
 pub use crate::table::{
     Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, Rotations, SL2,
     SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, StaticAlgebra, StaticMatrixGroup, StaticTables,

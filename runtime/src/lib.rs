@@ -27,7 +27,7 @@
 //!
 //! # The one interface
 //!
-//! A [`GeneratingFunction`] gives S(p), ∂S/∂p and ∂²S/∂p². [`poisson_map`] and [`advance`] turn any
+//! A [`GeneratingFunction`] gives S(p), ∂S/∂p and ∂²S/∂p². [`steps::poisson_map`] and [`steps::advance`] turn any
 //! of them into a map: the truncated Hamilton–Jacobi series that the attribute emits, or a function
 //! learned from data. The new momentum is the group action on the old one, so momentum and Casimirs
 //! are kept whatever the function; the solve only decides how exactly the map is symplectic, and it
@@ -125,10 +125,11 @@ mod table;
 pub use coadjoint_macros::lie_poisson;
 
 /// Turns a function computing a potential V(g) into its body torque −g⁻¹dV(g), derived exactly, for
-/// the kicks of [`Kicked`].
+/// the kicks of [`steps::Kicked`].
 ///
 /// ```
-/// use coadjoint::{Kicked, LieGroup, Phase, SO3, lie_poisson, potential, steps::Rkn4};
+/// use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
+/// use coadjoint::steps::{Kicked, Rkn4};
 ///
 /// #[lie_poisson(group = SO3)]
 /// fn pendulum(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
@@ -167,18 +168,10 @@ pub use coadjoint_macros::lie_poisson;
 pub use coadjoint_macros::potential;
 pub use nalgebra;
 
-pub use chart::{Cayley, Chart, Exponential};
-pub use error::{StepError, Stopped};
+pub use error::StepError;
 pub use generating::GeneratingFunction;
 pub use group::LieGroup;
 pub use group::phase::Phase;
-pub use group::se2::SE2;
 pub use group::se3::SE3;
 pub use group::so3::SO3;
-pub use group::su2::SU2;
-pub use linear::coordinates::Coordinates;
 pub use number::scalar::Scalar;
-pub use solve::Integrator;
-pub use step::kicked::Kicked;
-pub use step::monitor::Monitor;
-pub use step::{StepReport, advance, advance_by, poisson_map};

@@ -1,7 +1,8 @@
-//! Steps beyond [`advance`](crate::advance): with settings, with kicks.
+//! Steps: as they come, with settings, with kicks, watched.
 
-pub use crate::error::Circumstances;
+pub use crate::error::{Circumstances, Stopped};
 pub use crate::solve::Settings;
-pub use crate::step::monitor::Drift;
+pub use crate::step::kicked::Kicked;
+pub use crate::step::monitor::{Drift, Monitor};
 pub use crate::step::splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
-pub use crate::step::{advance_with, reconstruct};
+pub use crate::step::{StepReport, advance, advance_by, advance_with, poisson_map, reconstruct};

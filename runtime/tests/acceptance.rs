@@ -3,10 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::generating::{GeneratingFunction, PolynomialFunction};
+use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::lanes::F64x4;
+use coadjoint::solve::Integrator;
 use coadjoint::solve::{Settings, Solver, solve, solve_from};
+use coadjoint::steps::advance;
 use coadjoint::steps::advance_with;
-use coadjoint::{Cayley, Chart, Exponential, Integrator, Phase, SO3, StepError, advance};
+use coadjoint::{Phase, SO3, StepError};
 use nalgebra::{Matrix3, SimdValue, Vector3};
 
 type Terms = Vec<(f64, Vec<(usize, u32)>)>;

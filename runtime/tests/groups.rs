@@ -4,12 +4,11 @@
 
 mod common;
 
-use coadjoint::{
-    LieGroup, SE2, SE3, SO3, SU2, groups::Aff1, groups::CayleyAlgebra, groups::ElementError,
-    groups::Heisenberg, groups::MatrixGroup, groups::Power, groups::Product, groups::SL2,
-    groups::SO4, groups::SO5, groups::SU3, groups::SU4, groups::StaticAlgebra,
-    groups::StaticMatrixGroup, groups::TableError, groups::U2, groups::U3,
+use coadjoint::groups::{
+    Aff1, CayleyAlgebra, ElementError, Heisenberg, MatrixGroup, Power, Product, SE2, SL2, SO4, SO5,
+    SU2, SU3, SU4, StaticAlgebra, StaticMatrixGroup, TableError, U2, U3,
 };
+use coadjoint::{LieGroup, SE3, SO3};
 use common::{cayley_laws, distance, element_distance, group_laws, small};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 

@@ -1,8 +1,8 @@
 //! From codegen's exact objects to the runtime's numbers, for tests.
 
-use coadjoint::{
-    Chart, LieGroup, generating::PolynomialFunction, groups::MatrixGroup, groups::TableError,
-};
+use coadjoint::LieGroup;
+use coadjoint::generating::PolynomialFunction;
+use coadjoint::groups::{Chart, MatrixGroup, TableError};
 use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::Rational;

@@ -4,7 +4,8 @@ use std::any::Any;
 use std::fmt::{self, Debug};
 use std::rc::Rc;
 
-use coadjoint::{Coordinates, LieGroup, groups::CayleyGroup, groups::ElementError};
+use coadjoint::LieGroup;
+use coadjoint::groups::{CayleyGroup, Coordinates, ElementError};
 use nalgebra::{DMatrix, DVector};
 
 type Vector = DVector<f64>;

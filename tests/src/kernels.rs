@@ -4,6 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 
 /// Groups with a Hamiltonian on each.
@@ -23,6 +24,26 @@ pub const SYSTEMS: [(&str, &str); 14] = [
     ("SO3*R3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),
     ("SO3", "a^2/3 + b^2/4 + c^2/5 + a^4/50 + a*b*c/9"),
 ];
+
+/// The coefficients of a step of size `h` that takes the series seriously at any momentum.
+///
+/// # Panics
+/// Where they are not finite.
+#[must_use]
+pub fn unlimited(step: &Step, h: f64) -> Vec<f64> {
+    limited(step, h, f64::MAX)
+}
+
+/// The same for momenta up to this size.
+///
+/// # Panics
+/// Where they are not finite.
+#[must_use]
+pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
+    let mut coefficients = step.fold(h, &[]).unwrap();
+    coefficients[step.radius_at()] = radius * radius;
+    coefficients
+}
 
 const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 

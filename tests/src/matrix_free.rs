@@ -1,8 +1,9 @@
 //! Any generating function, solved by the fixed point.
 
+use coadjoint::GeneratingFunction;
 use coadjoint::generating::{MatrixOf, ScalarOf, VectorOf};
+use coadjoint::solve::Integrator;
 use coadjoint::solve::Solver;
-use coadjoint::{GeneratingFunction, Integrator};
 
 /// The function S, whose steps are solved by the fixed point.
 pub struct MatrixFree<S>(pub S);

@@ -1,6 +1,8 @@
 //! A run of a reference system, and what it kept.
 
-use coadjoint::{LieGroup, Phase, advance, groups::MatrixGroup};
+use coadjoint::groups::MatrixGroup;
+use coadjoint::steps::advance;
+use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::poly::Polynomial;
 use nalgebra::DVector;
 

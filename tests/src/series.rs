@@ -5,8 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint::Integrator;
-use coadjoint::{Exponential, GeneratingFunction, groups::MatrixGroup};
+use coadjoint::GeneratingFunction;
+use coadjoint::groups::{Exponential, MatrixGroup};
+use coadjoint::solve::Integrator;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
 use coadjoint_codegen::poly::Polynomial;

@@ -2,9 +2,9 @@
 
 use coadjoint::{LieGroup, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::poly::Numeric;
-use coadjoint_run::Derived;
 use coadjoint_run::engine::{Numbers, Restore, Torque};
 use coadjoint_run::simulate::{Matrices, Moment, Recorder};
+use coadjoint_run::{Derived, RunError};
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
 };
@@ -36,6 +36,7 @@ pub fn rk45(
     let (problem, setup) = (&system.integrator.problem, &settings.setup);
     let group = &system.group()?;
     let torque = system.forces.as_ref().map(|forces| Torque::new(&forces.kick, group.clone()));
+    let torque = torque.transpose().map_err(|source| RunError::Step { time: 0.0, source })?;
     let (n, size) = (problem.algebra.dim(), group.matrix_size());
     let hamiltonian = system.invariants.hamiltonian.as_ref();
     let gradient: Vec<Numeric> = hamiltonian.map(|h| h.gradient(n)).unwrap_or_default();

@@ -1,7 +1,8 @@
 //! `groups`: what is printed is what the integrators use, and docs/book/src/groups.md is what is printed.
 
 use crate::support::{json, root, run};
-use coadjoint::{LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg};
+use coadjoint::groups::{Heisenberg, SE2, SU2};
+use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::lie::catalogue;
 
 /// Numbers without a pattern, so that no wrong sign cancels.
@@ -32,7 +33,7 @@ fn assert_sign<G: LieGroup<Scalar = f64>>(name: &str, group: &G)
 where
     G::Vector: std::ops::Index<usize, Output = f64>,
 {
-    use coadjoint::Coordinates;
+    use coadjoint::groups::Coordinates;
     let facts = json(&["groups", name, "--json"]);
     let components = facts["ad_star"]["components"].as_array().unwrap();
     let n = components.len();

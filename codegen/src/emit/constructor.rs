@@ -6,21 +6,17 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::hygiene::fresh;
-use super::number::float;
 use super::options::identifier;
 use super::parameter;
-use super::table::Sizes;
-use crate::integrator::{Integrator, Products};
+use crate::integrator::Integrator;
 use crate::problem::{Parameter, Shape};
 
-/// The constructor `new(step, parameters…)`, and what folds: the integrator's coefficients are followed by those of the bound
-/// on what Newton's method leaves out of the Hessian, and by the square of the radius.
+/// The constructor `new(step, parameters…)`, which folds.
 #[must_use]
 pub(crate) fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
     group: &TokenStream,
-    slots: usize,
 ) -> TokenStream {
     let problem = &integrator.problem;
     let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
@@ -29,18 +25,6 @@ pub(crate) fn constructor(
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let count = Literal::usize_unsuffixed(problem.symbols.len());
-    let all = Products::of(&integrator.coefficients);
-    let Sizes { powers, products, parts, bases } = Sizes::of(&integrator.coefficients, &all);
-    let last = Literal::usize_unsuffixed(integrator.coefficients.last_terms(problem.truncation));
-    let base = Literal::usize_unsuffixed(integrator.coefficients.slots().len());
-    let square = Literal::usize_unsuffixed(slots - 1);
-    let slots = Literal::usize_unsuffixed(slots);
-    let bound = integrator.defect.iter().map(|term| {
-        let slot = Literal::usize_unsuffixed(term.slot);
-        let weight = float(term.weight);
-        let degree = Literal::u32_unsuffixed(term.degree);
-        quote!((#slot, #weight, #degree))
-    });
     quote! {
         /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
         /// parameters.
@@ -59,23 +43,8 @@ pub(crate) fn constructor(
             step: T,
             symbols: &[T; #count],
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
-                Self::table(),
-                &[#(#texts),*],
-                step,
-                symbols,
-            )?;
-            let mut coefficients = [T::of(0.0); #slots];
-            #krate::plumbing::slots::<T, #parts, #bases>(Self::table(), &parts, &mut coefficients);
-            #krate::plumbing::bound(&mut coefficients, #base, &[#(#bound),*]);
-            let last = #krate::plumbing::last_terms::<T, #parts, #last>(
-                Self::table(),
-                &parts,
-                Self::TRUNCATION,
-            );
-            let radius = #krate::plumbing::radius(Self::table(), &last, Self::TRUNCATION);
-            coefficients[#square] = radius * radius;
-            ::core::result::Result::Ok(Self { step, symbols: *symbols, coefficients, last, radius })
+            let coefficients = #krate::plumbing::fold(Self::table(), [#(#texts),*], step, symbols)?;
+            ::core::result::Result::Ok(Self { step, symbols: *symbols, coefficients })
         }
 
         /// The error of a step, with a step size that works where one is found.

@@ -7,7 +7,7 @@ use super::options::Options;
 use super::program::{Body, Field, Scope, body};
 use super::types::Types;
 use crate::graph::Program;
-use crate::integrator::{Integrator, Predictor};
+use crate::integrator::{FoldTable, Integrator, Predictor};
 use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`; `slots` is the number of coefficients.
@@ -23,7 +23,8 @@ pub fn generating_function(
     let Types { dim, group, chart, vector, matrix, .. } = types;
     let value = scalar_function(&integrator.value, options, "p", slots);
     let gradient = vector_function(&integrator.gradient, vector, options, "p", slots);
-    let n = Literal::usize_unsuffixed(*dim);
+    let index = Literal::usize_unsuffixed;
+    let n = index(*dim);
     let hessian = integrator.hessian.as_ref().map(|program| {
         let function = hessian_function(program, types, options, slots);
         quote! {
@@ -49,24 +50,24 @@ pub fn generating_function(
             }
         }
     });
-    let judged =
-        (integrator.coefficients.last_terms(integrator.problem.truncation) > 0).then(|| {
-            quote! {
-                #[inline]
-                fn radius(&self) -> T {
-                    self.radius
-                }
-
-                fn series_ratio(&self, #p: &#vector) -> T {
-                    #krate::plumbing::series_ratio::<T, #n>(
-                        Self::table(),
-                        &self.last,
-                        Self::TRUNCATION,
-                        &#p.data.0[0],
-                    )
-                }
+    let radius_at = FoldTable::radius_at(integrator);
+    let (last_at, radius) = (index(radius_at + 1), index(radius_at));
+    let judged = (slots > radius_at + 1).then(|| {
+        quote! {
+            #[inline]
+            fn radius(&self) -> T {
+                #krate::nalgebra::SimdComplexField::simd_sqrt(self.coefficients[#radius])
             }
-        });
+
+            fn series_ratio(&self, #p: &#vector) -> T {
+                #krate::plumbing::series_ratio::<T, #n>(
+                    &LAST,
+                    &self.coefficients[#last_at..],
+                    &#p.data.0[0],
+                )
+            }
+        }
+    });
     let largest_rate = integrator.largest_rate().map(|rate| {
         quote! {
             #[inline]
@@ -139,12 +140,12 @@ pub fn without_programs(
         Predictor::Flow(_) => quote! {
             let #x = { #guess };
             let #group = #krate::GeneratingFunction::group(self);
-            #krate::Chart::pull_back(#chart, #group, &#x, #at)
+            #krate::groups::Chart::pull_back(#chart, #group, &#x, #at)
         },
     };
     let solver = solver(integrator, krate);
     quote! {
-        impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
+        impl<T: #krate::Scalar> #krate::solve::Integrator for #name<T> {
             #solver
 
             fn predict(&self, #at: &#vector) -> #vector {

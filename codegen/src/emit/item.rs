@@ -7,10 +7,10 @@ use super::constructor::constructor;
 use super::generating_function::{generating_function, scalar_function, solver, without_programs};
 use super::options::Options;
 use super::programs::{MOST_OPERATIONS, programs, step_operations};
-use super::table::table_item;
+use super::table::{fold_item, last_item};
 use super::types::Types;
 use super::{allow, header};
-use crate::integrator::{Integrator, Products};
+use crate::integrator::{FoldTable, Integrator};
 use crate::step::Step;
 
 /// An integrator as items.
@@ -41,9 +41,10 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let step = step.ok().filter(|step| step_operations(step) <= MOST_OPERATIONS);
     let summary = header::lines(integrator, step.as_ref());
     let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
-    let count = integrator.coefficients.slots().len() + integrator.defect_len() + 1;
+    let fold = FoldTable::new(integrator);
+    let count = fold.len();
     let slots = Literal::usize_unsuffixed(count);
-    let constructor = constructor(integrator, krate, group, count);
+    let constructor = constructor(integrator, krate, group);
     let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
         Some(step) => programs(step, options, group, count, &solver(integrator, krate)),
@@ -51,13 +52,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     };
     let n = Literal::usize_unsuffixed(types.dim);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
-    let last = integrator.coefficients.last_terms(integrator.problem.truncation);
-    let last = Literal::usize_unsuffixed(last);
     let lanes = lanes(krate, name);
     let energy = scalar_function(&integrator.energy, options, "mu", count);
-    let products = Products::of(&integrator.coefficients);
-    let algebra = &integrator.problem.algebra;
-    let table = table_item(krate, &integrator.coefficients, &products, algebra);
+    let (table, last) = (fold_item(krate, &fold), last_item(krate, integrator));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     let allow = allow();
@@ -75,11 +72,10 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
             step: T,
             /// The parameters, as expressions of them stand in the coefficients.
             symbols: [T; #symbols],
-            /// The coefficients of the programs below, folded for h and the parameters.
+            /// The coefficients of the programs below, folded for h and the parameters; after them those of the bound on
+            /// what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the
+            /// coefficients of its last two terms.
             coefficients: [T; #slots],
-            /// The coefficients of the last two terms of the series, and the |μ| up to which their ratio is small.
-            last: [T; #last],
-            radius: T,
         }
 
         #allow
@@ -108,8 +104,8 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 pub fn advance(
                     &self,
                     phase: &mut #krate::Phase<#group>,
-                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::StepError> {
-                    #krate::advance(self, phase).map_err(|error| self.advise(error, phase))
+                ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::StepError> {
+                    #krate::steps::advance(self, phase).map_err(|error| self.advise(error, phase))
                 }
 
                 /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -121,8 +117,8 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                     &self,
                     phase: &mut #krate::Phase<#group>,
                     steps: u64,
-                ) -> ::core::result::Result<#krate::StepReport<T>, #krate::Stopped> {
-                    #krate::advance_by(self, phase, steps).map_err(|stopped| #krate::Stopped {
+                ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::steps::Stopped> {
+                    #krate::steps::advance_by(self, phase, steps).map_err(|stopped| #krate::steps::Stopped {
                         error: self.advise(stopped.error, phase),
                         ..stopped
                     })
@@ -137,7 +133,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                     &self,
                     mu: &#vector,
                 ) -> ::core::result::Result<#vector, #krate::StepError> {
-                    #krate::poisson_map(self, mu)
+                    #krate::steps::poisson_map(self, mu)
                 }
             }
 
@@ -161,12 +157,14 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                     #energy
                 }
 
-                fn table() -> &'static #krate::plumbing::Table {
-                    &TABLE
+                fn table() -> &'static #krate::plumbing::Fold<'static> {
+                    &FOLD
                 }
             }
 
             #table
+
+            #last
         };
 
         #tables
@@ -186,8 +184,6 @@ fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
                     step: L::splat(self.step),
                     symbols: self.symbols.map(L::splat),
                     coefficients: self.coefficients.map(L::splat),
-                    last: self.last.map(L::splat),
-                    radius: L::splat(self.radius),
                 }
             }
         }

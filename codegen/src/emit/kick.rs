@@ -7,10 +7,10 @@ use quote::quote;
 use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
 use super::options::Options;
-use super::table::{Sizes, table_item};
+use super::table::fold_item;
 use super::types::Types;
 use super::{allow, parameter};
-use crate::integrator::{Kick, Products};
+use crate::integrator::{FoldTable, Kick};
 use crate::lie::Chart;
 
 /// The potential as items: a struct and its implementation.
@@ -29,10 +29,8 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = potential.symbols.iter().map(|s| &s.text);
     let symbol_count = Literal::usize_unsuffixed(potential.symbols.len());
-    let all = Products::of(&kick.coefficients);
-    let Sizes { powers, products, parts, bases } = Sizes::of(&kick.coefficients, &all);
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
-    let table = table_item(krate, &kick.coefficients, &all, &potential.algebra);
+    let table = fold_item(krate, &FoldTable::of_kick(kick));
 
     let count = kick.coefficients.slots().len();
     let energy = scalar_function(&kick.energy, options, "g", count);
@@ -83,14 +81,8 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 ) -> ::core::result::Result<Self, #krate::StepError> {
                     let symbols: [T; #symbol_count] = [#(#symbols),*];
                     // No coefficient holds the step size.
-                    let parts = #krate::plumbing::parts::<T, #powers, #products, #parts>(
-                        &TABLE,
-                        &[#(#texts),*],
-                        T::of(1.0),
-                        &symbols,
-                    )?;
-                    let mut coefficients = [T::of(0.0); #slots];
-                    #krate::plumbing::slots::<T, #parts, #bases>(&TABLE, &parts, &mut coefficients);
+                    let coefficients =
+                        #krate::plumbing::fold(&FOLD, [#(#texts),*], T::of(1.0), &symbols)?;
                     ::core::result::Result::Ok(Self { coefficients })
                 }
 

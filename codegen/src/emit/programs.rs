@@ -135,7 +135,7 @@ pub fn programs(
             #(#functions)*
         }
 
-        impl<T: #krate::Scalar> #krate::Integrator for #name<T> {
+        impl<T: #krate::Scalar> #krate::solve::Integrator for #name<T> {
             #solver
 
             #[inline(always)]

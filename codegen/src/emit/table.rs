@@ -1,81 +1,49 @@
-//! The coefficient table: read once per step size and parameter set, so data, not code.
+//! The data of folding: read once per step size and parameter set, so data, not code.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::number::float;
-use crate::integrator::{Coefficients, Products};
-use crate::lie::LieAlgebra;
+use crate::integrator::{FoldTable, Integrator};
 
-/// The sizes of a table, as the literals that generic functions want.
-pub struct Sizes {
-    /// More than any power of h.
-    pub powers: Literal,
-    /// How many products of symbols there are, 1 among them.
-    pub products: Literal,
-    /// How many parts there are.
-    pub parts: Literal,
-    /// How many bases there are.
-    pub bases: Literal,
-}
-
-impl Sizes {
-    /// The sizes of the table of `coefficients`, whose symbols make these products.
-    #[must_use]
-    pub fn of(coefficients: &Coefficients, products: &Products) -> Self {
-        let terms = coefficients.bases().iter().flatten();
-        let power = terms.map(|term| term.step_power).max().unwrap_or(0);
-        Self {
-            powers: Literal::u32_unsuffixed(power + 1),
-            products: Literal::usize_unsuffixed(products.steps().len() + 1),
-            parts: Literal::usize_unsuffixed(coefficients.parts().flatten().count()),
-            bases: Literal::usize_unsuffixed(coefficients.bases().len()),
-        }
-    }
-}
-
-/// The static `TABLE`, a `coadjoint::plumbing::Table` holding `coefficients`, whose symbols make
-/// these products; `algebra` tells the factor of each coordinate.
+/// The static `FOLD`, a `coadjoint::plumbing::Fold` with these lists.
 #[must_use]
-pub fn table_item(
-    krate: &TokenStream,
-    coefficients: &Coefficients,
-    all: &Products,
-    algebra: &LieAlgebra,
-) -> TokenStream {
-    let pair = |&(of, symbol): &(usize, usize)| {
-        let (of, symbol) = (Literal::usize_unsuffixed(of), Literal::usize_unsuffixed(symbol));
-        quote!((#of, #symbol))
+pub fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
+    let number = |value: u32| Literal::u32_unsuffixed(value);
+    let pair = |&(a, b): &(u32, u32)| {
+        let (a, b) = (number(a), number(b));
+        quote!((#a, #b))
     };
-    let products = all.steps().iter().map(pair);
-    let terms = coefficients.bases().iter().flatten().map(|term| {
-        let factor = float(term.rounded_factor());
-        let product = Literal::usize_unsuffixed(all.number(&term.symbol_powers));
+    let fold = table.lists();
+    let products = fold.products.iter().map(pair);
+    let terms = fold.terms.iter().map(|&(factor, product)| {
+        let (factor, product) = (float(factor), number(product));
         quote!((#factor, #product))
     });
-    let mut end = 0;
-    let parts = coefficients.parts().flatten().map(|part| {
-        end += part.len();
-        let power = Literal::u32_unsuffixed(part.first().map_or(0, |term| term.step_power));
-        let end = Literal::usize_unsuffixed(end);
-        quote!((#power, #end))
+    let parts = fold.parts.iter().map(pair);
+    let bases = fold.bases.iter().map(|&end| number(end));
+    let slots = fold.slots.iter().map(|&(base, scale, place)| {
+        let (base, scale, place) = (number(base), number(scale), number(place));
+        quote!((#base, #scale, #place))
     });
-    let mut end = 0;
-    let bases = coefficients.parts().map(|parts| {
-        end += parts.count();
-        Literal::usize_unsuffixed(end)
+    let bound = fold.bound.iter().map(|&(base, weight, place)| {
+        let (base, weight, place) = (number(base), float(weight), number(place));
+        quote!((#base, #weight, #place))
     });
-    let slots = coefficients.slots().iter().map(|&(base, scale)| {
-        let base = Literal::usize_unsuffixed(base);
-        let scale = Literal::u32_unsuffixed(scale);
-        quote!((#base, #scale))
+    let kept = fold.kept.iter().map(pair);
+    let last = fold.last.iter().map(|&(part, factor, highest, degree, weight)| {
+        let (part, factor, degree) = (number(part), number(factor), number(degree));
+        let weight = float(weight);
+        quote!((#part, #factor, #highest, #degree, #weight))
     });
-    let monomials = coefficients.monomials().iter().map(|factors| monomial(factors));
-    let factors = algebra.factor_of_coordinates().into_iter().map(Literal::u32_unsuffixed);
+    let radius = match fold.radius.map(number) {
+        Some(place) => quote!(::core::option::Option::Some(#place)),
+        None => quote!(::core::option::Option::None),
+    };
     quote! {
-        /// All coefficients as data. A base is Σ h^power Σ factor · product, a slot `c[i]` a base
-        /// times an integer.
-        static TABLE: #krate::plumbing::Table = #krate::plumbing::Table {
+        /// All coefficients as data. A base is Σ h^power Σ factor · product, a coefficient `c[i]` a base times an
+        /// integer.
+        static FOLD: #krate::plumbing::Fold<'static> = #krate::plumbing::Fold {
             /// Products of symbols: an earlier one times a symbol; number 0 is 1.
             products: &[#(#products),*],
             /// Factor, and the number of its product.
@@ -84,10 +52,34 @@ pub fn table_item(
             parts: &[#(#parts),*],
             /// Where the parts of each base end.
             bases: &[#(#bases),*],
-            /// For each slot its base, and the integer.
+            /// Base, integer, and the place of their product.
             slots: &[#(#slots),*],
-            /// The monomials of S, as (coordinate, exponent) from zero; their coefficients are the
-            /// first bases.
+            /// Base, weight and place: a bound on what is left out of the Hessian, by degrees.
+            bound: &[#(#bound),*],
+            /// Part and place: the coefficients of the last two terms of the series.
+            kept: &[#(#kept),*],
+            /// How far the series can be trusted: part, factor of the group, whether it belongs to the last term, degree and
+            /// bound of the gradient.
+            last: &[#(#last),*],
+            radius: #radius,
+        };
+    }
+}
+
+/// The static `LAST`, a `coadjoint::plumbing::LastTerms`: the monomials of the last two terms of the series.
+#[must_use]
+pub fn last_item(krate: &TokenStream, integrator: &Integrator) -> TokenStream {
+    let (coefficients, truncation) = (&integrator.coefficients, integrator.problem.truncation);
+    let monomials = coefficients.last_orders(truncation).map(|(order, base)| {
+        let factors = coefficients.monomials().get(base).map_or(&[][..], Vec::as_slice);
+        let (highest, monomial) = (order == truncation, monomial(factors));
+        quote!((#highest, #monomial))
+    });
+    let factors = integrator.problem.algebra.factor_of_coordinates();
+    let factors = factors.into_iter().map(Literal::u32_unsuffixed);
+    quote! {
+        static LAST: #krate::plumbing::LastTerms = #krate::plumbing::LastTerms {
+            /// The monomials of the last two terms of S, those of the last marked, as (coordinate, exponent) from zero.
             monomials: &[#(#monomials),*],
             /// The direct factor of the group that each coordinate belongs to.
             factors: &[#(#factors),*],

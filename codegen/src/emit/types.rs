@@ -37,8 +37,8 @@ impl Types {
         let dim = algebra.dim();
         let n = Literal::usize_unsuffixed(dim);
         let chart = match chart {
-            Chart::Exponential => quote!(#krate::Exponential),
-            Chart::Cayley => quote!(#krate::Cayley),
+            Chart::Exponential => quote!(#krate::groups::Exponential),
+            Chart::Cayley => quote!(#krate::groups::Cayley),
         };
         let group = group_type(algebra, name, visibility, krate);
         // In a block of their own; the struct may have either name.

@@ -91,7 +91,7 @@ fn names_of_systems_and_algebras_stay_in_comments() {
         let rust = file(&integrator, &style);
         let c = c::header(&integrator, &header(name)).unwrap();
         let step = Step::build(&integrator).unwrap();
-        let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 1.0);
+        let slots = step.fold(0.1, &[]).unwrap();
         let device = |language| device_unit(step.kernel(), &slots, language, name);
         (rust, kick, [c, device(DeviceLanguage::OpenCl), device(DeviceLanguage::Cuda)])
     };

@@ -10,7 +10,8 @@
 //! (1.5, 2, 2.5), 1.12 for a plate (1, 2, 3), 0.96 for a rod (0.2, 1, 1). Exponential: none short
 //! of the half turn for the ball and the paper's body, 1.99 for the plate, 1.7 for the rod.
 
-use coadjoint::{Chart, LieGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::Chart;
 use nalgebra::{DMatrix, DVector};
 
 use super::reduce::ReducedData;

@@ -1,6 +1,7 @@
 //! Reduction: from pairs in T\*G to points (x, p) of a Lagrangian submanifold of T\*G.
 
-use coadjoint::{Chart, Coordinates, LieGroup, Phase};
+use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::cancel;
 use nalgebra::DMatrix;
 

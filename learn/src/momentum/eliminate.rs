@@ -1,6 +1,8 @@
 //! Poisson-only data, the canonical momenta p eliminated by Newton's method.
 
-use coadjoint::{Chart, Coordinates, LieGroup, solve::solve};
+use coadjoint::LieGroup;
+use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::solve::solve;
 use nalgebra::{DMatrix, DVector};
 
 use crate::data::MomentumPairs;
@@ -83,7 +85,7 @@ where
         let mut all = Vec::with_capacity(dim * samples);
         for (before, after) in pairs.before.column_iter().zip(pairs.after.column_iter()) {
             let mu = vector::<G>(before.as_slice());
-            let next = coadjoint::poisson_map(&generating, &mu).ok()?;
+            let next = coadjoint::steps::poisson_map(&generating, &mu).ok()?;
             all.extend((0..dim).map(|j| next[j] - after[j]));
         }
         Some(DVector::from_vec(all)).filter(|r| r.iter().all(|v| v.is_finite()))

@@ -1,6 +1,7 @@
 //! The paper's alternative loss Σ|exp⁻¹(gᵢ⁻¹ τ(∂S/∂p(pᵢ)))|², by Gauss–Newton.
 
-use coadjoint::{Chart, LieGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::Chart;
 use coadjoint_codegen::cancel;
 use nalgebra::{DMatrix, DVector};
 

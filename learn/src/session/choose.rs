@@ -1,6 +1,6 @@
 //! Which model is fitted, and why.
 
-use coadjoint::Chart;
+use coadjoint::groups::Chart;
 
 use super::neural::{self, Trained};
 use super::{Kind, Request};

@@ -6,7 +6,8 @@ mod neural;
 
 use std::path::PathBuf;
 
-use coadjoint::{Chart, Phase};
+use coadjoint::Phase;
+use coadjoint::groups::Chart;
 use serde::{Deserialize, Serialize};
 
 pub use neural::{NetworkSettings, remove_checkpoints};

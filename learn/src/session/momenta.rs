@@ -1,6 +1,7 @@
 //! Learning from momenta alone.
 
-use coadjoint::{Chart, Coordinates, Phase};
+use coadjoint::Phase;
+use coadjoint::groups::{Chart, Coordinates};
 use nalgebra::DMatrix;
 
 use super::{Kind, Request, Summary, few_rows, named};

@@ -1,6 +1,7 @@
 //! The flow of a left-invariant Hamiltonian to about rounding, by extrapolation.
 
-use coadjoint::{Chart, Exponential, LieGroup, Phase};
+use coadjoint::groups::{Chart, Exponential};
+use coadjoint::{LieGroup, Phase};
 
 use crate::function::{MomentumFunction, entries, vector};
 use crate::trivialisation::left_exp_derivative_inverse;

@@ -1,6 +1,7 @@
 //! Seeded samples of a true flow.
 
-use coadjoint::{Coordinates, LieGroup, Phase};
+use coadjoint::groups::Coordinates;
+use coadjoint::{LieGroup, Phase};
 use nalgebra::DMatrix;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -4,7 +4,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use coadjoint::{Cayley, Exponential, SO3};
+use coadjoint::SO3;
+use coadjoint::groups::{Cayley, Exponential};
 use coadjoint_learn::data::{
     PhasePair, Recording, Reduction, RowPolicy, Tolerances, read_columns, reduce, write_pairs,
 };
@@ -71,7 +72,7 @@ fn reads_back(name: &str) {
 
 #[test]
 fn both_formulas_for_the_canonical_momentum_agree() {
-    use coadjoint::Chart;
+    use coadjoint::groups::Chart;
     let data = load(&{
         let path = path("formulas.csv");
         write_pairs(&path, &SO3::new(), &pairs(0.1, 20)).unwrap();

@@ -1,7 +1,8 @@
 //! The fold of the canonical momentum: where it is, and that data beyond it are found.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::{Cayley, Chart, Exponential, Phase, SO3};
+use coadjoint::groups::{Cayley, Chart, Exponential};
+use coadjoint::{Phase, SO3};
 use coadjoint_learn::data::{PairRows, PhasePair, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_flow, phase_pairs};
 use coadjoint_learn::{LearnError, RowProblem};

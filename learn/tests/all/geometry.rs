@@ -1,8 +1,9 @@
 //! The geometry of learned maps, for models of every kind and any weights: the runtime's laws.
 #![allow(clippy::unwrap_used)]
 
+use coadjoint::groups::{Cayley, Chart, Coordinates, Exponential};
 use coadjoint::laws::check;
-use coadjoint::{Cayley, Chart, Coordinates, Exponential, LieGroup, Phase, SE3, SO3};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{Activation, DenseNetwork, Layer};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};
@@ -54,7 +55,7 @@ fn keeps_the_geometry<G: LieGroup<Scalar = f64>, C: Chart<G>>(
         (0..4).map(|_| Phase::<G>::new(group.exp(&vector(1.0)), vector(1.2))).collect();
     let map = Generating::<G, C, _>::new(group.clone(), function);
     for point in &points {
-        let moved = coadjoint::poisson_map(&map, &point.momentum).unwrap();
+        let moved = coadjoint::steps::poisson_map(&map, &point.momentum).unwrap();
         let way = (0..dim).map(|i| (moved[i] - point.momentum[i]).abs()).fold(0.0, f64::max);
         assert!(way > 1e-3, "{name}: the map must do something");
     }

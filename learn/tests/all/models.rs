@@ -3,7 +3,8 @@
 
 use std::path::PathBuf;
 
-use coadjoint::{Exponential, Phase, SO3};
+use coadjoint::groups::Exponential;
+use coadjoint::{Phase, SO3};
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{Activation, DenseNetwork, Layer};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};

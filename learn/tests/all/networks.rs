@@ -1,7 +1,8 @@
 //! Training networks: small ones, for the suite.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Cayley, SO3};
+use coadjoint::SO3;
+use coadjoint::groups::Cayley;
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{Activation, TrainingOptions, fit_network};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};

@@ -1,7 +1,10 @@
 //! Poisson maps from momenta alone: the boxes and bars of the Table 2.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Exponential, Integrator, LieGroup, SO3, poisson_map};
+use coadjoint::groups::Exponential;
+use coadjoint::solve::Integrator;
+use coadjoint::steps::poisson_map;
+use coadjoint::{LieGroup, SO3};
 use coadjoint_learn::data::MomentumPairs;
 use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};

@@ -1,7 +1,8 @@
 //! Polynomial models against the bars: the paper's body and box, exact flow as data.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Cayley, Chart, Exponential, SO3};
+use coadjoint::SO3;
+use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint_learn::MomentumFunction;
 use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::polynomial::{

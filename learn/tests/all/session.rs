@@ -1,7 +1,7 @@
 //! Groups by name, and polynomials in exact monomial form.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Chart, Exponential};
+use coadjoint::groups::{Chart, Exponential};
 use coadjoint_learn::catalogue::{Visitor, visit};
 use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
 use coadjoint_learn::exact_polynomial;

@@ -1,5 +1,8 @@
 //! One wrong name is one error, whatever is done with what should have been generated.
-use coadjoint::{lanes::F64x4, GeneratingFunction, Kicked, lanes::Lanes, Phase, steps::Rkn4, SO3, groups::SO4};
+use coadjoint::{GeneratingFunction, Phase, SO3};
+use coadjoint::groups::SO4;
+use coadjoint::lanes::{F64x4, Lanes};
+use coadjoint::steps::{Kicked, Rkn4};
 use coadjoint::{lie_poisson, potential};
 
 /// Free rigid body.
@@ -20,7 +23,7 @@ fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
 
 fn end<S: GeneratingFunction<Group = SO3> + Lanes + Clone + std::fmt::Debug>(step: S) {
     let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
-    let _ = coadjoint::advance(&step, &mut phase);
+    let _ = coadjoint::steps::advance(&step, &mut phase);
     let _ = (step.splat::<F64x4>(), format!("{step:?}"));
 }
 

@@ -1,6 +1,8 @@
 //! Forward Euler made geometric: section 5.4.
 
-use coadjoint::{Exponential, LieGroup, SO3, poisson_map};
+use coadjoint::groups::Exponential;
+use coadjoint::steps::poisson_map;
+use coadjoint::{LieGroup, SO3};
 use coadjoint_learn::MomentumFunction;
 use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, momentum_pairs};

@@ -1,6 +1,8 @@
 //! The Hamilton–Jacobi equation by least squares (the conclusions of the paper) against the exact series.
 
-use coadjoint::{Chart as _, Exponential, SO3, poisson_map};
+use coadjoint::SO3;
+use coadjoint::groups::{Chart as _, Exponential};
+use coadjoint::steps::poisson_map;
 use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options as SystemOptions, read};

@@ -1,6 +1,7 @@
 //! The remark on learning H through the Lie–Poisson variational integrator.
 
-use coadjoint::{Exponential, Phase, SO3};
+use coadjoint::groups::Exponential;
+use coadjoint::{Phase, SO3};
 use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
 use coadjoint_learn::polynomial::fit_gradients;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};

@@ -1,6 +1,7 @@
 //! Truths on which the linear model has something to lose.
 
-use coadjoint::{Exponential, SE3, SO3};
+use coadjoint::groups::Exponential;
+use coadjoint::{SE3, SO3};
 use coadjoint_learn::data::PairRows;
 use coadjoint_learn::polynomial::{SelectionOptions, select_polynomial};
 use coadjoint_learn::truth::{Bump, MomentumBox, Quadratic, Quartic, Relativistic, phase_pairs};

@@ -1,6 +1,8 @@
 //! The first figure of section 5.2: training with and without symmetry, and a learned trajectory.
 
-use coadjoint::{Cayley, Phase, SO3, advance};
+use coadjoint::groups::Cayley;
+use coadjoint::steps::advance;
+use coadjoint::{Phase, SO3};
 use coadjoint_learn::Generating;
 use coadjoint_learn::data::PairRows;
 use coadjoint_learn::network::{DenseNetwork, TrainingOptions, fit_network};

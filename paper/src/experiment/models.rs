@@ -1,6 +1,6 @@
 //! Pairs to fit and pairs to test, and the models that fill in the rows of a table.
 
-use coadjoint::Chart;
+use coadjoint::groups::Chart;
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::{Basis, fit_polynomial};

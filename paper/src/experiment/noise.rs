@@ -1,6 +1,7 @@
 //! Robustness against noise: 1000 samples, step 0.15, Gaussian noise of variance 0.05.
 
-use coadjoint::{Exponential, SO3};
+use coadjoint::SO3;
+use coadjoint::groups::Exponential;
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::TrainingOptions;
 use coadjoint_learn::polynomial::{Scaling, SelectionOptions, select_polynomial};

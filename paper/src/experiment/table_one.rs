@@ -1,6 +1,7 @@
 //! Table 1: learning with symmetry against the baseline without it.
 
-use coadjoint::{Cayley, Exponential, SO3};
+use coadjoint::SO3;
+use coadjoint::groups::{Cayley, Exponential};
 use coadjoint_learn::data::PairRows;
 use coadjoint_learn::network::fit_network;
 use coadjoint_learn::polynomial::fit_gradients;

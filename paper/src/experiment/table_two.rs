@@ -1,6 +1,8 @@
 //! Table 2: Poisson maps from momenta alone, and their trajectories.
 
-use coadjoint::{Exponential, SO3, poisson_map};
+use coadjoint::SO3;
+use coadjoint::groups::Exponential;
+use coadjoint::steps::poisson_map;
 use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
 use coadjoint_learn::polynomial::PolynomialModel;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};

@@ -4,7 +4,8 @@
 //! (2021), as the paper uses it: (q, p) are the canonical coordinates of the phase point in Cayley's chart of the whole
 //! group, and S(q′, p″) gives p′ = p″ + ∂S/∂q′, q″ = q′ + ∂S/∂p″. The map is symplectic, and knows nothing of the symmetry.
 
-use coadjoint::{Cayley, Chart, Phase, SO3};
+use coadjoint::groups::{Cayley, Chart};
+use coadjoint::{Phase, SO3};
 use coadjoint_learn::MomentumFunction;
 use coadjoint_learn::data::PairRows;
 use nalgebra::{DMatrix, Matrix3, Vector3};

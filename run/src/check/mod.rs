@@ -2,7 +2,9 @@
 
 mod order;
 
-use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance, laws};
+use coadjoint::groups::{Cayley, Chart, Exponential};
+use coadjoint::steps::advance;
+use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::system::Run;
 use nalgebra::DVector;

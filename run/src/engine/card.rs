@@ -1,6 +1,7 @@
 //! The steps of an interpreter for devices: compiled, or as a text.
 
-use coadjoint::{Chart, LieGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::Chart;
 use coadjoint_codegen::graph::Arithmetic;
 use coadjoint_codegen::step::Step;
 use coadjoint_native::cards::{Card, Device};
@@ -27,7 +28,7 @@ fn programs<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>>(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = step.slots(&interpreter.slots, interpreter.radius);
+    let slots = interpreter.slots[..=step.radius_at()].to_vec();
     Ok((step, slots))
 }
 

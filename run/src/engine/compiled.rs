@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use coadjoint::{Chart, LieGroup, Phase, StepError, StepReport};
+use coadjoint::groups::Chart;
+use coadjoint::steps::StepReport;
+use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Scratch, Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
@@ -135,7 +137,7 @@ impl Compiled {
             }
             _ => backend,
         };
-        let slots = step.slots(&interpreter.slots, interpreter.radius);
+        let slots = interpreter.slots[..=step.radius_at()].to_vec();
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
@@ -214,7 +216,7 @@ impl Compiled {
     ) -> Result<StepReport<f64>, StepError> {
         let group = &interpreter.group;
         let mut phase = self.phase(group, numbers);
-        let report = coadjoint::advance(interpreter, &mut phase)?;
+        let report = coadjoint::steps::advance(interpreter, &mut phase)?;
         *numbers = self.numbers(group, &phase);
         Ok(report)
     }

@@ -3,13 +3,17 @@
 use std::marker::PhantomData;
 
 use coadjoint::generating::{MatrixOf, ScalarOf, VectorOf, hessian_by_differences};
+use coadjoint::groups::{Chart, Coordinates};
 use coadjoint::plumbing;
 use coadjoint::solve::Solver;
-use coadjoint::{Chart, Coordinates, GeneratingFunction, LieGroup, Scalar, StepError};
+use coadjoint::{GeneratingFunction, LieGroup, Scalar, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
-use coadjoint_codegen::integrator::{Integrator, Predictor};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem;
+use coadjoint_program::fold::FoldError;
+
+use super::steep::STEEP;
 
 /// The results of a program.
 struct Outputs<'s, T> {
@@ -24,27 +28,17 @@ impl<T: Copy> Outputs<'_, T> {
     }
 }
 
-/// The parts of an integrator's coefficients for the step size.
-fn fold_parts(integrator: &Integrator, step: f64) -> Result<Vec<f64>, StepError> {
-    if step == 0.0 || !step.is_finite() {
-        return Err(StepError::InvalidStep { step });
+/// Why there are no coefficients for a step size and symbols.
+pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError {
+    match error {
+        FoldError::Step => StepError::InvalidStep { step },
+        FoldError::Symbol(i) => {
+            StepError::InvalidParameter { name: "of the Hamiltonian", value: symbols[i] }
+        }
+        FoldError::Coefficient(value) => {
+            StepError::InvalidParameter { name: "of the generating function", value }
+        }
     }
-    // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-    let symbols: Vec<f64> =
-        integrator.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
-    Ok(integrator.coefficients.fold_parts(step, &symbols))
-}
-
-/// The terms of S_K and S_{K−2} with these coefficients, as (coefficient, order, monomial).
-pub(super) fn of_last<'a>(
-    integrator: &'a Integrator,
-    last: &'a [f64],
-) -> impl Iterator<Item = (f64, usize, &'a [(u32, u32)])> + Clone {
-    let coefficients = &integrator.coefficients;
-    coefficients
-        .last_orders(integrator.problem.truncation)
-        .zip(last)
-        .map(|((_, order, base), &value)| (value, order, coefficients.monomials()[base].as_slice()))
 }
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.
@@ -52,28 +46,29 @@ pub(super) fn of_last<'a>(
 pub struct Interpreter<'a, G, C> {
     pub(super) integrator: &'a Integrator,
     pub(super) group: G,
-    /// The folded coefficients C_m(h).
+    /// The coefficients for the step size, as programs of it read them; see [`FoldTable::new`].
     pub(super) slots: Vec<f64>,
-    /// The coefficients of the last two terms of the series, the direct factor of each coordinate, and the |μ| of each up
-    /// to which their ratio is at most ½ in every direction.
-    pub(super) last: Vec<f64>,
-    pub(super) factors: Vec<u32>,
-    pub(super) radius: f64,
+    /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`].
+    pub(super) quiet: f64,
+    /// The direct factor of the group that each coordinate belongs to.
+    factors: Vec<u32>,
     pub(super) chart: PhantomData<C>,
 }
 
 impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size.
     pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
-        let parts = fold_parts(integrator, step)?;
-        let coefficients = &integrator.coefficients;
-        let truncation = integrator.problem.truncation;
-        let last: Vec<f64> =
-            coefficients.last_orders(truncation).map(|(number, ..)| parts[number]).collect();
+        let table = FoldTable::new(integrator);
+        let symbols = problem::values(&integrator.problem.symbols);
+        let slots = table.fold(step, &symbols).map_err(|error| refusal(error, step, &symbols))?;
+        let quiet = table.lists().radius(step, &symbols, STEEP);
         let factors = integrator.problem.algebra.factor_of_coordinates();
-        let radius = plumbing::radius_of(truncation, &factors, of_last(integrator, &last));
-        let slots = coefficients.slots_of_parts(&parts);
-        Ok(Self { integrator, group, slots, last, factors, radius, chart: PhantomData })
+        Ok(Self { integrator, group, slots, quiet, factors, chart: PhantomData })
+    }
+
+    /// The coefficients after those of the programs, from the square of the radius on.
+    fn of_series(&self) -> &[f64] {
+        self.slots.get(FoldTable::radius_at(self.integrator)..).unwrap_or(&[])
     }
 
     /// Evaluates a program and hands its outputs to `read`.
@@ -152,7 +147,8 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
     }
 
     fn radius(&self) -> ScalarOf<Self> {
-        Scalar::of(self.radius)
+        let square = self.of_series().first().copied().unwrap_or(f64::INFINITY);
+        Scalar::of(if square.is_finite() { square.sqrt() } else { f64::MAX })
     }
 
     fn largest_rate(&self) -> f64 {
@@ -160,15 +156,21 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        let terms = of_last(self.integrator, &self.last);
-        let terms = terms.map(|(value, order, monomial)| (Scalar::of(value), order, monomial));
+        let (coefficients, truncation) =
+            (&self.integrator.coefficients, self.integrator.problem.truncation);
+        let values = self.of_series().iter().skip(1);
+        let terms =
+            coefficients.last_orders(truncation).zip(values).map(|((order, base), &value)| {
+                (Scalar::of(value), order == truncation, coefficients.monomials()[base].as_slice())
+            });
         let mut sums = vec![[Scalar::of(0.0); 2]; self.factors.len()];
-        let truncation = self.integrator.problem.truncation;
-        plumbing::ratio_of(truncation, &self.factors, terms, &mut sums, |i| p[i])
+        plumbing::ratio_of(&self.factors, terms, &mut sums, |i| p[i])
     }
 }
 
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::Integrator for Interpreter<'_, G, C> {
+impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::solve::Integrator
+    for Interpreter<'_, G, C>
+{
     fn solver(&self) -> Solver {
         match self.integrator.plan.solver {
             problem::Solver::Newton => Solver::Newton,

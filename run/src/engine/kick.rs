@@ -2,16 +2,17 @@
 
 use std::cell::RefCell;
 
-use coadjoint::{
-    Chart, Kicked, Phase, StepError, steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6,
-    steps::Splitting as Sequence, steps::Strang,
-};
+use coadjoint::groups::Chart;
+use coadjoint::steps::{Kicked, Prk4, Prk6, Rkn4, Rkn6, Splitting as Sequence, Strang};
+use coadjoint::{Phase, StepError};
 use coadjoint_codegen::graph;
-use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::Splitting;
 use nalgebra::DVector;
 
+use super::interpreter::refusal;
 use super::{Group, Interpreter};
 
 /// The kicks of a potential.
@@ -80,7 +81,7 @@ impl Forces {
         group: &G,
         step: f64,
     ) -> Result<Step<'a, G>, StepError> {
-        let torque = Torque::new(&self.kick, group.clone());
+        let torque = Torque::new(&self.kick, group.clone())?;
         let torque = move |_: f64, g: &G::Element| torque.torque(g);
         let flow = |part: f64| Interpreter::<G, C>::new(integrator, group.clone(), part);
         let kicked = Kicked::<M, _, _>::new(step, torque, flow)?;
@@ -100,13 +101,12 @@ pub struct Torque<'a, G> {
 
 impl<'a, G: Group> Torque<'a, G> {
     /// Folds the coefficients.
-    pub fn new(kick: &'a Kick, group: G) -> Self {
-        // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-        let symbols: Vec<f64> =
-            kick.potential.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+    pub fn new(kick: &'a Kick, group: G) -> Result<Self, StepError> {
+        let symbols = values(&kick.potential.symbols);
         // No coefficient holds the step size.
-        let slots = kick.coefficients.fold(1.0, &symbols);
-        Self { kick, group, slots, scratch: RefCell::default() }
+        let slots = FoldTable::of_kick(kick).fold(1.0, &symbols);
+        let slots = slots.map_err(|error| refusal(error, 1.0, &symbols))?;
+        Ok(Self { kick, group, slots, scratch: RefCell::default() })
     }
 
     /// −g⁻¹dV(g).

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use coadjoint::groups::{Cayley, Exponential};
 use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
-use coadjoint::{Cayley, Exponential};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::{Problem, Solver};

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coadjoint::{StepError, StepReport};
+use coadjoint::StepError;
+use coadjoint::steps::StepReport;
 use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
 use coadjoint_program::WIDTH;
 use rayon::prelude::*;

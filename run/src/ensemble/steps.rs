@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
+use coadjoint::groups::Chart;
+use coadjoint::{GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Invariants, Scratch, nudge};
 use coadjoint_native::cards::Card;
@@ -133,7 +134,7 @@ where
                 shorter.push(stepper);
             }
             place += 1;
-            coadjoint::advance(&shorter[place - 1], &mut state.clone()).is_ok()
+            coadjoint::steps::advance(&shorter[place - 1], &mut state.clone()).is_ok()
         })
     }
 
@@ -177,7 +178,7 @@ where
             compiled: self.compiled.as_ref(),
             rescue: &|state| {
                 let mut phase = self.phase(state);
-                let report = coadjoint::advance(&self.stepper, &mut phase)?;
+                let report = coadjoint::steps::advance(&self.stepper, &mut phase)?;
                 *state = self.numbers(&phase);
                 Ok(report)
             },

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use coadjoint::{Cayley, Chart, Exponential, StepError, advance};
+use coadjoint::StepError;
+use coadjoint::groups::{Cayley, Chart, Exponential};
+use coadjoint::steps::advance;
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
 use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, ModelFile};

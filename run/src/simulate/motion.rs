@@ -2,7 +2,8 @@
 
 use std::cell::RefCell;
 
-use coadjoint::{Chart, GeneratingFunction, Phase, StepError};
+use coadjoint::groups::Chart;
+use coadjoint::{GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::step::Scratch;
 use nalgebra::DVector;
 

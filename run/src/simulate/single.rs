@@ -1,7 +1,8 @@
 //! Steps one at a time, ready to be made.
 
+use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, ElementError, MatrixGroup};
-use coadjoint::{Cayley, Chart, Exponential, LieGroup, StepError};
+use coadjoint::{LieGroup, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 
@@ -115,13 +116,13 @@ impl<S: AsRef<Derived>> Single<S> {
         let advised = |error, matrix: &[f64], mu: &[f64]| {
             advise(error, self.step, |h| {
                 let mut phase = phase_of(group, matrix, mu);
-                make(h).is_ok_and(|step| coadjoint::advance(&step, &mut phase).is_ok())
+                make(h).is_ok_and(|step| coadjoint::steps::advance(&step, &mut phase).is_ok())
             })
         };
         let Some(compiled) = &self.compiled else {
             let step = make(self.step).map_err(|error| (1, error))?;
             let mut phase = phase_of(group, matrix, mu);
-            let made = coadjoint::advance_by(&step, &mut phase, steps);
+            let made = coadjoint::steps::advance_by(&step, &mut phase, steps);
             matrix.copy_from_slice(&entries_of(group, &phase.group_element));
             mu.copy_from_slice(phase.momentum.as_slice());
             return made

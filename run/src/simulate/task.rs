@@ -1,7 +1,9 @@
 //! The runs of systems: flows, or flows and kicks, from the initial state to the end.
 
+use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint::{Cayley, Chart, Exponential, Phase, StepError, advance};
+use coadjoint::steps::advance;
+use coadjoint::{Phase, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;

@@ -27,10 +27,10 @@ pub type MatrixOf<S> = <VectorOf<S> as Coordinates<ScalarOf<S>>>::Matrix;
 /// coordinates (x, p) of a chart.
 ///
 /// Whatever S is (the truncated Hamilton–Jacobi series, a fitted polynomial, a neural network),
-/// [`poisson_map`](crate::poisson_map) and [`advance`](crate::advance) turn it into a Poisson map
+/// [`poisson_map`](crate::steps::poisson_map) and [`advance`](crate::steps::advance) turn it into a Poisson map
 /// of 𝔤\* and a symplectic, G-equivariant, momentum-preserving map of T\*G (Algorithm 1 of
 /// Vaquero, Cortés, Martín de Diego, *Symmetry Preservation in Hamiltonian Systems*). How a step
-/// is solved is said apart, by [`Integrator`](crate::Integrator).
+/// is solved is said apart, by [`Integrator`](crate::solve::Integrator).
 pub trait GeneratingFunction {
     /// The group the map lives on.
     type Group: LieGroup;

@@ -3,6 +3,9 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use coadjoint_program::fold::{LARGEST_RATIO, gradient_bound, radius};
+use nalgebra::ComplexField;
+
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf, series};
 use crate::group::LieGroup;
@@ -14,7 +17,10 @@ use crate::table::TableError;
 /// `C`: a series derived elsewhere, or any polynomial at all.
 ///
 /// ```
-/// use coadjoint::{Exponential, Phase, generating::PolynomialFunction, SO3, advance};
+/// use coadjoint::{Phase, SO3};
+/// use coadjoint::generating::PolynomialFunction;
+/// use coadjoint::groups::Exponential;
+/// use coadjoint::steps::advance;
 /// use nalgebra::Vector3;
 ///
 /// // The rigid body at truncation 1: S = h·H.
@@ -38,16 +44,11 @@ pub struct PolynomialFunction<G, C> {
     series: Option<TruncatedSeries>,
 }
 
-/// A term as (coefficient, order, monomial).
-type Term = (f64, usize, Vec<(u32, u32)>);
-
 /// The last two terms of a truncated series.
 #[derive(Clone, Debug)]
 struct TruncatedSeries {
-    /// K.
-    truncation: usize,
-    /// The terms of S_K and S_{K−2} as (coefficient, order, monomial).
-    last: Vec<Term>,
+    /// The terms of S_K and S_{K−2} as (coefficient, whether it is one of S_K, monomial).
+    last: Vec<(f64, bool, Vec<(u32, u32)>)>,
     /// The direct factor of the group that each coordinate belongs to.
     factors: Vec<u32>,
     /// Up to which |p| of each factor their ratio is at most ½ in every direction.
@@ -108,15 +109,24 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
         let truncation = terms.iter().map(|term| term.0).max().unwrap_or(0);
         let last = terms.iter().filter(|term| truncation > 1 && term.0 + 2 >= truncation);
         let last: Vec<_> = last
-            .map(|(order, c, factors)| {
-                let factors = factors.iter().map(|&(i, power)| (i as u32, power));
-                (*c, *order, factors.collect())
+            .map(|(order, c, monomial)| {
+                let monomial = monomial.iter().map(|&(i, power)| (i as u32, power));
+                (*c, *order == truncation, monomial.collect::<Vec<_>>())
             })
             .collect();
         let factors = factor_of_coordinates(&group);
         let function = Self::new(group, chart, terms.into_iter().map(|(_, c, f)| (c, f)))?;
-        let radius = series::radius(truncation, &factors, by_reference(&last));
-        Ok(Self { series: Some(TruncatedSeries { truncation, last, factors, radius }), ..function })
+        let factor_of = |i: u32| factors.get(i as usize).copied().unwrap_or(0);
+        let count = factors.last().map_or(0, |last| last + 1);
+        let counted = last.iter().flat_map(|(c, highest, monomial)| {
+            (0..count).filter_map(move |factor| {
+                let bound = gradient_bound(monomial, factor_of, factor, ComplexField::sqrt);
+                let (degree, weight) = bound?;
+                Some((*c, (0, factor, *highest, degree, weight)))
+            })
+        });
+        let radius = radius(counted, LARGEST_RATIO);
+        Ok(Self { series: Some(TruncatedSeries { last, factors, radius }), ..function })
     }
 
     fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {
@@ -127,11 +137,6 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
             (c, factors)
         })
     }
-}
-
-/// Terms as the functions of a series read them.
-fn by_reference(last: &[Term]) -> impl Iterator<Item = (f64, usize, &[(u32, u32)])> + Clone {
-    last.iter().map(|(c, order, monomial)| (*c, *order, monomial.as_slice()))
 }
 
 /// The number of the direct factor that each coordinate belongs to, ascending from 0: consecutive coordinates belong to one
@@ -211,12 +216,13 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
     }
 
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        let Some(TruncatedSeries { truncation, last, factors, .. }) = &self.series else {
+        let Some(TruncatedSeries { last, factors, .. }) = &self.series else {
             return Scalar::of(0.0);
         };
-        let terms = by_reference(last).map(|(c, order, monomial)| (Scalar::of(c), order, monomial));
+        let terms = last.iter();
+        let terms = terms.map(|(c, highest, monomial)| (Scalar::of(*c), *highest, &monomial[..]));
         let mut sums = alloc::vec![[Scalar::of(0.0); 2]; factors.len()];
-        series::ratio(*truncation, factors, terms, &mut sums, |i| p[i])
+        series::ratio(factors, terms, &mut sums, |i| p[i])
     }
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {

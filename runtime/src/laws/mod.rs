@@ -172,7 +172,7 @@ where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
-    let mut monitor = crate::Monitor::new(map.group().clone(), point, 1.0);
+    let mut monitor = crate::steps::Monitor::new(map.group().clone(), point, 1.0);
     let mut image = point.clone();
     advance(map, &mut image)?;
     monitor.observe(&image, 1.0);

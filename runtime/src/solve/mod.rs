@@ -43,7 +43,7 @@ pub enum Solver {
     FixedPoint,
 }
 
-/// A generating function whose steps [`advance`](crate::advance) can make. The attribute implements it; for a function of
+/// A generating function whose steps [`advance`](crate::steps::advance) can make. The attribute implements it; for a function of
 /// your own `impl Integrator for Mine {}` does.
 pub trait Integrator: GeneratingFunction {
     /// How steps are solved: by Newton's method up to 24 dimensions, by the fixed point beyond.
@@ -124,7 +124,7 @@ pub struct Solution<V, T> {
 }
 
 /// Solves p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), which is J_L(x, p) = μ without an inverse, and accepts the solution
-/// by the same test as [`advance`](crate::advance).
+/// by the same test as [`advance`](crate::steps::advance).
 ///
 /// # Errors
 /// Any [`StepError`]: what `advance` would refuse.

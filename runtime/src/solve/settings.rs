@@ -3,7 +3,7 @@
 use crate::number::scalar::Scalar;
 
 /// How exactly a step is solved, and which series are taken seriously. The default is what
-/// [`advance`](crate::advance) uses.
+/// [`advance`](crate::steps::advance) uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings<T> {
     tolerance: T,

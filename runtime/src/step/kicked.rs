@@ -22,7 +22,10 @@ use crate::step::splitting::{MAX_FLOWS, Splitting};
 /// of the splitting's and the flows' (truncation + 1).
 ///
 /// ```
-/// use coadjoint::{Exponential, Kicked, LieGroup, Phase, generating::PolynomialFunction, steps::Rkn4, SO3};
+/// use coadjoint::{LieGroup, Phase, SO3};
+/// use coadjoint::generating::PolynomialFunction;
+/// use coadjoint::groups::Exponential;
+/// use coadjoint::steps::{Kicked, Rkn4};
 /// use nalgebra::Vector3;
 ///
 /// // A heavy top: V = m·g·l times the height of the body's third axis; torque mgl e₃ × Rᵀ(−ẑ).

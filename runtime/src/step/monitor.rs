@@ -29,7 +29,8 @@ pub struct Drift<T> {
 /// absolute.
 ///
 /// ```
-/// use coadjoint::{Monitor, Phase, SO3};
+/// use coadjoint::{Phase, SO3};
+/// use coadjoint::steps::Monitor;
 /// use nalgebra::Vector3;
 ///
 /// let body = Phase::<SO3>::at_identity(Vector3::new(2.0, 0.5, 1.0));

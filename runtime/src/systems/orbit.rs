@@ -1,4 +1,4 @@
-//! Forces on a body in orbit, for the kicks of [`Kicked`](crate::Kicked).
+//! Forces on a body in orbit, for the kicks of [`Kicked`](crate::steps::Kicked).
 
 use crate::potential;
 

@@ -1,7 +1,8 @@
 //! Helpers that the group tests share: random vectors, and the laws of one group.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
-use coadjoint::{Coordinates, LieGroup, groups::CayleyGroup};
+use coadjoint::LieGroup;
+use coadjoint::groups::{CayleyGroup, Coordinates};
 
 /// A small deterministic generator (xorshift64*); numbers in (−1, 1).
 pub struct Random(u64);

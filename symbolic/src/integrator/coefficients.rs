@@ -81,39 +81,18 @@ impl Coefficients {
     }
 
     /// For each base its parts: the summands of one power of h.
-    pub fn parts(
-        &self,
-    ) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]> + Clone> + Clone {
+    pub fn parts(&self) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]>> {
         self.bases.iter().map(|base| base.chunk_by(|a, b| a.step_power == b.step_power))
     }
 
-    /// The value of every slot for a step size and symbol values, by the same sequence of
-    /// operations as emitted code.
-    #[must_use]
-    pub fn fold(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
-        self.slots_of_parts(&self.fold_parts(step, symbols))
-    }
-
-    /// How many parts of the series have the order K or K − 2: the coefficients of its last two terms. None for
-    /// K = 1, where there is one term only.
-    #[must_use]
-    pub fn last_terms(&self, truncation: usize) -> usize {
-        self.last_orders(truncation).count()
-    }
-
-    /// The numbers of these parts, each with its order and the number of its monomial.
-    pub fn last_orders(
-        &self,
-        truncation: usize,
-    ) -> impl Iterator<Item = (usize, usize, usize)> + Clone {
+    /// The bases of the series that have a part of the order K or K − 2, each with that order: the coefficients of the
+    /// last two terms. None for K = 1, where there is one term only.
+    pub fn last_orders(&self, truncation: usize) -> impl Iterator<Item = (usize, usize)> {
         let parts = self.parts().enumerate().take(self.series());
         let orders = parts.flat_map(|(base, parts)| {
-            parts.map(move |part| (base, part.first().map_or(0, |term| term.step_power as usize)))
+            parts.map(move |part| (part.first().map_or(0, |term| term.step_power as usize), base))
         });
-        orders
-            .enumerate()
-            .filter(move |(_, (_, order))| truncation > 1 && order + 2 >= truncation)
-            .map(|(number, (base, order))| (number, order, base))
+        orders.filter(move |&(order, _)| truncation > 1 && order + 2 >= truncation)
     }
 
     /// The coordinates on which S₃ … S_K depend.
@@ -123,35 +102,6 @@ impl Coefficients {
         let beyond = series.filter(|(parts, _)| parts.iter().any(|term| term.step_power > 1));
         beyond.flat_map(|(_, factors)| factors.iter().map(|&(i, _)| i as usize)).collect()
     }
-
-    /// The value of every part for a step size and symbol values.
-    #[must_use]
-    pub fn fold_parts(&self, step: f64, symbols: &[f64]) -> Vec<f64> {
-        self.parts().flatten().map(|part| evaluate(part, step, symbols)).collect()
-    }
-
-    /// The value of every slot from those of the parts.
-    #[must_use]
-    pub fn slots_of_parts(&self, parts: &[f64]) -> Vec<f64> {
-        let mut values = parts.iter();
-        let mut bases = Vec::with_capacity(self.bases.len());
-        for parts in self.parts() {
-            bases.push(parts.zip(values.by_ref()).fold(0.0, |sum, (_, value)| sum + value));
-        }
-        self.slots.iter().map(|&(base, scale)| bases[base] * f64::from(scale)).collect()
-    }
-}
-
-/// The value of a part.
-fn evaluate(part: &[Contribution], step: f64, symbols: &[f64]) -> f64 {
-    let times_power = |product: f64, x: f64, n: u32| (0..n).fold(product, |product, _| product * x);
-    let sum = part.iter().fold(0.0, |sum, term| {
-        let powers = symbols.iter().zip(&term.symbol_powers);
-        let product = powers.fold(1.0, |product, (&x, &n)| times_power(product, x, n));
-        sum + term.rounded_factor() * product
-    });
-    let power = part.first().map_or(0, |summand| summand.step_power);
-    sum * times_power(1.0, step, power)
 }
 
 impl Contribution {

@@ -2,17 +2,17 @@
 
 mod coefficients;
 mod flow;
+mod fold;
 mod kick;
 mod lower;
 mod plan;
-mod products;
 mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
+pub use fold::FoldTable;
 pub use kick::Kick;
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
-pub use products::Products;
 
 use crate::comoving::Frame;
 use crate::graph::Program;

@@ -22,10 +22,12 @@ mod translations;
 mod unitriangular;
 mod vector;
 
+use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, ProgramError};
 
+use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::Integrator;
+use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
 use motion::Motion;
@@ -88,12 +90,9 @@ pub enum StepError {
 pub struct Step {
     kernel: Kernel,
     group: Product,
-    /// Folded coefficients of the integrator; after them come those of the bound on the Hessian, and the square of the
-    /// radius of the series.
-    base: usize,
-    /// (degree, slot, weight) of the bound on the Hessian.
-    bound: Vec<(usize, usize, f64)>,
-    bound_len: usize,
+    fold: FoldTable,
+    symbols: Vec<ParameterExpr>,
+    radius_at: usize,
 }
 
 impl Step {
@@ -136,13 +135,12 @@ impl Step {
 
     fn with(integrator: &Integrator, parts: Vec<Box<dyn Part>>) -> Result<Self, StepError> {
         let group = Product(parts);
-        let base = integrator.coefficients.slots().len();
-        let bound_len = integrator.defect_len();
-        let bound = integrator.defect.iter();
-        let bound = bound.map(|term| (term.degree as usize, term.slot, term.weight)).collect();
-        let scheme = Scheme::of(integrator);
-        let kernel = programs::kernel(integrator, scheme, &group, (base, bound_len))?;
-        Ok(Self { kernel, group, base, bound, bound_len })
+        let slots = (integrator.coefficients.slots().len(), integrator.defect_len());
+        let kernel = programs::kernel(integrator, Scheme::of(integrator), &group, slots)?;
+        let radius_at = FoldTable::radius_at(integrator);
+        let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
+        let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
+        Ok(Self { kernel, group, fold, symbols, radius_at })
     }
 
     /// The programs.
@@ -151,20 +149,20 @@ impl Step {
         &self.kernel
     }
 
-    /// All numbers that the programs read as folded coefficients: those of the integrator for the step size, as
-    /// [`Coefficients::fold`](crate::integrator::Coefficients::fold) has them, and what follows from them. `radius` is
-    /// the |μ| up to which the series is taken seriously.
+    /// All numbers that the programs read as coefficients, for a step size and the parameters' scalars.
+    ///
+    /// # Errors
+    /// [`FoldError`] where the step size is zero, or a number is not finite.
+    pub fn fold(&self, step: f64, parameters: &[f64]) -> Result<Vec<f64>, FoldError> {
+        let symbols: Vec<f64> =
+            self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect();
+        self.fold.fold(step, &symbols)
+    }
+
+    /// The place among the coefficients of the square of the |μ| up to which the series can be trusted.
     #[must_use]
-    pub fn slots(&self, folded: &[f64], radius: f64) -> Vec<f64> {
-        let mut slots: Vec<f64> =
-            (0..self.base).map(|i| folded.get(i).copied().unwrap_or(0.0)).collect();
-        let mut bound = vec![0.0; self.bound_len];
-        for &(degree, slot, weight) in &self.bound {
-            bound[degree] += slots[slot].abs() * weight;
-        }
-        slots.extend(bound);
-        slots.push(radius * radius);
-        slots
+    pub fn radius_at(&self) -> usize {
+        self.radius_at
     }
 
     /// g, g⁻¹, μ ↦ Ad\*_g μ, the spatial momentum, which every step conserves. Of g⁻¹ only the matrices of

@@ -9,7 +9,7 @@ use coadjoint_symbolic::problem::{Problem, Solver};
 use coadjoint_symbolic::step::Step;
 
 /// The step of h·Σ pᵢ²/(2Iᵢ), I = (3, 4, 5)/2 in turn.
-fn step(group: &str, truncation: usize, solver: Option<Solver>) -> (Step, Vec<f64>) {
+fn step(group: &str, truncation: usize, solver: Option<Solver>) -> Step {
     let algebra = catalogue::lookup(group).unwrap();
     let n = algebra.dim();
     let square = |i: usize| Polynomial::variable(n, i).pow(2).scale(&ratio(1, 3 + (i % 3) as i64));
@@ -29,17 +29,23 @@ fn step(group: &str, truncation: usize, solver: Option<Solver>) -> (Step, Vec<f6
         learned: false,
     };
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    let step = Step::build(&integrator).unwrap();
-    (step, integrator.coefficients.fold(1.0, &[]))
+    Step::build(&integrator).unwrap()
+}
+
+/// The coefficients of a step of size 1, where the radius of the series is this.
+fn folded(step: &Step, radius: f64) -> Vec<f64> {
+    let mut coefficients = step.fold(1.0, &[]).unwrap();
+    coefficients[step.radius_at()] = radius * radius;
+    coefficients
 }
 
 /// The verdict on x, what is left and the way, where the radius of the series is this.
 fn verdict(group: &str, radius: f64, mu: &[f64], x: &[f64], left: f64, way: f64) -> bool {
-    let (step, folded) = step(group, 7, None);
+    let step = step(group, 7, None);
     let inputs = [mu, x, &[left, way]].concat();
     let mut accepted = [0.0];
     let program = &step.kernel().programs().accept;
-    program.run(&inputs, &step.slots(&folded, radius), &mut Vec::new(), &mut accepted);
+    program.run(&inputs, &folded(&step, radius), &mut Vec::new(), &mut accepted);
     accepted[0] == 1.0
 }
 
@@ -71,8 +77,8 @@ fn each_condition_counts() {
 #[test]
 fn series_of_few_terms_limit_the_rate() {
     let accepted = |group: &str, truncation, solver, mu: [f64; 3]| {
-        let (step, folded) = step(group, truncation, solver);
-        step.kernel().increment(&step.slots(&folded, 1e3), &mu).is_some()
+        let step = step(group, truncation, solver);
+        step.kernel().increment(&folded(&step, 1e3), &mu).is_some()
     };
     let newton = |group: &str, truncation, size: f64| {
         accepted(group, truncation, Some(Solver::Newton), [0.3 * size, 0.1 * size, 0.9 * size])

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use coadjoint::generating::PolynomialFunction;
-use coadjoint::{Exponential, Phase, SE3, SO3, lie_poisson};
+use coadjoint::groups::Exponential;
+use coadjoint::{Phase, SE3, SO3, lie_poisson};
 use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::Chart;

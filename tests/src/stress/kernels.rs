@@ -2,21 +2,20 @@
 
 use std::sync::{Arc, OnceLock};
 
+use coadjoint::LieGroup;
 use coadjoint::groups::MatrixGroup;
-use coadjoint::{Exponential, GeneratingFunction, LieGroup};
-use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
 
-use super::family::{Family, Made, Model, System, folded};
+use super::family::{Family, Made, Model, System};
 use super::random::Random;
-use super::runtime::{Cayley, Outcome, State, Steps, Way, polynomial};
+use super::runtime::{Outcome, State, Steps, Way};
 use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
 use crate::bridge::matrix_group;
 
@@ -41,7 +40,6 @@ const SYSTEMS: [(&str, &str, &str, &str, usize); 15] = [
 
 /// A kernel, and what it takes to make its steps.
 struct Subject {
-    integrator: Integrator,
     step: Step,
     group: MatrixGroup,
     backend: Backend,
@@ -151,29 +149,21 @@ fn problem(group: &str, hamiltonian: &str, chart: &str, frame: &str, truncation:
 fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
     let (group, hamiltonian, chart, frame, truncation) = system;
     let problem = problem(group, hamiltonian, chart, frame, truncation);
-    let (algebra, chart) = (problem.algebra.clone(), problem.chart);
+    let algebra = problem.algebra.clone();
     let (dim, limit) = (algebra.dim(), TermLimit::default());
-    let series = derive(&algebra, chart, problem.generated(), truncation, limit);
-    let series = series.expect("a series");
-    let orders: Vec<_> = (1..=truncation).map(|k| (k as u32, series.order(k).clone())).collect();
     let judge = Judge::of_problem(&problem, limit).expect("a judge");
     let velocity = problem.hamiltonian.gradient(dim);
     let integrator = Integrator::build(problem, limit).expect("an integrator");
     let step = Step::build(&integrator).expect("a kernel");
     let group = matrix_group(&algebra).expect("a group");
     let stepper = OnceLock::new();
-    let subject = Arc::new(Subject { integrator, step, group, backend, stepper });
+    let subject = Arc::new(Subject { step, group, backend, stepper });
     let text = format!("{system:?}");
     let draw = move |_: &mut Random| {
-        let (subject, orders) = (Arc::clone(&subject), orders.clone());
+        let subject = Arc::clone(&subject);
         let steps = move |h: f64, _: &mut Random| {
-            let terms = folded(&orders, h, false)?;
-            let group = subject.group.clone();
-            let radius = match chart {
-                Chart::Exponential => polynomial(group, Exponential, terms).radius(),
-                Chart::Cayley => polynomial(group.into_cayley().ok()?, Cayley, terms).radius(),
-            };
-            let slots = subject.step.slots(&subject.integrator.coefficients.fold(h, &[]), radius);
+            let slots = subject.step.fold(h, &[]).ok()?;
+            let radius = slots[subject.step.radius_at()].sqrt();
             let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
             Some(Made::series(Runner { subject, stepper, slots, radius }))
         };

@@ -1,15 +1,15 @@
 //! The only place where the stress program touches the runtime: steps of any type behind one trait.
 
-use coadjoint::{
-    Chart, Coordinates, GeneratingFunction, Integrator, LieGroup, Phase, Scalar, advance,
-    advance_by, generating::PolynomialFunction, generating::ScalarOf, generating::VectorOf,
-    lanes::Lanes, lanes::ensemble, solve::solve,
-};
+use coadjoint::generating::{PolynomialFunction, ScalarOf, VectorOf};
+use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::lanes::{Lanes, ensemble};
+use coadjoint::solve::{Integrator, solve};
+use coadjoint::steps::{advance, advance_by};
+use coadjoint::{GeneratingFunction, LieGroup, Phase, Scalar};
 
 pub use crate::matrix_free::MatrixFree;
-pub use coadjoint::{
-    Cayley, Exponential, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::Power, groups::SU3,
-};
+pub use coadjoint::groups::{Cayley, Exponential, Heisenberg, Power, SE2, SU2, SU3};
+pub use coadjoint::{SE3, SO3};
 
 /// By which function steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

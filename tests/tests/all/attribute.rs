@@ -1,7 +1,8 @@
 //! The attribute `lie_poisson`: bodies people write, all giving the same integrator.
 
 use coadjoint::nalgebra::Vector3;
-use coadjoint::{Integrator, Phase, SO3, StepError, lie_poisson};
+use coadjoint::solve::Integrator;
+use coadjoint::{Phase, SO3, StepError, lie_poisson};
 
 /// Free rigid body, written out.
 #[lie_poisson(group = SO3, truncation = 5)]
@@ -48,7 +49,7 @@ where
 {
     let mut body = Phase::<SO3>::at_identity(START);
     for _ in 0..50 {
-        coadjoint::advance(step, &mut body)?;
+        coadjoint::steps::advance(step, &mut body)?;
     }
     Ok(body.momentum)
 }

@@ -15,7 +15,7 @@ use coadjoint_codegen::step::Step;
 use coadjoint_program::{Kernel, Stepper, WIDTH};
 use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
-use coadjoint_tests::kernels::{SYSTEMS, integrator_by};
+use coadjoint_tests::kernels::{SYSTEMS, integrator_by, unlimited};
 use coadjoint_tests::stress::Random;
 use nalgebra::{DMatrix, DVector};
 
@@ -64,7 +64,7 @@ impl Subject {
     }
 
     fn slots(&self, h: f64) -> Vec<f64> {
-        self.step.slots(&self.integrator.coefficients.fold(h, &[]), f64::MAX)
+        unlimited(&self.step, h)
     }
 
     /// An element near the identity and a momentum of at most this size.

@@ -1,9 +1,8 @@
 //! The runtime's closed forms agree with table-driven groups of the same basis.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{
-    Coordinates, LieGroup, SE2, SE3, SO3, SU2, groups::Heisenberg, groups::MatrixGroup,
-};
+use coadjoint::groups::{Coordinates, Heisenberg, MatrixGroup, SE2, SU2};
+use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_tests::bridge::matrix_group;
 use nalgebra::DVector;

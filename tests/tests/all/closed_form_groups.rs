@@ -1,7 +1,9 @@
 //! The attribute on the runtime's closed-form groups.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::{Monitor, Phase, SE2, SO3, SU2, groups::Heisenberg, groups::Product, lie_poisson};
+use coadjoint::groups::{Heisenberg, Product, SE2, SU2};
+use coadjoint::steps::Monitor;
+use coadjoint::{Phase, SO3, lie_poisson};
 use nalgebra::Vector3;
 
 /// A planar body in an ideal fluid.

@@ -1,11 +1,11 @@
 //! `frame = comoving`: what is uniform in a motion follows each step, and the series knows nothing of it.
 #![allow(clippy::unwrap_used)]
 
+use coadjoint::generating::Reversed;
+use coadjoint::lanes::ensemble;
 use coadjoint::nalgebra::{SVector, Vector3, Vector6};
-use coadjoint::{
-    GeneratingFunction, LieGroup, Phase, SE3, SO3, StepError, advance, generating::Reversed,
-    lanes::ensemble, laws, lie_poisson, poisson_map,
-};
+use coadjoint::steps::{advance, poisson_map};
+use coadjoint::{GeneratingFunction, LieGroup, Phase, SE3, SO3, StepError, laws, lie_poisson};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_tests::matrix_free::MatrixFree;
 use coadjoint_tests::reference::{end_state, numbers};

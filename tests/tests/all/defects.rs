@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use coadjoint::generating::PolynomialFunction;
-use coadjoint::{
-    Cayley, Coordinates, Exponential, GeneratingFunction, Integrator, LieGroup, Phase,
-};
-use coadjoint::{SE3, SO3, StepError, advance, advance_by, lie_poisson};
+use coadjoint::groups::{Cayley, Coordinates, Exponential};
+use coadjoint::solve::Integrator;
+use coadjoint::steps::{advance, advance_by};
+use coadjoint::{GeneratingFunction, LieGroup, Phase};
+use coadjoint::{SE3, SO3, StepError, lie_poisson};
 use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 const INERTIA: [f64; 3] = [1.3, 2.1, 3.0];

@@ -14,6 +14,7 @@ use coadjoint_native::cards::{
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 use coadjoint_program::{Kernel, Precision, Stepper};
 use coadjoint_tests::golden;
+use coadjoint_tests::kernels::unlimited;
 use nalgebra::DMatrix;
 
 /// A step with its folded coefficients.
@@ -55,7 +56,7 @@ fn momentum(n: usize, size: f64, seed: usize) -> Vec<f64> {
 fn ready(text: &str, truncation: usize, h: f64, precision: Precision) -> Ready {
     let integrator = integrator(text, truncation);
     let step = Step::build_in(&integrator, precision).unwrap();
-    let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
+    let slots = unlimited(&step, h);
     Ready { name: format!("{}, {precision}", integrator.problem.name), step, slots }
 }
 

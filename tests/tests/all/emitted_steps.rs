@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{GeneratingFunction, Kicked, LieGroup as _, Phase, SO3, StepError, steps::Rkn4};
+use coadjoint::steps::{Kicked, Rkn4};
+use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SO3, StepError};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::system::{Options, Parameters, read};
 use coadjoint_tests::emitted::{self, from_function};
 
@@ -41,7 +42,7 @@ fn against_interpreter<const N: usize, S>(
 {
     let symbols: Vec<f64> =
         integrator.problem.symbols.iter().map(|s| s.expr.evaluate(parameters)).collect();
-    let slots = integrator.coefficients.fold(step, &symbols);
+    let slots = FoldTable::new(integrator).fold(step, &symbols).unwrap();
     let mut scratch = Vec::new();
     let mut run = |program: &coadjoint_codegen::graph::Program, p: &SVector<f64, N>| {
         let mut outputs = vec![f64::NAN; program.outputs().len()];
@@ -186,7 +187,7 @@ fn a_kicked_body_follows_the_interpreter_and_keeps_its_integrals() -> Result<(),
         kick.potential.symbols.iter().map(|s| s.expr.evaluate(&parameters)).collect();
     let run = |program: &coadjoint_codegen::graph::Program| {
         let mut outputs = vec![f64::NAN; program.outputs().len()];
-        let slots = kick.coefficients.fold(1.0, &symbols);
+        let slots = FoldTable::of_kick(&kick).fold(1.0, &symbols).unwrap();
         coadjoint_codegen::graph::run(program, &matrix, &slots, &mut Vec::new(), &mut outputs);
         outputs
     };

@@ -29,7 +29,7 @@ fn macro_build_script_and_interpreter_agree() -> Result<(), StepError> {
         }",
     ))
     .unwrap();
-    let slots = integrator.coefficients.fold(h, &[]);
+    let slots = coadjoint_codegen::integrator::FoldTable::new(&integrator).fold(h, &[]).unwrap();
     for p in [Vector3::new(2.0, 0.5, 1.0), Vector3::new(-0.3, 1.7, 0.2)] {
         let mut interpreted = [0.0; 3];
         coadjoint_codegen::graph::run(

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::generating::PolynomialFunction;
+use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::groups::{CayleyMatrixGroup, MatrixGroup};
-use coadjoint::{Cayley, Chart, Exponential, LieGroup, Phase, advance};
+use coadjoint::steps::advance;
+use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
@@ -12,7 +14,7 @@ use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::{Scratch, Stepper, WIDTH};
 use coadjoint_tests::bridge::{matrix_group, series_function};
-use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by};
+use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by, limited, unlimited};
 use nalgebra::{DMatrix, DVector};
 
 fn momentum(n: usize, size: f64) -> Vec<f64> {
@@ -31,7 +33,7 @@ fn compare<G, C>(
 {
     let step = Step::build(integrator).unwrap();
     let kernel = step.kernel();
-    let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
+    let slots = unlimited(&step, h);
     let n = kernel.dim();
     let mut phase = Phase::<G>::new(group.identity(), DVector::from_vec(momentum(n, 0.9)));
     let size = group.matrix_size();
@@ -71,7 +73,7 @@ fn momenta_beyond_the_radius_are_those_that_the_series_depends_on() {
     let steps = |hamiltonian: &str, first: f64, fourth: f64| {
         let integrator = integrator("SO3*R3", hamiltonian, "exponential", 7);
         let step = Step::build(&integrator).unwrap();
-        let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 5.0);
+        let slots = limited(&step, 0.1, 5.0);
         let mut g = step.element_of(DMatrix::<f64>::identity(7, 7).as_slice());
         let mut mu = [first, 0.5, 0.7, fourth, 1.0, 2.0];
         step.kernel().advance(&slots, &mut g, &mut mu, 20).steps
@@ -187,7 +189,7 @@ fn many_dimensions_have_a_kernel_by_the_fixed_point() {
         let step = Step::build(integrator).unwrap();
         let kernel = step.kernel();
         let n = kernel.dim();
-        let slots = step.slots(&integrator.coefficients.fold(0.05, &[]), f64::MAX);
+        let slots = unlimited(&step, 0.05);
         let mut g: Vec<f64> = (0..n / 3).flat_map(|_| [1.0, 0.0, 0.0, 0.0]).collect();
         let mut mu: Vec<f64> = (0..n).map(|i| (1.3 * i as f64).cos()).collect();
         let start = mu.clone();
@@ -211,7 +213,7 @@ fn many_dimensions_have_a_kernel_by_the_fixed_point() {
 fn what_is_driven_too_hard_is_refused_and_stays() {
     let integrator = integrator("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", 5);
     let step = Step::build(&integrator).unwrap();
-    let slots = step.slots(&integrator.coefficients.fold(0.5, &[]), f64::MAX);
+    let slots = unlimited(&step, 0.5);
     for start in [vec![1e9, 1e8, 1e9], vec![f64::NAN, 1.0, 1.0], vec![1.0, f64::INFINITY, 1.0]] {
         let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], start.clone());
         let outcome = step.kernel().advance(&slots, &mut g, &mut mu, 10);
@@ -223,7 +225,7 @@ fn what_is_driven_too_hard_is_refused_and_stays() {
         );
     }
     // Beyond the radius of the series.
-    let slots = step.slots(&integrator.coefficients.fold(0.1, &[]), 0.5);
+    let slots = limited(&step, 0.1, 0.5);
     let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.5, 0.3, 0.1]);
     assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 10).steps, 0);
     let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.3, 0.1]);
@@ -240,7 +242,7 @@ fn a_frame_moves_as_far_as_it_spins() {
     assert!(!integrator.frame.is_empty());
     let step = Step::build(&integrator).unwrap();
     let advance = |h: f64, steps: u64| {
-        let slots = step.slots(&integrator.coefficients.fold(h, &[]), f64::MAX);
+        let slots = unlimited(&step, h);
         let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.2, 1.0]);
         assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, steps).steps, steps);
         (g, mu)

@@ -1,11 +1,11 @@
 //! Kicks composed with generated flows: order, symplecticity, and a satellite in orbit.
 #![allow(clippy::unwrap_used)]
 
+use coadjoint::generating::PolynomialFunction;
+use coadjoint::groups::Exponential;
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{
-    Exponential, Kicked, LieGroup, Phase, SO3, StepError, generating::PolynomialFunction,
-    steps::Prk4, steps::Prk6, steps::Rkn4, steps::Rkn6, steps::Splitting, steps::Strang,
-};
+use coadjoint::steps::{Kicked, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
+use coadjoint::{LieGroup, Phase, SO3, StepError};
 use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::lie::catalogue::lookup;

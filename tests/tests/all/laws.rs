@@ -1,12 +1,13 @@
 //! The laws of MATH.md for the derived series: every group × chart × K ∈ {1, 3, 5, 7}.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::laws::{OrderError, check, measured_order};
-use coadjoint::{
-    Cayley, Chart, Coordinates, Exponential, LieGroup, Phase, SE2, SE3, SO3, SU2, advance,
-    groups::Aff1, groups::CayleyMatrixGroup, groups::Heisenberg, groups::MatrixGroup,
-    groups::Power, groups::Product, groups::SL2, groups::SO4, groups::SO5, groups::U2, groups::U3,
+use coadjoint::groups::{
+    Aff1, Cayley, CayleyMatrixGroup, Chart, Coordinates, Exponential, Heisenberg, MatrixGroup,
+    Power, Product, SE2, SL2, SO4, SO5, SU2, U2, U3,
 };
+use coadjoint::laws::{OrderError, check, measured_order};
+use coadjoint::steps::advance;
+use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::lie::{Chart as ChartName, LieAlgebra, RationalMatrix};

@@ -8,8 +8,10 @@
 
 use std::path::Path;
 
+use coadjoint::groups::Exponential;
 use coadjoint::nalgebra::Vector3;
-use coadjoint::{Exponential, GeneratingFunction, Phase, SO3, advance, poisson_map};
+use coadjoint::steps::{advance, poisson_map};
+use coadjoint::{GeneratingFunction, Phase, SO3};
 use coadjoint_learn::{Generating, ModelFile};
 
 mod learned {

@@ -4,11 +4,11 @@ use coadjoint::generating::VectorOf;
 use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::lanes::{F64x8, Lanes};
 use coadjoint::nalgebra::{SVector, Vector6};
+use coadjoint::solve::Integrator;
 use coadjoint::solve::Settings;
 use coadjoint::steps::advance_with;
-use coadjoint::{
-    Integrator, LieGroup, Phase, SE3, StepError, advance, advance_by, lie_poisson, poisson_map,
-};
+use coadjoint::steps::{advance, advance_by, poisson_map};
+use coadjoint::{LieGroup, Phase, SE3, StepError, lie_poisson};
 
 #[lie_poisson(group = SE3, truncation = 7)]
 fn fluid(mu: [f64; 6]) -> f64 {

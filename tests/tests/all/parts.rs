@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::SVector;
-use coadjoint::{GeneratingFunction, Integrator as _, Phase};
+use coadjoint::solve::Integrator as _;
+use coadjoint::{GeneratingFunction, Phase};
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{FoldTable, Integrator};
 use coadjoint_codegen::system::{Options, read};
 
 /// Twenty spins.
@@ -30,7 +31,7 @@ fn parts_compute_what_the_interpreter_does() {
 
     let h = 0.05;
     let step = built::Ring20::new(h).unwrap();
-    let slots = integrator.coefficients.fold(h, &[]);
+    let slots = FoldTable::new(&integrator).fold(h, &[]).unwrap();
     let run = |program: &Program, p: &SVector<f64, DIM>| {
         let mut outputs = vec![0.0; program.outputs().len()];
         coadjoint_codegen::graph::run(program, p.as_slice(), &slots, &mut Vec::new(), &mut outputs);

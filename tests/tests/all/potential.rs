@@ -2,10 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::{
-    Kicked, LieGroup, Phase, SO3, StepError, lie_poisson, potential, steps::Rkn4, steps::Rkn6,
-    steps::Splitting, steps::Strang,
-};
+use coadjoint::steps::{Kicked, Rkn4, Rkn6, Splitting, Strang};
+use coadjoint::{LieGroup, Phase, SO3, StepError, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::{Rational, integer};

@@ -6,7 +6,7 @@ use coadjoint::nalgebra::SVector;
 use coadjoint::{LieGroup, SE3, SO3, groups::FixedDimension, groups::SU3};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::{Integrator, Plan, Predictor};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Plan, Predictor};
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::system::{Options, read};
 
@@ -16,7 +16,7 @@ where
     G: LieGroup<Scalar = f64, Vector = SVector<f64, N>> + FixedDimension + Default,
 {
     let group = G::default();
-    let slots = integrator.coefficients.fold(step, &[]);
+    let slots = FoldTable::new(integrator).fold(step, &[]).unwrap();
     let mut scratch = Vec::new();
     let mut run = |program: &Program, p: &SVector<f64, N>| {
         let mut outputs = SVector::<f64, N>::zeros();

@@ -1,12 +1,14 @@
 //! `coadjoint::systems`: the ready integrators reach the references of the same systems' files.
 
 use coadjoint::nalgebra::{Complex, DMatrix, SVector};
+use coadjoint::solve::Integrator;
+use coadjoint::steps::advance;
 use coadjoint::systems::{
     ClebschCase, FreeBody, FreeBodyFullInertia, GoryachevChaplyginTop, Gyrostat, HeavyTop,
     HeisenbergSpinRing, KirchhoffBody, KovalevskayaTop, LagrangeTop, ManakovBody, Su3Body,
     ThreeWaveInteraction, TodaLattice, ZeitlinVorticity3, zeitlin_vorticity_3, zeitlin_vorticity_5,
 };
-use coadjoint::{GeneratingFunction, Integrator, LieGroup, Phase, StepError, advance};
+use coadjoint::{GeneratingFunction, LieGroup, Phase, StepError};
 use coadjoint_tests::moments::special_unitary;
 use coadjoint_tests::reference::{end_state, numbers};
 

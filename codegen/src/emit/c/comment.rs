@@ -3,7 +3,7 @@
 use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Cost, Program};
 
-use super::fold::Fold;
+use super::fold::Folding;
 use super::names::Names;
 use super::{HeaderOptions, Language};
 use crate::integrator::Integrator;
@@ -17,7 +17,7 @@ const WIDTH: usize = 112;
 pub fn opening(
     integrator: &Integrator,
     step: &Step,
-    fold: &Fold,
+    fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> String {
@@ -86,7 +86,7 @@ fn sum(programs: &[Cost]) -> Cost {
 fn paragraphs(
     integrator: &Integrator,
     step: &Step,
-    fold: &Fold,
+    fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> Vec<String> {
@@ -162,8 +162,8 @@ fn paragraphs(
         format!("Cost at most ({corrections} corrections, and a look at the state): {}.", count(most)),
         format!(
             "Data: {} coefficients ({} bytes) in a map, {} bytes in a state.",
-            fold.len,
-            8 * fold.len,
+            fold.len(),
+            8 * fold.len(),
             8 * (kernel.dim() + kernel.element())
         ),
         String::new(),

@@ -3,12 +3,12 @@
 use coadjoint_program::print::{LoopStyle, steps};
 
 use super::dialect::{Portable, decimal};
-use super::fold::Fold;
+use super::fold::Folding;
 use super::names::Names;
 use crate::step::Step;
 
 /// The functions that make steps.
-pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
+pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
     let style = LoopStyle {
         prefix: "@p@_internal_".into(),

@@ -3,37 +3,25 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use coadjoint_program::fold::{DEGREES, Fold, LastTerm};
 use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Node, Program};
 
 use super::dialect::decimal;
-use super::fold_table::Table;
 use super::fold_text::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, SYMBOLS, WITHIN};
 use super::names::Names;
-use super::radius::{LastTerm, last_terms};
 use super::{HeaderError, HeaderOptions, parameter};
-use crate::integrator::Integrator;
+use crate::integrator::{FoldTable, Integrator};
 use crate::step::Step;
 
-/// The coefficients that the programs of a step read, by base, and where the header has them.
-///
-/// The array of coefficients has the slots that are read, in the order of their bases; then the bound on the Hessian by
-/// degrees; then the square of the radius.
+/// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
+/// order of their bases; then the bound on the Hessian, and the square of the radius.
 #[derive(Debug)]
-pub struct Fold {
-    /// For each slot of the programs that is read its place.
+pub struct Folding {
+    /// For each coefficient that is read its place.
     pub places: BTreeMap<usize, usize>,
-    /// How many coefficients there are.
-    pub len: usize,
-    /// The bases that are needed, as they are in the integrator.
-    pub bases: Vec<usize>,
-    /// The integers that make slots of a base, by base.
-    pub scales: Vec<Vec<u32>>,
-    /// (base, degree, weight) of the bound on the Hessian.
-    pub bound: Vec<(usize, u32, f64)>,
-    bound_len: usize,
-    /// The last two terms of the series.
-    pub last: Vec<LastTerm>,
+    /// The data that folding reads.
+    pub table: FoldTable,
 }
 
 /// The numbers of the slots that programs read.
@@ -46,8 +34,8 @@ fn read(programs: &[&Program]) -> BTreeSet<usize> {
     nodes.filter_map(slot).collect()
 }
 
-impl Fold {
-    /// The coefficients that the programs of `step` read.
+impl Folding {
+    /// What the programs of `step` read.
     ///
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].
@@ -57,43 +45,33 @@ impl Fold {
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
         list.extend(&programs.frame);
         let slots = integrator.coefficients.slots();
-        let (all, bound_len) = (slots.len(), integrator.defect_len());
         let mut wanted: Vec<(usize, u32, usize)> = read(&list)
             .into_iter()
             .filter_map(|slot| slots.get(slot).map(|&(base, scale)| (base, scale, slot)))
             .collect();
         wanted.sort_unstable();
-        let last = last_terms(integrator)?;
-        let bound: Vec<(usize, u32, f64)> = integrator
-            .defect
-            .iter()
-            .filter_map(|term| {
-                let &(base, scale) = slots.get(term.slot)?;
-                Some((base, term.degree, term.weight * f64::from(scale)))
-            })
-            .collect();
-        let mut bases: BTreeSet<usize> = wanted.iter().map(|&(base, ..)| base).collect();
-        bases.extend(last.iter().map(|term| term.base));
-        bases.extend(bound.iter().map(|&(base, ..)| base));
-        let bases: Vec<usize> = bases.into_iter().collect();
         if wanted.is_empty() {
             return Err(HeaderError::Constant);
         }
-        let scales = bases.iter().map(|&base| {
-            wanted.iter().filter(|of| of.0 == base).map(|&(_, scale, _)| scale).collect()
-        });
-        let mut places: BTreeMap<usize, usize> =
-            wanted.iter().enumerate().map(|(place, &(.., slot))| (slot, place)).collect();
-        for extra in 0..=bound_len {
-            places.insert(all + extra, wanted.len() + extra);
+        let of_step = slots.len()..=FoldTable::radius_at(integrator);
+        let all = wanted.into_iter().map(|(.., slot)| slot).chain(of_step);
+        let places: BTreeMap<usize, usize> = all.zip(0..).collect();
+        let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
+        let highest = table.lists().last.iter().map(|term| term.3).max().unwrap_or(0);
+        if highest as usize >= DEGREES {
+            return Err(HeaderError::Degree { degree: highest + 1, limit: DEGREES as u32 });
         }
-        let (scales, len) = (scales.collect(), wanted.len() + bound_len + 1);
-        Ok(Self { places, len, bases, scales, bound, bound_len, last })
+        Ok(Self { places, table })
+    }
+
+    /// How many coefficients there are.
+    pub fn len(&self) -> usize {
+        self.table.len()
     }
 
     /// The function that folds.
     pub fn init(&self, integrator: &Integrator, names: &Names, options: &HeaderOptions) -> String {
-        let table = Table::new(self, &integrator.coefficients);
+        let fold = self.table.lists();
         let problem = &integrator.problem;
         let scalars = parameter::scalars(&problem.parameters, names);
         let symbols: Vec<String> = problem
@@ -105,35 +83,39 @@ impl Fold {
         if problem.symbols.iter().any(|symbol| parameter::has_power(&symbol.expr)) {
             text.push_str(POWER);
         }
-        if !self.last.is_empty() {
+        if !fold.last.is_empty() {
             text.push_str(WITHIN);
         }
         let parameters = match problem.parameters.is_empty() {
             true => String::new(),
             false => ", const @p@_parameters *parameters".to_owned(),
         };
-        text.push_str(&ABOUT.replace("/*BYTES*/", &(8 * table.stack(self)).to_string()));
+        let degrees = fold.last.iter().map(|term| term.3 as usize + 1).max().unwrap_or(0);
+        let factors = fold.last.iter().map(|term| term.1 as usize + 1).max().unwrap_or(0);
+        let bounds = degrees * factors;
+        let products = fold.products.len();
+        let powers = fold.parts.iter().map(|part| part.0 as usize + 1).max().unwrap_or(1);
+        let stack = if products > 0 { 2 * products + 1 } else { 0 } + powers + 2 * bounds + 16;
+        text.push_str(&ABOUT.replace("/*BYTES*/", &(8 * stack).to_string()));
         text.push_str(&format!(
             "static inline @p@_status @p@_init(@p@_map *map, double h{parameters})\n{{\n"
         ));
-        table.declare(self, &mut text);
-        let with_symbols = !table.products.is_empty();
-        if with_symbols {
-            let count = symbols.len();
-            let _ = writeln!(text, "    double symbol[{count}];");
-            let _ = writeln!(text, "    double product[{}];", table.products.len() + 1);
+        declare(&fold, degrees, &mut text);
+        if products > 0 {
+            let _ = writeln!(text, "    double symbol[{}];", symbols.len());
+            let _ = writeln!(text, "    double product[{}];", products + 1);
         }
-        let _ = writeln!(text, "    double power[{}];", table.powers);
-        let places = self.last_places();
-        if places > 0 {
-            let _ = writeln!(text, "    double last[{places}] = {{0.0}};");
-            let _ = writeln!(text, "    double before[{places}] = {{0.0}};");
+        let _ = writeln!(text, "    double power[{powers}];");
+        if bounds > 0 {
+            let zeros = vec!["0.0"; bounds].join(", ");
+            let _ = writeln!(text, "    double last[{bounds}] = {{{zeros}}};");
+            let _ = writeln!(text, "    double before[{bounds}] = {{{zeros}}};");
         }
         let mut next = String::new();
-        if !self.bound.is_empty() {
+        if !fold.bound.is_empty() {
             next.push_str("    uint32_t next_bound = 0u;\n");
         }
-        if !self.last.is_empty() {
+        if !fold.last.is_empty() {
             next.push_str("    uint32_t next_last = 0u;\n");
         }
         text.push_str(&BEGIN.replace("/*NEXT*/", &next));
@@ -142,57 +124,105 @@ impl Fold {
             let _ = writeln!(text, "    if (!((h >= {step}) && (h <= {step}))) {{");
             text.push_str("        status = @P@_BAD_STEP;\n    }\n");
         }
-        let read = with_symbols && symbols.iter().any(|text| text.contains("parameters->"));
+        let read = products > 0 && symbols.iter().any(|text| text.contains("parameters->"));
         if !read && !problem.parameters.is_empty() {
             text.push_str("    (void)parameters;\n");
         }
-        if with_symbols {
+        if products > 0 {
             for (i, (expression, symbol)) in symbols.iter().zip(&problem.symbols).enumerate() {
                 let note = c_comment(&symbol.text);
                 let _ = writeln!(text, "    symbol[{i}] = {expression}; /* {note} */");
             }
-            let count = symbols.len();
-            let products = table.products.len();
             text.push_str(
                 &SYMBOLS
-                    .replace("/*SYMBOLS*/", &format!("{count}u"))
+                    .replace("/*SYMBOLS*/", &format!("{}u", symbols.len()))
                     .replace("/*PRODUCTS*/", &format!("{products}u")),
             );
         }
-        let summand = match with_symbols {
-            true => "(factor[term] * product[product_of[term]])",
-            false => "factor[term]",
+        let summand = match products {
+            0 => "factor[term]",
+            _ => "(factor[term] * product[product_of[term]])",
         };
-        let bound = if self.bound.is_empty() { "" } else { BOUND };
-        let last = if self.last.is_empty() { "" } else { LAST };
-        text.push_str(
-            &LOOP
-                .replace("/*BOUND*/", bound)
-                .replace("/*LAST*/", last)
-                .replace("/*POWERS*/", &format!("{}u", table.powers))
-                .replace("/*BASES*/", &format!("{}u", self.bases.len()))
+        let text = text
+            + &LOOP
+                .replace("/*BOUND*/", if fold.bound.is_empty() { "" } else { BOUND })
+                .replace("/*LAST*/", if fold.last.is_empty() { "" } else { LAST })
                 .replace("/*SUMMAND*/", summand)
-                .replace("/*BOUND_AT*/", &format!("{}u", self.len - 1 - self.bound_len))
-                .replace("/*BOUNDS*/", &format!("{}u", self.bound.len()))
-                .replace("/*LASTS*/", &format!("{}u", self.last.len())),
+            + &END.replace("/*RADIUS*/", if fold.last.is_empty() { "" } else { RADIUS });
+        let sizes = [
+            ("/*POWERS*/", powers),
+            ("/*BASES*/", fold.bases.len()),
+            ("/*BOUNDS*/", fold.bound.len()),
+            ("/*LASTS*/", fold.last.len()),
+            ("/*PLACES*/", bounds),
+            ("/*DEGREES*/", degrees),
+        ];
+        let fill =
+            |text: String, (name, size): (&str, usize)| text.replace(name, &format!("{size}u"));
+        names.fill(&sizes.into_iter().fold(text, fill))
+    }
+}
+
+/// The data as tables of C.
+fn declare(fold: &Fold<'_>, degrees: usize, text: &mut String) {
+    text.push_str("    /* Summands factor * product * h^power of each coefficient. */\n");
+    numbers("factor", fold.terms.iter().map(|term| term.0), text);
+    if !fold.products.is_empty() {
+        integers("product_of", fold.terms.iter().map(|term| term.1), text);
+        text.push_str("    /* Product i + 1 is product made_of[i] times symbol[made_by[i]]. */\n");
+        integers("made_of", fold.products.iter().map(|made| made.0), text);
+        integers("made_by", fold.products.iter().map(|made| made.1), text);
+    }
+    integers("power_of", fold.parts.iter().map(|part| part.0), text);
+    text.push_str(
+        "    /* Where the summands of a power, the powers and the places of a coefficient end. */\n",
+    );
+    integers("term_end", fold.parts.iter().map(|part| part.1), text);
+    integers("part_end", fold.bases.iter().copied(), text);
+    let before = |base: u32| fold.slots.partition_point(|slot| slot.0 <= base) as u32;
+    integers("slot_end", (0..fold.bases.len() as u32).map(before), text);
+    integers("scale", fold.slots.iter().map(|slot| slot.1), text);
+    if !fold.bound.is_empty() {
+        text.push_str("    /* The bound on what is left out of the Hessian. */\n");
+        integers("bound_base", fold.bound.iter().map(|term| term.0), text);
+        integers("bound_place", fold.bound.iter().map(|term| term.2), text);
+        numbers("bound_weight", fold.bound.iter().map(|term| term.1), text);
+    }
+    if !fold.last.is_empty() {
+        text.push_str(
+            "    /* The last two terms of the series, which tell how far it can be trusted. */\n",
         );
-        let radius = match self.last.is_empty() {
-            true => "    radius = DBL_MAX;\n".to_owned(),
-            false => RADIUS.replace("/*PLACES*/", &format!("{places}u")),
-        };
-        text.push_str(&END.replace("/*RADIUS*/", &radius));
-        let text = text.replace("/*DEGREES*/", &format!("{}u", self.degrees()));
-        names.fill(&text)
+        let last = || fold.last.iter();
+        integers("last_part", last().map(|term| term.0), text);
+        let place = |&(_, factor, _, degree, _): &LastTerm| factor * degrees as u32 + degree;
+        integers("last_place", last().map(place), text);
+        integers("last_is_highest", last().map(|term| u32::from(term.2)), text);
+        numbers("last_weight", last().map(|term| term.4), text);
     }
+}
 
-    /// How many coefficients the polynomials have that bound the last terms, of all factors of the group.
-    pub fn last_places(&self) -> usize {
-        let factors = self.last.iter().map(|term| term.factor as usize + 1).max().unwrap_or(0);
-        factors * self.degrees()
-    }
+/// A table of numbers.
+fn numbers(name: &str, list: impl ExactSizeIterator<Item = f64>, text: &mut String) {
+    let _ = writeln!(text, "    static const double {name}[{}] = {{", list.len());
+    let number = |value: f64| match value < 0.0 {
+        true => format!("{value:?}"),
+        false => decimal(value),
+    };
+    rows(list.map(number), 4, text);
+}
 
-    /// How many degrees the polynomials have that bound the last terms.
-    pub fn degrees(&self) -> usize {
-        self.last.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
+/// A table of integers.
+fn integers(name: &str, list: impl ExactSizeIterator<Item = u32> + Clone, text: &mut String) {
+    let short = list.clone().all(|value| u16::try_from(value).is_ok());
+    let of = if short { "uint16_t" } else { "uint32_t" };
+    let _ = writeln!(text, "    static const {of} {name}[{}] = {{", list.len());
+    rows(list.map(|value| format!("{value}u")), 12, text);
+}
+
+fn rows(list: impl Iterator<Item = String>, width: usize, text: &mut String) {
+    let list: Vec<String> = list.collect();
+    for row in list.chunks(width) {
+        let _ = writeln!(text, "        {},", row.join(", "));
     }
+    text.push_str("    };\n");
 }

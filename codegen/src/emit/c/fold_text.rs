@@ -82,7 +82,7 @@ pub const ABOUT: &str = "
 ";
 
 /// Counters, and the step size.
-pub const BEGIN: &str = "    double radius;
+pub const BEGIN: &str = "    double radius = DBL_MAX;
     @p@_status status = @P@_OK;
     uint32_t term = 0u;
     uint32_t part = 0u;
@@ -108,16 +108,15 @@ pub const SYMBOLS: &str = "    for (i = 0u; i < /*SYMBOLS*/; i++) {
 
 /// A coefficient's share in the bound on the Hessian.
 pub const BOUND: &str =
-    "        if ((next_bound < /*BOUNDS*/) && (bound_base[next_bound] == base)) {
-            i = /*BOUND_AT*/ + (uint32_t)bound_degree[next_bound];
+    "        for (; (next_bound < /*BOUNDS*/) && (bound_base[next_bound] == base); next_bound++) {
+            i = bound_place[next_bound];
             map->c[i] = map->c[i] + (fabs(value) * bound_weight[next_bound]);
-            next_bound++;
         }
 ";
 
 /// A part of the last two terms of the series.
 pub const LAST: &str =
-    "            if ((next_last < /*LASTS*/) && (last_part[next_last] == part)) {
+    "            for (; (next_last < /*LASTS*/) && (last_part[next_last] == part); next_last++) {
                 const double size = fabs(sum) * last_weight[next_last];
                 i = last_place[next_last];
                 if (last_is_highest[next_last] == 1u) {
@@ -125,7 +124,6 @@ pub const LAST: &str =
                 } else {
                     before[i] = before[i] + size;
                 }
-                next_last++;
             }
 ";
 
@@ -154,8 +152,7 @@ pub const LOOP: &str = "    power[0] = 1.0;
 ";
 
 /// The smallest radius of a factor of the group.
-pub const RADIUS: &str = "    radius = DBL_MAX;
-    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
+pub const RADIUS: &str = "    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
         const double own = @p@_internal_radius(&last[i], &before[i]);
         radius = (own < radius) ? own : radius;
     }

@@ -10,12 +10,10 @@ mod comment;
 mod dialect;
 mod drive;
 mod fold;
-mod fold_table;
 mod fold_text;
 mod names;
 mod parameter;
 mod programs;
-mod radius;
 mod reference;
 mod template;
 
@@ -101,7 +99,7 @@ pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String
         return Err(HeaderError::TooLarge { operations, limit: MOST_OPERATIONS });
     }
     let names = Names::new(&integrator.problem, options);
-    let fold = fold::Fold::new(integrator, &step)?;
+    let fold = fold::Folding::new(integrator, &step)?;
     let text = [
         comment::opening(integrator, &step, &fold, &names, options),
         reference::types(integrator, &step, &fold, &names, options),

@@ -4,7 +4,7 @@ use coadjoint_program::print::{Field, Signature, pieces, signatures};
 use coadjoint_program::{Graph, Program};
 
 use super::dialect::Portable;
-use super::fold::Fold;
+use super::fold::Folding;
 use super::names::Names;
 use super::template::INVERT;
 use crate::step::Step;
@@ -30,7 +30,7 @@ pub fn casimirs(step: &Step) -> usize {
 }
 
 /// All programs, and what they need.
-pub fn functions(step: &Step, fold: &Fold, names: &Names) -> String {
+pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
     let dialect = Portable::new(names, fold.places.clone());
     let prefix = format!("{}_internal_", names.lower);

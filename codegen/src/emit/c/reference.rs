@@ -7,7 +7,7 @@ use coadjoint_program::quoting::c_comment;
 use num_traits::ToPrimitive;
 
 use super::dialect::decimal;
-use super::fold::Fold;
+use super::fold::Folding;
 use super::names::Names;
 use super::programs::casimirs;
 use super::template::{CASIMIRS, STATE, TEXT};
@@ -25,7 +25,7 @@ fn rows(step: &Step) -> usize {
 pub(crate) fn types(
     integrator: &Integrator,
     step: &Step,
-    fold: &Fold,
+    fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> String {
@@ -41,7 +41,7 @@ pub(crate) fn types(
     if casimirs(step) > 0 {
         size("CASIMIRS", casimirs(step), "Casimirs of degree three at most that are looked at.");
     }
-    size("COEFFICIENTS", fold.len, "Folded coefficients.");
+    size("COEFFICIENTS", fold.len(), "Folded coefficients.");
     size("BLOCK", BLOCK as usize, "Steps after which the state is looked at.");
     if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
         size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");

@@ -17,7 +17,8 @@ use crate::number::scalar::Scalar;
 /// Casimirs are those of A, then those of B. Both charts where both factors have them.
 ///
 /// ```
-/// use coadjoint::{LieGroup, groups::Product, SE2, SO3};
+/// use coadjoint::{LieGroup, SO3};
+/// use coadjoint::groups::{Product, SE2};
 ///
 /// let group = Product::<SO3, SE2, 6>::new();
 /// assert_eq!((group.dim(), group.matrix_size(), group.casimir_count()), (6, 6, 2));

@@ -1,0 +1,244 @@
+//! Folding: the coefficients of a step from its size and the parameters.
+
+use core::fmt;
+
+/// The coefficients of a step as data.
+///
+/// A *base* is a sum of *parts*, a part a power of h times a sum of *terms* factor · product, a product one of powers of
+/// symbols, and a coefficient a base times an integer. Lists that refer to bases or parts are sorted by them, so that one
+/// pass over the data folds all.
+#[derive(Clone, Copy, Debug)]
+pub struct Fold<'a> {
+    /// How product n + 1 is made: of which one, product 0 being 1, and by which symbol.
+    pub products: &'a [(u32, u32)],
+    /// Factor and product.
+    pub terms: &'a [(f64, u32)],
+    /// For each part the power of h, and where its terms end.
+    pub parts: &'a [(u32, u32)],
+    /// Where the parts of each base end.
+    pub bases: &'a [u32],
+    /// Base, integer, and the place of their product among the coefficients.
+    pub slots: &'a [(u32, u32, u32)],
+    /// Base, weight, and the place to which weight · |base| is added: a bound by degrees.
+    pub bound: &'a [(u32, f64, u32)],
+    /// Part, and the place at which its value is kept.
+    pub kept: &'a [(u32, u32)],
+    /// The last two terms of the series.
+    pub last: &'a [LastTerm],
+    /// The place of the square of the radius of the series.
+    pub radius: Option<u32>,
+}
+
+/// A monomial of S_K or S_{K−2} in the coordinates of one direct factor of the group: the part that is its coefficient, the
+/// factor, whether it is one of S_K, the degree of its gradient, and a bound on that in these coordinates where |p| of each
+/// factor is one.
+pub type LastTerm = (u32, u32, bool, u32, f64);
+
+/// Why coefficients cannot be folded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FoldError {
+    /// The step size is zero or not finite.
+    Step,
+    /// This symbol is not finite.
+    Symbol(usize),
+    /// A coefficient is not finite; its value.
+    Coefficient(f64),
+}
+
+impl fmt::Display for FoldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Step => f.write_str("the step size is zero or not finite"),
+            Self::Symbol(i) => write!(f, "expression {i} of the parameters is not finite"),
+            Self::Coefficient(value) => write!(f, "a coefficient is {value}"),
+        }
+    }
+}
+
+impl core::error::Error for FoldError {}
+
+/// Series whose last terms have gradients of this degree, or a higher one, have no radius: each momentum is judged by itself.
+pub const DEGREES: usize = 64;
+
+/// The ratio of the last two terms of a series up to which it is trusted.
+pub const LARGEST_RATIO: f64 = 0.5;
+
+impl Fold<'_> {
+    /// Writes all coefficients for a step size and the values of the symbols; places that no list names stay as they are.
+    ///
+    /// # Errors
+    /// [`FoldError`]; the coefficients then mean nothing.
+    pub fn fold(
+        &self,
+        step: f64,
+        symbols: &[f64],
+        coefficients: &mut [f64],
+    ) -> Result<(), FoldError> {
+        if step == 0.0 || !step.is_finite() {
+            return Err(FoldError::Step);
+        }
+        if let Some(symbol) = symbols.iter().position(|value| !value.is_finite()) {
+            return Err(FoldError::Symbol(symbol));
+        }
+        for &(.., place) in self.bound {
+            set(coefficients, place, 0.0);
+        }
+        let (mut slots, mut bound) = (self.slots.iter().peekable(), self.bound.iter().peekable());
+        let mut part = 0;
+        for (base, &end) in (0..).zip(self.bases) {
+            let mut value = 0.0;
+            while part < end as usize {
+                value += self.part(part, step, symbols);
+                part += 1;
+            }
+            if !value.is_finite() {
+                return Err(FoldError::Coefficient(value));
+            }
+            while let Some(&(_, scale, place)) = slots.next_if(|slot| slot.0 == base) {
+                set(coefficients, place, value * f64::from(scale));
+            }
+            while let Some(&(_, weight, place)) = bound.next_if(|term| term.0 == base) {
+                let sum = coefficients.get(place as usize).copied().unwrap_or(0.0);
+                set(coefficients, place, sum + value.abs() * weight);
+            }
+        }
+        for &(part, place) in self.kept {
+            set(coefficients, place, self.part(part as usize, step, symbols));
+        }
+        if let Some(place) = self.radius {
+            let radius = self.radius(step, symbols, LARGEST_RATIO);
+            set(coefficients, place, radius * radius);
+        }
+        Ok(())
+    }
+
+    /// The value of a part.
+    fn part(&self, number: usize, step: f64, symbols: &[f64]) -> f64 {
+        let Some(&(power, end)) = self.parts.get(number) else { return 0.0 };
+        let start = number.checked_sub(1).and_then(|before| self.parts.get(before));
+        let start = start.map_or(0, |&(_, end)| end as usize);
+        let terms = self.terms.get(start..end as usize).unwrap_or(&[]);
+        let sum = terms
+            .iter()
+            .fold(0.0, |sum, &(factor, product)| sum + factor * self.product(product, symbols));
+        sum * (0..power).fold(1.0, |product, _| product * step)
+    }
+
+    /// The value of a product of symbols.
+    fn product(&self, number: u32, symbols: &[f64]) -> f64 {
+        let made = number.checked_sub(1).and_then(|before| self.products.get(before as usize));
+        made.map_or(1.0, |&(of, symbol)| {
+            let value = symbols.get(symbol as usize).copied().unwrap_or(f64::NAN);
+            self.product(of, symbols) * value
+        })
+    }
+
+    /// The |p| of each direct factor of the group up to which the last two terms of the series have at most this ratio in
+    /// every direction.
+    #[must_use]
+    pub fn radius(&self, step: f64, symbols: &[f64], ratio: f64) -> f64 {
+        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, symbols);
+        radius(self.last.iter().map(|term| (value(term), *term)), ratio)
+    }
+}
+
+fn set(coefficients: &mut [f64], place: u32, value: f64) {
+    if let Some(coefficient) = coefficients.get_mut(place as usize) {
+        *coefficient = value;
+    }
+}
+
+/// Degree and size of a bound on the gradient of a monomial, given as (coordinate, exponent), in the coordinates of one
+/// direct factor of the group, where |p| of each factor is one; `None` where it has none of them.
+///
+/// The size is D_f Π max |pᵐ|, D_f being the degree in those coordinates and the maximum of the part in each factor g over
+/// the unit sphere Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55). `root` is the square root.
+pub fn gradient_bound(
+    monomial: &[(u32, u32)],
+    factor_of: impl Fn(u32) -> u32,
+    factor: u32,
+    root: impl Fn(f64) -> f64,
+) -> Option<(u32, f64)> {
+    // n^{n/2}
+    let half_power = |n: u32| {
+        let whole = (0..n / 2).fold(1.0, |power, _| power * f64::from(n));
+        if n.is_multiple_of(2) { whole } else { whole * root(f64::from(n)) }
+    };
+    let degree_in = |of: u32| -> u32 {
+        monomial.iter().filter(|&&(i, _)| factor_of(i) == of).map(|&(_, power)| power).sum()
+    };
+    let own = degree_in(factor);
+    let degree: u32 = monomial.iter().map(|&(_, power)| power).sum();
+    let highest: f64 = monomial.iter().map(|&(_, power)| half_power(power)).product();
+    let first_of_factor = monomial.iter().enumerate().filter(|&(at, &(i, _))| {
+        monomial.iter().take(at).all(|&(other, _)| factor_of(other) != factor_of(i))
+    });
+    let spheres: f64 =
+        first_of_factor.map(|(_, &(i, _))| half_power(degree_in(factor_of(i)))).product();
+    (own > 0).then(|| (degree.saturating_sub(1), f64::from(own) * highest / spheres))
+}
+
+/// The |p| of each direct factor of the group up to which the last two terms of a series have at most this ratio in every
+/// direction, given the coefficients of their monomials.
+pub fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
+    let factors = terms.clone().map(|(_, term)| term.1 + 1).max().unwrap_or(0);
+    let of_factor = |factor: u32| {
+        // By the degree of the gradient: of S_K, and of S_{K−2}.
+        let (mut last, mut before) = ([0.0; DEGREES], [0.0; DEGREES]);
+        for (value, (_, own, highest, degree, weight)) in terms.clone() {
+            let of = if highest { &mut last } else { &mut before };
+            match of.get_mut(degree as usize) {
+                _ if own != factor => {}
+                Some(sum) => *sum += value.abs() * weight,
+                None => return 0.0,
+            }
+        }
+        within(&last, &before, ratio)
+    };
+    (0..factors).map(of_factor).fold(f64::MAX, f64::min)
+}
+
+/// The largest r up to which the polynomial with the coefficients `last` is at most `ratio` times that with the
+/// coefficients `before`; neither has a negative one.
+fn within(last: &[f64; DEGREES], before: &[f64; DEGREES], ratio: f64) -> f64 {
+    let polynomial = |of: &[f64; DEGREES], r: f64| {
+        let top = of.iter().rposition(|&c| c != 0.0).map_or(0, |top| top + 1);
+        of.iter().take(top).rev().fold(0.0, |sum, &c| sum * r + c)
+    };
+    let holds = |r: f64| {
+        let (size, whole) = (polynomial(last, r), polynomial(before, r));
+        // Without a term to compare with there is no ratio, and that of rounding, which is what is left of a term that
+        // cancels (of a spherical body, say), means nothing.
+        let nothing = whole <= 0.0 || size <= 16.0 * f64::EPSILON;
+        (size <= ratio * whole || nothing) && size <= f64::MAX
+    };
+    if polynomial(last, 1.0) == 0.0 {
+        return f64::MAX;
+    }
+    // The ratio grows with r; by powers of two, then of their roots.
+    let smallest = f64::from(f32::MIN_POSITIVE);
+    let mut r = if holds(smallest) { smallest } else { 0.0 };
+    for factor in LONGER {
+        if holds(r * factor) {
+            r *= factor;
+        }
+    }
+    r
+}
+
+/// The factors by which a radius is made longer, one after the other: 2^512 … 2, and three roots of 2.
+const LONGER: [f64; 13] = [
+    1.340_780_792_994_259_7e154,
+    1.157_920_892_373_162e77,
+    3.402_823_669_209_385e38,
+    1.844_674_407_370_955_2e19,
+    4_294_967_296.0,
+    65_536.0,
+    256.0,
+    16.0,
+    4.0,
+    2.0,
+    core::f64::consts::SQRT_2,
+    1.189_207_115_002_721,
+    1.090_507_732_665_257_7,
+];

@@ -1,0 +1,230 @@
+//! The data by which coefficients are folded.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use coadjoint_program::fold::{Fold, FoldError, LastTerm, gradient_bound};
+
+use super::coefficients::Coefficients;
+use super::{Integrator, Kick};
+
+/// A [`Fold`] that owns its lists.
+#[derive(Clone, Debug, Default)]
+pub struct FoldTable {
+    products: Vec<(u32, u32)>,
+    terms: Vec<(f64, u32)>,
+    parts: Vec<(u32, u32)>,
+    bases: Vec<u32>,
+    slots: Vec<(u32, u32, u32)>,
+    bound: Vec<(u32, f64, u32)>,
+    kept: Vec<(u32, u32)>,
+    last: Vec<LastTerm>,
+    radius: Option<u32>,
+    len: usize,
+}
+
+/// A monomial of the last two terms of the series: its base, its order, where its coefficient is kept, and how it counts in
+/// each direct factor of the group.
+struct OfSeries {
+    base: usize,
+    order: u32,
+    place: Option<usize>,
+    counts: Vec<LastTerm>,
+}
+
+impl FoldTable {
+    /// All coefficients of an integrator, as its programs and those of a step read them: its slots; the bound on what is
+    /// left out of the Hessian, by degrees; the square of the radius of the series; and the coefficients of its last two
+    /// terms, in the order of [`Coefficients::last_orders`].
+    #[must_use]
+    pub fn new(integrator: &Integrator) -> Self {
+        Self::placed(integrator, Some)
+    }
+
+    /// The same, each coefficient where `place` wants it; without those that it does not want.
+    #[must_use]
+    pub fn placed(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -> Self {
+        let coefficients = &integrator.coefficients;
+        let bound_at = coefficients.slots().len();
+        let radius_at = Self::radius_at(integrator);
+        let bound = integrator.defect.iter().filter_map(|term| {
+            let &(base, scale) = coefficients.slots().get(term.slot)?;
+            let place = place(bound_at + term.degree as usize)?;
+            Some((base, term.weight * f64::from(scale), place))
+        });
+        let last = last_terms(integrator, |number| place(radius_at + 1 + number));
+        let len = (0..=radius_at + last.len()).filter_map(&place).max().map_or(0, |last| last + 1);
+        let table = Self::assemble(coefficients, &place, bound.collect(), last);
+        Self { radius: place(radius_at).map(number), len, ..table }
+    }
+
+    /// The place of the square of the radius.
+    #[must_use]
+    pub fn radius_at(integrator: &Integrator) -> usize {
+        integrator.coefficients.slots().len() + integrator.defect_len()
+    }
+
+    /// The coefficients of a potential; none holds the step size.
+    #[must_use]
+    pub fn of_kick(kick: &Kick) -> Self {
+        let mut table = Self::assemble(&kick.coefficients, Some, Vec::new(), Vec::new());
+        table.len = kick.coefficients.slots().len();
+        table
+    }
+
+    fn assemble(
+        coefficients: &Coefficients,
+        place: impl Fn(usize) -> Option<usize>,
+        bound: Vec<(usize, f64, usize)>,
+        last: Vec<OfSeries>,
+    ) -> Self {
+        let slots = coefficients.slots().iter().enumerate();
+        let slots: Vec<(usize, u32, usize)> =
+            slots.filter_map(|(slot, &(base, scale))| Some((base, scale, place(slot)?))).collect();
+        let wanted = slots.iter().map(|slot| slot.0).chain(bound.iter().map(|term| term.0));
+        let wanted: BTreeSet<usize> = wanted.chain(last.iter().map(|term| term.base)).collect();
+        let numbers: BTreeMap<usize, u32> = wanted.into_iter().zip(0..).collect();
+        let renumber = |base: usize| numbers.get(&base).copied().unwrap_or(0);
+
+        let mut table = Self::default();
+        let mut products = Products::default();
+        for (base, parts) in coefficients.parts().enumerate() {
+            if !numbers.contains_key(&base) {
+                continue;
+            }
+            for part in parts {
+                let power = part.first().map_or(0, |term| term.step_power);
+                for own in last.iter().filter(|own| (own.base, own.order) == (base, power)) {
+                    let part = number(table.parts.len());
+                    table.last.extend(own.counts.iter().map(|&(_, a, b, c, d)| (part, a, b, c, d)));
+                    table.kept.extend(own.place.map(|place| (part, number(place))));
+                }
+                let terms = part.iter();
+                table.terms.extend(
+                    terms.map(|term| (term.rounded_factor(), products.add(&term.symbol_powers))),
+                );
+                table.parts.push((power, number(table.terms.len())));
+            }
+            table.bases.push(number(table.parts.len()));
+        }
+        table.products = products.made;
+        table.slots = slots
+            .into_iter()
+            .map(|(base, scale, place)| (renumber(base), scale, number(place)))
+            .collect();
+        table.slots.sort_unstable();
+        table.bound = bound
+            .into_iter()
+            .map(|(base, weight, place)| (renumber(base), weight, number(place)))
+            .collect();
+        table.bound.sort_by_key(|term| term.0);
+        table
+    }
+
+    /// The lists.
+    #[must_use]
+    pub fn lists(&self) -> Fold<'_> {
+        Fold {
+            products: &self.products,
+            terms: &self.terms,
+            parts: &self.parts,
+            bases: &self.bases,
+            slots: &self.slots,
+            bound: &self.bound,
+            kept: &self.kept,
+            last: &self.last,
+            radius: self.radius,
+        }
+    }
+
+    /// How many coefficients there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is no coefficient.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// All coefficients for a step size and the values of the symbols.
+    ///
+    /// # Errors
+    /// [`FoldError`] where one is not finite.
+    pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
+        let mut coefficients = vec![0.0; self.len];
+        self.lists().fold(step, symbols, &mut coefficients)?;
+        Ok(coefficients)
+    }
+}
+
+fn number(value: usize) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+/// The monomials of S_K and S_{K−2}.
+fn last_terms(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -> Vec<OfSeries> {
+    let coefficients = &integrator.coefficients;
+    let truncation = integrator.problem.truncation;
+    let factors = integrator.problem.algebra.factor_of_coordinates();
+    let factor_of = |i: u32| factors.get(i as usize).copied().unwrap_or(0);
+    let count = factors.last().map_or(0, |last| last + 1);
+    let orders = coefficients.last_orders(truncation).enumerate().map(|(at, (order, base))| {
+        let monomial = coefficients.monomials().get(base).map_or(&[][..], Vec::as_slice);
+        let counts = (0..count).filter_map(|factor| {
+            let (degree, weight) = gradient_bound(monomial, factor_of, factor, f64::sqrt)?;
+            Some((0, factor, order == truncation, degree, weight))
+        });
+        OfSeries { base, order: number(order), place: place(at), counts: counts.collect() }
+    });
+    orders.collect()
+}
+
+/// Products Π symbolᵢ^powerᵢ in an order in which they can be made, each of an earlier one by one multiplication.
+#[derive(Clone, Debug, Default)]
+struct Products {
+    made: Vec<(u32, u32)>,
+    numbers: HashMap<Vec<u32>, u32>,
+}
+
+impl Products {
+    /// Adds the product and those it is made of, and returns its number; that of 1 is zero.
+    fn add(&mut self, powers: &[u32]) -> u32 {
+        let Some(last) = powers.iter().rposition(|&power| power > 0) else { return 0 };
+        if let Some(&number) = self.numbers.get(powers) {
+            return number;
+        }
+        let mut shorter = powers.to_vec();
+        shorter[last] -= 1;
+        let of = self.add(&shorter);
+        self.made.push((of, number(last)));
+        let number = number(self.made.len());
+        self.numbers.insert(powers.to_vec(), number);
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_product_is_an_earlier_one_times_a_symbol() {
+        let mut products = Products::default();
+        let wanted = [vec![2, 0, 1], vec![0, 0, 0], vec![0, 3, 1], vec![2, 0, 1]];
+        let numbers = wanted.clone().map(|powers| products.add(&powers));
+        let mut powers = vec![vec![0; 3]];
+        for &(of, symbol) in &products.made {
+            let mut next: Vec<u32> = powers[of as usize].clone();
+            next[symbol as usize] += 1;
+            assert!(!powers.contains(&next), "{next:?} is made twice");
+            powers.push(next);
+        }
+        for (number, wanted) in numbers.into_iter().zip(&wanted) {
+            assert_eq!(&powers[number as usize], wanted);
+        }
+        // x, x², x²z, y, y², y³, y³z, and no more.
+        assert_eq!(products.made.len(), 7);
+    }
+}
