@@ -15,6 +15,7 @@ mod emitted_steps;
 mod front_ends;
 mod golden_files;
 mod hygiene;
+mod implementations;
 mod inline_algebra;
 mod kernels;
 mod kicked;

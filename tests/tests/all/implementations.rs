@@ -1,0 +1,88 @@
+//! What a step needs is written once: each of these has a trait that any other implementation would have, too.
+//!
+//! The judge has its own acceptance and its own domain of a chart, on purpose.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+/// A part of a step, words of which one is in every implementation of it, and the files that may implement it.
+struct Part {
+    name: &'static str,
+    words: &'static [&'static str],
+    files: &'static [&'static str],
+}
+
+const PARTS: &[Part] = &[
+    Part {
+        // The tree of statements that is printed and compiled; the interpreter and printed Rust have loops of their own.
+        name: "the loop of a step",
+        words: &["kernel.corrections())", "1..=kernel.corrections()", "P::CORRECTIONS"],
+        files: &["program/src/drive.rs", "program/src/schedule.rs", "runtime/src/step/drive.rs"],
+    },
+    Part {
+        // Products of powers of the symbols, and the search for the radius of the series by roots of two.
+        name: "folding",
+        words: &["* self.product(", "* products[", "1.189_207", "fn gradient_bound"],
+        files: &["program/src/fold.rs"],
+    },
+    Part {
+        // The same data printed to C, which evaluates them there.
+        name: "folding in C",
+        words: &["product_of[term]", "1.1892071"],
+        files: &["codegen/src/emit/c/fold.rs", "codegen/src/emit/c/fold_text.rs"],
+    },
+    Part {
+        name: "the domain of a chart by eigenvalues",
+        words: &["fn elliptic_form", "Bendixson"],
+        files: &["runtime/src/table/domain.rs"],
+    },
+    Part {
+        // The kernel's `accept`, and the generic step's for functions that are no program.
+        name: "acceptance",
+        words: &["const OF_OTHERS"],
+        files: &["runtime/src/solve/accept.rs", "symbolic/src/step/programs.rs"],
+    },
+    Part { name: "rescue", words: &["fn rescue<S"], files: &["runtime/src/solve/accept.rs"] },
+    Part {
+        name: "drift",
+        words: &["fn measured(&self, now: &Conserved"],
+        files: &["symbolic/src/step/drift.rs"],
+    },
+];
+
+/// The Rust files below a folder's sources.
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn each_part_of_a_step_is_implemented_where_it_is_said_to_be() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    for name in
+        ["program", "native", "symbolic", "codegen", "macros", "runtime", "run", "cli", "page"]
+    {
+        sources(&root.join(name).join("src"), &mut files);
+    }
+    assert!(files.len() > 200, "{} files", files.len());
+    for Part { name, words, files: known } in PARTS {
+        let mut found: Vec<String> = Vec::new();
+        for path in &files {
+            let text = std::fs::read_to_string(path).unwrap();
+            let file = path.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
+            if !file.contains("/judge/") && words.iter().any(|word| text.contains(word)) {
+                found.push(file);
+            }
+        }
+        assert!(!found.is_empty(), "{name} is nowhere: its words have changed");
+        let other: Vec<_> = found.iter().filter(|file| !known.contains(&file.as_str())).collect();
+        assert!(other.is_empty(), "{name} is implemented again, in {other:?}");
+    }
+}
