@@ -1,9 +1,8 @@
 //! Writing a step as one header of C99, for embedded and flight software.
 //!
 //! The header has the loop of [`coadjoint_program::Stepper::advance`] and computes its bits where the compiler contracts
-//! nothing. It folds the coefficients by the operations of
-//! [`Coefficients::fold`](crate::integrator::Coefficients::fold), has no globals, allocates nothing, and every loop in
-//! it has an end that is known beforehand.
+//! nothing. It folds the coefficients by the operations of [`coadjoint_program::fold`], has no globals, allocates nothing,
+//! and every loop in it has an end that is known beforehand.
 
 mod class;
 mod comment;
