@@ -8,7 +8,6 @@
 use coadjoint::groups::MatrixGroup;
 use coadjoint::laws::{OrderError, measured_order, symplectic_defect_of};
 use coadjoint::{LieGroup, Phase, StepError};
-use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
@@ -30,7 +29,6 @@ const ROUNDING: f64 = 1e-12;
 /// A system as a kernel, and as the runtime's group.
 struct Subject {
     name: String,
-    integrator: Integrator,
     step: Step,
     group: MatrixGroup,
 }
@@ -55,7 +53,7 @@ impl Subject {
                     let step = Step::build(&integrator).unwrap();
                     let group = matrix_group(&algebra).unwrap();
                     let name = format!("{hamiltonian} on {}, {chart}, {solver:?}", algebra.name());
-                    all.push(Self { name, integrator, step, group });
+                    all.push(Self { name, step, group });
                 }
             }
         }
