@@ -114,6 +114,40 @@ fn every_measurement_is_listed() {
     }
 }
 
+/// The tests that a text names as `file.rs::name`; each of them is there.
+fn named_tests(text: &str) -> usize {
+    let names: Vec<_> = text.split('`').filter_map(|word| word.split_once(".rs::")).collect();
+    for (file, name) in &names {
+        let source = read(&format!("{file}.rs"));
+        assert!(source.contains(&format!("fn {name}(")), "{file}.rs::{name}");
+    }
+    names.len()
+}
+
+/// The map of the code is short, its files and folders are there, and every invariant names a test that holds it.
+#[test]
+fn the_map_of_the_code_is_true() {
+    let page = read("ARCHITECTURE.md");
+    let lines = page.lines().count();
+    assert!(lines <= 120, "{lines}");
+    let prose = prose(&page);
+    for path in prose.split('`').skip(1).step_by(2).filter(|word| word.contains('/')) {
+        let path = path.split("::").next().unwrap();
+        let there = |folder: &str| root().join(folder).join(path).exists();
+        let inside = || ["codegen/src", "symbolic/src"].iter().any(|folder| there(folder));
+        assert!(there("") || inside(), "{path}");
+    }
+    let invariants = page.split("\n## Invariants\n").nth(1).unwrap();
+    let invariants = invariants.split("\n## ").next().unwrap();
+    // An item begins with its number; its other lines are indented.
+    let items: Vec<String> = invariants.replace("\n   ", " ").lines().map(str::to_owned).collect();
+    let items: Vec<_> = items.iter().filter(|line| !line.is_empty()).collect();
+    assert!(items.len() >= 8, "{items:#?}");
+    for item in items {
+        assert!(named_tests(item) > 0, "no test holds this: {item}");
+    }
+}
+
 /// Every file of Rust, outside folders of builds.
 fn sources() -> Vec<PathBuf> {
     let (mut folders, mut sources) = (vec![root()], Vec::new());
