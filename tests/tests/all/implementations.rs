@@ -1,4 +1,4 @@
-//! What a step needs is written once: each of these has a trait that any other implementation would have, too.
+//! Each part of a step is written once: each has a mark that any other implementation would have, too.
 //!
 //! The judge has its own acceptance and its own domain of a chart, on purpose.
 #![allow(clippy::unwrap_used)]

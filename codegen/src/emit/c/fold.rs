@@ -35,7 +35,7 @@ fn read(programs: &[&Program]) -> BTreeSet<usize> {
 }
 
 impl Folding {
-    /// What the programs of `step` read.
+    /// The coefficients that the programs of `step` read.
     ///
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].
