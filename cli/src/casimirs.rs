@@ -1,8 +1,6 @@
 //! `coadjoint casimirs`: the polynomial Casimirs of the system's algebra.
 
 use coadjoint_codegen::lie;
-use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::system;
 use coadjoint_run::series::polynomial;
 use serde_json::json;
@@ -27,18 +25,13 @@ pub fn run(options: &CasimirOptions) -> Result<(), CliError> {
                 options.degree
             );
             for casimir in &found {
-                outln!("{}", text(&problem, casimir));
+                outln!("{}", polynomial(&problem, casimir));
             }
         }
         Format::Json => {
-            let list: Vec<String> = found.iter().map(|c| text(&problem, c)).collect();
+            let list: Vec<String> = found.iter().map(|c| polynomial(&problem, c)).collect();
             outln!("{:#}", json!({ "group": problem.algebra.name(), "casimirs": list }));
         }
     }
     Ok(())
-}
-
-/// A Casimir has no variables but the momentum's.
-fn text(problem: &Problem, casimir: &Polynomial) -> String {
-    polynomial(problem, casimir)
 }

@@ -60,7 +60,7 @@ pub struct GeometrizeOptions {
 /// Finds the Poisson map.
 pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
     let named = [&options.data, &options.system, &options.test];
-    let inputs: Vec<&PathBuf> = named.into_iter().flatten().collect();
+    let inputs: Vec<&Path> = named.into_iter().flatten().map(PathBuf::as_path).collect();
     options.fit.check(&inputs)?;
     let (data, group) = (options.data.clone().unwrap_or_default(), options.group.clone());
     let request = Request {

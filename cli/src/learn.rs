@@ -133,22 +133,20 @@ impl Fit {
     }
 
     /// Refuses, before anything is computed, to write the model where something is read.
-    pub fn check(&self, inputs: &[&PathBuf]) -> Result<(), CliError> {
+    pub fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
         let Some(path) = &self.out else { return Ok(()) };
-        let inputs: Vec<&Path> = inputs.iter().map(|input| input.as_path()).collect();
-        file::check(path, &inputs).map_err(unwritten(path))
+        file::check(path, inputs).map_err(unwritten(path))
     }
 
     /// Writes the model and prints the figures.
     pub fn finish(
         &self,
-        inputs: &[&PathBuf],
+        inputs: &[&Path],
         file: &ModelFile,
         summary: &Summary,
     ) -> Result<(), CliError> {
         if let Some(path) = &self.out {
-            let inputs: Vec<&Path> = inputs.iter().map(|input| input.as_path()).collect();
-            let written = file.text().and_then(|text| file::write(path, &inputs, text.as_bytes()));
+            let written = file.text().and_then(|text| file::write(path, inputs, text.as_bytes()));
             written.map_err(unwritten(path))?;
         }
         match self.format {
@@ -165,7 +163,8 @@ impl Fit {
 
 /// Learns the map behind pairs of states.
 pub fn run(options: &LearnOptions) -> Result<(), CliError> {
-    let inputs: Vec<&PathBuf> = std::iter::once(&options.data).chain(&options.test).collect();
+    let inputs = std::iter::once(&options.data).chain(&options.test);
+    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
     options.fit.check(&inputs)?;
     let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
     // Beside the model, so that a command given again goes on where it was killed.

@@ -2,20 +2,25 @@
 
 use std::path::Path;
 
-use coadjoint_codegen::system::Units;
 use coadjoint_learn::{LearnError, ModelFile};
 use coadjoint_run::simulate::{Setup, Sink, algebra_of, run_model, schedule_of};
 use coadjoint_run::text_hash;
 
 use super::header::Header;
 use super::keep::keep;
-use super::setup::{Settings, check_names, every};
+use super::setup::{Settings, every};
+use super::target::Target;
+use super::trajectory::Trajectory;
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
 use crate::load;
 
 /// Follows a learned map, which has its own step.
-pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
+pub fn run(
+    path: &Path,
+    options: &SimulateOptions,
+    out: Option<Target>,
+) -> Result<Trajectory, CliError> {
     let missing = |option: &str| {
         CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
     };
@@ -27,7 +32,6 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
         return Err(missing("start"));
     }
     let time = options.time.ok_or_else(|| missing("time"))?;
-    let out = check_names(options)?;
     let text = load::text(path)?;
     let model = ModelFile::load(path)?;
     let (expected, found) = (algebra_of(&model)?.dim(), options.start.len());
@@ -45,7 +49,5 @@ pub fn run(path: &Path, options: &SimulateOptions) -> Result<(), CliError> {
     let label = format!("learned {}, {}", model.model.name(), model.chart);
     let header = Header::of_model(&settings, &model);
     let drive = |sink: &mut dyn Sink| run_model(path, &model, &settings.setup, sink);
-    let trajectory = keep(&settings, label, header, &coordinates, drive)?;
-    super::print(&[trajectory], &Units::default(), options, settings.out.as_ref());
-    Ok(())
+    keep(&settings, label, header, &coordinates, drive)
 }

@@ -32,17 +32,23 @@ use trajectory::Trajectory;
 
 /// Runs every truncation asked for.
 pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
-    if let Some(path) = &options.input.model {
-        return learned::run(path, options);
-    }
     let out = setup::check_names(options)?;
-    let (runs, units) = runs(options, out.as_ref())?;
+    let (runs, units) = match &options.input.model {
+        Some(path) => (vec![learned::run(path, options, out.clone())?], Units::default()),
+        None => runs(options, out.as_ref())?,
+    };
     if let Some(path) = &options.plot {
         let inputs = setup::inputs(options);
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
         plot::draw(path, &inputs, &runs, &units)?;
     }
-    print(&runs, &units, options, out.as_ref());
+    let report = report::report(&runs, &units, options.format);
+    // Records on the standard output are not mixed with the report.
+    if out.is_some_and(|out| out.place == Place::Standard) {
+        eprint!("{report}");
+    } else {
+        out!("{report}");
+    }
     Ok(())
 }
 
@@ -103,17 +109,6 @@ fn runs(
         runs.rotate_left(1);
     }
     Ok((runs, units))
-}
-
-/// Prints the report.
-fn print(runs: &[Trajectory], units: &Units, options: &SimulateOptions, out: Option<&Target>) {
-    let report = report::report(runs, units, options.format);
-    // Records on the standard output are not mixed with the report.
-    if out.is_some_and(|out| out.place == Place::Standard) {
-        eprint!("{report}");
-    } else {
-        out!("{report}");
-    }
 }
 
 /// The step size used and how many steps end at the time T, by the options, else by the file. Where it is

@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::support::{coadjoint, root};
+use crate::support::{Folder, coadjoint, root};
 
 /// A compiler that tells its version, and for everything else runs this script.
 fn compiler(folder: &Path, script: &str) -> String {
@@ -25,12 +25,12 @@ fn alive(pid: &str) -> bool {
 /// A run of some seconds, worth a compiler, ends while the compiler hangs, and takes it along.
 #[test]
 fn a_run_never_waits_for_a_compiler() {
-    let directory = tempfile::tempdir().unwrap();
-    let started = directory.path().join("started");
+    let folder = Folder::new();
+    let started = folder.at("started");
     let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
-    let states = directory.path().join("states.csv");
+    let states = folder.at("states.csv");
     fs::write(&states, "mu_1,mu_2,mu_3\n2,0.5,1\n").unwrap();
-    let (states, out) = (states.to_str().unwrap(), directory.path().join("out.csv"));
+    let (states, out) = (states.to_str().unwrap(), folder.at("out.csv"));
     let simulate = ["simulate", "examples/rigid_body.toml", "--time", "80000"];
     let ensemble =
         ["ensemble", "examples/rigid_body.toml", "--initial", states, "--time", "16000", "--out"];
@@ -39,8 +39,8 @@ fn a_run_never_waits_for_a_compiler() {
     for (arguments, script) in [(Vec::from(simulate), hangs.as_str()), (ensemble, fails)] {
         let run = || {
             let mut command = coadjoint();
-            command.current_dir(root()).env("CC", compiler(directory.path(), script));
-            command.env("XDG_CACHE_HOME", directory.path());
+            command.current_dir(root()).env("CC", compiler(folder.path(), script));
+            command.env("XDG_CACHE_HOME", folder.path());
             let output = command.args(&arguments).args(["--format", "json"]).output().unwrap();
             let error = String::from_utf8_lossy(&output.stderr).into_owned();
             assert!(output.status.success(), "{error}");

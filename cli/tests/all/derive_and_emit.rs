@@ -1,6 +1,6 @@
 //! `derive` against the reference series, `emit`, and `casimirs`.
 
-use crate::support::{file, json, run};
+use crate::support::{Folder, json, run, system};
 use serde_json::Value;
 
 /// Series computed by a separate implementation in exact arithmetic
@@ -18,17 +18,13 @@ fn derive_equals_the_reference_series() {
         let k = entry["S"].as_array().unwrap().len();
         // Trailing even orders are listed as empty; the truncation is odd.
         let truncation = if k % 2 == 0 { k - 1 } else { k };
-        let directory = tempfile::tempdir().unwrap();
-        let system = file(
-            &directory,
-            &format!(
-                "name = {}\ngroup = {}\ncoordinates = [{}]\nhamiltonian = \"{}\"\n",
-                entry["system"],
-                entry["group"],
-                names.join(", "),
-                terms.join(" + ")
-            ),
-        );
+        let (_folder, system) = system(&format!(
+            "name = {}\ngroup = {}\ncoordinates = [{}]\nhamiltonian = \"{}\"\n",
+            entry["system"],
+            entry["group"],
+            names.join(", "),
+            terms.join(" + ")
+        ));
         let derived = json(&[
             "derive",
             &system,
@@ -73,9 +69,7 @@ fn text_and_latex_show_the_same_series() {
 /// Irrational numbers cannot be fractions; they stay as the user wrote them.
 #[test]
 fn irrational_coefficients_are_kept_as_symbols() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (_folder, system) = system(
         "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"sqrt(2)*x^2 - y^2\"\n",
     );
     let derived = json(&["derive", &system, "--truncation", "1", "--format", "json"]);
@@ -92,8 +86,8 @@ fn emit_writes_a_module() {
     assert!(module.contains("truncation K = 5, order of accuracy 6"));
     assert!(syn::parse_file(&module).is_ok());
 
-    let directory = tempfile::tempdir().unwrap();
-    let out = directory.path().join("rigid_body.rs");
+    let folder = Folder::new();
+    let out = folder.at("rigid_body.rs");
     let path = out.to_str().unwrap();
     let (code, printed, _) =
         run(&["emit", "examples/rigid_body.toml", "--truncation", "5", "--out", path]);

@@ -1,6 +1,6 @@
 //! docs/book/src/file-format.md: every example on the page is a file that works, and no key is forgotten.
 
-use crate::support::{file, root, run};
+use crate::support::{Folder, root, run};
 use coadjoint_codegen::expr::Function;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
@@ -37,8 +37,8 @@ fn every_example_of_the_page_works() {
         );
         assert!(!series.unwrap().order(1).is_zero(), "{text}");
         if system.run.time.is_some() {
-            let directory = tempfile::tempdir().unwrap();
-            let (code, out, error) = run(&["simulate", &file(&directory, text)]);
+            let folder = Folder::new();
+            let (code, out, error) = run(&["simulate", &folder.write("system.toml", text)]);
             assert_eq!(code, 0, "{text}\n{error}");
             assert!(out.contains("largest relative drift"), "{out}");
             runs += 1;

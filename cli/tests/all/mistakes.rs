@@ -1,6 +1,6 @@
 //! Bad input: exit code 2, the file, the line, and what to write instead.
 
-use crate::support::{Folder, file, run};
+use crate::support::{Folder, run, system};
 
 const GOOD: &str = r#"
 group = "SO3"
@@ -17,11 +17,10 @@ time = 1.0
 /// Every mistake in a file is reported at once, with its line.
 #[test]
 fn mistakes_are_reported_with_file_and_line() {
-    let directory = tempfile::tempdir().unwrap();
     let text = GOOD
         .replace("x^2 + y^2/2", "x^2 + sin(y) + w")
         .replace("step = 0.1", "step = 0.1\ntrucnation = 7");
-    let system = file(&directory, &text);
+    let (_folder, system) = system(&text);
     for verb in ["derive", "emit", "simulate", "check", "casimirs"] {
         let (code, out, error) = run(&[verb, &system]);
         assert_eq!((code, out.as_str()), (2, ""), "{verb}");
@@ -64,8 +63,7 @@ fn one_line_reasons() {
         ),
     ];
     for (text, reason) in cases {
-        let directory = tempfile::tempdir().unwrap();
-        let system = file(&directory, text);
+        let (_folder, system) = system(text);
         let (code, _, error) = run(&["derive", &system]);
         assert_eq!(code, 2, "{error}");
         assert!(error.lines().next().unwrap().contains(reason), "{error}");
@@ -74,8 +72,7 @@ fn one_line_reasons() {
 
 #[test]
 fn options_are_checked_too() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(&directory, GOOD);
+    let (_folder, system) = system(GOOD);
     for (arguments, reason) in [
         (&["simulate", &system, "--step", "0"][..], "other than zero"),
         (&["simulate", &system, "--time", "-1"], ""),
@@ -95,11 +92,11 @@ fn options_are_checked_too() {
 
 #[test]
 fn what_a_run_needs_is_asked_for() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for (line, key) in
         [("step = 0.1", "step"), ("time = 1.0", "time"), ("momentum = [1, 2, 3]", "momentum")]
     {
-        let system = file(&directory, &GOOD.replace(line, ""));
+        let system = folder.write("system.toml", &GOOD.replace(line, ""));
         let (code, _, error) = run(&["simulate", &system]);
         assert_eq!(code, 2);
         assert!(
@@ -111,7 +108,7 @@ fn what_a_run_needs_is_asked_for() {
         "momentum = [1, 2, 3]",
         "momentum = [1, 2, 3]\ngroup_element = [[1, 0, 0], [0, 1, 0], [0, 0, 2]]",
     );
-    let (code, _, error) = run(&["simulate", &file(&directory, &far)]);
+    let (code, _, error) = run(&["simulate", &folder.write("system.toml", &far)]);
     assert_eq!(code, 2);
     assert!(error.contains("group_element"), "{error}");
 }
@@ -119,14 +116,14 @@ fn what_a_run_needs_is_asked_for() {
 /// Too large to derive: refused with a count, not by running out of memory.
 #[test]
 fn a_problem_too_large_says_so() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let terms: Vec<String> =
         (0..6).flat_map(|i| (0..=i).map(move |j| format!("mu[{i}]^2*mu[{j}]^2"))).collect();
     let text = format!(
         "group = \"SO4\"\nhamiltonian = \"{}\"\n[integrator]\ntruncation = 15",
         terms.join(" + ")
     );
-    let (code, _, error) = run(&["derive", &file(&directory, &text)]);
+    let (code, _, error) = run(&["derive", &folder.write("system.toml", &text)]);
     assert_eq!(code, 2);
     assert!(error.contains("too large") && error.contains("lower the truncation"), "{error}");
 }

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::support::{file, json, root, run};
+use crate::support::{Folder, json, root, run};
 use coadjoint_codegen::system::{Options, read};
 
 /// The picture of a run.
 fn picture(arguments: &[&str]) -> String {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("picture.svg");
+    let folder = Folder::new();
+    let path = folder.at("picture.svg");
     let (code, _, error) =
         run(&[&["simulate"], arguments, &["--plot", path.to_str().unwrap()]].concat());
     assert_eq!(code, 0, "{error}");
@@ -191,14 +191,14 @@ fn each_unit_has_a_panel() {
 /// A name may hold what has a meaning in SVG, and be long.
 #[test]
 fn no_name_breaks_the_picture() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let name = "a <b> & \\\"c\\\" ".repeat(12);
     let text = format!(
         "name = \"{name}\"\ngroup = \"SO3\"\ncoordinates = [\"{}\", \"y\", \"z\"]\nhamiltonian = \"y^2 + 2*z^2\"\n\
          [integrator]\nstep = 0.1\n[initial]\nmomentum = [0, 1e-9, 2e-9]\n[run]\ntime = 1\n",
         "long_name".repeat(12)
     );
-    let svg = picture(&[&file(&directory, &text)]);
+    let svg = picture(&[&folder.write("system.toml", &text)]);
     contains(&svg, &["a &lt;b&gt; &amp; &quot;c&quot;", "e-9</text>"]);
     assert_legible(&svg);
     // A file without units has none in its picture.
@@ -260,7 +260,7 @@ fn every_example_has_its_picture() {
 /// Names and units of any kind are texts in pictures and in heads of tables, and end neither.
 #[test]
 fn hostile_names_stay_texts() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let names = [
         "</title><script>alert('1')</script>",
         "]]> --> <!-- & &amp; \" '",
@@ -279,10 +279,10 @@ fn hostile_names_stay_texts() {
              [units]\ntime = {unit}\nmomentum = {unit}\n[integrator]\ntruncation = 3\nstep = 0.1\n\
              [initial]\nmomentum = [1, 0.2, 0.1]\n[run]\ntime = 1"
         );
-        let system = directory.path().join("a\n# complete: 9 records\r\u{202e}.toml");
+        let system = folder.at("a\n# complete: 9 records\r\u{202e}.toml");
         std::fs::write(&system, text).unwrap();
         let system = system.to_str().unwrap();
-        let [table, svg] = ["run.csv", "run.svg"].map(|name| directory.path().join(name));
+        let [table, svg] = ["run.csv", "run.svg"].map(|name| folder.at(name));
         let [out, plot] = [&table, &svg].map(|path| path.to_str().unwrap());
         let backend = ["--backend", "interpreter"];
         let options = ["simulate", system, "--out", out, "--plot", plot];

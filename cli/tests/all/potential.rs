@@ -1,6 +1,6 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
 
-use crate::support::{file, json, run};
+use crate::support::{Folder, json, run, system};
 
 /// The largest difference from tests/reference/satellite.json, made by tests/reference/satellite.py.
 fn error(step: &str) -> (f64, serde_json::Value) {
@@ -57,9 +57,7 @@ fn the_laws_hold_with_kicks() {
 
 #[test]
 fn a_broken_symmetry_is_said_and_not_measured() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (_folder, system) = system(
         r#"
 group = "SO3"
 hamiltonian = "mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4"
@@ -89,7 +87,7 @@ time = 2.0
 
 #[test]
 fn mistakes_have_their_places() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let system = |potential: &str, splitting: &str, hamiltonian: &str| {
         format!(
             "group = \"SO3\"\nhamiltonian = \"{hamiltonian}\"\npotential = \"{potential}\"\n\
@@ -111,7 +109,7 @@ fn mistakes_have_their_places() {
             "there is none",
         ),
     ] {
-        let path = file(&directory, &text);
+        let path = folder.write("system.toml", &text);
         let (code, _, error) = run(&["simulate", &path]);
         assert_eq!(code, 2, "{text}\n{error}");
         assert!(error.contains(place) && error.contains(message), "{text}\n{error}");

@@ -1,6 +1,6 @@
 //! `simulate`: the reference end state, the keys programs rely on, and the files it writes.
 
-use crate::support::{Folder, file, json, numbers, root, run};
+use crate::support::{Folder, json, numbers, root, run, system};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -112,11 +112,10 @@ fn json_never_holds_null() {
 fn a_negative_step_runs_backwards() {
     let arguments = ["simulate", "examples/rigid_body.toml", "--time", "2", "--format", "json"];
     let forward = json(&arguments);
-    let directory = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(root().join("examples/rigid_body.toml")).unwrap();
     let end = format!("momentum = {}", forward["momentum"]);
     let element = format!("\ngroup_element = {}", forward["group_element"]);
-    let system = file(&directory, &text.replace("momentum = [2.0, 0.5, 1.0]", &(end + &element)));
+    let (_folder, system) = system(&text.replace("momentum = [2.0, 0.5, 1.0]", &(end + &element)));
     let back = json(&["simulate", &system, "--time", "2", "--step", "-0.1", "--format", "json"]);
     for (a, b) in numbers(&back["momentum"]).iter().zip([2.0, 0.5, 1.0]) {
         assert!((a - b).abs() < 1e-13);
@@ -201,9 +200,7 @@ fn runs_end_at_the_time_asked_for() {
 /// A number that is not finite ends the run with the time and the step; here only the energy is too large for one.
 #[test]
 fn what_is_not_finite_fails_the_run() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (_folder, system) = system(
         "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2\"\n[integrator]\ntruncation = 1\nstep = 1e-201\n[initial]\n\
          momentum = [1e200, 0, 0]\n[run]\ntime = 1e-200\n",
     );
@@ -269,11 +266,11 @@ fn expressions_stand_for_their_numbers() {
         (brackets, "momentum = [1, 2, 3]", [1.8447868631, -0.1957286961, 3.2493771260]),
         (turning, "momentum = [1, 2, 3]", [1.2094191300, 1.1697698912, 3.3419969734]),
     ] {
-        let directory = tempfile::tempdir().unwrap();
+        let folder = Folder::new();
         let text = format!(
             "{system}[initial]\n{initial}\n[integrator]\nstep = \"1/50\"\n[run]\ntime = \"5*0.2\"\n"
         );
-        let report = json(&["simulate", &file(&directory, &text), "--format", "json"]);
+        let report = json(&["simulate", &folder.write("system.toml", &text), "--format", "json"]);
         for (found, end) in numbers(&report["momentum"]).iter().zip(end) {
             assert!((found - end).abs() < 2e-10, "{found} for {end}: {text}");
         }
@@ -300,9 +297,8 @@ time = 20
 #[test]
 fn drifts_of_long_elements_are_not_measured() {
     for hamiltonian in ["a", "a^2/2 + b^2/3 - c^2/5 + a*c/5 + a/3"] {
-        let directory = tempfile::tempdir().unwrap();
-        let system = file(&directory, &BOOSTS.replace("HAMILTONIAN", hamiltonian));
-        let out = directory.path().join("run.csv").to_str().unwrap().to_owned();
+        let (folder, system) = system(&BOOSTS.replace("HAMILTONIAN", hamiltonian));
+        let out = folder.name("run.csv");
         let report = json(&["simulate", &system, "--out", &out, "--format", "json"]);
         let end = report["drift_not_measurable_after"]["spatial_momentum"].as_f64().unwrap();
         assert!(end > 2.0 && end < 20.0, "{report}");
@@ -317,13 +313,11 @@ fn drifts_of_long_elements_are_not_measured() {
 /// A drift follows from the columns of the file and the scale that it names.
 #[test]
 fn the_scale_of_the_energy_is_the_energy_at_the_start() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (folder, system) = system(
         "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/6 - 0.75\"\n[integrator]\nstep = 0.5\ntruncation = 3\n\
          [initial]\nmomentum = [0.5, 0.9, 1.5]\n[run]\ntime = 100\n",
     );
-    let out = directory.path().join("run.csv");
+    let out = folder.at("run.csv");
     let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
     let scale = report["drift_scale"]["energy"].as_f64().unwrap();
     assert!((scale - 0.0475).abs() < 1e-15, "{report}");
@@ -344,13 +338,11 @@ fn the_scale_of_the_energy_is_the_energy_at_the_start() {
 /// A quantity that is unknown or not conserved has no number in any output.
 #[test]
 fn an_unknown_drift_is_absent() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (folder, system) = system(
         "group = \"Aff1\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/3\"\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [1, 0.5]\n\
          [run]\ntime = 1\n",
     );
-    let out = directory.path().join("run.csv");
+    let out = folder.at("run.csv");
     let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
     assert!(report["drift"].get("casimirs").is_none() && report["drift"]["energy"].is_number());
     assert!(!std::fs::read_to_string(out).unwrap().contains("casimir"));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Stdio;
 
-use crate::support::{file, json, root, run};
+use crate::support::{Folder, json, root, run, system};
 
 const BODY: &str = "examples/rigid_body.toml";
 
@@ -26,19 +26,17 @@ fn simulate(arguments: &[&str]) -> String {
 /// SL(2) is not compact: this motion leaves every bound. Its records up to there stay, and say so.
 #[test]
 fn a_run_that_fails_leaves_its_records() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (folder, system) = system(
         "group = \"SL2\"\nhamiltonian = \"mu[0]^2/2+mu[1]*mu[2]\"\n[integrator]\ntruncation = 3\n\
          step = 0.1\n[initial]\nmomentum = [1,0.5,0.5]\n[run]\ntime = 10000\n",
     );
     for name in ["t.csv", "t.npy"] {
-        let out = directory.path().join(name);
+        let out = folder.at(name);
         let (code, _, error) = run(&["simulate", &system, "--out", out.to_str().unwrap()]);
         assert_eq!(code, 1, "{error}");
         assert!(error.contains(", step ") && error.contains(&format!("{name}.partial")), "{error}");
         assert!(!out.exists());
-        let part = directory.path().join(format!("{name}.partial"));
+        let part = folder.at(&format!("{name}.partial"));
         let time = error.split("at time ").nth(1).unwrap().split(',').next().unwrap();
         let time: f64 = time.parse().unwrap();
         assert!(time > 1.0);
@@ -56,7 +54,7 @@ fn a_run_that_fails_leaves_its_records() {
             assert!(array.shape()[0] > 10);
             let values = array.into_vec::<f64>().unwrap();
             assert!(values.iter().all(|value| value.is_finite()));
-            let about = std::fs::read_to_string(directory.path().join("t.npy.json")).unwrap();
+            let about = std::fs::read_to_string(folder.at("t.npy.json")).unwrap();
             assert!(about.contains("\"complete\": false"));
         }
     }
@@ -65,8 +63,8 @@ fn a_run_that_fails_leaves_its_records() {
 /// The head of a file says what is needed to repeat and judge the run.
 #[test]
 fn files_say_what_they_are() {
-    let directory = tempfile::tempdir().unwrap();
-    let out = directory.path().join("t.csv");
+    let folder = Folder::new();
+    let out = folder.at("t.csv");
     let comoving = ["--step", "0.3", "--chart", "exp", "--solver", "newton"];
     let name = out.to_str().unwrap();
     simulate(&[&[BODY, "--time", "1", "--truncation", "9", "--out", name], &comoving[..]].concat());
@@ -89,7 +87,7 @@ fn files_say_what_they_are() {
     ] {
         assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
     }
-    assert!(!directory.path().join("t.csv.partial").exists());
+    assert!(!folder.at("t.csv.partial").exists());
 }
 
 /// The names are those of the file; numbers are short, with exponents, and read back exactly.
@@ -102,11 +100,10 @@ fn columns_and_numbers_can_be_read() {
     assert!(longest <= 24, "{longest}");
     assert!(top.iter().flatten().any(|cell| cell.contains("e-")), "no small number");
 
-    let directory = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(root().join(BODY)).unwrap();
     let unnamed = text.lines().filter(|line| !line.starts_with("coordinates")).collect::<Vec<_>>();
     let unnamed = unnamed.join("\n").replace("x^2", "mu[0]^2").replace("y^2", "mu[1]^2");
-    let system = file(&directory, &unnamed.replace("z^2", "mu[2]^2"));
+    let (_folder, system) = system(&unnamed.replace("z^2", "mu[2]^2"));
     let rows = table(&simulate(&[&system, "--time", "1", "--out", "-"]));
     assert_eq!(rows[0][..4], ["time", "mu_1", "mu_2", "mu_3"]);
     // A potential couples the factors; of their matrices the blocks are written still.
@@ -117,7 +114,7 @@ fn columns_and_numbers_can_be_read() {
 /// Records between the steps are as accurate as steps, and change nothing.
 #[test]
 fn times_between_steps_change_no_bit() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let plain = table(&simulate(&[BODY, "--time", "4", "--out", "-"]));
     let times = "3.99,0.37,0.3,1.25,4,0";
     let at = table(&simulate(&[BODY, "--time", "4", "--at", times, "--out", "-"]));
@@ -145,7 +142,7 @@ fn times_between_steps_change_no_bit() {
         }
     }
     // Besides every step, from a file.
-    let list = directory.path().join("times");
+    let list = folder.at("times");
     std::fs::write(&list, "# two times\n0.37 1.25\n").unwrap();
     let arguments = [BODY, "--time", "4", "--every", "1", "--at", list.to_str().unwrap()];
     let both = table(&simulate(&[&arguments[..], &["--out", "-"]].concat()));
@@ -169,15 +166,15 @@ fn times_between_steps_change_no_bit() {
 /// With several truncations each file is announced.
 #[test]
 fn several_truncations_announce_their_files() {
-    let directory = tempfile::tempdir().unwrap();
-    let out = directory.path().join("t.csv");
+    let folder = Folder::new();
+    let out = folder.at("t.csv");
     let name = out.to_str().unwrap();
     let arguments = ["simulate", BODY, "--time", "1", "--truncation", "3,5", "--out", name];
     let (code, report, error) = run(&arguments);
     assert_eq!(code, 0, "{error}");
     for name in ["t-K3.csv", "t-K5.csv"] {
         assert!(error.contains(name) && report.contains(name), "{error}{report}");
-        assert_eq!(read(&directory.path().join(name)).len(), 12);
+        assert_eq!(read(&folder.at(name)).len(), 12);
     }
     assert!(!out.exists());
     let (code, _, error) = run(&["simulate", BODY, "--truncation", "3,5", "--out", "-"]);
@@ -222,14 +219,12 @@ fn records_go_to_the_standard_output_and_to_devices() {
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_steps() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (folder, system) = system(
         "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2\"\n[integrator]\ntruncation = 1\nstep = 0.1\n\
          [initial]\nmomentum = [1, 0.2, 0]\n[run]\ntime = 1500\n",
     );
-    let out = directory.path().join("t.csv");
-    let part = directory.path().join("t.csv.partial");
+    let out = folder.at("t.csv");
+    let part = folder.at("t.csv.partial");
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coadjoint"));
     command.args(["simulate", &system, "--out"]).arg(&out).stdout(Stdio::null());
     let mut child = command.spawn().unwrap();

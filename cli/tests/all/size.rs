@@ -1,6 +1,6 @@
 //! Spin chains of 64 and 256 sites: conservation, order, and what is too large to emit.
 
-use crate::support::{file, json, numbers, root, run};
+use crate::support::{json, numbers, root, run, system};
 
 fn chain(sites: usize) -> String {
     let text = std::fs::read_to_string(root().join("examples/spin_chain_64.toml")).unwrap();
@@ -9,9 +9,8 @@ fn chain(sites: usize) -> String {
 
 #[test]
 fn chains_of_64_and_256_spins_keep_momentum_and_casimirs() {
-    let directory = tempfile::tempdir().unwrap();
     for (sites, time) in [(64, "0.5"), (256, "0.1")] {
-        let system = file(&directory, &chain(sites));
+        let (_folder, system) = system(&chain(sites));
         let run = json(&["simulate", &system, "--time", time, "--format", "json"]);
         assert_eq!(numbers(&run["momentum"]).len(), 3 * sites);
         for what in ["spatial_momentum", "casimirs"] {
@@ -65,8 +64,7 @@ fn the_laws_hold_with_the_fixed_point() {
 
 #[test]
 fn what_is_too_large_to_emit_is_refused_by_its_terms_and_still_runs() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(&directory, &chain(300));
+    let (_folder, system) = system(&chain(300));
     let (code, _, message) = run(&["emit", &system]);
     assert_eq!(code, 2, "{message}");
     assert_eq!(message.trim().lines().count(), 1, "{message}");

@@ -1,6 +1,6 @@
 //! `--tolerance`: the error at the end of a run is below what was asked for, and not far below.
 
-use crate::support::{Folder, file, json, numbers, root, run};
+use crate::support::{Folder, json, numbers, root, run, system};
 use serde_json::Value;
 
 /// The estimate is made for the worst moment of the run and used up to a half; at a given moment the
@@ -71,17 +71,17 @@ fn the_choice_is_told() {
     assert!(text.contains("over |μ| ≤ 4"), "{text}");
     assert!(region_step < run_step);
 
-    let directory = tempfile::TempDir::new().unwrap();
+    let folder = Folder::new();
     let text = std::fs::read_to_string(root().join(body)).unwrap();
     let system = text.replace("step = 0.1", "tolerance = 1e-9\nregion = 4");
-    let (_, step) = told(&["simulate", &file(&directory, &system)]);
+    let (_, step) = told(&["simulate", &folder.write("system.toml", &system)]);
     assert_eq!(step, region_step);
     let both = text.replace("step = 0.1", "step = 0.1\ntolerance = 1e-9");
-    let (code, _, error) = run(&["simulate", &file(&directory, &both)]);
+    let (code, _, error) = run(&["simulate", &folder.write("system.toml", &both)]);
     assert_eq!(code, 2);
     assert!(error.contains("keep one of `tolerance` and `step`"), "{error}");
     let small = text.replace("step = 0.1", "tolerance = 1e-20");
-    let (code, _, error) = run(&["simulate", &file(&directory, &small)]);
+    let (code, _, error) = run(&["simulate", &folder.write("system.toml", &small)]);
     assert_eq!(code, 2);
     assert!(error.contains("between 1e-14 and 1e-1"), "{error}");
 }
@@ -89,9 +89,7 @@ fn the_choice_is_told() {
 /// One function chooses K and h, for every verb and every language.
 #[test]
 fn all_verbs_choose_the_same_truncation_and_step() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (folder, system) = system(
         "name = \"body\"\ngroup = \"SO3\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntolerance = 1e-9\n\
          [initial]\nmomentum = [2, 0.5, 1]\n[run]\ntime = 100\n",
     );
@@ -107,9 +105,9 @@ fn all_verbs_choose_the_same_truncation_and_step() {
     }
     let (_, series, _) = run(&["derive", &system]);
     assert!(series.contains(&format!("truncation {truncation}")), "{series}");
-    let states = directory.path().join("states.csv");
+    let states = folder.at("states.csv");
     std::fs::write(&states, "mu_1,mu_2,mu_3\n2,0.5,1\n").unwrap();
-    let out = directory.path().join("ends.csv");
+    let out = folder.at("ends.csv");
     let (states, out) = (states.to_str().unwrap(), out.to_str().unwrap());
     let ends = json(&["ensemble", &system, "--initial", states, "--out", out, "--format", "json"]);
     assert_eq!((&ends["truncation"], &ends["step"]), (truncation, step));

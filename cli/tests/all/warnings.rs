@@ -1,8 +1,7 @@
 //! The warnings of a run: a series that hardly converges, steps that would work.
 
-use crate::support::run;
+use crate::support::{Folder, run};
 use serde_json::Value;
-use tempfile::TempDir;
 
 const BODY: &str = "examples/rigid_body.toml";
 
@@ -15,10 +14,6 @@ fn report(arguments: &[&str]) -> (Value, String) {
 
 fn kinds(report: &Value) -> Vec<&str> {
     report["warnings"].as_array().unwrap().iter().map(|w| w["kind"].as_str().unwrap()).collect()
-}
-
-fn at(directory: &TempDir, name: &str) -> String {
-    directory.path().join(name).to_str().unwrap().to_owned()
 }
 
 #[test]
@@ -58,10 +53,10 @@ fn the_warning_names_the_time_it_comes() {
 
 #[test]
 fn check_and_ensemble_tell_it_too() {
-    let directory = TempDir::new().unwrap();
+    let folder = Folder::new();
     let (found, error) = report(&["check", BODY, "--step", "0.1"]);
     assert!(kinds(&found).is_empty() && error.is_empty(), "{error}");
-    let flat = at(&directory, "flat.toml");
+    let flat = folder.name("flat.toml");
     let text = "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2 + y^2/6 + z^2/7\"\n\
                 [initial]\nmomentum = [0.4, 2.4, 2.0]\n";
     std::fs::write(&flat, text).unwrap();
@@ -70,7 +65,7 @@ fn check_and_ensemble_tell_it_too() {
     assert_eq!(kinds(&found), ["series_ratio"], "{error}");
     assert_eq!(error.matches("warning: ").count(), 1, "{error}");
 
-    let (states, out) = (at(&directory, "states.csv"), at(&directory, "ends.csv"));
+    let (states, out) = (folder.name("states.csv"), folder.name("ends.csv"));
     for (momentum, expected) in [("0.2,0.1,0.1", 0), ("1.5,1.5,0.5", 1)] {
         std::fs::write(&states, format!("mu_1,mu_2,mu_3\n0.1,0,0.1\n{momentum}\n")).unwrap();
         let run = [

@@ -98,6 +98,13 @@ pub fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
+/// A system file in a folder of its own, which is there as long as the folder lives.
+pub fn system(text: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    let name = folder.write("system.toml", text);
+    (folder, name)
+}
+
 /// Writes a system file into a directory of its own.
 pub fn file(directory: &tempfile::TempDir, text: &str) -> String {
     let path = directory.path().join("system.toml");
