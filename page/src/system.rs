@@ -93,7 +93,6 @@ impl System {
             Err(diagnostics) => return Err(of_file(&file, &diagnostics)),
         };
         let problem = read.problem;
-        let dim = problem.algebra.dim();
         let h = read.run.step.unwrap_or(0.1);
         let Some(momentum) = read.run.momentum else {
             return Err(vec![Mistake::of(

@@ -87,7 +87,7 @@ fn the_method_beside_is_of_order_four() {
 fn level_curves_are_on_the_orbit_and_on_their_level() {
     for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics"] {
         let system = System::new(&fields(id)).unwrap();
-        let (_, casimir) = &system.casimirs[0];
+        let casimir = &system.invariants.casimirs[0];
         let mu = &system.momentum;
         let orbit = Orbit::new(&system.energy, casimir, mu).unwrap();
         let own = system.energy.value(mu);
