@@ -1,6 +1,6 @@
 //! `check`: laws that hold, and one that does not.
 
-use crate::support::{file, json, run};
+use crate::support::{json, run, system};
 
 #[test]
 fn the_laws_hold_for_the_examples() {
@@ -49,9 +49,7 @@ fn a_step_too_large_is_a_failure_while_running() {
 /// A held-out algebra by brackets: the Euclidean algebra of the plane with a central extension.
 #[test]
 fn an_algebra_nobody_has_seen() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (_folder, system) = system(
         r#"
 hamiltonian = "r^2/2 + px^2/3 + py^2/5 + px*c/7 + c"
 [algebra]
@@ -71,9 +69,7 @@ momentum = [0.5, 1.0, -0.5, 0.25]
 /// Coordinates of different units have different sizes: points are about the initial momentum, one by one.
 #[test]
 fn points_have_the_scale_of_the_initial_momentum() {
-    let directory = tempfile::tempdir().unwrap();
-    let system = file(
-        &directory,
+    let (_folder, system) = system(
         "group = \"SO3 |x R3\"\ncoordinates = [\"x\", \"y\", \"z\", \"u\", \"v\", \"w\"]\n\
          hamiltonian = \"x^2/(2*A) + y^2/(2*A) + z^2/(2*C) + m*w\"\n[parameters]\nA = 8e-5\nC = 1.2e-4\nm = 0.05886\n\
          [integrator]\ntruncation = 3\nstep = 0.0005\n[initial]\nmomentum = [0, 0, 0.05, 0, 0.5, 0.8660254037844386]\n",

@@ -1,6 +1,6 @@
 //! Systems that once ran to a wrong end with a good report: each is refused with the time, or right to the end.
 
-use crate::support::{Folder, run};
+use crate::support::{Folder, run, system};
 
 const BODY: &str = "examples/rigid_body.toml";
 const MANAKOV: &str = "group = \"SO4\"\nhamiltonian = \"mu[0]^2/6 + mu[1]^2/8 + mu[2]^2/10 + mu[3]^2/10 + \
@@ -70,19 +70,15 @@ fn a_cayley_step_of_thirty_is_refused() {
 /// A body whose step is refused alone is refused beside seven slow ones that do not touch it, and says why.
 #[test]
 fn idle_factors_do_not_hide_a_fast_one() {
-    let folder = Folder::new();
     let fast = "-0.45927998697067629,-24.812225295827826,1.8406638635157002";
     let slow = ",0.45,3.75,3".repeat(7);
     let one = ("SO3", "x^2/2 + y^2/18 + z^2/20", fast.to_owned());
     let sum = "sum(i, 0..8, x[i]^2/2 + y[i]^2/18 + z[i]^2/20)";
     for (group, energy, momenta) in [one, ("SO3^8", sum, format!("{fast}{slow}"))] {
-        let system = folder.write(
-            "system.toml",
-            format!(
-                "group = \"{group}\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"{energy}\"\n\
+        let (folder, system) = system(&format!(
+            "group = \"{group}\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"{energy}\"\n\
                  [integrator]\ntruncation = 5\nstep = 1\nsolver = \"newton\"\n"
-            ),
-        );
+        ));
         let names: Vec<String> =
             (1..=momenta.split(',').count()).map(|i| format!("mu_{i}")).collect();
         let states = folder.write("states.csv", format!("{}\n{momenta}\n", names.join(",")));

@@ -105,13 +105,6 @@ pub fn system(text: &str) -> (Folder, String) {
     (folder, name)
 }
 
-/// Writes a system file into a directory of its own.
-pub fn file(directory: &tempfile::TempDir, text: &str) -> String {
-    let path = directory.path().join("system.toml");
-    std::fs::write(&path, text).unwrap();
-    path.to_str().unwrap().to_owned()
-}
-
 /// The numbers of a JSON array.
 pub fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
