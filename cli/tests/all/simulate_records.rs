@@ -45,7 +45,9 @@ fn a_run_that_fails_leaves_its_records() {
             let last = text.lines().last().unwrap();
             assert!(last.starts_with("# part: at time "), "{last}");
             let rows = table(&text);
-            assert!(rows[1..].iter().flatten().all(|x| x.parse::<f64>().unwrap().is_finite()));
+            // Time, momentum, element and energy; drifts that rounding hides are no numbers.
+            let state = rows[1..].iter().flat_map(|row| &row[..9]);
+            assert!(state.into_iter().all(|x| x.parse::<f64>().unwrap().is_finite()));
             let end: f64 = rows.last().unwrap()[0].parse().unwrap();
             assert!((time - end).abs() < 0.11, "{time} {end}");
         } else {
@@ -53,7 +55,7 @@ fn a_run_that_fails_leaves_its_records() {
             let array = npyz::NpyFile::new(&bytes[..]).unwrap();
             assert!(array.shape()[0] > 10);
             let values = array.into_vec::<f64>().unwrap();
-            assert!(values.iter().all(|value| value.is_finite()));
+            assert!(values.chunks(12).flat_map(|row| &row[..9]).all(|value| value.is_finite()));
             let about = std::fs::read_to_string(folder.at("t.npy.json")).unwrap();
             assert!(about.contains("\"complete\": false"));
         }
