@@ -26,7 +26,7 @@ use crate::reproduce::ReproduceOptions;
 /// 1 a failure while running, 2 bad input, 3 not verified, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "coadjoint", version)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The verb to run.
     #[command(subcommand)]
     pub verb: Verb,
@@ -36,7 +36,7 @@ pub struct Arguments {
 const REMOVED: [&str; 2] = ["--tuned", "--fitted"];
 
 /// The arguments of this process; ends it with a message where they make no sense.
-pub fn parse() -> Arguments {
+pub(crate) fn parse() -> Arguments {
     Arguments::try_parse().unwrap_or_else(|error| {
         let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
         match REMOVED.iter().find(|name| unknown.as_deref() == Some(name)) {
@@ -54,7 +54,7 @@ pub fn parse() -> Arguments {
 
 /// The verb to run.
 #[derive(Debug, Subcommand)]
-pub enum Verb {
+pub(crate) enum Verb {
     /// Print the exact series S₁ … S_K of the generating function
     Derive(DeriveOptions),
     /// Write the integrator as code: Rust, C, C++, OpenCL or CUDA
@@ -84,7 +84,7 @@ pub enum Verb {
 
 /// Settings that replace those of a system file.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct Instead {
+pub(crate) struct Instead {
     /// Use this chart instead of the file's
     #[arg(long, value_parser = named(CHARTS))]
     pub chart: Option<Chart>,
@@ -95,7 +95,7 @@ pub struct Instead {
 
 /// A system file and what replaces its settings.
 #[derive(Args, Clone, Debug)]
-pub struct Source {
+pub(crate) struct Source {
     /// The system file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -109,7 +109,7 @@ pub struct Source {
 
 impl Source {
     /// How the file is to be read.
-    pub fn options(&self, parameters: Parameters) -> Options {
+    pub(crate) fn options(&self, parameters: Parameters) -> Options {
         let Instead { chart, solver } = self.instead;
         Options { parameters, truncation: self.truncation, chart, solver }
     }
@@ -117,7 +117,7 @@ impl Source {
 
 /// A system file, or a learned model.
 #[derive(Args, Debug)]
-pub struct Input {
+pub(crate) struct Input {
     /// The system file
     #[arg(value_name = "FILE", required_unless_present = "model")]
     pub file: Option<PathBuf>,
@@ -131,7 +131,7 @@ pub struct Input {
 
 impl Input {
     /// The system file; clap has seen to it that there is one without a model.
-    pub fn source(&self, truncation: Option<usize>) -> Source {
+    pub(crate) fn source(&self, truncation: Option<usize>) -> Source {
         let file = self.file.clone().unwrap_or_default();
         Source { file, instead: self.instead, truncation }
     }
@@ -139,7 +139,7 @@ impl Input {
 
 /// Options of `derive`.
 #[derive(Args, Debug)]
-pub struct DeriveOptions {
+pub(crate) struct DeriveOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
@@ -150,7 +150,7 @@ pub struct DeriveOptions {
 
 /// Options of `emit`.
 #[derive(Args, Debug)]
-pub struct EmitOptions {
+pub(crate) struct EmitOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
@@ -180,7 +180,7 @@ pub struct EmitOptions {
 
 /// A step size, or what it is picked by.
 #[derive(Args, Clone, Debug)]
-pub struct Accuracy {
+pub(crate) struct Accuracy {
     /// The step size h
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
@@ -194,7 +194,7 @@ pub struct Accuracy {
 
 /// Options of `simulate`.
 #[derive(Args, Debug)]
-pub struct SimulateOptions {
+pub(crate) struct SimulateOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
@@ -248,7 +248,7 @@ pub struct SimulateOptions {
 
 /// Options of `ensemble`.
 #[derive(Args, Debug)]
-pub struct EnsembleOptions {
+pub(crate) struct EnsembleOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
@@ -295,7 +295,7 @@ pub struct EnsembleOptions {
 
 /// Options of `verify`.
 #[derive(Args, Debug)]
-pub struct VerifyOptions {
+pub(crate) struct VerifyOptions {
     /// The system file and the output, .csv, .npy, .parquet or the .json of simulate's report; the output
     /// alone, where it names its system. Exit code 1: a row is wrong; 3: a row could not be judged
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
@@ -325,7 +325,7 @@ pub struct VerifyOptions {
 
 /// Options of `check`.
 #[derive(Args, Debug)]
-pub struct CheckOptions {
+pub(crate) struct CheckOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
@@ -345,7 +345,7 @@ pub struct CheckOptions {
 
 /// Options of `casimirs`.
 #[derive(Args, Debug)]
-pub struct CasimirOptions {
+pub(crate) struct CasimirOptions {
     /// The system file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -359,7 +359,7 @@ pub struct CasimirOptions {
 
 /// Options of `groups`.
 #[derive(Args, Debug)]
-pub struct GroupOptions {
+pub(crate) struct GroupOptions {
     /// A group or a product of groups, such as SO3, "SO3^4" or "SO3 |x R3"; all names if not given
     #[arg(value_name = "NAME")]
     pub name: Option<String>,

@@ -11,7 +11,7 @@ use crate::load;
 use crate::named::Format;
 
 /// Prints generators of the Casimirs up to the degree asked for.
-pub fn run(options: &CasimirOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &CasimirOptions) -> Result<(), CliError> {
     let problem = load::file(&options.file, system::Options::default())?.problem;
     let found = lie::casimirs(&problem.algebra, options.degree).map_err(|error| {
         CliError::Option(format!("{}: {error}; use --degree", options.file.display()))

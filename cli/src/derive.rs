@@ -9,17 +9,17 @@ use crate::load;
 use crate::named::Names;
 
 /// Prints a series.
-pub type Form = fn(&Series) -> String;
+pub(crate) type Form = fn(&Series) -> String;
 
 /// Formats of a series.
-pub const FORMS: &Names<Form> = &[
+pub(crate) const FORMS: &Names<Form> = &[
     ("text", "One line per term", text),
     ("json", "One object with group, chart and S", |series| json(series) + "\n"),
     ("latex", "An aligned display", latex),
 ];
 
 /// Prints S₁ … S_K.
-pub fn run(options: &DeriveOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
     let source = &options.source;
     let system = match source.truncation {
         Some(_) => load::source(source, Parameters::Substituted)?,

@@ -30,7 +30,7 @@ const MAPS: &Names<OneStep> = &[
 
 /// Options of `geometrize`.
 #[derive(Args, Debug)]
-pub struct GeometrizeOptions {
+pub(crate) struct GeometrizeOptions {
     /// Pairs of momenta: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …
     #[arg(value_name = "DATA", required_unless_present = "system")]
     data: Option<PathBuf>,
@@ -58,7 +58,7 @@ pub struct GeometrizeOptions {
 }
 
 /// Finds the Poisson map.
-pub fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
     let named = [&options.data, &options.system, &options.test];
     let inputs: Vec<&Path> = named.into_iter().flatten().map(PathBuf::as_path).collect();
     options.fit.check(&inputs)?;

@@ -7,29 +7,29 @@ use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_run::{meet_tolerance as meet, read_with};
 
-pub use coadjoint_run::integrator;
+pub(crate) use coadjoint_run::integrator;
 
 use crate::arguments::{Accuracy, Source};
 use crate::error::{CliError, unread};
 
 /// The text of the file at `path`.
-pub fn text(path: &Path) -> Result<String, CliError> {
+pub(crate) fn text(path: &Path) -> Result<String, CliError> {
     read_text(path).map_err(unread(path))
 }
 
 /// Reads the file at `path`.
-pub fn file(path: &Path, options: Options) -> Result<System, CliError> {
+pub(crate) fn file(path: &Path, options: Options) -> Result<System, CliError> {
     Ok(read_with(&path.display().to_string(), &text(path)?, options)?)
 }
 
 /// Reads the system of a command.
-pub fn source(source: &Source, parameters: Parameters) -> Result<System, CliError> {
+pub(crate) fn source(source: &Source, parameters: Parameters) -> Result<System, CliError> {
     file(&source.file, source.options(parameters))
 }
 
 /// Picks truncation and step where a tolerance is asked for, on the command line or in the file,
 /// and says so on the error stream. `truncation` and `time` are what the command line gives.
-pub fn meet_tolerance(
+pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
@@ -46,7 +46,7 @@ pub fn meet_tolerance(
 
 /// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
 /// for, as a run of the file has them; the choice is told on the error stream. `step` is given on the command line.
-pub fn settled(
+pub(crate) fn settled(
     given: &Source,
     step: Option<f64>,
     parameters: Parameters,

@@ -13,11 +13,11 @@ use crate::error::{CliError, unread};
 use crate::note::{Identity, agree};
 
 /// The way to forget an earlier run.
-pub const ANEW: &str = "begin anew with --restart";
+pub(crate) const ANEW: &str = "begin anew with --restart";
 
 /// The state of a run. Everything it counts is on the disk before it is.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
-pub struct Journal {
+pub(crate) struct Journal {
     /// The identity of the run.
     pub identity: Identity,
     /// Rows written.
@@ -58,18 +58,18 @@ pub struct Journal {
 
 impl Journal {
     /// How much there is of the output and of the list of rejected rows.
-    pub fn extents(&self) -> [Extent; 2] {
+    pub(crate) fn extents(&self) -> [Extent; 2] {
         let output = Extent { bytes: self.output, crc32: self.output_crc32 };
         [output, Extent { bytes: self.rejected_bytes, crc32: self.rejected_crc32 }]
     }
 
     /// Refuses to go on with a run that is another.
-    pub fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
+    pub(crate) fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
         agree(path, &self.identity, identity, &format!("go on as then, or {ANEW}"))
     }
 
     /// The largest drifts so far.
-    pub fn drift(&self) -> Drift {
+    pub(crate) fn drift(&self) -> Drift {
         let [spatial_momentum, casimirs] =
             [self.spatial_momentum, self.casimirs].map(|drift| drift.map(f64::from_bits));
         let conserved = step::Drift { spatial_momentum, casimirs, energy: None };
@@ -77,7 +77,7 @@ impl Journal {
     }
 
     /// Takes note of drifts, and of what has made the steps.
-    pub fn raise(&mut self, drift: Drift, engine: &dyn Engine) {
+    pub(crate) fn raise(&mut self, drift: Drift, engine: &dyn Engine) {
         let Drift { conserved, unmeasured, ratio } = self.drift().max(drift);
         self.spatial_momentum = conserved.spatial_momentum.map(f64::to_bits);
         self.casimirs = conserved.casimirs.map(f64::to_bits);
@@ -91,7 +91,7 @@ impl Journal {
 
 /// The note that `--keep` leaves of a finished run, for the same command started again and for programs that join shards.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Finished {
+pub(crate) struct Finished {
     /// The first row of the input that it has, from 1.
     pub first_row: u64,
     /// SHA-256 of the file.
@@ -104,13 +104,18 @@ pub struct Finished {
 
 impl Finished {
     /// Describes files that have their names already.
-    pub fn of(out: &Path, list: &Path, first_row: u64, journal: Journal) -> Result<Self, CliError> {
+    pub(crate) fn of(
+        out: &Path,
+        list: &Path,
+        first_row: u64,
+        journal: Journal,
+    ) -> Result<Self, CliError> {
         let rejected_sha256 = if journal.rejected > 0 { Some(sha256(list)?) } else { None };
         Ok(Self { first_row, sha256: sha256(out)?, rejected_sha256, journal })
     }
 
     /// Whether the files are those that it describes.
-    pub fn is_whole(&self, out: &Path, list: &Path) -> Result<bool, CliError> {
+    pub(crate) fn is_whole(&self, out: &Path, list: &Path) -> Result<bool, CliError> {
         let same = |path: &Path, known: &str| -> Result<bool, CliError> {
             Ok(path.exists() && sha256(path)? == known)
         };
@@ -134,7 +139,7 @@ const PIECES: u64 = 64;
 
 /// The length of a file and a hash (FNV-1a, 64 bits) of it: of all of it up to 64 MiB, beyond of 64
 /// pieces of 1 MiB from beginning to end.
-pub fn fingerprint(path: &Path) -> Result<String, CliError> {
+pub(crate) fn fingerprint(path: &Path) -> Result<String, CliError> {
     let hash = || -> std::io::Result<String> {
         let mut file = file::open(path)?;
         let length = file.metadata()?.len();

@@ -10,7 +10,7 @@ use super::run::Outcome;
 use crate::named::Format;
 
 /// A warning about the series, if there is reason for one.
-pub fn warning(outcome: &Outcome) -> Option<String> {
+pub(crate) fn warning(outcome: &Outcome) -> Option<String> {
     let ratio = outcome.journal.drift().ratio;
     (ratio != 0.0).then(|| {
         format!(
@@ -21,7 +21,7 @@ pub fn warning(outcome: &Outcome) -> Option<String> {
 }
 
 /// The text to print.
-pub fn report(
+pub(crate) fn report(
     outcome: &Outcome,
     integrator: &Integrator,
     (step, steps): (f64, u64),

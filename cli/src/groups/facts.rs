@@ -13,10 +13,10 @@ use crate::error::CliError;
 /// The largest number of monomials of one degree among which Casimirs are looked for.
 const MONOMIALS: u128 = 1000;
 /// An algebra of more dimensions is described by its factors.
-pub const LARGEST: usize = 24;
+pub(crate) const LARGEST: usize = 24;
 
 /// A group of the catalogue, or a product.
-pub struct Facts {
+pub(crate) struct Facts {
     /// Its algebra.
     pub algebra: LieAlgebra,
     /// A description in a few words.
@@ -35,7 +35,7 @@ pub struct Facts {
 
 impl Facts {
     /// Looks a group up; Casimirs are looked for by [`Facts::with_casimirs`].
-    pub fn new(name: &str) -> Result<Self, CliError> {
+    pub(crate) fn new(name: &str) -> Result<Self, CliError> {
         let algebra = catalogue::lookup(name).map_err(|error| refused(&error))?;
         let factors = algebra.factors();
         let summary = catalogue::summary(algebra.name());
@@ -56,7 +56,7 @@ impl Facts {
     }
 
     /// With the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
-    pub fn with_casimirs(mut self, degree: u32) -> Result<Self, CliError> {
+    pub(crate) fn with_casimirs(mut self, degree: u32) -> Result<Self, CliError> {
         let quick = |factor: &LieAlgebra| {
             (1..=4).rev().find(|&d| monomials(factor.dim(), d) <= MONOMIALS).unwrap_or(1)
         };
@@ -70,12 +70,12 @@ impl Facts {
     }
 
     /// The size of the group's matrices.
-    pub fn size(&self) -> Option<usize> {
+    pub(crate) fn size(&self) -> Option<usize> {
         self.algebra.basis().and_then(<[_]>::first).map(RationalMatrix::rows)
     }
 
     /// The rows of basis matrix `i`, as they are shown: entries `1`, `-1/2`, `i/2`.
-    pub fn matrix(&self, i: usize) -> Option<Vec<Vec<String>>> {
+    pub(crate) fn matrix(&self, i: usize) -> Option<Vec<Vec<String>>> {
         let matrix = self.algebra.basis()?.get(i)?;
         let n = if self.complex { matrix.rows() / 2 } else { matrix.rows() };
         let entry = |a: usize, b: usize| match self.complex {
@@ -86,7 +86,7 @@ impl Facts {
     }
 
     /// Basis matrix `i` as a sum of matrices E(a,b) with a one in row a and column b.
-    pub fn entries(&self, i: usize) -> String {
+    pub(crate) fn entries(&self, i: usize) -> String {
         let matrix = self.algebra.basis().and_then(|basis| basis.get(i));
         let entries = matrix.into_iter().flat_map(RationalMatrix::entries);
         let (names, terms): (Vec<_>, Vec<_>) = entries
@@ -97,7 +97,7 @@ impl Facts {
     }
 
     /// The brackets \[e_i, e_j\], i < j, that are not zero: i and j from 1, and the value.
-    pub fn brackets(&self) -> Vec<(usize, usize, String)> {
+    pub(crate) fn brackets(&self) -> Vec<(usize, usize, String)> {
         let mut found: BTreeMap<(usize, usize), Vec<Term>> = BTreeMap::new();
         for c in self.algebra.structure().iter().filter(|c| c.i < c.j) {
             found.entry((c.i + 1, c.j + 1)).or_default().push((vec![c.k], c.value.clone()));
@@ -107,7 +107,7 @@ impl Facts {
     }
 
     /// (ad*_ξ μ)_j = Σ ξ_i c_ij^l μ_l, written out for j from 0.
-    pub fn ad_star(&self, j: usize) -> String {
+    pub(crate) fn ad_star(&self, j: usize) -> String {
         let terms = self.algebra.structure().iter().filter(|c| c.j == j);
         let dim = self.algebra.dim();
         let terms = terms.map(|c| (vec![c.i, dim + c.k], c.value.clone())).collect();
@@ -126,7 +126,7 @@ impl Facts {
     }
 
     /// ad* in vectors, where the algebra has the constants of SO3 or SE3.
-    pub fn ad_star_in_vectors(&self) -> Option<&'static str> {
+    pub(crate) fn ad_star_in_vectors(&self) -> Option<&'static str> {
         let known =
             [("SO3", "ad*_ξ μ = μ × ξ"), ("SE3", "ad*_(ω, v) (Π, P) = (Π × ω + P × v, P × ω)")];
         known.into_iter().find(|(name, _)| self.is_like(name)).map(|(_, formula)| formula)
@@ -142,7 +142,7 @@ impl Facts {
     }
 
     /// Where exp is a chart, as the runtime has it.
-    pub fn exp_domain(&self) -> String {
+    pub(crate) fn exp_domain(&self) -> String {
         const GENERAL: &str = "|Im λ| < π for every eigenvalue λ of ad_x";
         if self.nilpotent {
             return "all x: the algebra is nilpotent".to_owned();
@@ -164,7 +164,7 @@ impl Facts {
     }
 
     /// Where Cayley's map is a chart, or why it is none.
-    pub fn cayley_domain(&self) -> Result<&'static str, &str> {
+    pub(crate) fn cayley_domain(&self) -> Result<&'static str, &str> {
         let turns = ["SO3", "SE3"].contains(&self.algebra.name());
         match &self.no_cayley {
             Some(why) => Err(why),
@@ -176,7 +176,7 @@ impl Facts {
     }
 
     /// A Casimir in μ1, μ2, ….
-    pub fn casimir(&self, casimir: &Polynomial) -> String {
+    pub(crate) fn casimir(&self, casimir: &Polynomial) -> String {
         sum(casimir, &self.names(&["μ"]), &[])
     }
 }

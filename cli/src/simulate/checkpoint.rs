@@ -7,11 +7,11 @@ use super::samples::Samples;
 use crate::note::Identity;
 
 /// The way to forget an earlier run.
-pub const ANEW: &str = "remove it to begin anew";
+pub(crate) const ANEW: &str = "remove it to begin anew";
 
 /// The progress of a run. Records that it counts are on the disk before it is.
 #[derive(Debug, Deserialize, Serialize)]
-pub struct Checkpoint {
+pub(crate) struct Checkpoint {
     /// The description of the run.
     pub identity: Identity,
     /// The state, and the maxima so far.

@@ -14,11 +14,15 @@ use crate::note::Identity;
 
 /// Names and values, in order.
 #[derive(Clone, Debug, Default)]
-pub struct Header(Vec<(&'static str, Value)>);
+pub(crate) struct Header(Vec<(&'static str, Value)>);
 
 impl Header {
     /// The description of a run of this problem.
-    pub fn new(settings: &Settings, problem: &Problem, splitting: Option<Splitting>) -> Self {
+    pub(crate) fn new(
+        settings: &Settings,
+        problem: &Problem,
+        splitting: Option<Splitting>,
+    ) -> Self {
         let solver = match problem.solver() {
             Solver::Newton => Solver::NAMES[0],
             Solver::FixedPoint => Solver::NAMES[1],
@@ -36,7 +40,7 @@ impl Header {
     }
 
     /// The description of a run of a learned map.
-    pub fn of_model(settings: &Settings, model: &ModelFile) -> Self {
+    pub(crate) fn of_model(settings: &Settings, model: &ModelFile) -> Self {
         let own = vec![
             ("kind", json!(model.model.name())),
             ("group", json!(model.group)),
@@ -74,19 +78,19 @@ impl Header {
     }
 
     /// Only the entries with these names.
-    pub fn only(mut self, names: &[&str]) -> Self {
+    pub(crate) fn only(mut self, names: &[&str]) -> Self {
         self.0.retain(|(name, _)| names.contains(name));
         self
     }
 
     /// With another entry at the end.
-    pub fn with(mut self, name: &'static str, value: Value) -> Self {
+    pub(crate) fn with(mut self, name: &'static str, value: Value) -> Self {
         self.0.push((name, value));
         self
     }
 
     /// With the scales of the drifts that there are.
-    pub fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
+    pub(crate) fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
         let list = [
             ("spatial_momentum_scale", json!(scales.spatial_momentum)),
             ("casimir_scales", json!(scales.casimirs)),
@@ -104,22 +108,22 @@ impl Header {
     }
 
     /// The value of this name.
-    pub fn get(&self, name: &str) -> Option<&Value> {
+    pub(crate) fn get(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
     }
 
     /// Lines `name: value`.
-    pub fn lines(&self) -> impl Iterator<Item = String> + '_ {
+    pub(crate) fn lines(&self) -> impl Iterator<Item = String> + '_ {
         self.0.iter().map(|(name, value)| format!("{name}: {}", text(value)))
     }
 
     /// As a JSON object.
-    pub fn object(&self) -> Map<String, Value> {
+    pub(crate) fn object(&self) -> Map<String, Value> {
         self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
     }
 
     /// By name, to be compared with another run.
-    pub fn identity(&self) -> Identity {
+    pub(crate) fn identity(&self) -> Identity {
         self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
     }
 }

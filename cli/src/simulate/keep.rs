@@ -20,7 +20,7 @@ use crate::note::{self, Identity};
 use crate::progress;
 
 /// The outputs of a run.
-pub struct Keeper<'a> {
+pub(crate) struct Keeper<'a> {
     settings: &'a Settings,
     header: &'a Header,
     /// Which drifts records have.
@@ -41,7 +41,7 @@ pub struct Keeper<'a> {
 ///
 /// # Errors
 /// Why it stopped; the records made so far are kept.
-pub fn keep(
+pub(crate) fn keep(
     settings: &Settings,
     label: String,
     header: Header,

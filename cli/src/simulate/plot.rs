@@ -55,7 +55,7 @@ fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
 }
 
 /// A number in at most nine digits.
-pub fn brief(value: f64) -> String {
+pub(crate) fn brief(value: f64) -> String {
     let text = format!("{value:.8e}");
     let short = text.parse().unwrap_or(value);
     if short == 0.0 || (1e-4..1e7).contains(&f64::abs(short)) {

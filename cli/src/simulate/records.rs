@@ -20,7 +20,7 @@ const BUFFER: usize = 1 << 16;
 const DELAY: Duration = Duration::from_millis(500);
 
 /// A file, a device or the standard output that takes records.
-pub struct Records {
+pub(crate) struct Records {
     target: Target,
     header: Header,
     names: Vec<String>,
@@ -102,12 +102,12 @@ impl Records {
     }
 
     /// How many records there are.
-    pub fn rows(&self) -> u64 {
+    pub(crate) fn rows(&self) -> u64 {
         self.written + self.waiting
     }
 
     /// Whether nobody reads any more.
-    pub fn closed(&self) -> bool {
+    pub(crate) fn closed(&self) -> bool {
         self.closed
     }
 
@@ -115,7 +115,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn row(&mut self, values: impl Iterator<Item = f64>) -> Result<(), CliError> {
+    pub(crate) fn row(&mut self, values: impl Iterator<Item = f64>) -> Result<(), CliError> {
         match self.target.form {
             Form::Csv => {
                 for (place, value) in values.enumerate() {
@@ -136,7 +136,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn tick(&mut self) -> Result<(), CliError> {
+    pub(crate) fn tick(&mut self) -> Result<(), CliError> {
         if self.waiting > 0 && self.flushed.elapsed() >= DELAY { self.flush() } else { Ok(()) }
     }
 
@@ -205,7 +205,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn vouch(&mut self) -> Result<(Extent, u64), CliError> {
+    pub(crate) fn vouch(&mut self) -> Result<(Extent, u64), CliError> {
         self.flush()?;
         let Some(output) = &self.output else { return Ok((Extent::default(), self.written)) };
         output.sync().map_err(|error| self.failed(error))?;
@@ -216,7 +216,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn complete(&mut self) -> Result<(), CliError> {
+    pub(crate) fn complete(&mut self) -> Result<(), CliError> {
         self.close(&format!("complete: {} records", self.rows()));
         self.vouch().map(drop)
     }
@@ -225,7 +225,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the name cannot be given.
-    pub fn publish(mut self) -> Result<(), CliError> {
+    pub(crate) fn publish(mut self) -> Result<(), CliError> {
         if self.target.form == Form::Npy && self.output.is_some() {
             self.describe(true)?;
         }
@@ -234,7 +234,7 @@ impl Records {
     }
 
     /// Ends a file that stays a part, as well as can be, and says why.
-    pub fn stop(mut self, why: &str) {
+    pub(crate) fn stop(mut self, why: &str) {
         // Records that still can be written are; the reason comes after them.
         if !self.broken && self.flush().is_ok() {
             self.close(&format!("part: {}", why.replace(['\n', '\r'], " ")));

@@ -16,7 +16,7 @@ use crate::named::Format;
 const WIDEST: usize = 12;
 
 /// The text to print: one block per run, or one JSON object (an array of them for several runs).
-pub fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
+pub(crate) fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
     match format {
         Format::Text => runs.iter().map(|run| text(run, units)).collect::<Vec<_>>().join("\n"),
         Format::Json => {

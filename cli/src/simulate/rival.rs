@@ -23,7 +23,7 @@ type Group = DirectProduct<MatrixGroup>;
 
 /// Dormand and Prince's method of orders 4 and 5 with this tolerance, recorded at its own steps
 /// (between them it would be the interpolation that is measured).
-pub fn rk45(
+pub(crate) fn rk45(
     system: &Derived,
     settings: &Settings,
     header: Header,

@@ -9,7 +9,7 @@ use super::header::Header;
 
 /// A moment kept for pictures.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-pub struct Record {
+pub(crate) struct Record {
     /// t.
     pub time: f64,
     /// μ.
@@ -21,7 +21,7 @@ pub struct Record {
 
 /// A whole run.
 #[derive(Clone, Debug)]
-pub struct Trajectory {
+pub(crate) struct Trajectory {
     /// The method, for tables and pictures.
     pub label: String,
     /// The description of the run.

@@ -22,7 +22,7 @@ use crate::{load, progress};
 ///
 /// # Errors
 /// Bad input, [`CliError::Laws`] where a row is wrong, and [`CliError::NotJudged`] where nothing can be said of one.
-pub fn run(options: &VerifyOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &VerifyOptions) -> Result<(), CliError> {
     let (system, output) = match options.files.as_slice() {
         [output] => (None, output),
         [system, output] => (Some(system), output),

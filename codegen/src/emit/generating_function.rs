@@ -12,7 +12,7 @@ use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`; `slots` is the number of coefficients.
 #[must_use]
-pub fn generating_function(
+pub(crate) fn generating_function(
     integrator: &Integrator,
     options: &Options,
     types: &Types,
@@ -109,7 +109,7 @@ pub fn generating_function(
 
 /// How steps are solved, where the dimension alone does not say it.
 #[must_use]
-pub fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
+pub(crate) fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
     let solver = integrator.problem.solver();
     if solver == Solver::of_dimension(integrator.problem.algebra.dim()) {
         return TokenStream::new();
@@ -124,7 +124,7 @@ pub fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
 
 /// `impl Integrator` of a function whose steps are too long to be printed.
 #[must_use]
-pub fn without_programs(
+pub(crate) fn without_programs(
     integrator: &Integrator,
     options: &Options,
     types: &Types,
@@ -164,7 +164,7 @@ fn written(program: &Program, options: &Options, input: &str, slots: usize) -> B
 
 /// The body of a function with one output; it reads `input` and `c`.
 #[must_use]
-pub fn scalar_function(
+pub(crate) fn scalar_function(
     program: &Program,
     options: &Options,
     input: &str,
@@ -176,7 +176,7 @@ pub fn scalar_function(
 
 /// The body of a function with as many outputs as `vector` has entries.
 #[must_use]
-pub fn vector_function(
+pub(crate) fn vector_function(
     program: &Program,
     vector: &TokenStream,
     options: &Options,

@@ -17,7 +17,7 @@ const SLACK: f64 = 0.3;
 /// h·2^j tried, it takes the smallest whose differences are above rounding, where the leading term
 /// of the error dominates best. Where all differences are rounding the map is exact, and the order
 /// counts as infinite.
-pub fn measure<G: Group>(
+pub(crate) fn measure<G: Group>(
     step: f64,
     expected: f64,
     group: &G,

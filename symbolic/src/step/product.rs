@@ -9,7 +9,7 @@ use crate::step::vector::{Matrix, largest};
 
 /// A direct product: coordinates and elements of its factors one after the other.
 #[derive(Debug)]
-pub struct Product(pub Vec<Box<dyn Part>>);
+pub(crate) struct Product(pub Vec<Box<dyn Part>>);
 
 /// A factor, the places of its coordinates, and those of its numbers in an element.
 struct Factor<'a> {

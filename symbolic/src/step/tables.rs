@@ -19,7 +19,7 @@ type Entries = Vec<(usize, usize, f64)>;
 
 /// A group by tables.
 #[derive(Clone, Debug)]
-pub struct Tables {
+pub(crate) struct Tables {
     chart: Chart,
     dim: usize,
     size: usize,
@@ -55,7 +55,7 @@ pub fn both_orders(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
 impl Tables {
     /// The group of this algebra, of whose derivatives as much as `slope` may be left out. `None` where its matrices are
     /// not linearly independent.
-    pub fn new(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Option<Self> {
+    pub(crate) fn new(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Option<Self> {
         let dim = algebra.dim();
         let structure = both_orders(algebra);
         let adjoint;
@@ -84,12 +84,12 @@ impl Tables {
     }
 
     /// The rows of its matrices.
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.size
     }
 
     /// About the operations of its formulas in a step, at most; with the derivative of the chart, or without.
-    pub fn operations(&self, derivative: bool) -> usize {
+    pub(crate) fn operations(&self, derivative: bool) -> usize {
         let (n, brackets) = (self.dim, self.structure.len());
         let product = self.size.saturating_pow(3);
         let each = match (self.chart, derivative) {
