@@ -97,8 +97,12 @@ const _: () = {
         pub fn advance(
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
-        ) -> ::core::result::Result<::coadjoint::steps::StepReport<T>, ::coadjoint::StepError> {
-            ::coadjoint::steps::advance(self, phase).map_err(|error| self.advise(error, phase))
+        ) -> ::core::result::Result<
+            ::coadjoint::steps::StepReport<T>,
+            ::coadjoint::StepError,
+        > {
+            ::coadjoint::steps::advance(self, phase)
+                .map_err(|error| self.advise(error, phase))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -110,7 +114,10 @@ const _: () = {
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
             steps: u64,
-        ) -> ::core::result::Result<::coadjoint::steps::StepReport<T>, ::coadjoint::steps::Stopped> {
+        ) -> ::core::result::Result<
+            ::coadjoint::steps::StepReport<T>,
+            ::coadjoint::steps::Stopped,
+        > {
             ::coadjoint::steps::advance_by(self, phase, steps)
                 .map_err(|stopped| ::coadjoint::steps::Stopped {
                     error: self.advise(stopped.error, phase),
@@ -663,17 +670,22 @@ const _: () = {
             );
             let t19 = t18 + t18;
             let t20 = t15 + t19;
-            let t23 = t20 * T::of(16.0);
             let t24 = ::coadjoint::plumbing::select(
-                T::of(0.0),
                 T::lift(c[217]),
+                T::of(340282346638528860000000000000000000000.0),
+                T::of(4.0),
+                T::of(9.0),
+            );
+            let t25 = t20 * t24;
+            let t26 = ::coadjoint::plumbing::select(
+                t25,
+                T::of(1.0),
                 T::of(1.0),
                 T::of(0.0),
             );
-            let t25 = ::coadjoint::plumbing::select(t23, T::of(1.0), t24, T::of(0.0));
-            let t26 = ::coadjoint::plumbing::select(way, T::of(0.05), t25, T::of(0.0));
-            let t27 = ::coadjoint::plumbing::select(left, t7, t26, T::of(0.0));
-            t27
+            let t27 = ::coadjoint::plumbing::select(way, T::of(0.05), t26, T::of(0.0));
+            let t28 = ::coadjoint::plumbing::select(left, t7, t27, T::of(0.0));
+            t28
         }
 
         #[inline(always)]

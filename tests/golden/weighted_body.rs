@@ -7,7 +7,7 @@
 ///
 /// Group: SO3. Chart exp, truncation K = 3, order of accuracy 4.
 /// Terms: S1: 2, S3: 2.
-/// A step takes 480 operations, and 262 more for each further correction.
+/// A step takes 519 operations, and 289 more for each further correction.
 /// Comoving frame: S generates the motion in it.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 #[allow(clippy::trailing_empty_array)]
@@ -113,8 +113,12 @@ const _: () = {
         pub fn advance(
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
-        ) -> ::core::result::Result<::coadjoint::steps::StepReport<T>, ::coadjoint::StepError> {
-            ::coadjoint::steps::advance(self, phase).map_err(|error| self.advise(error, phase))
+        ) -> ::core::result::Result<
+            ::coadjoint::steps::StepReport<T>,
+            ::coadjoint::StepError,
+        > {
+            ::coadjoint::steps::advance(self, phase)
+                .map_err(|error| self.advise(error, phase))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -126,7 +130,10 @@ const _: () = {
             &self,
             phase: &mut ::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
             steps: u64,
-        ) -> ::core::result::Result<::coadjoint::steps::StepReport<T>, ::coadjoint::steps::Stopped> {
+        ) -> ::core::result::Result<
+            ::coadjoint::steps::StepReport<T>,
+            ::coadjoint::steps::Stopped,
+        > {
             ::coadjoint::steps::advance_by(self, phase, steps)
                 .map_err(|stopped| ::coadjoint::steps::Stopped {
                     error: self.advise(stopped.error, phase),
@@ -454,48 +461,92 @@ const _: () = {
             let t203 = -t202;
             let t204 = t196.times_plus(t203, t200);
             let t205 = T::of(1.0) / t204;
-            let t206 = t189.times_plus(t194, t190);
-            let t207 = t189.times_plus(t198, t191);
-            let t208 = t203.times_plus(t206, t207);
-            let t209 = t205 * t208;
-            let t210 = -t196;
-            let t211 = t209.times_plus(t210, t206);
-            let t212 = t201 * t211;
-            let t213 = t163.times_plus(t212, t189);
-            let t214 = t165.times_plus(t209, t213);
-            let t215 = t192 * t214;
-            let t216 = t11 * t215;
-            let t217 = t24.times_plus(t212, t216);
-            let t218 = t24 * t215;
-            let t219 = t17.times_plus(t212, t218);
-            let t220 = t27.times_plus(t209, t219);
-            let t221 = t27 * t212;
-            let t222 = t20.times_plus(t209, t221);
-            let t223 = p[0] - t215;
-            let t224 = p[1] - t212;
-            let t225 = p[2] - t209;
-            let t226 = t12 - t217;
-            let t227 = t18 - t220;
-            let t228 = t21 - t222;
-            let t229 = t215.simd_abs();
-            let t230 = t212.simd_abs();
-            let t231 = ::coadjoint::plumbing::select(t230, t229, t229, t230);
-            let t232 = t209.simd_abs();
-            let t233 = ::coadjoint::plumbing::select(t232, t231, t231, t232);
-            let t234 = k[0] * t233;
-            let t235 = t217.simd_abs();
-            let t236 = t220.simd_abs();
-            let t237 = ::coadjoint::plumbing::select(t236, t235, t235, t236);
-            let t238 = t222.simd_abs();
-            let t239 = ::coadjoint::plumbing::select(t238, t237, t237, t238);
-            let t240 = T::of(0.5).times_plus(t239, t234);
-            let t241 = k[1] * t234;
-            let t242 = t239.times_plus(t240, t241);
-            let t246 = <T as ::coadjoint::Scalar>::epsilon() * T::of(4.0);
-            let t247 = ::coadjoint::plumbing::select(t234, T::of(0.001), t242, t234);
-            let t248 = ::coadjoint::plumbing::select(t247, t234, t247, t234);
-            let t249 = ::coadjoint::plumbing::select(t234, t246, t248, t247);
-            ([t223, t224, t225], [t226, t227, t228], t249, t234)
+            let t206 = T::of(2.0) * t160;
+            let t207 = T::of(2.0) * t163;
+            let t208 = T::of(2.0) * t165;
+            let t209 = T::of(2.0) * t167;
+            let t210 = T::of(2.0) * t170;
+            let t211 = T::of(2.0) * t172;
+            let t212 = T::of(2.0) * t174;
+            let t213 = T::of(2.0) * t177;
+            let t214 = T::of(2.0) * t179;
+            let t215 = t12 + t211;
+            let t216 = t208 - t18;
+            let t217 = t213 - t12;
+            let t218 = t21 + t207;
+            let t219 = t18 + t212;
+            let t220 = t209 - t21;
+            let t221 = t206 * t206;
+            let t222 = t221.simd_abs();
+            let t223 = t218 * t220;
+            let t224 = t223.simd_abs();
+            let t225 = t222 + t224;
+            let t226 = t216 * t219;
+            let t227 = t226.simd_abs();
+            let t228 = t225 + t227;
+            let t229 = t210 * t210;
+            let t230 = t229.simd_abs();
+            let t231 = t224 + t230;
+            let t232 = t215 * t217;
+            let t233 = t232.simd_abs();
+            let t234 = t231 + t233;
+            let t235 = t227 + t233;
+            let t236 = t214 * t214;
+            let t237 = t236.simd_abs();
+            let t238 = t235 + t237;
+            let t239 = t228.simd_abs();
+            let t240 = t234.simd_abs();
+            let t241 = ::coadjoint::plumbing::select(t240, t239, t239, t240);
+            let t242 = t238.simd_abs();
+            let t243 = ::coadjoint::plumbing::select(t242, t241, t241, t242);
+            let t245 = t189.times_plus(t194, t190);
+            let t246 = t189.times_plus(t198, t191);
+            let t247 = t203.times_plus(t245, t246);
+            let t248 = t205 * t247;
+            let t249 = -t196;
+            let t250 = t248.times_plus(t249, t245);
+            let t251 = t201 * t250;
+            let t252 = t163.times_plus(t251, t189);
+            let t253 = t165.times_plus(t248, t252);
+            let t254 = t192 * t253;
+            let t255 = t11 * t254;
+            let t256 = t24.times_plus(t251, t255);
+            let t257 = t24 * t254;
+            let t258 = t17.times_plus(t251, t257);
+            let t259 = t27.times_plus(t248, t258);
+            let t260 = t27 * t251;
+            let t261 = t20.times_plus(t248, t260);
+            let t262 = p[0] - t254;
+            let t263 = p[1] - t251;
+            let t264 = p[2] - t248;
+            let t265 = t12 - t256;
+            let t266 = t18 - t259;
+            let t267 = t21 - t261;
+            let t268 = t254.simd_abs();
+            let t269 = t251.simd_abs();
+            let t270 = ::coadjoint::plumbing::select(t269, t268, t268, t269);
+            let t271 = t248.simd_abs();
+            let t272 = ::coadjoint::plumbing::select(t271, t270, t270, t271);
+            let t273 = k[0] * t272;
+            let t275 = ::coadjoint::plumbing::select(
+                t243,
+                T::of(3.61),
+                t273,
+                T::of(340282346638528860000000000000000000000.0),
+            );
+            let t276 = t256.simd_abs();
+            let t277 = t259.simd_abs();
+            let t278 = ::coadjoint::plumbing::select(t277, t276, t276, t277);
+            let t279 = t261.simd_abs();
+            let t280 = ::coadjoint::plumbing::select(t279, t278, t278, t279);
+            let t281 = T::of(0.5).times_plus(t280, t275);
+            let t282 = k[1] * t275;
+            let t283 = t280.times_plus(t281, t282);
+            let t287 = <T as ::coadjoint::Scalar>::epsilon() * T::of(4.0);
+            let t288 = ::coadjoint::plumbing::select(t275, T::of(0.001), t283, t275);
+            let t289 = ::coadjoint::plumbing::select(t288, t275, t288, t275);
+            let t290 = ::coadjoint::plumbing::select(t275, t287, t289, t288);
+            ([t262, t263, t264], [t265, t266, t267], t290, t275)
         }
 
         #[inline(always)]
@@ -522,26 +573,26 @@ const _: () = {
             );
             let t22 = t21 + t21;
             let t23 = t18 + t22;
-            let t24 = mu[0] * mu[0];
-            let t25 = mu[1].times_plus(mu[1], t24);
-            let t26 = mu[2].times_plus(mu[2], t25);
-            let t31 = ::coadjoint::plumbing::select(
+            let t27 = ::coadjoint::plumbing::select(
                 T::lift(c[52]),
                 T::of(340282346638528860000000000000000000000.0),
-                T::of(4.938271604938272),
+                T::of(4.0),
                 T::of(9.0),
             );
-            let t32 = t23 * t31;
-            let t33 = ::coadjoint::plumbing::select(
-                t26,
+            let t28 = t23 * t27;
+            let t29 = mu[0] * mu[0];
+            let t30 = mu[1].times_plus(mu[1], t29);
+            let t31 = mu[2].times_plus(mu[2], t30);
+            let t32 = ::coadjoint::plumbing::select(
+                t31,
                 T::lift(c[52]),
                 T::of(1.0),
                 T::of(0.0),
             );
-            let t34 = ::coadjoint::plumbing::select(t32, T::of(1.0), t33, T::of(0.0));
-            let t35 = ::coadjoint::plumbing::select(way, T::of(0.05), t34, T::of(0.0));
-            let t36 = ::coadjoint::plumbing::select(left, t10, t35, T::of(0.0));
-            t36
+            let t33 = ::coadjoint::plumbing::select(t28, T::of(1.0), t32, T::of(0.0));
+            let t34 = ::coadjoint::plumbing::select(way, T::of(0.05), t33, T::of(0.0));
+            let t35 = ::coadjoint::plumbing::select(left, t10, t34, T::of(0.0));
+            t35
         }
 
         #[inline(always)]
