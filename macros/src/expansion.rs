@@ -52,11 +52,11 @@ impl Attribute {
             let errors = errors.into_compile_error();
             let stand_in = (self.stand_in)(arguments.others, &function, &options);
             let struct_and_methods = quote!(#errors #stand_in);
-            emit::Items { struct_and_methods, programs: TokenStream::new() }
+            emit::Items { struct_and_methods, ..emit::Items::default() }
         });
         let kept = parameters(&function);
         let taken = emit::identifiers(function.to_token_stream());
-        let emit::Items { struct_and_methods, programs } = generated;
+        let emit::Items { struct_and_methods, programs, .. } = generated;
         let items = emit::hygienic(struct_and_methods, &kept, &taken);
         // Many users only want what is generated; then the function is not dead code either.
         quote!(#[allow(dead_code)] #function #items #programs)

@@ -32,7 +32,8 @@ fn generate(
 /// can be read, methods that take whatever they are given.
 fn stand_in(arguments: TokenStream, function: &ItemFn, options: &emit::Options) -> TokenStream {
     fallback::expansion(&arguments, function, |arguments, function| {
-        let emit::Items { struct_and_methods, programs } = generate(arguments, function, options)?;
+        let emit::Items { struct_and_methods, programs, .. } =
+            generate(arguments, function, options)?;
         Ok(quote!(#struct_and_methods #programs))
     })
     .unwrap_or_else(|| fallback::lie_poisson(function, options))

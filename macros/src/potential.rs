@@ -21,7 +21,7 @@ fn generate(
 ) -> syn::Result<emit::Items> {
     let potential = rust::potential(arguments, function).map_err(Diagnostics::into_syn_error)?;
     let struct_and_methods = emit::kick(&Kick::build(potential), options);
-    Ok(emit::Items { struct_and_methods, programs: TokenStream::new() })
+    Ok(emit::Items { struct_and_methods, ..emit::Items::default() })
 }
 
 /// The expansion for a potential that is at fault nowhere; if not even the signature or the group

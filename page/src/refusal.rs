@@ -1,6 +1,6 @@
 //! Why a step was refused, in words.
 
-use coadjoint_program::{Kernel, Stepper};
+use coadjoint_program::{Attempt, Kernel, Stepper};
 
 use crate::system::System;
 
@@ -33,14 +33,11 @@ impl Reason {
         if !slots.last().is_some_and(|&limit| square <= limit) {
             return Self::BeyondSeries;
         }
-        let (x, left, way) = solve(kernel, slots, mu);
-        if !(left <= kernel.tolerance() && way <= kernel.near()) {
+        let Attempt { residual_bound, distance, accepted, .. } = kernel.attempt(slots, mu);
+        if !(residual_bound <= kernel.tolerance() && distance <= kernel.near()) {
             return Self::NotSolved;
         }
-        let mut verdict = [0.0];
-        let input: Vec<f64> = mu.iter().chain(&x).copied().chain([left, way]).collect();
-        kernel.programs().accept.run(&input, slots, &mut Vec::new(), &mut verdict);
-        if verdict == [1.0] { Self::OffGroup } else { Self::BeyondChart }
+        if accepted { Self::OffGroup } else { Self::BeyondChart }
     }
 
     /// It, for people.
@@ -60,28 +57,6 @@ impl Reason {
             Self::OffGroup => "off the group: rounding has carried the group element away",
         }
     }
-}
-
-/// The solve of a kernel's loop: x, what is left, the way from the first guess.
-fn solve(kernel: &Kernel, slots: &[f64], mu: &[f64]) -> (Vec<f64>, f64, f64) {
-    let (n, programs) = (kernel.dim(), kernel.programs());
-    let mut scratch = Vec::new();
-    let mut guess = vec![0.0; n + kernel.constants()];
-    programs.guess.run(mu, slots, &mut scratch, &mut guess);
-    let mut input: Vec<f64> = guess[..n].iter().chain(mu).chain(&guess[n..]).copied().collect();
-    let mut found = vec![0.0; n + n + 2];
-    let (mut left, mut way) = (1.0, 0.0);
-    for _ in 0..kernel.corrections() {
-        programs.correct.run(&input, slots, &mut scratch, &mut found);
-        input[..n].copy_from_slice(&found[..n]);
-        left = found[2 * n];
-        way += found[2 * n + 1];
-        let (solved, near) = (left <= kernel.tolerance(), way <= kernel.near());
-        if solved || !near {
-            break;
-        }
-    }
-    (found[n..2 * n].to_vec(), left, way)
 }
 
 /// The longest of h/2, h/4, … with which the step can be made.

@@ -1,14 +1,15 @@
-//! A whole step as programs, and the short loop that drives them.
+//! A whole step as programs, and the loop that drives them.
 //!
-//! Every target prints or evaluates the same programs and has the same loop:
+//! The loop is one tree of statements ([`Kernel::schedule`]), which the interpreter walks and every target prints or
+//! compiles:
 //!
 //! ```text
 //! for each step
 //!     (p, k) = guess(μ)
-//!     way = 0
-//!     do   (p, x, left, moved) = correct(p, μ, k);  way = way + moved
-//!     while not left ≤ tolerance, and way ≤ near, and there are corrections left
-//!     if accept(μ, x, left, way) is not 1: stop before this step
+//!     distance = 0
+//!     do   (p, x, residual_bound, moved) = correct(p, μ, k);  distance = distance + moved
+//!     while not residual_bound ≤ tolerance, and distance ≤ near, and more corrections are allowed
+//!     if accept(μ, x, residual_bound, distance) is not 1: stop before this step
 //!     (g, μ) = transport(g, μ, x)
 //! after each BLOCK steps and at the end
 //!     (g, μ) = frame(g, μ, steps of the block)      where there is a comoving frame
@@ -21,6 +22,7 @@
 use crate::error::ProgramError;
 use crate::precision::Precision;
 use crate::program::Program;
+use crate::schedule::{Block, schedule};
 
 /// Steps after which a comoving frame moves on and the state is checked.
 pub const BLOCK: u64 = 256;
@@ -30,10 +32,10 @@ pub const BLOCK: u64 = 256;
 pub struct Programs {
     /// μ (n) ↦ a first guess of p (n), and the constants of the solve (k).
     pub guess: Program,
-    /// p (n), μ (n), constants (k) ↦ the next p (n), x (n), a bound on what is left of the equation (1), the length of
+    /// p (n), μ (n), constants (k) ↦ the next p (n), x (n), a bound on the residual of the equation (1), the length of
     /// the correction (1), both relative to the largest coordinate of μ.
     pub correct: Program,
-    /// μ (n), x (n), what is left (1), the way from the guess (1) ↦ 1 if the step is right, else 0.
+    /// μ (n), x (n), the residual bound (1), the distance from the guess (1) ↦ 1 if the step is right, else 0.
     pub accept: Program,
     /// g (m), μ (n), x (n) ↦ g·τ(x) (m), Ad\*_{τ(x)⁻¹} μ (n).
     pub transport: Program,
@@ -45,6 +47,24 @@ pub struct Programs {
     pub watch: Program,
     /// g (m) ↦ the matrix of g, row by row.
     pub matrix: Program,
+}
+
+/// The programs of a kernel and the limits of its solve, which [`Kernel::new`] checks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KernelParts {
+    /// n, the dimension of the group.
+    pub dim: usize,
+    /// m, how many numbers make a group element.
+    pub element: usize,
+    /// The residual bound, relative to the largest coordinate of μ, at which a solve ends; less than 1.
+    pub tolerance: f64,
+    /// The distance from the first guess, relative to the largest coordinate of μ, beyond which a solve is given up; not
+    /// negative.
+    pub near: f64,
+    /// The corrections after which a solve is given up.
+    pub corrections: u32,
+    /// The programs.
+    pub programs: Programs,
 }
 
 /// A step of a system on its group, for every target: programs that fit together.
@@ -59,23 +79,17 @@ pub struct Kernel {
     corrections: u32,
     precision: Precision,
     programs: Programs,
+    schedule: Block,
 }
 
 impl Kernel {
-    /// A step of these programs: n coordinates, m numbers in a group element. A solve ends where what is left is at most
-    /// `tolerance`; it is given up after this number of corrections, or where it is farther than `near` from its guess.
+    /// A step of these parts.
     ///
     /// # Errors
     /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for,
     /// [`ProgramError::Limits`] where `tolerance` is not below 1 or `near` is negative.
-    pub fn new(
-        dim: usize,
-        element: usize,
-        tolerance: f64,
-        near: f64,
-        corrections: u32,
-        programs: Programs,
-    ) -> Result<Self, ProgramError> {
+    pub fn new(parts: KernelParts) -> Result<Self, ProgramError> {
+        let KernelParts { dim, element, tolerance, near, corrections, programs } = parts;
         let (n, m) = (dim, element);
         let constants = programs.guess.outputs().len().saturating_sub(n);
         let watched = programs.watch.outputs().len();
@@ -98,11 +112,12 @@ impl Kernel {
             }
             slots = slots.max(program.slots());
         }
-        // Loops begin with 1 for what is left of the equation, and 0 for the way.
+        // Loops begin with the residual bound 1 and the distance 0.
         if !(tolerance < 1.0 && near >= 0.0) {
             return Err(ProgramError::Limits);
         }
         let precision = Precision::Double;
+        let schedule = schedule(corrections, programs.frame.is_some());
         Ok(Self {
             dim,
             element,
@@ -113,6 +128,7 @@ impl Kernel {
             corrections,
             precision,
             programs,
+            schedule,
         })
     }
 
@@ -154,7 +170,7 @@ impl Kernel {
         self.slots
     }
 
-    /// The largest residual of a solved step, relative to the largest coordinate of μ.
+    /// The largest residual bound of a solved step, relative to the largest coordinate of μ.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
@@ -176,6 +192,12 @@ impl Kernel {
     #[must_use]
     pub fn programs(&self) -> &Programs {
         &self.programs
+    }
+
+    /// The loop that calls the programs.
+    #[must_use]
+    pub fn schedule(&self) -> &Block {
+        &self.schedule
     }
 }
 
@@ -202,7 +224,8 @@ mod tests {
                 watch: program(2, 1),
                 matrix: program(1, 1),
             };
-            Kernel::new(1, 1, tolerance, near, 3, programs).err()
+            let (dim, element, corrections) = (1, 1, 3);
+            Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).err()
         };
         assert_eq!(kernel(0.5, 0.0), None);
         for (tolerance, near) in [(1.0, 0.5), (f64::NAN, 0.5), (0.5, -0.1), (0.5, f64::NAN)] {

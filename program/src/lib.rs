@@ -22,12 +22,12 @@ compile_error!("coadjoint-program needs one of its features `std` (the default) 
 #[cfg(feature = "programs")]
 mod dispatch;
 #[cfg(feature = "programs")]
-mod drive;
-#[cfg(feature = "programs")]
 mod error;
 #[cfg(feature = "programs")]
 mod evaluate;
 pub mod fold;
+#[cfg(feature = "programs")]
+mod interpret;
 #[cfg(feature = "programs")]
 mod kernel;
 #[cfg(feature = "programs")]
@@ -50,11 +50,11 @@ pub mod schedule;
 mod stepper;
 
 #[cfg(feature = "programs")]
-pub use drive::Scratch;
-#[cfg(feature = "programs")]
 pub use error::ProgramError;
 #[cfg(feature = "programs")]
-pub use kernel::{BLOCK, Kernel, Programs};
+pub use interpret::{Attempt, Scratch};
+#[cfg(feature = "programs")]
+pub use kernel::{BLOCK, Kernel, KernelParts, Programs};
 #[cfg(feature = "programs")]
 pub use node::{Cost, Graph, Id, Node};
 #[cfg(feature = "programs")]

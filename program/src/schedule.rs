@@ -1,4 +1,4 @@
-//! The loop of a kernel as one small tree of statements, which every target prints or compiles.
+//! The loop of a kernel as one small tree of statements, which the interpreter walks and every target prints or compiles.
 //!
 //! The tree is written for one trajectory. A target that makes several side by side runs it under masks: the block of a
 //! `while` or an `if` runs as long as its condition holds in any lane, and assigns in the lanes where it holds. A block's
@@ -6,6 +6,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::kernel::{BLOCK, Kernel};
 use crate::program::Program;
@@ -24,10 +25,10 @@ pub enum Variable {
     Constants,
     /// x (n).
     Increment,
-    /// A bound on what is left of the equation.
-    Left,
-    /// The way from the first guess.
-    Way,
+    /// A bound on the residual of the equation.
+    ResidualBound,
+    /// The distance from the first guess.
+    Distance,
     /// The length of a correction.
     Moved,
     /// Whether a step or a state is right: 1 if it is.
@@ -59,8 +60,8 @@ impl Variable {
         (Self::Guess, "p"),
         (Self::Constants, "k"),
         (Self::Increment, "x"),
-        (Self::Left, "left"),
-        (Self::Way, "way"),
+        (Self::ResidualBound, "residual_bound"),
+        (Self::Distance, "distance"),
         (Self::Moved, "moved"),
         (Self::Right, "right"),
         (Self::Done, "done"),
@@ -81,9 +82,53 @@ impl Variable {
             Self::Element => Kind::Array(kernel.element()),
             Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim()),
             Self::Constants => Kind::Array(kernel.constants()),
-            Self::Left | Self::Way | Self::Moved | Self::Right => Kind::Number,
+            Self::ResidualBound | Self::Distance | Self::Moved | Self::Right => Kind::Number,
             Self::Done | Self::Count | Self::Tried => Kind::Count,
         }
+    }
+}
+
+/// Where the numbers of all variables lie in one list: those of g and μ, then the others.
+#[derive(Clone, Debug)]
+pub struct Places {
+    ranges: Vec<Range<usize>>,
+    len: usize,
+}
+
+impl Places {
+    /// The places for a kernel's variables. A count has one, where programs read it as a number.
+    #[must_use]
+    pub fn of(kernel: &Kernel) -> Self {
+        let mut len = 0;
+        let range = |(variable, _): (Variable, _)| {
+            let start = len;
+            len += match variable.kind(kernel) {
+                Kind::Array(numbers) => numbers,
+                Kind::Number | Kind::Count => 1,
+            };
+            start..len
+        };
+        let ranges = Variable::ALL.map(range).to_vec();
+        Self { ranges, len }
+    }
+
+    /// How many places there are.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The places of a variable.
+    #[must_use]
+    pub fn range(&self, variable: Variable) -> Range<usize> {
+        self.ranges[variable as usize].clone()
+    }
+
+    /// The places of the state: g, then μ.
+    #[must_use]
+    pub fn state(&self) -> Range<usize> {
+        self.range(Variable::Element).start..self.range(Variable::Momentum).end
     }
 }
 
@@ -130,8 +175,10 @@ impl Part {
         use Variable::*;
         match self {
             Self::Guess => (&[Momentum], &[Guess, Constants]),
-            Self::Correct => (&[Guess, Momentum, Constants], &[Guess, Increment, Left, Moved]),
-            Self::Accept => (&[Momentum, Increment, Left, Way], &[Right]),
+            Self::Correct => {
+                (&[Guess, Momentum, Constants], &[Guess, Increment, ResidualBound, Moved])
+            }
+            Self::Accept => (&[Momentum, Increment, ResidualBound, Distance], &[Right]),
             Self::Transport => (&[Element, Momentum, Increment], &[Element, Momentum]),
             Self::Frame => (&[Element, Momentum, Count], &[Element, Momentum]),
             Self::Sound => (&[Element, Momentum], &[Right]),
@@ -179,7 +226,7 @@ impl Block {
 pub enum Statement {
     /// Evaluates a program and assigns its results.
     Call(Part),
-    /// Adds the length of a correction to the way.
+    /// Adds the length of a correction to the distance.
     Lengthen,
     /// Adds 1 to a count.
     Next(Variable),
@@ -187,7 +234,7 @@ pub enum Statement {
     Keep,
     /// Takes it back from there, and counts the steps of the block no more.
     Restore,
-    /// Tells of a correction, where a target reports them.
+    /// Reports the corrections and the residual bound of the step made, where a target reports them.
     Note,
     /// Stops the trajectory because its step is not right.
     RefuseStep,
@@ -199,18 +246,17 @@ pub enum Statement {
     If(Condition, Block),
 }
 
-/// The loop of a kernel, the same as that of its interpreter.
-#[must_use]
-pub fn schedule(kernel: &Kernel) -> Block {
+/// The loop of a kernel with at most `corrections` corrections of a step; `framed` if it has a comoving frame.
+pub(crate) fn schedule(corrections: u32, framed: bool) -> Block {
     use Statement::{
         Call, If, Keep, Lengthen, Next, Note, RefuseState, RefuseStep, Restore, While,
     };
     use Test::{Below, Live, Open, Remaining, Right as IsRight};
     use Variable::*;
     let block = |variables: &[_], body| Block { variables: variables.to_vec(), body };
-    let correction = vec![Call(Part::Correct), Lengthen, Next(Tried), Note];
-    let corrections = vec![(true, Below(Tried, kernel.corrections())), (true, Open)];
-    let moved = vec![Call(Part::Transport), Next(Done), Next(Count)];
+    let correction = vec![Call(Part::Correct), Lengthen, Next(Tried)];
+    let corrections = vec![(true, Below(Tried, corrections)), (true, Open)];
+    let moved = vec![Call(Part::Transport), Note, Next(Done), Next(Count)];
     let step = vec![
         Call(Part::Guess),
         While(corrections, block(&[(Moved, Some(0))], correction)),
@@ -218,10 +264,11 @@ pub fn schedule(kernel: &Kernel) -> Block {
         If(vec![(false, IsRight)], block(&[], vec![RefuseStep])),
         If(vec![(true, IsRight)], block(&[], moved)),
     ];
-    let numbers = [(Left, Some(1)), (Way, Some(0)), (Right, Some(0)), (Tried, Some(0))];
+    let numbers =
+        [(ResidualBound, Some(1)), (Distance, Some(0)), (Right, Some(0)), (Tried, Some(0))];
     let step = block(&[&[(Guess, None), (Constants, None)], &numbers[..]].concat(), step);
     let mut check = vec![Call(Part::Sound)];
-    if kernel.programs().frame.is_some() {
+    if framed {
         check.insert(0, Call(Part::Frame));
     }
     let broken = block(&[], vec![RefuseState, Restore]);

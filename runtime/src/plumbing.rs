@@ -8,10 +8,12 @@ use crate::group::phase::Phase;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
 
-pub use crate::number::lift::Lift;
+pub use crate::number::program::{Coefficients, Number, Registers};
 pub use crate::solve::{Driven, DrivenOf, estimated_ratio};
-pub use crate::step::drive::{Number, Programs, drive};
 pub use crate::step::numbers::ElementNumbers;
+pub use crate::step::printed::{
+    BLOCK, called, choose, choose_all, is_one, load, load_lanes, store, store_lanes,
+};
 
 /// All coefficients of a generated step or potential, in each lane for its step size and symbols.
 ///
@@ -100,10 +102,3 @@ pub fn advise<S: Integrator>(
 
 /// Shorter steps that are tried to advise one.
 const MOST_HALVINGS: u32 = 24;
-
-/// `c` in the lanes where a ≤ b, else `d`.
-#[inline(always)]
-#[must_use]
-pub fn select<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
-    c.select(a.simd_le(b), d)
-}

@@ -1,19 +1,25 @@
 //! A whole module as formatted text: for build scripts, the command line, and checking in.
 
-use quote::format_ident;
+use quote::{format_ident, quote};
 
+use super::item::{Items, items};
 use super::layout::text;
+use super::legend;
+use super::opening::wrapped;
 use super::options::Options;
-use super::{header, legend, tokens};
 use crate::integrator::{Integrator, Kick};
+
+/// Columns of a comment.
+const WIDTH: usize = 97;
 
 /// The integrator as a Rust source file: a header that says where it comes from and how to read it,
 /// then the items, tables last, and what the coefficients mean.
 #[must_use]
 pub fn file(integrator: &Integrator, options: &Options) -> String {
-    let mut result = comment(header::file_lines(integrator));
+    let Items { opening, struct_and_methods, programs } = items(integrator, options);
+    let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
     result.push('\n');
-    result.push_str(&text(tokens(integrator, options)));
+    result.push_str(&text(quote!(#struct_and_methods #programs)));
     let legend = legend::lines(&integrator.coefficients);
     if !legend.is_empty() {
         let about = "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";

@@ -1,6 +1,6 @@
 //! The struct of an integrator and its implementations.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::constructor::constructor;
@@ -14,7 +14,10 @@ use crate::integrator::{FoldTable, Integrator};
 use crate::step::Step;
 
 /// An integrator as items.
+#[derive(Debug, Default)]
 pub struct Items {
+    /// Paragraphs for the opening of a file.
+    pub opening: Vec<String>,
     /// The struct, and what users call.
     pub struct_and_methods: TokenStream,
     /// The programs and tables, which are long; the names they bind end with [`Options::suffix`].
@@ -24,7 +27,7 @@ pub struct Items {
 /// The integrator as items: a struct and its implementations, tables last.
 #[must_use]
 pub fn tokens(integrator: &Integrator, options: &Options) -> TokenStream {
-    let Items { struct_and_methods, programs } = items(integrator, options);
+    let Items { struct_and_methods, programs, .. } = items(integrator, options);
     quote!(#struct_and_methods #programs)
 }
 
@@ -52,7 +55,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     };
     let n = Literal::usize_unsuffixed(types.dim);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
-    let lanes = lanes(krate, name);
+    let lanes = lanes(options, step.is_some());
     let energy = scalar_function(&integrator.energy, options, "mu", count);
     let (table, last) = (fold_item(krate, &fold), last_item(krate, integrator));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
@@ -136,8 +139,6 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                     #krate::steps::poisson_map(self, mu)
                 }
             }
-
-            #lanes
         };
     };
     let programs = quote! {
@@ -146,6 +147,8 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
             #aliases
 
             #programs
+
+            #lanes
 
             #generating
 
@@ -169,12 +172,32 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
 
         #tables
     };
-    Items { struct_and_methods, programs }
+    let opening = header::opening(integrator, options, step.as_ref());
+    Items { opening, struct_and_methods, programs }
 }
 
-/// `impl Lanes`: the coefficients in every lane.
-fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
+/// `impl Lanes`: the coefficients in every lane, and steps in lanes where the programs of the step are printed.
+fn lanes(options: &Options, printed: bool) -> TokenStream {
+    let Options { krate, name, .. } = options;
     let lane = quote!(#krate::Scalar + #krate::nalgebra::SimdValue<Element = f64>);
+    let names = ["registers", "phases", "asked", "state", "run", "c"];
+    let [registers, phases, asked, state, run, c] = names.map(|name| options.bound(name));
+    let drive = printed.then(|| {
+        quote! {
+            #[inline(always)]
+            fn drive_lanes<R: #krate::plumbing::Registers>(
+                &self,
+                #registers: R,
+                #phases: &mut [(usize, &mut #krate::Phase<<Self as #krate::GeneratingFunction>::Group>)],
+                #asked: u64,
+            ) -> bool {
+                let #c = R::coefficients(#registers, &self.coefficients);
+                let #state = #krate::plumbing::load_lanes(#registers, #phases);
+                let #run = steps(#c, #state, #asked);
+                #krate::plumbing::store_lanes(#registers, #phases, #asked, #run)
+            }
+        }
+    });
     quote! {
         impl #krate::lanes::Lanes for #name<f64> {
             type Over<L: #lane> = #name<L>;
@@ -186,6 +209,8 @@ fn lanes(krate: &TokenStream, name: &Ident) -> TokenStream {
                     coefficients: self.coefficients.map(L::splat),
                 }
             }
+
+            #drive
         }
     }
 }

@@ -17,10 +17,12 @@ mod layout;
 mod legend;
 mod limit;
 mod number;
+mod opening;
 mod options;
 mod parameter;
 mod program;
 mod programs;
+mod steps;
 mod subscript;
 mod table;
 mod types;
@@ -41,7 +43,8 @@ fn allow() -> TokenStream {
     quote! {
         #[allow(
             clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case,
-            unexpected_cfgs, unused_doc_comments, unused_imports, unused_variables
+            unexpected_cfgs, unused_assignments, unused_doc_comments, unused_imports, unused_mut,
+            unused_variables
         )]
     }
 }

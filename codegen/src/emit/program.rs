@@ -17,6 +17,21 @@ const LARGE: usize = 1500;
 /// The most operations of one function of a program that is cut.
 const MOST_OPERATIONS: usize = 1000;
 
+/// Code of at most this number of operations is inlined for lanes, and so has the wide instructions of its caller.
+const INLINED_IN_LANES: usize = 6000;
+
+/// A call of a function that belongs to `operations` operations. Where they are many the function is not inlined for a
+/// single number, since the compiler's time grows faster than their count; where they are very many, not for lanes either.
+#[must_use]
+pub fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
+    let called = quote!(#krate::plumbing::called(|| #call));
+    match operations {
+        0..=LARGE => call.clone(),
+        ..=INLINED_IN_LANES => quote!(if T::SINGLE { #called } else { #call }),
+        _ => called,
+    }
+}
+
 /// A part of a program's inputs: an array of numbers `T` behind a reference, or a number.
 pub struct Field {
     name: Ident,
@@ -53,9 +68,9 @@ pub struct Scope<'a> {
     pub krate: &'a TokenStream,
     /// The inputs, in the order of their numbers.
     pub inputs: Vec<Field>,
-    /// The length of `c`, a reference to an array of coefficients.
+    /// The length of `c`, where it is a reference to an array of coefficients.
     pub slots: usize,
-    /// Whether coefficients are of a type `C` of their own, to be lifted to `T`.
+    /// Whether `c` is of a type `C` that makes numbers of coefficients and constants; else it is an array of `T`.
     pub lifted: bool,
     /// The suffix of the names that are bound.
     pub suffix: &'a str,
@@ -105,14 +120,19 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
         let name = format_ident!("part{part}");
         let statements = std::mem::take(&mut writer.statements);
         functions.extend(quote! {
-            #[inline(never)]
+            #[inline(always)]
             fn #name #generics (#parameters, #shared: &mut [T; #places]) { #statements }
         });
-        calls.extend(quote!(#name(#call, &mut #shared);));
+        let call = quote!(#name(#call, &mut #shared));
+        // Numbers of functions that no program of a step calls are never registers.
+        let operations = if scope.lifted { operations(program) } else { usize::MAX };
+        calls.extend(apart(scope.krate, &call, operations));
+        calls.extend(quote!(;));
     }
+    let zero = scope.constant(0.0);
     let statements = quote! {
         #functions
-        let mut #shared = [T::of(0.0); #places];
+        let mut #shared = [#zero; #places];
         #calls
     };
     Body { statements, outputs: program.outputs().iter().map(|&id| writer.value(id)).collect() }
@@ -131,11 +151,14 @@ impl Scope<'_> {
         let slots = Literal::usize_unsuffixed(*slots);
         let parameters = inputs.iter().map(Field::parameter);
         let names = inputs.iter().map(|field| &field.name);
-        let (generics, coefficient) = match lifted {
-            false => (quote!(T: #krate::Scalar), quote!(T)),
-            true => (quote!(C: #krate::Scalar, T: #krate::plumbing::Number<C>), quote!(C)),
+        let (generics, coefficients) = match lifted {
+            false => (quote!(T: #krate::Scalar), quote!(&[T; #slots])),
+            true => (
+                quote!(T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>),
+                quote!(C),
+            ),
         };
-        let parameters = quote!(#c: &[#coefficient; #slots], #(#parameters),*);
+        let parameters = quote!(#c: #coefficients, #(#parameters),*);
         (quote!(<#generics>), parameters, quote!(#c, #(#names),*))
     }
 
@@ -152,7 +175,13 @@ impl Scope<'_> {
                 _ => left -= len.unwrap_or(1),
             }
         }
-        quote!(T::of(0.0))
+        self.constant(0.0)
+    }
+
+    /// A constant as a number.
+    fn constant(&self, value: f64) -> TokenStream {
+        let (c, value) = (self.bound("c"), Literal::f64_unsuffixed(value));
+        if self.lifted { quote!(#c.of(#value)) } else { quote!(T::of(#value)) }
     }
 }
 
@@ -171,17 +200,15 @@ impl Writer<'_> {
         let node = &self.program.nodes()[index];
         let operand = |id: Id| &self.read[id.index()];
         let krate = self.scope.krate;
+        let c = self.scope.bound("c");
         let value = match *node {
-            Node::Zero => quote!(T::of(0.0)),
-            Node::Constant(bits) => {
-                let value = Literal::f64_unsuffixed(f64::from_bits(bits));
-                quote!(T::of(#value))
-            }
+            Node::Zero => self.scope.constant(0.0),
+            Node::Constant(bits) => self.scope.constant(f64::from_bits(bits)),
+            Node::Epsilon if self.scope.lifted => quote!(#c.epsilon()),
             Node::Epsilon => quote!(<T as #krate::Scalar>::epsilon()),
             Node::Slot(i) => {
                 let i = Literal::u32_unsuffixed(i);
-                let c = self.scope.bound("c");
-                if self.scope.lifted { quote!(T::lift(#c[#i])) } else { quote!(#c[#i]) }
+                if self.scope.lifted { quote!(#c.at(#i)) } else { quote!(#c[#i]) }
             }
             Node::Input(i) => self.scope.input(i as usize),
             Node::Add(a, b) => {
@@ -224,7 +251,7 @@ impl Writer<'_> {
                 // A call, no method: a lint looks for the type of what a method of one argument is called on, through
                 // all statements before it, and would not end.
                 let (w, x, y, z) = (operand(a), operand(b), operand(c), operand(d));
-                quote!(#krate::plumbing::select(#w, #x, #y, #z))
+                quote!(T::select(#y, T::simd_le(#w, #x), #z))
             }
         };
         if node.operands().next().is_none() {

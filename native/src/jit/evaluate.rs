@@ -185,5 +185,5 @@ impl Coder<'_> {
 }
 
 fn is_leaf(node: Node) -> bool {
-    matches!(node, Node::Zero | Node::Constant(_) | Node::Input(_) | Node::Slot(_))
+    node.operands().next().is_none()
 }

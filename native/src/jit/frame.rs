@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use coadjoint_program::Kernel;
-use coadjoint_program::schedule::{Kind, Variable};
+use coadjoint_program::schedule::{Places, Variable};
 
 use super::JitError;
 
@@ -13,8 +13,7 @@ const MOST: usize = 1 << 18;
 /// Places of a frame, counted in numbers (or groups of lanes).
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
-    /// Where the numbers of each variable are; g and μ come first.
-    variables: Vec<Range<usize>>,
+    variables: Places,
     /// g, then μ, at the start of the block.
     pub(super) start: usize,
     /// All of them.
@@ -25,17 +24,9 @@ pub(super) struct Frame {
 
 impl Frame {
     pub(super) fn of(kernel: &Kernel) -> Self {
-        let mut start = 0;
-        let place = |(variable, _): (Variable, _)| {
-            let begin = start;
-            start += match variable.kind(kernel) {
-                Kind::Array(len) => len,
-                Kind::Number | Kind::Count => 1,
-            };
-            begin..start
-        };
-        let variables = Variable::ALL.map(place).to_vec();
-        let size = start + kernel.element() + kernel.dim();
+        let variables = Places::of(kernel);
+        let start = variables.len();
+        let size = start + variables.state().len();
         Self { variables, start, size, scratch: size }
     }
 
@@ -62,12 +53,12 @@ impl Frame {
 
     /// Where a variable's numbers are; those of a count, where programs read it.
     pub(super) fn places(&self, variable: Variable) -> Range<usize> {
-        self.variables[variable as usize].clone()
+        self.variables.range(variable)
     }
 
     /// Where g and μ are.
     pub(super) fn state(&self) -> Range<usize> {
-        self.places(Variable::Element).start..self.places(Variable::Momentum).end
+        self.variables.state()
     }
 
     /// The variable of number i of a list, and where that number is.

@@ -1,7 +1,7 @@
 //! The loop of a kernel: its statements as Cranelift's instructions, for one trajectory or for a pair under masks.
 
 use coadjoint_program::Kernel;
-use coadjoint_program::schedule::{Block, Kind, Part, Statement, Test, Variable, schedule};
+use coadjoint_program::schedule::{Block, Kind, Part, Statement, Test, Variable};
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, I8, I64, I64X2};
 use cranelift_codegen::ir::{InstBuilder, Value};
@@ -69,7 +69,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         for (register, zero) in self.report.into_iter().zip(zeros) {
             self.coder.builder.def_var(register, zero);
         }
-        self.block(&schedule(self.kernel), None);
+        self.block(self.kernel.schedule(), None);
     }
 
     /// The largest number of corrections, as a number, and the largest residual.
@@ -103,9 +103,10 @@ impl<'f, 'k> Loop<'f, 'k> {
         match statement {
             Statement::Call(part) => self.call(*part, within, mask),
             Statement::Lengthen => {
-                let [way, moved] = [Variable::Way, Variable::Moved].map(|of| self.load(of));
-                let sum = self.coder.builder.ins().fadd(way, moved);
-                let place = self.coder.frame.places(Variable::Way).start;
+                let [distance, moved] =
+                    [Variable::Distance, Variable::Moved].map(|of| self.load(of));
+                let sum = self.coder.builder.ins().fadd(distance, moved);
+                let place = self.coder.frame.places(Variable::Distance).start;
                 self.coder.assign(mask, place, sum);
             }
             Statement::Next(variable) => {
@@ -199,19 +200,16 @@ impl<'f, 'k> Loop<'f, 'k> {
         }
     }
 
-    /// Takes a correction into the report.
+    /// Takes the step made into the report.
     fn note(&mut self) {
         let [corrections, residual] = self.report;
         let [most, largest] = self.report.map(|of| self.coder.builder.use_var(of));
         let tried = self.get(Variable::Tried);
         let most = self.coder.builder.ins().umax(most, tried);
         self.coder.builder.def_var(corrections, most);
-        let left = self.load(Variable::Left);
-        let solved =
-            self.compare(Variable::Left, FloatCC::LessThanOrEqual, self.kernel.tolerance());
-        let larger = self.coder.builder.ins().fcmp(FloatCC::LessThan, largest, left);
-        let counts = self.coder.builder.ins().band(solved, larger);
-        let largest = self.coder.builder.ins().select(counts, left, largest);
+        let bound = self.load(Variable::ResidualBound);
+        let larger = self.coder.builder.ins().fcmp(FloatCC::LessThan, largest, bound);
+        let largest = self.coder.builder.ins().select(larger, bound, largest);
         self.coder.builder.def_var(residual, largest);
     }
 
@@ -252,8 +250,8 @@ impl<'f, 'k> Loop<'f, 'k> {
             Test::Right => return self.compare(Variable::Right, FloatCC::Equal, 1.0),
             Test::Open => {
                 let (most, far) = (self.kernel.tolerance(), self.kernel.near());
-                let solved = self.compare(Variable::Left, FloatCC::LessThanOrEqual, most);
-                let near = self.compare(Variable::Way, FloatCC::LessThanOrEqual, far);
+                let solved = self.compare(Variable::ResidualBound, FloatCC::LessThanOrEqual, most);
+                let near = self.compare(Variable::Distance, FloatCC::LessThanOrEqual, far);
                 return self.coder.builder.ins().band_not(near, solved);
             }
         };

@@ -336,4 +336,5 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *REST
 }
 ";
 
-const REFUSED_STEP: &str = "why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;";
+const REFUSED_STEP: &str =
+    "why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;";

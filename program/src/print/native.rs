@@ -13,7 +13,7 @@ use crate::stepper::{Trajectories, WIDTH};
 
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
 /// the array of sizes.
-pub const ABI: u64 = 1;
+pub const ABI: u64 = 2;
 
 /// Operations of a step up to which its programs become part of the loop of one trajectory: the calls are then worth
 /// the compiler's time.
@@ -64,7 +64,8 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
         let style = LoopStyle {
             prefix: "lanes_".into(),
             count: "M".into(),
-            open: "~(M)(left <= spread(TOLERANCE)) & (M)(way <= spread(NEAR))".into(),
+            open: "~(M)(residual_bound <= spread(TOLERANCE)) & (M)(distance <= spread(NEAR))"
+                .into(),
             right: "right == spread(1.0)".into(),
             ..LoopStyle::default()
         };
@@ -118,8 +119,8 @@ EXPORT unsigned long long coadjoint_advance(const double *restrict c, double *re
 const SCALAR_NOTE: &str = "if (most < tried) {
     most = tried;
 }
-if (left <= TOLERANCE && residual < left) {
-    residual = left;
+if (residual < residual_bound) {
+    residual = residual_bound;
 }";
 
 const LANES: &str = r"

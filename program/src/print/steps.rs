@@ -8,7 +8,7 @@ use super::c::C;
 use super::dialect::Dialect;
 use crate::kernel::Kernel;
 use crate::node::{Id, Node};
-use crate::schedule::{Block, Kind, Part, Statement, Test, Variable, schedule};
+use crate::schedule::{Block, Kind, Part, Statement, Test, Variable};
 
 /// How a language writes the loop. The function around it has g, μ, `steps` and whatever `live` reads.
 #[derive(Clone, Debug)]
@@ -23,13 +23,13 @@ pub struct LoopStyle {
     pub copy: String,
     /// The condition under which a trajectory moves on.
     pub live: String,
-    /// The condition under which an equation is corrected again: more than the tolerance is left, near the guess.
+    /// The condition under which an equation is corrected again: not solved to the tolerance, near the guess.
     pub open: String,
     /// The condition that a program's answer is 1.
     pub right: String,
     /// Statements that stop a trajectory: because of a step, and because of a state.
     pub refuse: [String; 2],
-    /// Statements that tell of a correction.
+    /// Statements that report the corrections and the residual bound of the step made.
     pub note: String,
 }
 
@@ -42,7 +42,7 @@ impl Default for LoopStyle {
             sizes: ["ELEMENT", "DIM"].map(String::from),
             copy: "copy".into(),
             live: "live".into(),
-            open: "!(left <= TOLERANCE) && way <= NEAR".into(),
+            open: "!(residual_bound <= TOLERANCE) && distance <= NEAR".into(),
             right: "right == 1.0".into(),
             refuse: ["live = false;", "live = false;"].map(String::from),
             note: String::new(),
@@ -62,7 +62,7 @@ pub fn steps(
     let lanes = style.count == "M";
     let mut writer =
         Writer { kernel, dialect, c, style, lanes, depth, masks: 0, text: String::new() };
-    writer.block(&schedule(kernel), None);
+    writer.block(kernel.schedule(), None);
     writer.text
 }
 
@@ -156,8 +156,8 @@ impl<D: Dialect> Writer<'_, D> {
                 return self.nested(&(begin + &next), block, Some(&name));
             }
             Statement::Lengthen => {
-                let sum = self.dialect.operation(Node::Add(Id(0), Id(0)), &["way", "moved"]);
-                self.copy(mask, Variable::Way, "way", &sum)
+                let sum = self.dialect.operation(Node::Add(Id(0), Id(0)), &["distance", "moved"]);
+                self.copy(mask, Variable::Distance, "distance", &sum)
             }
             Statement::Next(variable) => match mask {
                 None => format!("{}++;", variable.name()),

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
+#[cfg(feature = "ensemble")]
+mod registers;
 #[cfg(feature = "alloc")]
 mod tables;
 
@@ -20,6 +22,7 @@ use crate::group::so3::SO3;
 use crate::group::su2::SU2;
 use crate::group::{FixedDimension, LieGroup};
 use crate::linear::coordinates::Coordinates;
+use crate::number::program::Registers;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
@@ -114,6 +117,20 @@ pub trait Lanes: Integrator<Group: LaneGroup> {
 
     /// This integrator in every lane: same step size, same parameters.
     fn splat<L: Scalar + SimdValue<Element = f64>>(&self) -> Self::Over<L>;
+
+    /// Makes steps of several trajectories by straight-line programs, where the integrator has such programs and all steps
+    /// are right; whether it did. Trajectories are given with their indices.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn drive_lanes<R: Registers>(
+        &self,
+        registers: R,
+        phases: &mut [(usize, &mut Phase<Self::Group>)],
+        steps: u64,
+    ) -> bool {
+        let _ = (registers, phases, steps);
+        false
+    }
 }
 
 /// [`FixedLaneGroup`] for groups whose elements and vectors are nalgebra types over the scalar.

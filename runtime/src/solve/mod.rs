@@ -66,7 +66,7 @@ pub trait Integrator: GeneratingFunction {
     #[inline(always)]
     fn drive(&self, phase: &mut Phase<Self::Group>, steps: u64) -> DrivenOf<Self> {
         let _ = (phase, steps);
-        Driven::none()
+        Driven::none(Scalar::of(0.0))
     }
 }
 
@@ -102,11 +102,11 @@ pub struct Driven<V, T> {
 /// The outcome of driving the programs of `S`.
 pub type DrivenOf<S> = Driven<VectorOf<S>, ScalarOf<S>>;
 
-impl<V, T: Scalar> Driven<V, T> {
-    /// No step.
+impl<V, T> Driven<V, T> {
+    /// No step, and so no residual.
     #[inline(always)]
-    pub fn none() -> Self {
-        Self { steps: 0, iterations: 0, residual: T::of(0.0), refused: None }
+    pub fn none(zero: T) -> Self {
+        Self { steps: 0, iterations: 0, residual: zero, refused: None }
     }
 }
 

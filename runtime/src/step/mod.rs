@@ -1,9 +1,9 @@
 //! From a generating function to maps: Poisson on 𝔤\*, symplectic on T\*G.
 
-pub(crate) mod drive;
 pub(crate) mod kicked;
 pub(crate) mod monitor;
 pub(crate) mod numbers;
+pub(crate) mod printed;
 pub(crate) mod splitting;
 
 use nalgebra::{SimdBool, SimdPartialOrd};

@@ -1,6 +1,6 @@
 //! The programs of a step, put together.
 
-use coadjoint_program::{Kernel, Programs};
+use coadjoint_program::{Kernel, KernelParts, Programs};
 use num_traits::ToPrimitive;
 
 use super::StepError;
@@ -45,17 +45,22 @@ pub fn kernel(
         watch: watch(integrator, group),
         matrix: matrix(group),
     };
-    let (dim, element) = (group.dim(), group.element());
-    let tolerance = ROUNDINGS * f64::EPSILON;
-    Ok(Kernel::new(dim, element, tolerance, NEAR, scheme.corrections(), programs)?)
+    Ok(Kernel::new(KernelParts {
+        dim: group.dim(),
+        element: group.element(),
+        tolerance: ROUNDINGS * f64::EPSILON,
+        near: NEAR,
+        corrections: scheme.corrections(),
+        programs,
+    })?)
 }
 
-/// μ, x, what is left, the way ↦ 1 where the step is right.
+/// μ, x, the residual bound, the distance from the guess ↦ 1 where the step is right.
 fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usize) -> Program {
     let n = group.dim();
     let mut graph = Graph::new();
     let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
-    let (left, way) = (graph.input(2 * n), graph.input(2 * n + 1));
+    let (residual_bound, distance) = (graph.input(2 * n), graph.input(2 * n + 1));
     let (tolerance, near) = (tolerance(&mut graph), graph.constant(NEAR));
     let extent = group.extent(&mut graph, &x);
     let one = graph.constant(1.0);
@@ -70,7 +75,7 @@ fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usiz
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);
     let extent = graph.mul(extent, share);
-    let mut tests = vec![(left, tolerance), (way, near), (extent, one)];
+    let mut tests = vec![(residual_bound, tolerance), (distance, near), (extent, one)];
     // A factor of the group that hardly moves must not hide another.
     let squares = squares_of_series(&mut graph, integrator, group, &mu);
     tests.extend(squares.into_iter().map(|square| (square, radius)));

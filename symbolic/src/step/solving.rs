@@ -263,16 +263,16 @@ fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
     graph.mul(square, quarter)
 }
 
-/// The residual bound: the estimate where the distance from the matrices' point is short, else the correction itself; the
-/// smaller of both where the correction is below rounding.
-fn left(graph: &mut Graph, (estimate, relative, way): (Id, Id, Id)) -> Id {
+/// The residual bound: the estimate where the distance from the matrices' point is short, else the correction itself;
+/// the smaller of both where the correction is below rounding.
+fn residual_bound(graph: &mut Graph, (estimate, relative, distance): (Id, Id, Id)) -> Id {
     let (trusted, tolerance) = (graph.constant(TRUSTED), tolerance(graph));
-    let left = graph.select(way, trusted, estimate, relative);
-    let rounded = graph.min(left, relative);
-    graph.select(relative, tolerance, rounded, left)
+    let bound = graph.select(distance, trusted, estimate, relative);
+    let rounded = graph.min(bound, relative);
+    graph.select(relative, tolerance, rounded, bound)
 }
 
-/// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, a bound on what is left, the
+/// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, the residual bound, the
 /// length of the correction.
 fn newton(integrator: &Integrator, group: &Product) -> Program {
     let n = group.dim();
@@ -288,8 +288,8 @@ fn newton(integrator: &Integrator, group: &Product) -> Program {
     let curved = graph.times_plus(half, stretch, bend);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, (estimate, relative, relative));
-    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, relative]).collect();
+    let bound = residual_bound(&mut graph, (estimate, relative, relative));
+    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([bound, relative]).collect();
     graph.finish(2 * n + 2, &outputs)
 }
 
@@ -345,25 +345,25 @@ fn chord_correction(
     let corrected = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
     let Corrected { p, x: moved, relative, stretch } = corrected;
     // The matrices are of a place no farther away than twice the first correction and this one, and change by that twice
-    // as much as over half the way, which is Newton's.
-    let way = graph.add(first, relative);
+    // as much as over half the distance, which is Newton's.
+    let distance = graph.add(first, relative);
     let far = graph.add(first_stretch, stretch);
     let two = graph.constant(2.0);
     let four = graph.constant(4.0);
     let slope = graph.constant(CHORD);
     let bend = bend(&mut graph, integrator, &x);
-    let bend = graph.mul(bend, way);
+    let bend = graph.mul(bend, distance);
     let curved = graph.times_plus(two, far, slope);
     let curved = graph.times_plus(four, bend, curved);
     let rest = graph.mul(half_bound, relative);
     let estimate = graph.times_plus(stretch, curved, rest);
-    let left = left(&mut graph, (estimate, relative, way));
-    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([left, way]).collect();
+    let bound = residual_bound(&mut graph, (estimate, relative, distance));
+    let outputs: Vec<Id> = p.into_iter().chain(moved).chain([bound, distance]).collect();
     graph.finish(inputs_of_chord, &outputs)
 }
 
 /// The guess, and a correction by two evaluations of the fixed point: p, μ, 1/scale ↦ p after both, the x of the second,
-/// what is left at that x, the length of the correction. Where the second evaluation moves p by rounding alone and more
+/// the residual bound at that x, the length of the correction. Where the second evaluation moves p by rounding alone and more
 /// than half as far as the first, the solution is as exact as it can be.
 fn fixed_point(
     integrator: &Integrator,
@@ -403,10 +403,10 @@ fn fixed_point(
     let halved = graph.mul(half, first);
     let allowed = graph.select(second, halved, tolerance, rounding);
     let solved = graph.min(second, tolerance);
-    let left = graph.select(second, allowed, solved, second);
+    let bound = graph.select(second, allowed, solved, second);
     // The largest of many numbers may hide one that is none.
     let rest = finite(&mut graph, &twice);
-    let left = graph.add(left, rest);
-    let outputs: Vec<Id> = twice.into_iter().chain(x).chain([left, moved]).collect();
+    let bound = graph.add(bound, rest);
+    let outputs: Vec<Id> = twice.into_iter().chain(x).chain([bound, moved]).collect();
     (guess, graph.finish(2 * n + 1, &outputs))
 }

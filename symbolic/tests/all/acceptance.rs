@@ -78,7 +78,7 @@ fn each_condition_counts() {
 fn series_of_few_terms_limit_the_rate() {
     let accepted = |group: &str, truncation, solver, mu: [f64; 3]| {
         let step = step(group, truncation, solver);
-        step.kernel().increment(&folded(&step, 1e3), &mu).is_some()
+        step.kernel().attempt(&folded(&step, 1e3), &mu).accepted
     };
     let newton = |group: &str, truncation, size: f64| {
         accepted(group, truncation, Some(Solver::Newton), [0.3 * size, 0.1 * size, 0.9 * size])

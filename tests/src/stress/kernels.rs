@@ -85,8 +85,8 @@ impl Runner {
 
 impl Steps for Runner {
     fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String> {
-        let found = self.subject.step.kernel().increment(&self.slots, mu);
-        found.ok_or_else(|| "the kernel refuses the step".to_owned())
+        let found = self.subject.step.kernel().attempt(&self.slots, mu);
+        found.accepted.then_some(found.increment).ok_or("the kernel refuses the step".to_owned())
     }
 
     fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome> {

@@ -14,10 +14,26 @@ struct Part {
 
 const PARTS: &[Part] = &[
     Part {
-        // The tree of statements that is printed and compiled; the interpreter and printed Rust have loops of their own.
+        // A tree of statements. No other code counts corrections or evaluates them.
         name: "the loop of a step",
-        words: &["kernel.corrections())", "1..=kernel.corrections()", "P::CORRECTIONS"],
-        files: &["program/src/drive.rs", "program/src/schedule.rs", "runtime/src/step/drive.rs"],
+        words: &[
+            "Tried, corrections",
+            "..kernel.corrections()",
+            "..=kernel.corrections()",
+            "correct.run(",
+        ],
+        files: &["program/src/schedule.rs"],
+    },
+    Part {
+        // The interpreter, Cranelift, and the printers of C and Rust.
+        name: "a walk through the loop of a step",
+        words: &["ernel.schedule()"],
+        files: &[
+            "codegen/src/emit/steps.rs",
+            "native/src/jit/steps.rs",
+            "program/src/interpret.rs",
+            "program/src/print/steps.rs",
+        ],
     },
     Part {
         // Products of powers of the symbols, and the search for the radius of the series by roots of two.

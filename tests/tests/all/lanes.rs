@@ -89,3 +89,8 @@ fn an_ensemble_equals_its_trajectories_and_reports_the_bad_ones() -> Result<(), 
     assert_same_bits(&advanced, &one_by_one(&step, initial, 25));
     Ok(())
 }
+
+#[test]
+fn ensembles_check_their_states_where_printed_loops_do() {
+    assert_eq!(coadjoint::plumbing::BLOCK, coadjoint_program::BLOCK);
+}

@@ -1,13 +1,12 @@
 //! The beginning of a header: what it is, what it promises, what it costs.
 
 use coadjoint_program::quoting::c_comment;
-use coadjoint_program::{Cost, Program};
 
 use super::fold::Folding;
 use super::names::Names;
 use super::{HeaderOptions, Language};
+use crate::emit::opening;
 use crate::integrator::Integrator;
-use crate::lie::Chart;
 use crate::step::Step;
 
 /// Columns of a comment.
@@ -23,7 +22,7 @@ pub fn opening(
 ) -> String {
     let mut text = String::from("/*\n");
     for paragraph in paragraphs(integrator, step, fold, names, options) {
-        for line in wrapped(&paragraph) {
+        for line in opening::wrapped(&paragraph, WIDTH) {
             text.push_str(if line.is_empty() { " *" } else { " * " });
             text.push_str(&line);
             text.push('\n');
@@ -39,50 +38,6 @@ pub fn opening(
     text.replace("/*VERSION*/", env!("CARGO_PKG_VERSION"))
 }
 
-/// Lines of limited width; a line that begins with a space stays as it is.
-fn wrapped(paragraph: &str) -> Vec<String> {
-    if paragraph.starts_with(' ') {
-        return vec![paragraph.to_owned()];
-    }
-    let mut lines = vec![String::new()];
-    for word in paragraph.split(' ') {
-        let line = lines.last().map_or(0, String::len);
-        if line > 0 && line + 1 + word.len() > WIDTH {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines
-}
-
-fn count(cost: Cost) -> String {
-    format!(
-        "{} multiplications, {} additions, {} divisions and roots",
-        cost.multiplications, cost.additions, cost.divisions
-    )
-}
-
-fn times(cost: Cost, n: usize) -> Cost {
-    Cost {
-        multiplications: n * cost.multiplications,
-        additions: n * cost.additions,
-        divisions: n * cost.divisions,
-    }
-}
-
-fn sum(programs: &[Cost]) -> Cost {
-    programs.iter().fold(Cost::default(), |sum, cost| Cost {
-        multiplications: sum.multiplications + cost.multiplications,
-        additions: sum.additions + cost.additions,
-        divisions: sum.divisions + cost.divisions,
-    })
-}
-
 fn paragraphs(
     integrator: &Integrator,
     step: &Step,
@@ -92,24 +47,6 @@ fn paragraphs(
 ) -> Vec<String> {
     let problem = &integrator.problem;
     let kernel = step.kernel();
-    let programs = kernel.programs();
-    let cost = |program: &Program| program.cost();
-    let [guess, correct, accept, transport, sound] = [
-        &programs.guess,
-        &programs.correct,
-        &programs.accept,
-        &programs.transport,
-        &programs.sound,
-    ]
-    .map(cost);
-    let frame = programs.frame.as_ref().map_or(Cost::default(), Program::cost);
-    let corrections = kernel.corrections() as usize;
-    let usual = sum(&[guess, correct, accept, transport]);
-    let most = sum(&[guess, times(correct, corrections), accept, transport, sound, frame]);
-    let chart = match problem.chart {
-        Chart::Exponential => "exponential",
-        Chart::Cayley => "Cayley",
-    };
     let time =
         options.time.as_ref().map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
     let parameters = if problem.parameters.is_empty() { "" } else { ", &parameters" };
@@ -125,21 +62,9 @@ fn paragraphs(
             }
         ),
         String::new(),
-        format!("Hamiltonian: {}", c_comment(&problem.source)),
-        format!(
-            "Group: {}. Chart: {chart}. Truncation K = {}, order of accuracy {}.",
-            c_comment(problem.algebra.name()),
-            problem.truncation,
-            integrator.order()
-        ),
-        String::new(),
-        "What a step does. With the body momentum mu and the group element g, the equations of motion are \
-         dmu/dt = ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step \
-         of size h is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum \
-         Ad*_g mu and every Casimir are conserved to rounding, step after step, and the energy stays near its first \
-         value for all times."
-            .to_owned(),
-        String::new(),
+    ];
+    list.extend(opening::system(integrator, c_comment));
+    list.extend([
         "How to use it:".to_owned(),
         format!("     {lower}_map map;"),
         format!("     {lower}_state state;"),
@@ -153,13 +78,14 @@ fn paragraphs(
             names.upper
         ),
         String::new(),
-        "What is refused. A step is accepted only where its equation is solved to rounding near the first guess and \
+        "Refusals. A step is accepted only where its equation is solved to rounding near the first guess and \
          everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows \
          the solution from the identity; this header does not: take a smaller step."
             .to_owned(),
         String::new(),
-        format!("Cost of a step with one correction, as most have: {}.", count(usual)),
-        format!("Cost at most ({corrections} corrections, and a look at the state): {}.", count(most)),
+    ]);
+    list.extend(opening::costs(kernel));
+    list.extend([
         format!(
             "Data: {} coefficients ({} bytes) in a map, {} bytes in a state.",
             fold.len(),
@@ -173,8 +99,8 @@ fn paragraphs(
              there define {0}_FMA as the name of a function or macro for it, which may round twice.",
             names.upper
         ),
-    ];
-    if programs.frame.is_some() {
+    ]);
+    if kernel.programs().frame.is_some() {
         list.push(String::new());
         list.push(format!(
             "The motion is generated in a comoving frame, which moves on every {0}_BLOCK steps and at the end of each call \

@@ -16,7 +16,7 @@ pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
         sizes: ["@P@_ELEMENT", "@P@_DIMENSION"].map(String::from),
         copy: "@p@_internal_copy".into(),
         live: "status == @P@_OK".into(),
-        open: "@p@_internal_open(left, way)".into(),
+        open: "@p@_internal_open(residual_bound, distance)".into(),
         right: "right > 0.5".into(),
         refuse: [REFUSED_STEP, REFUSED_STATE].map(String::from),
         ..LoopStyle::default()
@@ -29,7 +29,7 @@ pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     names.fill(&text)
 }
 
-const REFUSED_STEP: &str = "status = @p@_internal_reason(c, mu, left, way);";
+const REFUSED_STEP: &str = "status = @p@_internal_reason(c, mu, residual_bound, distance);";
 
 const REFUSED_STATE: &str = "status = @P@_OFF_GROUP;
 if ((!@p@_internal_finite(g, @P@_ELEMENT)) || (!@p@_internal_finite(mu, @P@_DIMENSION))) {
@@ -48,13 +48,14 @@ static inline void @p@_internal_copy(double *to, const double *from, uint32_t le
 }
 
 /* Internal: whether an equation is corrected again: not solved, and near the first guess. */
-static inline bool @p@_internal_open(double left, double way)
+static inline bool @p@_internal_open(double residual_bound, double distance)
 {
-    return (!(left <= /*TOLERANCE*/)) && (way <= /*NEAR*/);
+    return (!(residual_bound <= /*TOLERANCE*/)) && (distance <= /*NEAR*/);
 }
 
 /* Internal: why a step was not accepted. */
-static inline @p@_status @p@_internal_reason(const double *c, const double *mu, double left, double way)
+static inline @p@_status @p@_internal_reason(const double *c, const double *mu,
+    double residual_bound, double distance)
 {
     @p@_status status = @P@_BEYOND_CHART;
     double square = 0.0;
@@ -66,7 +67,7 @@ static inline @p@_status @p@_internal_reason(const double *c, const double *mu, 
         status = @P@_NOT_FINITE;
     } else if (!(square <= c[@P@_COEFFICIENTS - 1u])) {
         status = @P@_BEYOND_SERIES;
-    } else if ((!(left <= /*TOLERANCE*/)) || (!(way <= /*NEAR*/))) {
+    } else if ((!(residual_bound <= /*TOLERANCE*/)) || (!(distance <= /*NEAR*/))) {
         status = @P@_NOT_SOLVED;
     } else {
         /* What is left is the chart. */
@@ -84,8 +85,8 @@ static inline @p@_status @p@_internal_reason(const double *c, const double *mu, 
 static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
-     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
+     * distance from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[@P@_ELEMENT];
     double mu[@P@_DIMENSION];

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use coadjoint_program::{Graph, Kernel, Precision, Programs};
+use coadjoint_program::{Graph, Kernel, KernelParts, Precision, Programs};
 
 use super::word;
 use crate::cards::card::{Card, FEWEST, Opened, Refused, Row, Status};
@@ -29,7 +29,8 @@ fn kernel() -> Kernel {
         watch: program(2, 1),
         matrix: program(1, 1),
     };
-    Kernel::new(1, 1, 1e-15, 0.1, 3, programs).unwrap()
+    let (dim, element, tolerance, near, corrections) = (1, 1, 1e-15, 0.1, 3);
+    Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).unwrap()
 }
 
 /// Adds 1 to g for each step; refuses the step that μ gives, if it is not 0.

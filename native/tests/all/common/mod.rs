@@ -1,7 +1,7 @@
 //! Kernels to try compilers on: programs over all kinds of nodes, drawn at random.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
-use coadjoint_program::{Graph, Id, Kernel, Program, Programs, WIDTH};
+use coadjoint_program::{Graph, Id, Kernel, KernelParts, Program, Programs, WIDTH};
 
 /// Numbers that look random, the same in every run.
 pub struct Draw(u64);
@@ -120,7 +120,8 @@ pub fn kernel(
         watch: program(draw, m + n, 2, 3, &[]),
         matrix: program(draw, m, m, 3, &[]),
     };
-    Kernel::new(n, m, 0.4, 1.2, 5, programs).unwrap()
+    let (dim, element, tolerance, near, corrections) = (n, m, 0.4, 1.2, 5);
+    Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).unwrap()
 }
 
 /// Slots, and g and μ of lanes side by side.

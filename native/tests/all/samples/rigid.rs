@@ -3,7 +3,7 @@
 //! Slots: the three 1/I, the step, and above which μ₃ a step is refused, μ₂ a state is unsound; the comoving rotation
 //! about e₃ in a step.
 
-use coadjoint_program::{Graph, Id, Kernel, Program, Programs};
+use coadjoint_program::{Graph, Id, Kernel, KernelParts, Program, Programs};
 
 use super::Sample;
 use super::chance::Chance;
@@ -23,7 +23,15 @@ pub fn body(refuse: f64, unsound: f64, comoving: bool) -> Sample {
         watch: watch(),
         matrix: matrix(),
     };
-    let kernel = Kernel::new(3, 4, TOLERANCE, NEAR, 30, programs).unwrap();
+    let parts = KernelParts {
+        dim: 3,
+        element: 4,
+        tolerance: TOLERANCE,
+        near: NEAR,
+        corrections: 30,
+        programs,
+    };
+    let kernel = Kernel::new(parts).unwrap();
     let slots = vec![1.0, 1.0 / 2.0, 1.0 / 3.0, 0.02, refuse, unsound, 1e-3];
     Sample { kernel, slots, draw }
 }
@@ -89,20 +97,20 @@ fn correct() -> Program {
     let change: [Id; 3] = std::array::from_fn(|i| graph.sub(next[i], p[i]));
     let change = largest(&mut graph, &change);
     let moved = graph.mul(change, inverse);
-    let left = graph.mul(moved, half);
-    graph.finish(7, &[next[0], next[1], next[2], x[0], x[1], x[2], left, moved])
+    let bound = graph.mul(moved, half);
+    graph.finish(7, &[next[0], next[1], next[2], x[0], x[1], x[2], bound, moved])
 }
 
 fn accept() -> Program {
     let mut graph = Graph::new();
     let mu = inputs(&mut graph, 0);
-    let (left, way) = (graph.input(6), graph.input(7));
+    let (bound, distance) = (graph.input(6), graph.input(7));
     let one = graph.constant(1.0);
     let tolerance = graph.constant(TOLERANCE);
     let near = graph.constant(NEAR);
     let most = graph.slot(4);
-    let solved = flag(&mut graph, left, tolerance, one);
-    let close = flag(&mut graph, way, near, solved);
+    let solved = flag(&mut graph, bound, tolerance, one);
+    let close = flag(&mut graph, distance, near, solved);
     let inside = flag(&mut graph, mu[2], most, close);
     graph.finish(8, &[inside])
 }

@@ -1,6 +1,6 @@
 //! Kernels of random programs over all kinds of nodes: no step of anything, but every branch of the loop.
 
-use coadjoint_program::{Graph, Id, Kernel, Program, Programs};
+use coadjoint_program::{Graph, Id, Kernel, KernelParts, Program, Programs};
 
 use super::Sample;
 use super::chance::Chance;
@@ -30,7 +30,15 @@ pub fn kernel(shape: Shape, chance: &mut Chance) -> Sample {
         watch: random(shape, m + n, 1, None, chance),
         matrix: random(shape, m, m, None, chance),
     };
-    let kernel = Kernel::new(n, m, 0.5, 3.0, shape.corrections, programs).unwrap();
+    let parts = KernelParts {
+        dim: n,
+        element: m,
+        tolerance: 0.5,
+        near: 3.0,
+        corrections: shape.corrections,
+        programs,
+    };
+    let kernel = Kernel::new(parts).unwrap();
     let slots = (0..shape.slots).map(|_| chance.number()).collect();
     Sample { kernel, slots, draw }
 }
@@ -52,7 +60,7 @@ fn draw(kernel: &Kernel, chance: &mut Chance) -> (Vec<f64>, Vec<f64>) {
 fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> Vec<Id> {
     let mut ids: Vec<Id> = (0..inputs).map(|i| graph.input(i)).collect();
     ids.extend((0..shape.slots).map(|i| graph.slot(i)));
-    ids.push(graph.zero());
+    ids.extend([graph.zero(), graph.epsilon()]);
     ids.extend([1.0, -1.0, 0.3, 1e-200, f64::MAX].map(|value| graph.constant(value)));
     for _ in 0..shape.nodes {
         // Of late nodes more often, so that little is left unused.

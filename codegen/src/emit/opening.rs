@@ -1,0 +1,94 @@
+//! The opening of emitted code in every language: the system, its equations, the cost of a step.
+
+use coadjoint_program::{Cost, Kernel, Program};
+
+use crate::integrator::Integrator;
+use crate::lie::Chart;
+
+/// The lines of a paragraph, at most `width` columns each; a line that begins with a space stays as it is.
+pub fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
+    if paragraph.starts_with(' ') {
+        return vec![paragraph.to_owned()];
+    }
+    let mut lines = vec![String::new()];
+    for word in paragraph.split(' ') {
+        let line = lines.last().map_or(0, String::len);
+        if line > 0 && line + 1 + word.len() > width {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+    }
+    lines
+}
+
+/// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
+pub fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String> {
+    let problem = &integrator.problem;
+    let chart = match problem.chart {
+        Chart::Exponential => "exponential",
+        Chart::Cayley => "Cayley",
+    };
+    vec![
+        format!("Hamiltonian: {}", quoted(&problem.source)),
+        format!(
+            "Group: {}. Chart: {}. Truncation K = {}, order of accuracy {}.",
+            quoted(problem.algebra.name()),
+            chart,
+            problem.truncation,
+            integrator.order()
+        ),
+        String::new(),
+        "The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = \
+         ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h \
+         is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every \
+         Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times."
+            .to_owned(),
+        String::new(),
+    ]
+}
+
+/// The cost of a step with one correction, and with as many as there may be.
+pub fn costs(kernel: &Kernel) -> [String; 2] {
+    let programs = kernel.programs();
+    let [guess, correct, accept, transport, sound] = [
+        &programs.guess,
+        &programs.correct,
+        &programs.accept,
+        &programs.transport,
+        &programs.sound,
+    ]
+    .map(Program::cost);
+    let frame = programs.frame.as_ref().map_or(Cost::default(), Program::cost);
+    let corrections = kernel.corrections();
+    let usual = sum(&[(1, guess), (1, correct), (1, accept), (1, transport)]);
+    let most = sum(&[
+        (1, guess),
+        (corrections as usize, correct),
+        (1, accept),
+        (1, transport),
+        (1, sound),
+        (1, frame),
+    ]);
+    [
+        format!("Cost of a step with one correction, as most have: {usual}."),
+        format!("Cost at most ({corrections} corrections, and a check of the state): {most}."),
+    ]
+}
+
+/// The cost of programs that are evaluated a number of times.
+fn sum(programs: &[(usize, Cost)]) -> String {
+    let of = |count: fn(&Cost) -> usize| -> usize {
+        programs.iter().map(|(times, cost)| times * count(cost)).sum()
+    };
+    format!(
+        "{} multiplications, {} additions, {} divisions and roots",
+        of(|cost| cost.multiplications),
+        of(|cost| cost.additions),
+        of(|cost| cost.divisions)
+    )
+}

@@ -1,0 +1,287 @@
+//! The interpreter: a walk through the loop of a kernel, which is the reference for all targets.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::dispatch;
+use crate::kernel::Kernel;
+use crate::number::Lanes;
+use crate::packed::Packed;
+use crate::schedule::{Block, Kind, Part, Places, Statement, Test, Variable};
+use crate::stepper::{Outcome, Stepper, WIDTH};
+
+/// Memory in which programs are evaluated, reused from call to call.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch<T> {
+    nodes: Vec<T>,
+}
+
+impl Stepper for Kernel {
+    fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
+        let mut walk = Walk::<f64, 1>::new(self, slots, g, mu);
+        let [done] = walk.run(steps, [true]);
+        walk.store(g, mu);
+        Outcome { steps: done, ..walk.outcome }
+    }
+
+    fn advance_lanes(
+        &self,
+        slots: &[f64],
+        g: &mut [f64],
+        mu: &mut [f64],
+        steps: u64,
+        live: [bool; WIDTH],
+    ) -> [u64; WIDTH] {
+        let mut walk = Walk::<Lanes<WIDTH>, WIDTH>::new(self, slots, g, mu);
+        let done = walk.run(steps, live);
+        walk.store(g, mu);
+        done
+    }
+}
+
+/// A step as it was solved for, accepted or not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// x, the increment.
+    pub increment: Vec<f64>,
+    /// A bound on the residual of the equation, relative to the largest coordinate of μ.
+    pub residual_bound: f64,
+    /// The distance of the solution from the first guess, relative to the largest coordinate of μ.
+    pub distance: f64,
+    /// Whether the step is right.
+    pub accepted: bool,
+}
+
+impl Kernel {
+    /// The solution of the equation of the step from μ, by the interpreter.
+    #[must_use]
+    pub fn attempt(&self, slots: &[f64], mu: &[f64]) -> Attempt {
+        let mut walk = Walk::<f64, 1>::new(self, slots, &[], mu);
+        walk.run(1, [true]);
+        Attempt {
+            increment: walk.numbers[walk.places.range(Variable::Increment)].to_vec(),
+            residual_bound: walk.number(Variable::ResidualBound),
+            distance: walk.number(Variable::Distance),
+            accepted: !walk.refused,
+        }
+    }
+
+    /// The numbers of `watch` at a state.
+    pub fn watch(
+        &self,
+        slots: &[f64],
+        g: &[f64],
+        mu: &[f64],
+        scratch: &mut Scratch<f64>,
+        out: &mut [f64],
+    ) {
+        let m = self.element();
+        let read = |i: usize| {
+            let found = if i < m { g.get(i) } else { mu.get(i - m) };
+            found.copied().unwrap_or(0.0)
+        };
+        let slot = |i: usize| slots.get(i).copied().unwrap_or(0.0);
+        let program = &self.programs().watch;
+        program.evaluate(read, slot, &mut scratch.nodes);
+        for (value, id) in out.iter_mut().zip(program.outputs()) {
+            *value = scratch.nodes[id.index()];
+        }
+    }
+}
+
+/// A walk through the loop by L trajectories side by side.
+struct Walk<'k, T, const L: usize> {
+    kernel: &'k Kernel,
+    slots: Vec<T>,
+    places: Places,
+    /// The numbers of all variables.
+    numbers: Vec<T>,
+    /// The counts, by the number of their variables.
+    counts: [[u64; L]; Variable::ALL.len()],
+    /// g and μ at the start of the block.
+    start: Vec<T>,
+    /// Which trajectories move on.
+    live: [bool; L],
+    /// Whether a step was refused.
+    refused: bool,
+    steps: u64,
+    outcome: Outcome,
+    inputs: Vec<T>,
+    nodes: Vec<T>,
+}
+
+impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
+    fn new(kernel: &'k Kernel, slots: &[f64], g: &[f64], mu: &[f64]) -> Self {
+        let places = Places::of(kernel);
+        let mut numbers = vec![T::of(0.0); places.len()];
+        for (variable, list) in [(Variable::Element, g), (Variable::Momentum, mu)] {
+            for (i, place) in places.range(variable).enumerate() {
+                numbers[place] = T::load(list, i);
+            }
+        }
+        let slot = |i: usize| T::of(slots.get(i).copied().unwrap_or(0.0));
+        Self {
+            kernel,
+            slots: (0..kernel.slots()).map(slot).collect(),
+            places,
+            numbers,
+            counts: [[0; L]; Variable::ALL.len()],
+            start: Vec::new(),
+            live: [false; L],
+            refused: false,
+            steps: 0,
+            outcome: Outcome::default(),
+            inputs: Vec::new(),
+            nodes: Vec::new(),
+        }
+    }
+
+    fn store(&self, g: &mut [f64], mu: &mut [f64]) {
+        for (variable, list) in [(Variable::Element, g), (Variable::Momentum, mu)] {
+            for (i, place) in self.places.range(variable).enumerate() {
+                self.numbers[place].store(list, i);
+            }
+        }
+    }
+
+    /// Up to `steps` steps of the trajectories that are live; the steps each made.
+    fn run(&mut self, steps: u64, live: [bool; L]) -> [u64; L] {
+        (self.steps, self.live) = (steps, live);
+        self.block(self.kernel.schedule(), [true; L]);
+        self.counts[Variable::Done as usize]
+    }
+
+    /// Runs a block in the lanes of a mask.
+    fn block(&mut self, block: &Block, mask: [bool; L]) {
+        for &(variable, initial) in &block.variables {
+            match (variable.kind(self.kernel), initial) {
+                (Kind::Count, initial) => {
+                    self.counts[variable as usize] = [u64::from(initial.unwrap_or(0)); L];
+                }
+                (_, Some(initial)) => {
+                    self.numbers[self.places.range(variable)].fill(T::of(f64::from(initial)));
+                }
+                (_, None) => {}
+            }
+        }
+        for statement in &block.body {
+            self.statement(statement, block, mask);
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement, within: &Block, mask: [bool; L]) {
+        match statement {
+            Statement::Call(part) => self.call(*part, within, mask),
+            Statement::Lengthen => {
+                let sum = self.number(Variable::Distance).add(self.number(Variable::Moved));
+                let place = self.places.range(Variable::Distance).start;
+                self.numbers[place] = self.numbers[place].update(mask, sum);
+            }
+            Statement::Next(count) => {
+                for (count, holds) in self.counts[*count as usize].iter_mut().zip(mask) {
+                    *count += u64::from(holds);
+                }
+            }
+            Statement::Keep => {
+                self.start.clear();
+                self.start.extend_from_slice(&self.numbers[self.places.state()]);
+            }
+            Statement::Restore => {
+                let state = &mut self.numbers[self.places.state()];
+                for (now, &start) in state.iter_mut().zip(&self.start) {
+                    *now = now.update(mask, start);
+                }
+                let count = self.counts[Variable::Count as usize];
+                for lane in (0..L).filter(|&lane| mask[lane]) {
+                    self.counts[Variable::Done as usize][lane] -= count[lane];
+                }
+            }
+            Statement::Note => {
+                let (tried, bound) =
+                    (self.counts[Variable::Tried as usize], self.number(Variable::ResidualBound));
+                let Outcome { corrections, residual, .. } = &mut self.outcome;
+                for lane in (0..L).filter(|&lane| mask[lane]) {
+                    *corrections = (*corrections).max(tried[lane] as u32);
+                    if *residual < bound.lane(lane) {
+                        *residual = bound.lane(lane);
+                    }
+                }
+            }
+            Statement::RefuseStep | Statement::RefuseState => {
+                for (live, stopped) in self.live.iter_mut().zip(mask) {
+                    *live &= !stopped;
+                }
+                self.refused |= *statement == Statement::RefuseStep;
+            }
+            Statement::While(condition, block) => {
+                let mut lanes = self.holds(condition, mask);
+                while lanes.contains(&true) {
+                    self.block(block, lanes);
+                    lanes = self.holds(condition, lanes);
+                }
+            }
+            Statement::If(condition, block) => {
+                let lanes = self.holds(condition, mask);
+                if lanes.contains(&true) {
+                    self.block(block, lanes);
+                }
+            }
+        }
+    }
+
+    /// Evaluates a program on its variables and assigns its results in the lanes of a mask.
+    fn call(&mut self, part: Part, within: &Block, mask: [bool; L]) {
+        let Some(program) = part.program(self.kernel) else { return };
+        let (inputs, outputs) = part.variables();
+        self.inputs.clear();
+        for &input in inputs {
+            match input.kind(self.kernel) {
+                Kind::Count => {
+                    let count = self.counts[input as usize].map(|count| count as f64);
+                    self.inputs.push(T::load(&count, 0));
+                }
+                _ => self.inputs.extend_from_slice(&self.numbers[self.places.range(input)]),
+            }
+        }
+        dispatch::evaluate(program, &self.inputs, &self.slots, &mut self.nodes);
+        let mut results = program.outputs().iter().map(|id| self.nodes[id.index()]);
+        for &output in outputs {
+            let own = within.owns(output);
+            for (number, new) in
+                self.numbers[self.places.range(output)].iter_mut().zip(results.by_ref())
+            {
+                *number = if own { new } else { number.update(mask, new) };
+            }
+        }
+    }
+
+    /// The lanes of a mask in which a condition holds.
+    fn holds(&self, condition: &[(bool, Test)], mask: [bool; L]) -> [bool; L] {
+        let bound = self.number(Variable::ResidualBound);
+        let distance = self.number(Variable::Distance);
+        let right = self.number(Variable::Right);
+        let done = self.counts[Variable::Done as usize];
+        core::array::from_fn(|lane| {
+            let test = |&(holds, test): &(bool, Test)| {
+                holds
+                    == match test {
+                        Test::Live => self.live[lane],
+                        Test::Remaining => done[lane] < self.steps,
+                        Test::Below(count, most) => {
+                            self.counts[count as usize][lane] < u64::from(most)
+                        }
+                        Test::Open => {
+                            let solved = bound.lane(lane) <= self.kernel.tolerance();
+                            !solved && distance.lane(lane) <= self.kernel.near()
+                        }
+                        Test::Right => right.lane(lane) == 1.0,
+                    }
+            };
+            mask[lane] && condition.iter().all(test)
+        })
+    }
+
+    fn number(&self, variable: Variable) -> T {
+        self.numbers[self.places.range(variable).start]
+    }
+}
