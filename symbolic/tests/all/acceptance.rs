@@ -8,11 +8,14 @@ use coadjoint_symbolic::poly::Polynomial;
 use coadjoint_symbolic::problem::{Problem, Solver};
 use coadjoint_symbolic::step::Step;
 
-/// The step of h·Σ pᵢ²/(2Iᵢ), I = (3, 4, 5)/2 in turn.
-fn step(group: &str, truncation: usize, solver: Option<Solver>) -> Step {
+/// 60 c of a body.
+const BODY: [i64; 3] = [40, 30, 24];
+
+/// The step of ½ Σ cᵢ pᵢ², 60 c being these in turn.
+fn step(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver>) -> Step {
     let algebra = catalogue::lookup(group).unwrap();
     let n = algebra.dim();
-    let square = |i: usize| Polynomial::variable(n, i).pow(2).scale(&ratio(1, 3 + (i % 3) as i64));
+    let square = |i: usize| Polynomial::variable(n, i).pow(2).scale(&ratio(squares[i % 3], 120));
     let hamiltonian = (0..n).fold(Polynomial::zero(n), |sum, i| &sum + &square(i));
     let problem = Problem {
         name: "body".to_owned(),
@@ -41,7 +44,7 @@ fn folded(step: &Step, radius: f64) -> Vec<f64> {
 
 /// The verdict on x, what is left and the way, where the radius of the series is this.
 fn verdict(group: &str, radius: f64, mu: &[f64], x: &[f64], left: f64, way: f64) -> bool {
-    let step = step(group, 7, None);
+    let step = step(group, BODY, 7, None);
     let inputs = [mu, x, &[left, way]].concat();
     let mut accepted = [0.0];
     let program = &step.kernel().programs().accept;
@@ -72,26 +75,20 @@ fn each_condition_counts() {
     assert!(!turned(1.0, f64::NAN) && !turned(1.0, f64::INFINITY));
 }
 
-/// The limit of K = 1, 3 and 5: the rate at which motions part, by Newton's method with its matrices, by the fixed point as
-/// the turn. From K = 7 on the ratio of terms tells.
+/// K = 1, 3 and 5 limit the rate at which motions part, by Newton's method with its matrices, by the fixed point as the
+/// turn. From K = 7 on the ratio of terms suffices.
 #[test]
 fn series_of_few_terms_limit_the_rate() {
-    let accepted = |group: &str, truncation, solver, mu: [f64; 3]| {
-        let step = step(group, truncation, solver);
-        step.kernel().attempt(&folded(&step, 1e3), &mu).accepted
+    let accepted = |squares, truncation, solver, size: f64| {
+        let step = step("SO3", squares, truncation, Some(solver));
+        step.kernel().attempt(&folded(&step, 1e3), &[0.0, 0.0, size]).accepted
     };
-    let newton = |group: &str, truncation, size: f64| {
-        accepted(group, truncation, Some(Solver::Newton), [0.3 * size, 0.1 * size, 0.9 * size])
-    };
-    // h|Ω| is about 0.4 |μ|.
-    assert!(newton("SO3", 1, 1.5) && !newton("SO3", 1, 3.0));
-    assert!(newton("SO3", 3, 3.0));
-    // Boosts of SL(2) part faster, and turn nothing.
-    assert!(newton("SL2", 1, 0.3) && !newton("SL2", 1, 1.0));
-    assert!(newton("SL2", 3, 0.8) && !newton("SL2", 3, 2.0));
-    let fixed = |truncation, size: f64| {
-        accepted("SO3", truncation, Some(Solver::FixedPoint), [0.0, 0.0, size])
-    };
-    assert!(fixed(1, 1.8) && !fixed(1, 1.95));
-    assert!(fixed(7, 1.95));
+    // Along the axis of a saddle x is short, and motions part at a rate of twice |μ|.
+    let saddle = |truncation, size| accepted([120, -120, 12], truncation, Solver::Newton, size);
+    assert!(saddle(1, 0.4) && !saddle(1, 0.6));
+    assert!(saddle(3, 0.5) && !saddle(3, 1.6));
+    assert!(saddle(7, 0.6));
+    let turn = |truncation, size| accepted(BODY, truncation, Solver::FixedPoint, size);
+    assert!(turn(1, 1.8) && !turn(1, 1.95));
+    assert!(turn(7, 1.95));
 }
