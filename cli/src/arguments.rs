@@ -5,20 +5,17 @@ use std::path::PathBuf;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_native::cards::Device;
 use coadjoint_program::Precision;
 use coadjoint_run::Backend;
 
-use crate::derive::{FORMS, Form};
+use crate::derive::DeriveOptions;
 use crate::ensemble::Shard;
 use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
-use crate::named::{
-    BACKENDS, CHARTS, FORMATS, Format, LANGUAGES, PRECISIONS, SOLVERS, Target, named,
-};
+use crate::named::{BACKENDS, CHARTS, FORMATS, Format, LANGUAGES, PRECISIONS, Target, named};
 use crate::reproduce::ReproduceOptions;
+use crate::source::{Accuracy, Input, Source};
 
 /// Momentum-preserving integrators from a Hamiltonian.
 ///
@@ -82,72 +79,6 @@ pub(crate) enum Verb {
     Reproduce(ReproduceOptions),
 }
 
-/// Settings that replace those of a system file.
-#[derive(Args, Clone, Copy, Debug)]
-pub(crate) struct Instead {
-    /// Use this chart instead of the file's
-    #[arg(long, value_parser = named(CHARTS))]
-    pub chart: Option<Chart>,
-    /// Solve each step this way instead of the file's
-    #[arg(long, value_parser = named(SOLVERS))]
-    pub solver: Option<Solver>,
-}
-
-/// A system file and what replaces its settings.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct Source {
-    /// The system file
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
-    /// Settings that replace the file's.
-    #[command(flatten)]
-    pub instead: Instead,
-    /// Keep S₁ … S_K, K odd; instead of the file's
-    #[arg(long, value_name = "K")]
-    pub truncation: Option<usize>,
-}
-
-impl Source {
-    /// How the file is to be read.
-    pub(crate) fn options(&self, parameters: Parameters) -> Options {
-        let Instead { chart, solver } = self.instead;
-        Options { parameters, truncation: self.truncation, chart, solver }
-    }
-}
-
-/// A system file, or a learned model.
-#[derive(Args, Debug)]
-pub(crate) struct Input {
-    /// The system file
-    #[arg(value_name = "FILE", required_unless_present = "model")]
-    pub file: Option<PathBuf>,
-    /// Settings that replace the file's.
-    #[command(flatten)]
-    pub instead: Instead,
-    /// A model learned by `coadjoint learn`, instead of a system file
-    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "truncation"])]
-    pub model: Option<PathBuf>,
-}
-
-impl Input {
-    /// The system file; clap has seen to it that there is one without a model.
-    pub(crate) fn source(&self, truncation: Option<usize>) -> Source {
-        let file = self.file.clone().unwrap_or_default();
-        Source { file, instead: self.instead, truncation }
-    }
-}
-
-/// Options of `derive`.
-#[derive(Args, Debug)]
-pub(crate) struct DeriveOptions {
-    /// The system.
-    #[command(flatten)]
-    pub source: Source,
-    /// How to print
-    #[arg(long, value_parser = named(FORMS), default_value = "text")]
-    pub format: Form,
-}
-
 /// Options of `emit`.
 #[derive(Args, Debug)]
 pub(crate) struct EmitOptions {
@@ -176,20 +107,6 @@ pub(crate) struct EmitOptions {
     /// The numbers of a kernel in OpenCL or CUDA
     #[arg(long, value_parser = named(PRECISIONS), default_value = "double")]
     pub precision: Precision,
-}
-
-/// A step size, or what it is picked by.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct Accuracy {
-    /// The step size h
-    #[arg(long, value_name = "h", allow_negative_numbers = true)]
-    pub step: Option<f64>,
-    /// Pick the step, and the truncation if none is given, for this error at the end of the run
-    #[arg(long, value_name = "error", conflicts_with = "step")]
-    pub tolerance: Option<f64>,
-    /// The norm of momentum up to which the tolerance is to hold; along the run if not given
-    #[arg(long, value_name = "radius")]
-    pub region: Option<f64>,
 }
 
 /// Options of `simulate`.

@@ -9,8 +9,8 @@ use coadjoint_run::{meet_tolerance as meet, read_with};
 
 pub(crate) use coadjoint_run::integrator;
 
-use crate::arguments::{Accuracy, Source};
 use crate::error::{CliError, unread};
+use crate::source::{Accuracy, Source};
 
 /// The text of the file at `path`.
 pub(crate) fn text(path: &Path) -> Result<String, CliError> {

@@ -23,6 +23,7 @@ mod note;
 mod progress;
 mod reproduce;
 mod simulate;
+mod source;
 mod verify;
 
 use std::process::ExitCode;

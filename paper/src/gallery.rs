@@ -11,7 +11,6 @@ use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_with};
 
 use crate::outcome::{Fallible, brief};
-use crate::page::{settings, verdict};
 
 /// The size of a panel.
 const SIZE: (f64, f64) = (400.0, 250.0);
@@ -138,4 +137,17 @@ fn together(run: &Run, across: (f64, f64), unit: Option<&str>) -> Option<Panel> 
     let values: Vec<f64> = points.map(|point| point.1).collect();
     whole.y = Axis::floored(&values, (FLOOR, -12), 6);
     Some(whole.with_legend())
+}
+
+/// A mark: does it hold?
+pub fn verdict(holds: bool) -> String {
+    let (class, word) = if holds { ("", "pass") } else { (" fails", "FAIL") };
+    format!("<span class=\"mark{class}\">{word}</span>")
+}
+
+/// Settings in a line.
+pub fn settings(settings: &[String]) -> String {
+    let spans: Vec<String> =
+        settings.iter().map(|setting| format!("<span>{}</span>", escaped(setting))).collect();
+    format!("<p class=\"settings\">{}</p>", spans.join(" · "))
 }

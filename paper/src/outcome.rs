@@ -178,19 +178,6 @@ fn of_names<'a, D: Deserializer<'a>>(deserializer: D) -> Result<Vec<Curve>, D::E
 }
 
 impl Report {
-    /// Enters the numbers that judge a figure, in the order of its text; `of` says of which part they are.
-    pub fn judge(&mut self, figure: &str, of: &str, values: &[f64]) {
-        let judged = &crate::text::figure(figure).judged;
-        assert_eq!(judged.len(), values.len(), "{figure}");
-        self.judgements.extend(judged.iter().zip(values).map(|(judged, &value)| Judgement {
-            figure: figure.into(),
-            what: format!("{of}{}", judged.what),
-            value: Some(value).filter(|value| value.is_finite()),
-            at_most: judged.at_most,
-            at_least: judged.at_least,
-        }));
-    }
-
     /// The report with this table and this curve.
     pub fn with(mut self, table: Table, curve: Curve) -> Self {
         self.tables.push(table);
@@ -201,33 +188,6 @@ impl Report {
     /// The curve of this name; an empty one if there is none.
     pub fn curve(&self, name: &str) -> Curve {
         self.curves.iter().find(|curve| curve.name == name).cloned().unwrap_or_default()
-    }
-
-    /// Tables, notes and judgements as text.
-    pub fn text(&self) -> String {
-        let version = if self.quick { ", quick" } else { "" };
-        let mut text = format!("{} (seed {}{version})\n", self.name, self.seed);
-        for table in &self.tables {
-            let rows = table.rows.iter().map(|row| row.iter().map(shown).collect());
-            let rows: Vec<Vec<String>> =
-                std::iter::once(table.columns.clone()).chain(rows).collect();
-            let width = |c: usize| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
-            text += &format!("\n{}\n", table.title);
-            for row in &rows {
-                let cells =
-                    row.iter().enumerate().map(|(c, cell)| format!("  {cell:<w$}", w = width(c)));
-                text += &(cells.collect::<String>().trim_end().to_owned() + "\n");
-            }
-        }
-        for note in crate::text::notes(&self.name) {
-            text += &format!("\nnote: {note}\n");
-        }
-        for judgement in &self.judgements {
-            let verdict = if judgement.holds() { "holds" } else { "FAILS" };
-            let [value, asked] = judgement.words();
-            text += &format!("\n{verdict}: {}: {value}, {asked}\n", judgement.what);
-        }
-        text
     }
 
     /// Writes a CSV file for each curve and then `NAME.json` to the folder.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use coadjoint_draw::{Panel, STYLE_SHEET, escaped, run::Picture};
 
-use crate::gallery;
+use crate::gallery::{self, settings, verdict};
 use crate::outcome::{Judgement, Report, Table, brief, shown};
 use crate::text::{Figure, figures, fill};
 
@@ -109,19 +109,6 @@ pub fn page(reports: &[Report], gallery: &[Picture]) -> String {
         "<footer>Made by <code>coadjoint-paper</code>. One file, no network.</footer>\n</main>\n</body>\n</html>\n",
     );
     text
-}
-
-/// A mark: does it hold?
-pub fn verdict(holds: bool) -> String {
-    let (class, word) = if holds { ("", "pass") } else { (" fails", "FAIL") };
-    format!("<span class=\"mark{class}\">{word}</span>")
-}
-
-/// Settings in a line.
-pub fn settings(settings: &[String]) -> String {
-    let spans: Vec<String> =
-        settings.iter().map(|setting| format!("<span>{}</span>", escaped(setting))).collect();
-    format!("<p class=\"settings\">{}</p>", spans.join(" · "))
 }
 
 fn section(text: &mut String, section: &Section) {

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::outcome::{Report, brief, shown};
+use crate::outcome::{Judgement, Report, brief, shown};
 use crate::plot::Group;
 
 /// A figure or a table in words. In `settings` and `out` numbers are filled in: see [`fill`].
@@ -94,5 +94,47 @@ fn value(key: &str, report: &Report) -> Option<String> {
     match what {
         "max" => Some(brief(values.iter().map(|v| v.abs()).fold(0.0, f64::max))),
         _ => values.last().map(f64::to_string),
+    }
+}
+
+impl Report {
+    /// Enters the numbers that judge a figure, in the order of its text; `of` says of which part they are.
+    pub fn judge(&mut self, figure: &str, of: &str, values: &[f64]) {
+        let judged = &self::figure(figure).judged;
+        assert_eq!(judged.len(), values.len(), "{figure}");
+        self.judgements.extend(judged.iter().zip(values).map(|(judged, &value)| Judgement {
+            figure: figure.into(),
+            what: format!("{of}{}", judged.what),
+            value: Some(value).filter(|value| value.is_finite()),
+            at_most: judged.at_most,
+            at_least: judged.at_least,
+        }));
+    }
+
+    /// Tables, notes and judgements as text.
+    pub fn text(&self) -> String {
+        let version = if self.quick { ", quick" } else { "" };
+        let mut text = format!("{} (seed {}{version})\n", self.name, self.seed);
+        for table in &self.tables {
+            let rows = table.rows.iter().map(|row| row.iter().map(shown).collect());
+            let rows: Vec<Vec<String>> =
+                std::iter::once(table.columns.clone()).chain(rows).collect();
+            let width = |c: usize| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+            text += &format!("\n{}\n", table.title);
+            for row in &rows {
+                let cells =
+                    row.iter().enumerate().map(|(c, cell)| format!("  {cell:<w$}", w = width(c)));
+                text += &(cells.collect::<String>().trim_end().to_owned() + "\n");
+            }
+        }
+        for note in notes(&self.name) {
+            text += &format!("\nnote: {note}\n");
+        }
+        for judgement in &self.judgements {
+            let verdict = if judgement.holds() { "holds" } else { "FAILS" };
+            let [value, asked] = judgement.words();
+            text += &format!("\n{verdict}: {}: {value}, {asked}\n", judgement.what);
+        }
+        text
     }
 }

@@ -2,7 +2,7 @@
 
 use ode_solvers::{Dop853, SVector, System, dop_shared::OutputType};
 
-use super::Method;
+use super::method::Method;
 use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, matrix};
 use crate::timing::Failure;
 

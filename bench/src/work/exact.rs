@@ -4,8 +4,8 @@
 //! momentum, its integral of the third kind written as a linear part and the argument of a theta function (Jacobi 1849;
 //! van Zon and Schofield, J. Comput. Phys. 225 (2007) 145).
 
+use super::method::{Method, equal_steps};
 use super::problem::{Kind, Problem, State, Vector, cross, dot};
-use super::{Method, equal_steps};
 use crate::timing::Failure;
 
 /// The solution evaluated once per unit of time, as a trajectory would be.

@@ -3,8 +3,8 @@
 //! E. Hairer and G. Vilmart, *Preprocessed discrete Moser–Veselov algorithm for the full dynamics of the rigid body*,
 //! J. Phys. A 39 (2006) 13225.
 
+use super::method::{Method, equal_steps};
 use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, dot, matrix};
-use super::{Method, equal_steps};
 use crate::timing::Failure;
 
 /// The method, for a free body.

@@ -2,8 +2,8 @@
 
 use coadjoint::{Phase, SE3, SO3, lie_poisson};
 
+use super::method::{Method, equal_steps};
 use super::problem::{Kind, Problem, State, Vector, matrix};
-use super::{Method, equal_steps};
 use crate::timing::Failure;
 
 type Run = fn(&Problem, f64) -> Result<State, Failure>;

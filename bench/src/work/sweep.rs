@@ -3,8 +3,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use super::method::{Method, equal_steps};
 use super::problem::Problem;
-use super::{Method, equal_steps};
 use crate::timing::median;
 
 /// A setting of a method with the error it reaches and its cost.

@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use serde_json::Value;
 
+use super::method::{Method, equal_steps};
 use super::problem::{self, FILE, Figures, Kind, Problem, State};
 use super::sweep::{Candidate, worth_timing};
-use super::{Method, equal_steps, exact, methods};
+use super::{exact, methods};
 
 fn named(name: &str) -> Problem {
     problem::all().unwrap().into_iter().find(|problem| problem.name == name).unwrap()

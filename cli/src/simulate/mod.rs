@@ -21,8 +21,9 @@ use coadjoint_codegen::system::{Parameters, Run, System, Units};
 use coadjoint_run::simulate::{Schedule, Sink};
 use coadjoint_run::{Derived, text_hash};
 
-use crate::arguments::{SimulateOptions, Source};
+use crate::arguments::SimulateOptions;
 use crate::error::CliError;
+use crate::source::Source;
 use crate::{load, progress};
 use header::Header;
 use keep::keep;

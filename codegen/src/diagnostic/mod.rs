@@ -121,13 +121,6 @@ impl Diagnostics {
     pub fn into_compile_error(self) -> TokenStream {
         self.into_syn_error().into_compile_error()
     }
-
-    /// The mistakes as text, ordered by place: `file:line:column: error: …`, the line itself with
-    /// a marker, and `help: …`.
-    #[must_use]
-    pub fn render(&self, file: &str, text: &str) -> String {
-        render::render(&self.list, file, text)
-    }
 }
 
 impl From<syn::Error> for Diagnostics {

@@ -2,13 +2,22 @@
 
 use std::fmt::Write;
 
-use super::{Diagnostic, Span};
+use super::{Diagnostic, Diagnostics, Span};
 
 /// Lines longer than this are not shown.
 const WIDEST: usize = 200;
 
+impl Diagnostics {
+    /// The mistakes as text, ordered by place: `file:line:column: error: …`, the line itself with
+    /// a marker, and `help: …`.
+    #[must_use]
+    pub fn render(&self, file: &str, text: &str) -> String {
+        render(&self.list, file, text)
+    }
+}
+
 /// Renders `list`, ordered by place, against the text it is about.
-pub(super) fn render(list: &[Diagnostic], file: &str, text: &str) -> String {
+fn render(list: &[Diagnostic], file: &str, text: &str) -> String {
     let mut ordered: Vec<&Diagnostic> = list.iter().collect();
     ordered.sort_by_key(|d| match d.span {
         Span::Text { start, .. } => start,

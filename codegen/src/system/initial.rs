@@ -5,8 +5,8 @@ use toml::de::DeValue;
 
 use super::hamiltonian::copies;
 use super::project::project;
-use super::run::{Run, refuse};
-use super::table::{Table, exact, expression, matrix, nearest_float, span, wrong_kind};
+use super::run::Run;
+use super::table::{Table, exact, expression, matrix, nearest_float, refuse, span, wrong_kind};
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer};

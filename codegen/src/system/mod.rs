@@ -41,6 +41,7 @@
 mod algebra;
 mod hamiltonian;
 mod initial;
+mod options;
 mod parameters;
 mod potential;
 mod project;
@@ -61,35 +62,13 @@ use crate::potential::Potential;
 use crate::problem::{FrameChoice, Problem, Solver};
 use table::Table;
 
+pub use options::{Options, Parameters};
 pub use run::Run;
 pub use splitting::Splitting;
 pub use units::Units;
 
 /// The system of a file that names none.
 const DEFAULT_NAME: &str = "system";
-
-/// The treatment of the parameters of a system file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Parameters {
-    /// Their values are put into the Hamiltonian, exactly.
-    #[default]
-    Substituted,
-    /// They stay parameters, with their values as defaults.
-    Kept,
-}
-
-/// How a system file is to be read.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
-    /// The treatment of the parameters.
-    pub parameters: Parameters,
-    /// Replaces the truncation of the file.
-    pub truncation: Option<usize>,
-    /// Replaces the chart of the file.
-    pub chart: Option<Chart>,
-    /// Replaces the solver of the file.
-    pub solver: Option<Solver>,
-}
 
 /// A system file.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@ use num_traits::One;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::options::{Options, Parameters as Treatment};
 use super::table::{Table, exact, matrix};
-use super::{Options, Parameters as Treatment};
 use crate::diagnostic::{Diagnostics, Span};
 use crate::lie::RationalMatrix;
 use crate::number::Rational;

@@ -1,7 +1,8 @@
 //! The run a system file describes: `[run]` and the step or the tolerance.
 
-use super::table::{Table, nearest_float};
-use crate::diagnostic::{Diagnostics, Mistake, Span};
+use super::table::{Table, nearest_float, refuse};
+use super::tolerance;
+use crate::diagnostic::Diagnostics;
 use crate::tolerance::Region;
 
 /// Where to start, how far and in which steps; `None` where the file does not say.
@@ -42,7 +43,7 @@ pub(super) fn read(
         run.step = Some(step);
     }
     if let Some(table) = integrator {
-        super::tolerance::read(table, &mut run, diagnostics);
+        (run.tolerance, run.region) = tolerance::read(table, diagnostics);
     }
     if let Some(table) = root.table("run", diagnostics) {
         table.check_keys(&["time", "every"], diagnostics);
@@ -61,9 +62,4 @@ pub(super) fn read(
         }
     }
     run
-}
-
-pub(super) fn refuse(place: Span, what: &str, example: &str, diagnostics: &mut Diagnostics) {
-    let help = Some(format!("write for example {example}"));
-    diagnostics.report(place, Mistake::Other(what.to_owned(), help));
 }

@@ -268,3 +268,9 @@ pub(super) fn wrong_kind(
         Mistake::WrongKind(key.to_owned(), expected.to_owned(), found, example.to_owned());
     diagnostics.report(span(value), mistake);
 }
+
+/// Reports a value that no run can have.
+pub(super) fn refuse(place: Span, what: &str, example: &str, diagnostics: &mut Diagnostics) {
+    let help = Some(format!("write for example {example}"));
+    diagnostics.report(place, Mistake::Other(what.to_owned(), help));
+}

@@ -2,39 +2,45 @@
 
 use toml::de::DeValue;
 
-use super::run::{Run, refuse};
-use super::table::{Table, matrix, nearest_float, wrong_kind};
+use super::table::{Table, matrix, nearest_float, refuse, wrong_kind};
 use crate::diagnostic::Diagnostics;
 use crate::tolerance::Region;
 
 const TOLERANCE: &str = "tolerance = 1e-9";
 const REGION: &str = "region = 2.5";
 
-/// Reads them into `run`, with the truncation the table fixes.
-pub(super) fn read(table: &Table<'_>, run: &mut Run, diagnostics: &mut Diagnostics) {
-    if let Some((tolerance, place)) = table.number("tolerance", TOLERANCE, diagnostics) {
-        let tolerance = nearest_float(&tolerance);
-        if !(1e-14..=1e-1).contains(&tolerance) {
-            let what = "the tolerance must lie between 1e-14 and 1e-1";
-            refuse(place, what, TOLERANCE, diagnostics);
-        }
-        if table.has("step") {
-            let what = "a tolerance picks the step: keep one of `tolerance` and `step`";
-            refuse(place, what, TOLERANCE, diagnostics);
-        }
-        run.tolerance = Some(tolerance);
+/// Reads them.
+pub(super) fn read(
+    table: &Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> (Option<f64>, Option<Region>) {
+    (tolerance(table, diagnostics), region(table, diagnostics))
+}
+
+fn tolerance(table: &Table<'_>, diagnostics: &mut Diagnostics) -> Option<f64> {
+    let (tolerance, place) = table.number("tolerance", TOLERANCE, diagnostics)?;
+    let tolerance = nearest_float(&tolerance);
+    if !(1e-14..=1e-1).contains(&tolerance) {
+        let what = "the tolerance must lie between 1e-14 and 1e-1";
+        refuse(place, what, TOLERANCE, diagnostics);
     }
-    let Some(value) = table.get("region") else { return };
+    if table.has("step") {
+        let what = "a tolerance picks the step: keep one of `tolerance` and `step`";
+        refuse(place, what, TOLERANCE, diagnostics);
+    }
+    Some(tolerance)
+}
+
+fn region(table: &Table<'_>, diagnostics: &mut Diagnostics) -> Option<Region> {
+    let value = table.get("region")?;
     let place = super::table::span(value);
     if !table.has("tolerance") {
         let what = "`region` says where a tolerance is to hold, and there is none";
         refuse(place, what, TOLERANCE, diagnostics);
     }
-    run.region = match value.get_ref() {
+    match value.get_ref() {
         DeValue::Array(_) => {
-            let Some(rows) = matrix("region", value, REGION, table.constants, diagnostics) else {
-                return;
-            };
+            let rows = matrix("region", value, REGION, table.constants, diagnostics)?;
             let bounds: Option<Vec<[f64; 2]>> = rows
                 .iter()
                 .map(|row| match row.as_slice() {
@@ -52,5 +58,5 @@ pub(super) fn read(table: &Table<'_>, run: &mut Run, diagnostics: &mut Diagnosti
             let radius = table.number("region", REGION, diagnostics);
             radius.map(|(radius, _)| Region::Ball(nearest_float(&radius)))
         }
-    };
+    }
 }

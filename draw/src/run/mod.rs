@@ -1,5 +1,6 @@
 //! The picture of a run: the momentum, its orbit, and the drift of energy, spatial momentum and Casimirs.
 
+mod data;
 pub mod drift;
 pub mod motion;
 pub mod orbit;
@@ -10,8 +11,8 @@ use crate::sheet::heading;
 use crate::style::Style;
 use crate::svg::Svg;
 
-/// Differences below this, and zero, which has no logarithm, are drawn here.
-pub const FLOOR: i32 = -17;
+pub use data::{FLOOR, Run, Series, time_label};
+
 /// Stretches of time with two points of a curve each.
 const COLUMNS: usize = 400;
 
@@ -26,30 +27,6 @@ pub struct Picture {
     pub time_unit: Option<String>,
     /// The runs; the momentum is that of the first.
     pub runs: Vec<Run>,
-}
-
-/// A run, recorded at some times.
-#[derive(Clone, Debug, Default)]
-pub struct Run {
-    /// The method, such as `K = 7, exp`.
-    pub label: String,
-    /// The times of the records.
-    pub times: Vec<f64>,
-    /// The coordinates of the momentum.
-    pub momentum: Vec<Series>,
-    /// Relative differences from the start, of what the run conserves; the names are those of panels.
-    pub drifts: Vec<Series>,
-}
-
-/// One number at each time of a run.
-#[derive(Clone, Debug, Default)]
-pub struct Series {
-    /// The name.
-    pub name: String,
-    /// The unit, if there is one.
-    pub unit: Option<String>,
-    /// One value for each time.
-    pub values: Vec<f64>,
 }
 
 /// The picture as the text of an SVG file.
@@ -84,12 +61,6 @@ pub fn render(picture: &Picture) -> String {
     }
     let name = format!("{}: momentum and drift of what is conserved", picture.name);
     svg.finish((WIDTH, y + 8.0), &name, &description(picture))
-}
-
-/// The label of an axis of time.
-#[must_use]
-pub fn time_label(unit: Option<&str>) -> String {
-    unit.map_or("time".to_owned(), |unit| format!("time ({unit})"))
 }
 
 /// The picture in words, for readers who cannot see it.

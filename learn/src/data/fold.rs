@@ -14,7 +14,7 @@ use coadjoint::LieGroup;
 use coadjoint::groups::Chart;
 use nalgebra::{DMatrix, DVector};
 
-use super::reduce::ReducedData;
+use super::samples::ReducedData;
 use crate::function::{MomentumFunction, vector};
 use crate::least_squares::Reduced;
 use crate::polynomial::{Basis, PolynomialModel, Scaling};

@@ -6,12 +6,12 @@ mod npy;
 mod read;
 mod recording;
 mod reduce;
+mod samples;
 mod write;
 
 pub use columns::Columns;
 pub use read::read_columns;
 pub use recording::{Attitudes, Recording};
-pub use reduce::{
-    MomentumPairs, PairRows, PhasePair, ReducedData, Reduction, RowPolicy, Tolerances, reduce,
-};
+pub use reduce::{PairRows, PhasePair, Reduction, RowPolicy, Tolerances, reduce};
+pub use samples::{MomentumPairs, ReducedData};
 pub use write::{write_columns, write_pairs};

@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 
 use super::columns::Columns;
 use super::npy::{matrix, numbered, quaternion};
-use super::reduce::{MomentumPairs, PairRows, PhasePair};
+use super::reduce::{PairRows, PhasePair};
+use super::samples::MomentumPairs;
 use crate::error::{BadRow, LearnError, RowProblem};
 use crate::function::vector;
 use crate::group::{DataGroup, matrix_of};

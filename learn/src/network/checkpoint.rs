@@ -3,13 +3,13 @@
 //! A line of JSON, the numbers as little-endian 64-bit floats, and a CRC-32 of all of these. A file is written beside
 //! its place and moved there, so that there is always a whole one.
 
+use std::collections::VecDeque;
 use std::path::Path;
 
 use coadjoint_codegen::file;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::descent::Descent;
 use crate::error::LearnError;
 
 /// The first field of every checkpoint.
@@ -29,6 +29,17 @@ pub(super) enum Stage {
     Adam { weights: Vec<f64>, moments: [Vec<f64>; 2] },
     /// The memory of L-BFGS.
     Descent(Descent),
+}
+
+/// Where a descent stands: the best weights found with their loss and gradient, the last steps and
+/// changes of the gradient, the latest last, and whether no step could be found that lowers the loss.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Descent {
+    pub(super) weights: DVector<f64>,
+    pub(super) loss: f64,
+    pub(super) gradient: DVector<f64>,
+    pub(super) pairs: VecDeque<[DVector<f64>; 2]>,
+    pub(super) stuck: bool,
 }
 
 /// The first line: the state but for its numbers, which follow in lists of these lengths.

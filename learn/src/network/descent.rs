@@ -9,8 +9,8 @@ use std::collections::VecDeque;
 
 use nalgebra::DVector;
 
-use super::checkpoint::{Stage, State};
-use super::train::{Progress, TrainingOptions};
+use super::checkpoint::{Descent, Stage, State};
+use super::options::{Progress, TrainingOptions};
 use crate::error::LearnError;
 
 /// Steps of Adam between two looks at the validation data.
@@ -31,17 +31,6 @@ const SEARCH: usize = 20;
 pub(super) type Evaluate<'a> = dyn FnMut(&[f64]) -> Result<(f64, Vec<f64>), LearnError> + 'a;
 /// A loss on data that are watched, not fitted.
 pub(super) type Watch<'a> = dyn Fn(&[f64]) -> f64 + 'a;
-
-/// Where a descent stands: the best weights found with their loss and gradient, the last steps and
-/// changes of the gradient, the latest last, and whether no step could be found that lowers the loss.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Descent {
-    pub(super) weights: DVector<f64>,
-    pub(super) loss: f64,
-    pub(super) gradient: DVector<f64>,
-    pub(super) pairs: VecDeque<[DVector<f64>; 2]>,
-    pub(super) stuck: bool,
-}
 
 /// A point of a line that has been looked at: its step, loss, slope and gradient.
 struct Point {

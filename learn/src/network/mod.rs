@@ -4,9 +4,11 @@ mod activation;
 mod checkpoint;
 mod dense;
 mod descent;
+mod options;
 mod slope;
 mod train;
 
 pub use activation::Activation;
 pub use dense::{DenseNetwork, Layer};
-pub use train::{Progress, TrainingOptions, fit_network};
+pub use options::{Progress, TrainingOptions};
+pub use train::fit_network;

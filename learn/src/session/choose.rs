@@ -3,7 +3,7 @@
 use coadjoint::groups::Chart;
 
 use super::neural::{self, Trained};
-use super::{Kind, Request};
+use super::request::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::gaussian_process::{GaussianProcessOptions, fit_gaussian_process};

@@ -3,115 +3,24 @@
 mod choose;
 mod momenta;
 mod neural;
+mod request;
 
 use std::path::PathBuf;
 
 use coadjoint::Phase;
 use coadjoint::groups::Chart;
-use serde::{Deserialize, Serialize};
 
-pub use neural::{NetworkSettings, remove_checkpoints};
+pub use neural::remove_checkpoints;
+pub use request::{Kind, NetworkSettings, Request, Summary};
 
 use crate::catalogue::{Visitor, visit};
-use crate::data::{
-    Columns, MomentumPairs, PairRows, Recording, Reduction, RowPolicy, Tolerances, read_columns,
-    reduce,
-};
-use crate::error::{BadRow, LearnError};
-use crate::evaluate::{Drifts, Figures, drifts, evaluate};
+use crate::data::{Columns, MomentumPairs, PairRows, Recording, Reduction, read_columns, reduce};
+use crate::error::LearnError;
+use crate::evaluate::{drifts, evaluate};
 use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
-use crate::model::Model;
 use crate::save::{ModelFile, TrainingRecord};
-
-/// The kind of model asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Kind {
-    /// Whichever cross-validates best.
-    #[default]
-    Auto,
-    /// A polynomial, of the degree given or the one that cross-validates best.
-    Polynomial,
-    /// A Gaussian process.
-    GaussianProcess,
-    /// A network.
-    Network,
-    /// A quadratic polynomial and a network.
-    Hybrid,
-}
-
-impl Kind {
-    /// The name users write.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Polynomial => "polynomial",
-            Self::GaussianProcess => "gp",
-            Self::Network => "network",
-            Self::Hybrid => "hybrid",
-        }
-    }
-}
-
-/// A request: the data and the model to fit to them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Request {
-    /// The file of training data: CSV, NPY, NPZ, or Parquet where the feature is built in.
-    pub data: PathBuf,
-    /// The file of test data, in the same formats, if there is one.
-    pub test: Option<PathBuf>,
-    /// The group's name in the catalogue.
-    pub group: String,
-    /// The chart's name: `exp` or `cayley`.
-    pub chart: String,
-    /// The time Δt between the two states of a pair.
-    pub step: f64,
-    /// The kind of model.
-    pub kind: Kind,
-    /// The degree of a polynomial; `None` to choose.
-    pub degree: Option<usize>,
-    /// The ridge of a polynomial of given degree.
-    pub ridge: f64,
-    /// Refine by the distance on the group (polynomials only).
-    pub group_loss: bool,
-    /// How far attitudes may be off the group, and momenta from being conserved.
-    pub tolerances: Tolerances,
-    /// Whether rows that cannot be used are an error or left out.
-    pub policy: RowPolicy,
-    /// Leave attitudes aside and learn the Poisson map of momenta.
-    pub momenta_only: bool,
-    /// The momentum drifts are measured from; `None`: the first sample.
-    pub start: Option<Vec<f64>>,
-    /// The seed of folds and weights.
-    pub seed: u64,
-    /// The networks, where one is trained.
-    pub network: NetworkSettings,
-    /// Steps over which drifts are measured.
-    pub drift_steps: usize,
-}
-
-/// The results.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    /// The kind of model.
-    pub model: String,
-    /// The choice and its reason.
-    pub choice: String,
-    /// Errors on the training data.
-    pub train: Figures,
-    /// Errors on the test data.
-    pub test: Option<Figures>,
-    /// Drifts along a trajectory; absent where a step could not be made.
-    pub drifts: Option<Drifts>,
-    /// Rows left out of the training data, with the reason.
-    pub dropped: Vec<(usize, String)>,
-    /// Warnings, such as too few rows for the degree.
-    #[serde(default)]
-    pub warnings: Vec<String>,
-    /// Columns of the training data that are neither a momentum nor an attitude.
-    pub unused: Vec<String>,
-}
+use request::{few_rows, named};
 
 /// Learns, and reports the errors. Iterative fits call `progress` with (step, of, loss).
 ///
@@ -243,20 +152,4 @@ impl Visitor for Learner<'_> {
         let file = ModelFile::new(name, chart, request.step, true, model, training);
         Ok((file, summary))
     }
-}
-
-/// A word about a polynomial with more coefficients than there were rows.
-fn few_rows(model: &Model, rows: usize) -> Option<String> {
-    let Model::Polynomial(polynomial) = model else { return None };
-    let coefficients = polynomial.basis().len();
-    (rows < coefficients).then(|| {
-        format!(
-            "{rows} rows for {coefficients} coefficients: the errors on the training data say little; test the model on \
-             other data, or lower the degree"
-        )
-    })
-}
-
-fn named(rows: &[BadRow]) -> Vec<(usize, String)> {
-    rows.iter().map(|bad| (bad.row, bad.problem.to_string())).collect()
 }

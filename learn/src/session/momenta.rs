@@ -4,7 +4,7 @@ use coadjoint::Phase;
 use coadjoint::groups::{Chart, Coordinates};
 use nalgebra::DMatrix;
 
-use super::{Kind, Request, Summary, few_rows, named};
+use super::request::{Kind, Request, Summary, few_rows, named};
 use crate::data::{MomentumPairs, RowPolicy};
 use crate::error::{BadRow, BadRows, LearnError, RowProblem};
 use crate::evaluate::{drifts, evaluate_momenta};

@@ -2,37 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Kind, Request};
+use super::request::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::hybrid::fit_hybrid;
 use crate::model::Model;
-use crate::network::{Activation, Progress, TrainingOptions, fit_network};
-
-/// The network to train, and where its training keeps its state.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NetworkSettings {
-    /// Widths of the hidden layers.
-    pub widths: Vec<usize>,
-    /// The activation.
-    pub activation: Activation,
-    /// Evaluations of the loss: the first twentieth by Adam, the others by L-BFGS.
-    pub evaluations: usize,
-    /// Checkpoints are written to files whose names begin with this; training goes on from them.
-    pub checkpoint: Option<PathBuf>,
-}
-
-impl Default for NetworkSettings {
-    /// The paper's net and budget, without checkpoints.
-    fn default() -> Self {
-        Self {
-            widths: vec![500, 500],
-            activation: Activation::default(),
-            evaluations: 1000,
-            checkpoint: None,
-        }
-    }
-}
+use crate::network::{Progress, TrainingOptions, fit_network};
 
 /// The endings that a session may append to the name of a checkpoint.
 const ENDINGS: [&str; 4] = [".network", ".hybrid", ".network.held-out", ".hybrid.held-out"];

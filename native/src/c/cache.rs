@@ -11,19 +11,7 @@ use std::time::{Duration, SystemTime};
 
 use sha2::{Digest, Sha256};
 
-use super::compiler::LIBRARY;
-
-/// Where compiled steps are kept.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum CacheFolder {
-    /// The user's: `coadjoint/native` in `$XDG_CACHE_HOME`, `~/.cache`, `~/Library/Caches` or `%LOCALAPPDATA%`.
-    #[default]
-    User,
-    /// This one; it is made, for the user alone, where there is none.
-    At(PathBuf),
-    /// Nowhere: each run compiles.
-    None,
-}
+use super::options::{CacheFolder, LIBRARY};
 
 /// A folder that only this user can write to.
 #[derive(Debug)]

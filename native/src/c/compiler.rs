@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use super::COptions;
+use super::options::{COptions, LIBRARY};
 use super::process::{Fault, Finished, run};
 use crate::error::NativeError;
 
@@ -24,9 +24,6 @@ pub(super) struct Compiler {
 
 /// The time limit for asking the version.
 const VERSION_LIMIT: Duration = Duration::from_secs(10);
-
-/// The name of the library that a compiler writes.
-pub(super) const LIBRARY: &str = if cfg!(windows) { "step.dll" } else { "step.so" };
 
 impl Compiler {
     /// The compiler that was named, or that of the environment variable CC, else the first of `cc`, `gcc` and `clang`

@@ -6,53 +6,23 @@
 mod cache;
 mod compiler;
 mod machine;
+mod options;
 mod process;
 
-use std::ffi::OsString;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use coadjoint_program::Kernel;
 use coadjoint_program::print::native_unit;
-use coadjoint_program::{Kernel, Trajectories};
 use tempfile::TempDir;
 
 use cache::Cache;
-pub use cache::CacheFolder;
 use compiler::Compiler;
+pub use options::{COptions, CacheFolder};
 
 use crate::entry::Entry;
 use crate::error::NativeError;
 use crate::library::load;
-
-/// How a step is compiled by a C compiler.
-#[derive(Clone, Debug)]
-pub struct COptions {
-    /// The compiler's command; without one that of the environment variable CC, else the first of `cc`, `gcc` and
-    /// `clang` that answers.
-    pub compiler: Option<OsString>,
-    /// The time it may take.
-    pub time_limit: Duration,
-    /// Where compiled steps are kept.
-    pub cache: CacheFolder,
-    /// The trajectories compiled for: either half takes about half the time.
-    pub trajectories: Trajectories,
-    /// Set it from another thread to end the compiler and all that it has started.
-    pub stop: Arc<AtomicBool>,
-}
-
-impl Default for COptions {
-    fn default() -> Self {
-        Self {
-            compiler: None,
-            time_limit: Duration::from_secs(120),
-            cache: CacheFolder::User,
-            trajectories: Trajectories::Both,
-            stop: Arc::default(),
-        }
-    }
-}
 
 /// A step as machine code, and its origin.
 #[derive(Clone, Debug)]

@@ -15,10 +15,9 @@ use cudarc::driver::{
 };
 use cudarc::nvrtc::Ptx;
 
-use super::card::Opened;
 use super::device::Device;
 use super::error::DeviceError;
-use super::machine::{Array, Machine, Room};
+use super::machine::{Array, Machine, Opened, Room};
 use super::nvrtc;
 
 /// Threads of a block.

@@ -42,3 +42,13 @@ pub(crate) trait Machine: Send {
     /// Moves all rows that the arrays were made for to step `target`, and waits until they are there.
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room>;
 }
+
+/// A device that was opened.
+pub(crate) struct Opened {
+    pub machine: Box<dyn Machine>,
+    pub name: String,
+    /// Whether the device is this machine's processor.
+    pub processor: bool,
+    /// Bytes of all arrays together, and of one, that may be asked for.
+    pub memory: (u64, u64),
+}

@@ -17,9 +17,11 @@ mod nvrtc;
 #[cfg(feature = "opencl")]
 mod opencl;
 mod piece;
+mod row;
 
-pub use card::{Advanced, Card, Redo, Refused, Row, Status};
+pub use card::Card;
 pub use device::{Api, Device};
 pub use error::DeviceError;
 #[cfg(feature = "cuda")]
 pub use nvrtc::{Compiled, compile};
+pub use row::{Advanced, Redo, Refused, Row, Status};

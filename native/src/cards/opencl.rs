@@ -27,10 +27,9 @@ use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use opencl3::types::{CL_BLOCKING, cl_mem};
 
-use super::card::Opened;
 use super::device::Device;
 use super::error::{DeviceError, head};
-use super::machine::{Array, Machine, Room};
+use super::machine::{Array, Machine, Opened, Room};
 
 /// The number of threads is a multiple of this, the number that cards run together.
 const GROUP: usize = 64;

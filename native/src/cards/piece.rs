@@ -4,12 +4,16 @@ use std::time::{Duration, Instant};
 
 use coadjoint_program::{BLOCK, Precision};
 
-use super::card::{Advanced, Card, Redo, Refused, Row, Status};
+use super::card::Card;
 use super::error::DeviceError;
 use super::machine::{Array, Room};
+use super::row::{Advanced, Redo, Refused, Row, Status};
+
+/// The least number of rows that must fit: with fewer, a device does not pay.
+pub(crate) const FEWEST: usize = 1024;
 
 /// Why a piece was not moved; its rows are as they were.
-pub(crate) enum Stopped {
+enum Stopped {
     /// Memory is short.
     Short,
     /// Something else.
@@ -80,7 +84,7 @@ fn word<const N: usize>(bytes: &[u8], place: usize) -> [u8; N] {
 }
 
 /// Moves these rows, all at once, to step `steps`; `first` is the place of the first of them.
-pub(crate) fn advance(
+fn advance(
     card: &mut Card,
     (first, rows): (usize, &mut [Row]),
     steps: u64,
@@ -184,6 +188,58 @@ pub(crate) fn advance(
         row.made = steps;
     }
     Ok(())
+}
+
+impl Card {
+    /// Moves all rows to step `steps`, but those that have ended, in pieces that fit into the device's memory. Rows
+    /// stand at the same step in the beginning.
+    ///
+    /// From time to time threads refuse a step. `redo` is then given these rows, why, and the step that all others have
+    /// reached. It has to move them there by other means, or to end them.
+    /// `told` receives the average number of steps made.
+    ///
+    /// # Errors
+    /// [`DeviceError`] where there is no room for a thousand rows, or the device fails. The rows are then invalid.
+    pub fn advance(
+        &mut self,
+        rows: &mut [Row],
+        steps: u64,
+        redo: &mut Redo<'_>,
+        told: &dyn Fn(u64),
+    ) -> Result<Advanced, DeviceError> {
+        let shape = |row: &Row| row.g.len() == self.element && row.mu.len() == self.dim;
+        if let Some(row) = rows.iter().position(|row| !shape(row)) {
+            let (element, dim) = (self.element, self.dim);
+            return Err(DeviceError::Shape { row, element, dim });
+        }
+        let mut advanced = Advanced::default();
+        let total = rows.len().max(1) as u128;
+        let mut first = 0;
+        while first < rows.len() {
+            let count = self.fits.min(rows.len() - first);
+            let before = first as u128 * u128::from(steps);
+            let told = |made: u64| {
+                let all = before + count as u128 * u128::from(made);
+                told(u64::try_from(all / total).unwrap_or(steps));
+            };
+            let own = &mut rows[first..first + count];
+            match advance(self, (first, own), steps, redo, &told, &mut advanced) {
+                Ok(()) => {
+                    advanced.pieces += 1;
+                    first += count;
+                }
+                Err(Stopped::Short) if count > FEWEST => {
+                    self.fits = (count / 2).max(FEWEST);
+                }
+                Err(Stopped::Short) => {
+                    let (device, name) = (self.device, self.name.clone());
+                    return Err(DeviceError::Memory { device, name, rows: count });
+                }
+                Err(Stopped::Failed(error)) => return Err(error),
+            }
+        }
+        Ok(advanced)
+    }
 }
 
 /// The count of a row on the device.

@@ -8,7 +8,7 @@ use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, ModuleError, ModuleReloc, default_libcall_names};
 
-use super::JitError;
+use super::error::JitError;
 use super::host::Assembled;
 use crate::entry::{AdvanceFunction, Entry, LanesFunction};
 

@@ -12,7 +12,7 @@ use cranelift_codegen::ir::{
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::FunctionBuilder;
 
-use super::JitError;
+use super::error::JitError;
 use super::frame::Frame;
 
 /// How a number of the program is held.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use coadjoint_program::Kernel;
 use coadjoint_program::schedule::{Places, Variable};
 
-use super::JitError;
+use super::error::JitError;
 
 /// Bytes that a frame may take.
 const MOST: usize = 1 << 18;

@@ -10,8 +10,8 @@ use cranelift_codegen::ir::{
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 
-use super::JitError;
 use super::coder::{Coder, Form};
+use super::error::JitError;
 use super::frame::Frame;
 use super::steps::Loop;
 

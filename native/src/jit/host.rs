@@ -5,7 +5,7 @@ use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_codegen::{Context, FinalizedMachReloc};
 
-use super::JitError;
+use super::error::JitError;
 
 /// Machine code of a function, not yet where it runs.
 pub(super) struct Assembled {

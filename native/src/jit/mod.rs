@@ -6,6 +6,7 @@
 
 mod code;
 mod coder;
+mod error;
 mod evaluate;
 mod frame;
 mod function;
@@ -16,30 +17,7 @@ use coadjoint_program::{Kernel, Trajectories};
 
 use crate::Entry;
 use coder::Form;
-
-/// Why there is no machine code of a kernel.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum JitError {
-    /// Cranelift makes no code for this processor, or none that was tried.
-    #[error("machine code by Cranelift: {0}")]
-    Host(String),
-    /// The processor has no instruction for fused products: bits could not agree with the interpreter's.
-    #[error("machine code by Cranelift: this processor has no fused product (FMA)")]
-    NoFusedProduct,
-    /// The kernel's state does not fit a frame of the stack.
-    #[error(
-        "machine code by Cranelift: a frame of {bytes} bytes is more than the {most} it may take"
-    )]
-    Large {
-        /// Bytes asked for.
-        bytes: usize,
-        /// Bytes there may be.
-        most: usize,
-    },
-    /// Cranelift refused a function, or the system refused memory for its code.
-    #[error("machine code by Cranelift: {0}")]
-    Compile(String),
-}
+pub use error::JitError;
 
 /// The kernel's functions that are asked for as machine code for this processor; the interpreter makes the steps
 /// of the other one.

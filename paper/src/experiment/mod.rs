@@ -7,6 +7,7 @@ mod harder;
 mod learned;
 mod models;
 mod noise;
+mod options;
 mod orders;
 mod reduction_error;
 mod simulation;
@@ -15,37 +16,10 @@ mod table_two;
 mod type_two;
 mod work;
 
-use std::path::PathBuf;
+pub use options::Options;
 
 use crate::outcome::{Fallible, Report};
-
-/// How to run experiments.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// Fewer samples and steps, smaller networks.
-    pub quick: bool,
-    /// The seed everything follows from.
-    pub seed: u64,
-    /// Where outcomes and the state of training are kept.
-    pub out: Option<PathBuf>,
-}
-
-impl Options {
-    /// An empty report.
-    fn report(&self, name: &str) -> Report {
-        Report { name: name.into(), quick: self.quick, seed: self.seed, ..Report::default() }
-    }
-
-    /// A seed of its own for every use.
-    fn seed(&self, number: u64) -> u64 {
-        self.seed.wrapping_mul(1_000_003).wrapping_add(number)
-    }
-
-    /// `full`, or `quick` in the short version.
-    fn pick<T>(&self, full: T, quick: T) -> T {
-        if self.quick { quick } else { full }
-    }
-}
+use options::CHECKPOINT;
 
 type Run = fn(&Options) -> Fallible<Report>;
 
@@ -64,9 +38,6 @@ pub const EXPERIMENTS: [(&str, Run); 12] = [
     ("table-1", table_one::run),
     ("harder-truths", harder::run),
 ];
-
-/// The ending of the state of an unfinished training.
-const CHECKPOINT: &str = "checkpoint";
 
 /// Runs the experiment `name`, or `all` in turn. With a folder to write to, an interrupted run goes on where it stopped:
 /// `all` reads back the experiments that are done, and networks of tables go on from their last checkpoint.

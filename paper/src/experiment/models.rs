@@ -10,7 +10,7 @@ use coadjoint_learn::{
 };
 use serde_json::Value;
 
-use super::{CHECKPOINT, Options};
+use super::options::{CHECKPOINT, Options};
 use crate::outcome::{Fallible, Table, row};
 
 pub const COLUMNS: &str = "model | mse x | mse momentum | mse group | max x | max momentum | max group | unsolved | paper's mse";

@@ -1,6 +1,9 @@
 //! The laws of the method, tried on a system at random points.
 
+mod law;
 mod order;
+
+pub use law::Law;
 
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::steps::advance;
@@ -19,21 +22,6 @@ use crate::load::Derived;
 
 /// The step of a system that names none.
 const DEFAULT_STEP: f64 = 0.1;
-
-/// A law and how well it holds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Law {
-    /// Its name.
-    pub name: &'static str,
-    /// Its statement.
-    pub statement: &'static str,
-    /// The value measured: the largest relative violation, or the order of accuracy.
-    pub value: f64,
-    /// The bound it is compared with.
-    pub bound: f64,
-    /// Whether it holds.
-    pub pass: bool,
-}
 
 /// A warning of a series whose last two terms have this ratio.
 pub fn steep(ratio: f64) -> String {

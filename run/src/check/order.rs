@@ -3,7 +3,7 @@
 use coadjoint::laws::{OrderError, measured_order};
 use coadjoint::{Phase, StepError};
 
-use super::Law;
+use super::law::Law;
 use crate::engine::Group;
 
 /// Steps of the coarsest run.

@@ -4,9 +4,10 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::motion::Motion;
-use super::recorder::{Moment, Outcome, Recorder, Watched};
+use super::recorder::{Outcome, Recorder, Watched};
 use super::setup::Setup;
 use super::sink::{Record, Resume, Sink, Standing};
+use super::tally::Moment;
 use super::warning::Warning;
 use crate::engine::Numbers;
 use crate::error::RunError;

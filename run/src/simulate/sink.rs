@@ -1,9 +1,10 @@
 //! The receiver of a run's records.
 
+use coadjoint_codegen::step::Scales;
 use serde::{Deserialize, Serialize};
 
 use super::blocks::Block;
-use super::recorder::{Moment, Scales, Tally};
+use super::tally::{Moment, Tally};
 
 /// A sink ends the run here; it knows why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

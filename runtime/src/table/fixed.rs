@@ -8,6 +8,7 @@ use nalgebra::SVector;
 use super::algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables, monomial};
 use super::domain;
 use super::group::TableGroup;
+use crate::group::FixedDimension;
 use crate::number::scalar::Scalar;
 
 /// A Lie algebra written down in the program, for [`StaticMatrixGroup`]. Generated code implements
@@ -288,4 +289,25 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
 impl<A: CayleyAlgebra, const N: usize, const D: usize, T: Scalar> super::cayley::CayleyTables
     for StaticTables<A, N, D, T>
 {
+}
+
+impl<A, const N: usize, const D: usize, T> Default for StaticTables<A, N, D, T>
+where
+    A: StaticAlgebra,
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<A: StaticAlgebra, const N: usize, const D: usize, T> TableGroup<StaticTables<A, N, D, T>> {
+    /// The group; there is nothing to choose.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { tables: StaticTables::new() }
+    }
+}
+
+impl<A, const N: usize, const D: usize, T> FixedDimension for TableGroup<StaticTables<A, N, D, T>> {
+    const DIM: usize = N;
 }

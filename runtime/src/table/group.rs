@@ -3,10 +3,9 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use super::algebra::{BasisEntry, Tables};
-use super::fixed::{StaticAlgebra, StaticTables};
 use super::linear;
+use crate::group::LieGroup;
 use crate::group::element_error::ElementError;
-use crate::group::{FixedDimension, LieGroup};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
@@ -21,27 +20,6 @@ use crate::number::scalar::Scalar;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TableGroup<K> {
     pub(crate) tables: K,
-}
-
-impl<A, const N: usize, const D: usize, T> Default for StaticTables<A, N, D, T>
-where
-    A: StaticAlgebra,
-{
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<A: StaticAlgebra, const N: usize, const D: usize, T> TableGroup<StaticTables<A, N, D, T>> {
-    /// The group; there is nothing to choose.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self { tables: StaticTables::new() }
-    }
-}
-
-impl<A, const N: usize, const D: usize, T> FixedDimension for TableGroup<StaticTables<A, N, D, T>> {
-    const DIM: usize = N;
 }
 
 pub use super::algebra::MatrixOf as Element;

@@ -4,7 +4,6 @@ use std::collections::{BTreeSet, HashMap};
 
 use num_traits::ToPrimitive;
 
-use super::terms::BaseTerm;
 use crate::number::Rational;
 
 /// One summand factor · h^step_power · Π symbolᵢ^powerᵢ of a base coefficient.
@@ -109,5 +108,26 @@ impl Contribution {
     #[must_use]
     pub fn rounded_factor(&self) -> f64 {
         self.factor.to_f64().unwrap_or(f64::NAN)
+    }
+}
+
+/// A polynomial in the momenta whose coefficients are bases of a [`Coefficients`] table: S_h(p),
+/// one component of the predictor, or the energy.
+#[derive(Clone, Debug)]
+pub struct BaseTerm {
+    /// (coordinate, exponent), ascending, exponents positive.
+    pub factors: Vec<(u32, u32)>,
+    /// The number of the base coefficient.
+    pub base: usize,
+    /// The lowest power of h in the coefficient, k for a term of S_k.
+    pub order: u32,
+}
+
+impl BaseTerm {
+    /// The exponent of a coordinate.
+    #[must_use]
+    pub fn exponent(&self, coordinate: usize) -> u32 {
+        let found = self.factors.binary_search_by_key(&coordinate, |&(i, _)| i as usize);
+        found.map_or(0, |at| self.factors[at].1)
     }
 }

@@ -10,8 +10,8 @@ use std::collections::HashMap;
 
 use num_traits::One;
 
-use super::coefficients::{Coefficients, Contribution};
-use super::terms::{self, BaseTerm};
+use super::coefficients::{BaseTerm, Coefficients, Contribution};
+use super::terms;
 use crate::graph::{Graph, Id, Program};
 use crate::number::{Rational, ratio};
 use crate::poly::Polynomial;

@@ -1,7 +1,8 @@
 //! Lowering: the programs a step runs.
 
+use super::coefficients::BaseTerm;
 use super::coefficients::Coefficients;
-use super::terms::{BaseTerm, by_coordinate, value, weighted};
+use super::terms::{by_coordinate, value, weighted};
 use crate::graph::{Graph, Id, Program, lower};
 
 /// S(p).

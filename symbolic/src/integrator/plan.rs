@@ -1,8 +1,9 @@
 //! Choosing the predictor and the Hessian's truncation.
 
+use super::coefficients::BaseTerm;
 use super::coefficients::Coefficients;
 use super::flow;
-use super::terms::{BaseTerm, collect};
+use super::terms::collect;
 use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorSize, TermLimit, predictor};
 use crate::lie::Chart;
 use crate::poly::Polynomial;

@@ -2,30 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::coefficients::{Coefficients, Contribution};
+use super::coefficients::{BaseTerm, Coefficients, Contribution};
 use crate::graph::{SlotPolynomial, SlotTerm};
 use crate::poly::{Factors, Polynomial, split_at};
-
-/// A polynomial in the momenta whose coefficients are bases of a [`Coefficients`] table: S_h(p),
-/// one component of the predictor, or the energy.
-#[derive(Clone, Debug)]
-pub struct BaseTerm {
-    /// (coordinate, exponent), ascending, exponents positive.
-    pub factors: Vec<(u32, u32)>,
-    /// The number of the base coefficient.
-    pub base: usize,
-    /// The lowest power of h in the coefficient, k for a term of S_k.
-    pub order: u32,
-}
-
-impl BaseTerm {
-    /// The exponent of a coordinate.
-    #[must_use]
-    pub fn exponent(&self, coordinate: usize) -> u32 {
-        let found = self.factors.binary_search_by_key(&coordinate, |&(i, _)| i as usize);
-        found.map_or(0, |at| self.factors[at].1)
-    }
-}
 
 /// Collects Σ h^power · polynomial into terms over the first `dim` variables, the other variables
 /// (opaque symbols) going into base coefficients.

@@ -2,8 +2,8 @@
 
 use super::geometry::{apply, size};
 use super::linear::{Lu, identity, multiply};
-use super::series::norm;
-use super::step::{Step, spacing};
+use super::norm::norm;
+use super::step::{RightSolution, Step, spacing};
 use super::{DoubleDouble, JudgeError};
 
 /// Whether a given x is the right solution.
@@ -19,15 +19,6 @@ pub enum Branch {
     Folds(f64),
     /// The continuation went on in steps too small to be trusted, or numbers left their range.
     CannotTell,
-}
-
-/// The right solution in doubled precision.
-#[derive(Clone, Debug)]
-pub struct RightSolution {
-    /// x.
-    pub x: Vec<DoubleDouble>,
-    /// ‖(1 − Hess S·∂p̂/∂x)⁻¹‖, Frobenius' norm: how much a residual moves x.
-    pub response: f64,
 }
 
 /// The longest step in s, so that none goes over two folds at once, and the shortest.

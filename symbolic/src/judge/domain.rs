@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Schur};
 
 use super::geometry::Geometry;
-use super::series::norm;
+use super::norm::norm;
 use crate::lie::Chart;
 
 /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x: a half turn. On groups that are not unimodular

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::double_double::Real;
 use super::linear::{Lu, identity, multiply, multiply_into};
-use super::series::norm;
+use super::norm::norm;
 use super::wide::Wide;
 use super::{DoubleDouble, JudgeError};
 use crate::lie::{Chart, LieAlgebra, cubic};

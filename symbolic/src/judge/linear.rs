@@ -114,7 +114,7 @@ impl<T: Real> Lu<T> {
             unit[j] = T::from(1.0);
             let Ok(column) = self.solve(&unit) else { return f64::INFINITY };
             sum = sum
-                .hypot(super::series::norm(&column.iter().map(|v| v.double()).collect::<Vec<_>>()));
+                .hypot(super::norm::norm(&column.iter().map(|v| v.double()).collect::<Vec<_>>()));
         }
         sum
     }

@@ -37,19 +37,20 @@ mod error;
 mod geometry;
 mod linear;
 mod motion;
+mod norm;
 mod plan;
 mod point;
 mod series;
 mod step;
 mod wide;
 
-pub use branch::{Branch, RightSolution};
+pub use branch::Branch;
 pub use domain::Inside;
 pub use double_double::{DoubleDouble, Real};
 pub use error::JudgeError;
 pub use motion::{Motion, Stop};
 pub use point::{Point, Residual};
-pub use step::{End, Step};
+pub use step::{End, RightSolution, Step};
 
 use crate::comoving::Frame;
 use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};

@@ -1,7 +1,7 @@
 //! A motion in doubled precision: the right solution of each step, with bounds on what rounding may do.
 
 use super::linear::multiply;
-use super::series::norm;
+use super::norm::norm;
 use super::{Branch, DoubleDouble, End, JudgeError, RightSolution, Setting};
 
 /// Why a motion stops.

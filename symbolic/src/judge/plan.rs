@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::double_double::Real;
-use super::series::norm;
+use super::norm::norm;
 
 /// An entry of the gradient: its monomial's coefficient times `power` times a product.
 #[derive(Clone, Copy, Debug)]

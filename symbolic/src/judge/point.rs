@@ -1,9 +1,9 @@
 //! One x of a step, with what judging it needs more than once.
 
-use super::branch::RightSolution;
-use super::series::{maximum, norm};
-use super::step::Step;
-use super::{Branch, DoubleDouble, JudgeError};
+use super::branch::Branch;
+use super::norm::{maximum, norm};
+use super::step::{RightSolution, Step};
+use super::{DoubleDouble, JudgeError};
 
 /// An x that is to be judged, p̂ = (d^R τ_x)ᵀ μ, and x − ∂S(p̂) in doubled precision.
 #[derive(Debug)]
@@ -85,5 +85,29 @@ impl<'a> Point<'a> {
     #[must_use]
     pub fn branch(&self) -> (Branch, Option<RightSolution>) {
         self.step.branch_of(self.x, Some(&self.defect))
+    }
+}
+
+impl Step<'_> {
+    /// x with all that is needed to judge it.
+    ///
+    /// # Errors
+    /// As [`pull_back`](Self::pull_back).
+    pub fn at<'x>(&'x self, x: &'x [f64]) -> Result<Point<'x>, JudgeError> {
+        Point::new(self, x)
+    }
+
+    /// Whether x solves x = ∂S(p̂): see [`Point::residual`].
+    ///
+    /// # Errors
+    /// As [`pull_back`](Self::pull_back).
+    pub fn residual(&self, x: &[f64], unit: f64) -> Result<Residual, JudgeError> {
+        Ok(self.at(x)?.residual(unit))
+    }
+
+    /// The ratio of the last two terms of the series: see [`Point::series_ratio`].
+    #[must_use]
+    pub fn series_ratio(&self, x: &[f64], unit: f64) -> Option<f64> {
+        self.at(x).ok()?.series_ratio(unit)
     }
 }

@@ -1,11 +1,10 @@
 //! One step to be judged.
 
-use super::branch::RightSolution;
 use super::domain::{Inside, inside};
 use super::geometry::{Geometry, size};
 use super::linear::multiply;
-use super::point::{Point, Residual};
-use super::series::{Folded, norm};
+use super::norm::norm;
+use super::series::Folded;
 use super::{DoubleDouble, JudgeError};
 
 /// S folded, and the bounds of its derivatives by degree.
@@ -31,6 +30,15 @@ pub struct Step<'a> {
     pub(super) folded: &'a Scaled,
     pub(super) momentum: Vec<DoubleDouble>,
     pub(super) double: Vec<f64>,
+}
+
+/// The right solution in doubled precision.
+#[derive(Clone, Debug)]
+pub struct RightSolution {
+    /// x.
+    pub x: Vec<DoubleDouble>,
+    /// ‖(1 − Hess S·∂p̂/∂x)⁻¹‖, Frobenius' norm: how much a residual moves x.
+    pub response: f64,
 }
 
 /// Where the right solution leads.
@@ -79,32 +87,10 @@ impl Step<'_> {
         Ok(())
     }
 
-    /// x with all that is needed to judge it.
-    ///
-    /// # Errors
-    /// As [`pull_back`](Self::pull_back).
-    pub fn at<'x>(&'x self, x: &'x [f64]) -> Result<Point<'x>, JudgeError> {
-        Point::new(self, x)
-    }
-
-    /// Whether x solves x = ∂S(p̂): see [`Point::residual`].
-    ///
-    /// # Errors
-    /// As [`pull_back`](Self::pull_back).
-    pub fn residual(&self, x: &[f64], unit: f64) -> Result<Residual, JudgeError> {
-        Ok(self.at(x)?.residual(unit))
-    }
-
     /// Whether x is inside the chart.
     #[must_use]
     pub fn inside(&self, x: &[f64]) -> Inside {
         inside(self.geometry, x)
-    }
-
-    /// The ratio of the last two terms of the series: see [`Point::series_ratio`].
-    #[must_use]
-    pub fn series_ratio(&self, x: &[f64], unit: f64) -> Option<f64> {
-        self.at(x).ok()?.series_ratio(unit)
     }
 
     /// The length of the longest part of μ in a direct factor of the group.

@@ -1,6 +1,5 @@
 //! Square rational matrices, stored by their nonzero entries.
 
-use super::Span;
 use crate::number::Rational;
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -55,7 +54,7 @@ impl RationalMatrix {
         result
     }
 
-    fn add_to(&mut self, i: usize, j: usize, value: Rational) {
+    pub(super) fn add_to(&mut self, i: usize, j: usize, value: Rational) {
         let slot = self.entries.entry((i, j)).or_insert_with(Rational::zero);
         *slot += value;
         if slot.is_zero() {
@@ -112,25 +111,6 @@ impl RationalMatrix {
             result.add_to(i, j, value * factor);
         }
         result
-    }
-
-    /// The inverse of a square matrix; nothing where there is none.
-    #[must_use]
-    pub fn inverse(&self) -> Option<Self> {
-        if self.rows != self.columns {
-            return None;
-        }
-        let mut rows = vec![Self::zero(1, self.columns); self.rows];
-        self.entries().for_each(|(i, j, value)| rows[i].add_to(0, j, value.clone()));
-        let span = Span::new(&rows).ok()?;
-        let mut result = Self::zero(self.rows, self.columns);
-        for i in 0..self.rows {
-            let unit = Self::from_entries(1, self.columns, [(0, i, crate::number::integer(1))]);
-            for (j, value) in span.coordinates(&unit)? {
-                result.add_to(i, j, value);
-            }
-        }
-        Some(result)
     }
 
     /// The commutator `self·other − other·self`.

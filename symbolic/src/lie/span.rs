@@ -75,3 +75,24 @@ fn add<K: Ord + Copy>(
         }
     }
 }
+
+impl RationalMatrix {
+    /// The inverse of a square matrix; nothing where there is none.
+    #[must_use]
+    pub fn inverse(&self) -> Option<Self> {
+        if self.rows() != self.columns() {
+            return None;
+        }
+        let mut rows = vec![Self::zero(1, self.columns()); self.rows()];
+        self.entries().for_each(|(i, j, value)| rows[i].add_to(0, j, value.clone()));
+        let span = Span::new(&rows).ok()?;
+        let mut result = Self::zero(self.rows(), self.columns());
+        for i in 0..self.rows() {
+            let unit = Self::from_entries(1, self.columns(), [(0, i, crate::number::integer(1))]);
+            for (j, value) in span.coordinates(&unit)? {
+                result.add_to(i, j, value);
+            }
+        }
+        Some(result)
+    }
+}

@@ -1,8 +1,9 @@
 //! Sums, products, powers and derivatives.
 
 use super::monomial::{Factors, Packing};
+use super::plan::Product;
 use super::polynomial::{Keys, Polynomial};
-use super::product::{Product, sum_of_products};
+use super::product::sum_of_products;
 use crate::number::{Coefficients, PRIME, Rational, integer, residue};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};

@@ -12,5 +12,6 @@ mod table;
 pub(crate) use monomial::Factors;
 pub use monomial::{Monomial, split_at};
 pub use numeric::Numeric;
+pub(crate) use plan::Product;
 pub use polynomial::Polynomial;
-pub(crate) use product::{Product, SumError, sum_of_products};
+pub(crate) use product::{SumError, sum_of_products};

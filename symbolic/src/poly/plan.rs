@@ -1,10 +1,17 @@
 //! Common denominators of sums of products, and bounds of their numerators.
 
-use super::product::Product;
-use crate::number::{Coefficients, bits, lcm};
+use super::polynomial::Polynomial;
+use crate::number::{Coefficients, Rational, bits, lcm};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
+
+/// A summand factor · left · right.
+pub(crate) struct Product<'a> {
+    pub(crate) factor: Rational,
+    pub(crate) left: &'a Polynomial,
+    pub(crate) right: &'a Polynomial,
+}
 
 /// The common denominator and the integer factor of each product, if machine integers suffice.
 pub(super) struct SmallPlan {

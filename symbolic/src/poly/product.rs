@@ -2,18 +2,11 @@
 
 use super::accumulate::accumulate;
 use super::monomial::{Factors, Key};
-use super::plan::{LargePlan, SmallPlan};
+use super::plan::{LargePlan, Product, SmallPlan};
 use super::polynomial::{Keys, Polynomial};
-use crate::number::{Coefficients, Rational, Sum, Words};
+use crate::number::{Coefficients, Sum, Words};
 use num_bigint::BigInt;
 use num_traits::Zero;
-
-/// A summand factor · left · right.
-pub(crate) struct Product<'a> {
-    pub(crate) factor: Rational,
-    pub(crate) left: &'a Polynomial,
-    pub(crate) right: &'a Polynomial,
-}
 
 /// Why a sum was not computed.
 #[derive(Clone, Copy, Debug)]

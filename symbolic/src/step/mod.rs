@@ -8,6 +8,7 @@
 
 mod drift;
 mod entire;
+mod error;
 mod motion;
 mod part;
 mod plane;
@@ -23,13 +24,14 @@ mod unitriangular;
 mod vector;
 
 use coadjoint_program::fold::FoldError;
-use coadjoint_program::{Kernel, Precision, ProgramError};
+use coadjoint_program::{Kernel, Precision};
 
 use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
+pub use error::{MOST_OF_TABLES, StepError};
 use motion::Motion;
 use part::Part;
 use plane::Plane;
@@ -41,49 +43,6 @@ pub use spatial::{Scratch, Spatial};
 use tables::Tables;
 use translations::Translations;
 use unitriangular::Unitriangular;
-
-/// Groups by tables whose step would have more operations than this have no programs.
-pub const MOST_OF_TABLES: usize = 1_000_000;
-
-/// Why a step is not made of straight-line programs.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// The matrices of a group by tables are so large that loops over their entries are faster than programs.
-    #[error(
-        "{group} has {dimension} dimensions and matrices of {rows} rows: its straight-line programs would have more than {MOST_OF_TABLES} operations; use the interpreter"
-    )]
-    TooLarge {
-        /// The group.
-        group: String,
-        /// Its dimension.
-        dimension: usize,
-        /// The rows of its matrices.
-        rows: usize,
-    },
-    /// A comoving frame moves by any angle, for which series by tables have no fixed length.
-    #[error(
-        "the comoving frame of {group} has no straight-line programs; use the interpreter, or `frame = \"fixed\"`"
-    )]
-    Frame {
-        /// The group.
-        group: String,
-    },
-    /// A comoving frame in numbers of 32 bits: whole turns cannot be taken off its angle.
-    #[error(
-        "a comoving frame has no programs in single precision; use double precision, or `frame = \"fixed\"`"
-    )]
-    SingleFrame,
-    /// The matrices of the basis are linearly dependent.
-    #[error("the matrices of {group} are linearly dependent")]
-    Dependent {
-        /// The group.
-        group: String,
-    },
-    /// The programs do not fit together.
-    #[error(transparent)]
-    Program(#[from] ProgramError),
-}
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]

@@ -3,10 +3,10 @@
 use coadjoint_program::{Kernel, KernelParts, Programs};
 use num_traits::ToPrimitive;
 
-use super::StepError;
+use super::error::StepError;
 use super::part::Part;
 use super::product::Product;
-use super::solving::{ROUNDINGS, Scheme, squares_of_series, tolerance};
+use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Integrator;
@@ -21,10 +21,6 @@ const OF_OTHERS: f64 = 1.0 / 3.0;
 
 /// The rate at which motions part that a half turn counts as, as in the runtime (`solve::rate`).
 const RATE_OF_HALF_TURN: f64 = 4.0;
-
-pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
-    (from..from + count).map(|i| graph.input(i)).collect()
-}
 
 /// The programs of a step; the integrator's folded coefficients come first, after them those of the bound on the
 /// Hessian, and the square of the radius.

@@ -2,12 +2,16 @@
 
 use super::part::Part;
 use super::product::Product;
-use super::programs::inputs;
 use super::tables::both_orders;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 use crate::lie::LieAlgebra;
+
+/// Inputs of a program, this many from one on.
+pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
+    (from..from + count).map(|i| graph.input(i)).collect()
+}
 
 /// The largest residual accepted, relative to the largest coordinate of μ, in units of rounding.
 pub const ROUNDINGS: f64 = 4.0;

@@ -6,11 +6,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coadjoint_program::{Graph, Kernel, KernelParts, Precision, Programs};
 
-use super::word;
-use crate::cards::card::{Card, FEWEST, Opened, Refused, Row, Status};
+use super::{FEWEST, word};
+use crate::cards::card::Card;
 use crate::cards::device::{Api, Device};
 use crate::cards::error::DeviceError;
-use crate::cards::machine::{Array, Machine, Room};
+use crate::cards::machine::{Array, Machine, Opened, Room};
+use crate::cards::row::{Refused, Row, Status};
 
 /// A step of no meaning with one number in g and one in μ.
 fn kernel() -> Kernel {

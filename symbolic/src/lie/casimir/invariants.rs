@@ -1,7 +1,7 @@
 //! The space of Casimirs of one degree.
 
 use super::elimination::{Echelon, Exceeded};
-use super::{CasimirError, MONOMIALS, OPERATIONS};
+use super::error::{CasimirError, MONOMIALS, OPERATIONS};
 use crate::cancel;
 use crate::lie::LieAlgebra;
 use crate::number::{Field, Rational, Residue, reconstruct};

@@ -1,6 +1,7 @@
 //! Polynomial Casimirs, by exact linear algebra.
 
 mod elimination;
+mod error;
 mod invariants;
 
 use super::LieAlgebra;
@@ -10,41 +11,7 @@ use num_traits::One;
 use std::collections::BTreeMap;
 
 pub(crate) use elimination::Echelon;
-
-/// Monomials of one degree that are looked through at most.
-const MONOMIALS: usize = 50_000;
-/// Multiplications in one elimination at most.
-pub(super) const OPERATIONS: u64 = 100_000_000;
-
-/// Why Casimirs were not computed.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CasimirError {
-    /// Too many monomials.
-    #[error(
-        "Casimirs of degree {degree} of {algebra} are among more than {limit} monomials; ask for a lower degree"
-    )]
-    TooLarge {
-        /// The algebra.
-        algebra: String,
-        /// The degree.
-        degree: u32,
-        /// The most monomials that are looked through.
-        limit: usize,
-    },
-    /// Too much arithmetic.
-    #[error(
-        "Casimirs of degree {degree} of {algebra} need more than {limit} multiplications; ask for a lower degree"
-    )]
-    TooMuchWork {
-        /// The algebra.
-        algebra: String,
-        /// The degree.
-        degree: u32,
-        /// The limit.
-        limit: u64,
-    },
-}
+pub use error::CasimirError;
 
 /// Generators of the polynomial Casimirs of degree at most `degree`: every Casimir up to that
 /// degree is a polynomial in them, and none is a polynomial in the others.

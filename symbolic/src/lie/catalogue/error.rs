@@ -1,5 +1,6 @@
 //! Why a text names no group.
 
+use super::names::names;
 use crate::nearest::nearest;
 
 /// Why a text names no group.
@@ -57,8 +58,8 @@ fn did_you_mean(suggestion: &Option<String>) -> String {
 
 impl CatalogueError {
     pub(super) fn unknown(name: &str) -> Self {
-        let suggestion = nearest(name, super::names().iter().copied()).map(str::to_owned);
-        let known = super::names().join(", ");
+        let suggestion = nearest(name, names().iter().copied()).map(str::to_owned);
+        let known = names().join(", ");
         Self::Unknown { name: name.to_owned(), suggestion, known }
     }
 }

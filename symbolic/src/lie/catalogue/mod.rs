@@ -22,38 +22,15 @@
 
 mod error;
 mod groups;
+mod names;
 mod parse;
 mod summary;
 
 pub use error::CatalogueError;
+pub use names::names;
 pub use summary::summary;
 
 use super::LieAlgebra;
-
-/// The names of the catalogue, families by their smallest members.
-#[must_use]
-pub fn names() -> &'static [&'static str] {
-    &[
-        "SO2",
-        "SO3",
-        "SO4",
-        "SO5",
-        "SE2",
-        "SE3",
-        "SU2",
-        "SU3",
-        "SU4",
-        "U1",
-        "U2",
-        "U3",
-        "SL2",
-        "Heisenberg",
-        "Aff1",
-        "R1",
-        "R2",
-        "R3",
-    ]
-}
 
 /// The Lie algebra of the group or product of groups of this text.
 ///

@@ -1,0 +1,79 @@
+//! Arguments that name a system and what replaces its settings.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::system::{Options, Parameters};
+
+use crate::named::{CHARTS, SOLVERS, named};
+
+/// Settings that replace those of a system file.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct Instead {
+    /// Use this chart instead of the file's
+    #[arg(long, value_parser = named(CHARTS))]
+    pub chart: Option<Chart>,
+    /// Solve each step this way instead of the file's
+    #[arg(long, value_parser = named(SOLVERS))]
+    pub solver: Option<Solver>,
+}
+
+/// A system file and what replaces its settings.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Source {
+    /// The system file
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Settings that replace the file's.
+    #[command(flatten)]
+    pub instead: Instead,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+}
+
+impl Source {
+    /// How the file is to be read.
+    pub(crate) fn options(&self, parameters: Parameters) -> Options {
+        let Instead { chart, solver } = self.instead;
+        Options { parameters, truncation: self.truncation, chart, solver }
+    }
+}
+
+/// A system file, or a learned model.
+#[derive(Args, Debug)]
+pub(crate) struct Input {
+    /// The system file
+    #[arg(value_name = "FILE", required_unless_present = "model")]
+    pub file: Option<PathBuf>,
+    /// Settings that replace the file's.
+    #[command(flatten)]
+    pub instead: Instead,
+    /// A model learned by `coadjoint learn`, instead of a system file
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "truncation"])]
+    pub model: Option<PathBuf>,
+}
+
+impl Input {
+    /// The system file; clap has seen to it that there is one without a model.
+    pub(crate) fn source(&self, truncation: Option<usize>) -> Source {
+        let file = self.file.clone().unwrap_or_default();
+        Source { file, instead: self.instead, truncation }
+    }
+}
+
+/// A step size, or what it is picked by.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Accuracy {
+    /// The step size h
+    #[arg(long, value_name = "h", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// Pick the step, and the truncation if none is given, for this error at the end of the run
+    #[arg(long, value_name = "error", conflicts_with = "step")]
+    pub tolerance: Option<f64>,
+    /// The norm of momentum up to which the tolerance is to hold; along the run if not given
+    #[arg(long, value_name = "radius")]
+    pub region: Option<f64>,
+}

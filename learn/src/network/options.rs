@@ -1,0 +1,72 @@
+//! How a network is trained, and reports of it.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::activation::Activation;
+
+/// How a network is trained.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrainingOptions {
+    /// Widths of the hidden layers; the paper's are 500, 500.
+    pub widths: Vec<usize>,
+    /// The activation.
+    pub activation: Activation,
+    /// Full-batch steps of Adam; the paper's are 1000.
+    pub adam_steps: usize,
+    /// Adam's first step size; the paper's is 0.001.
+    pub rate: f64,
+    /// The step size falls along half a cosine to this fraction of the first (1: constant, as in
+    /// the paper).
+    pub final_fraction: f64,
+    /// Evaluations of the loss by L-BFGS after Adam.
+    pub lbfgs_steps: usize,
+    /// Seed of the first weights.
+    pub seed: u64,
+    /// Where training keeps its state. If there is one of the same task, training goes on from it
+    /// and ends with the bits of an uninterrupted run; one of another task is refused.
+    #[serde(skip)]
+    pub checkpoint: Option<PathBuf>,
+}
+
+impl Default for TrainingOptions {
+    /// The paper's net and budget of 1000 evaluations, spent as 50 of Adam, enough to come near,
+    /// and 950 of L-BFGS.
+    fn default() -> Self {
+        Self {
+            widths: vec![500, 500],
+            activation: Activation::Tanh,
+            adam_steps: 50,
+            rate: 1e-3,
+            final_fraction: 0.01,
+            lbfgs_steps: 950,
+            seed: 0,
+            checkpoint: None,
+        }
+    }
+}
+
+impl TrainingOptions {
+    /// Adam's step size at a step.
+    #[must_use]
+    pub fn rate(&self, step: usize) -> f64 {
+        let phase = step as f64 / self.adam_steps.max(1) as f64 * std::f64::consts::PI;
+        let fraction =
+            self.final_fraction + (1.0 - self.final_fraction) * 0.5 * (1.0 + phase.cos());
+        self.rate * fraction
+    }
+}
+
+/// Where training stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Evaluations made.
+    pub step: usize,
+    /// Evaluations allowed.
+    pub total: usize,
+    /// The loss, in normalised units: 1 is the variance of the data.
+    pub loss: f64,
+    /// The same on validation data, where there are any; looked at every tenth step of Adam.
+    pub validation: Option<f64>,
+}

@@ -1,0 +1,46 @@
+//! Why a step has no programs.
+
+use coadjoint_program::ProgramError;
+
+/// Groups by tables whose step would have more operations than this have no programs.
+pub const MOST_OF_TABLES: usize = 1_000_000;
+
+/// Why a step is not made of straight-line programs.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The matrices of a group by tables are so large that loops over their entries are faster than programs.
+    #[error(
+        "{group} has {dimension} dimensions and matrices of {rows} rows: its straight-line programs would have more than {MOST_OF_TABLES} operations; use the interpreter"
+    )]
+    TooLarge {
+        /// The group.
+        group: String,
+        /// Its dimension.
+        dimension: usize,
+        /// The rows of its matrices.
+        rows: usize,
+    },
+    /// A comoving frame moves by any angle, for which series by tables have no fixed length.
+    #[error(
+        "the comoving frame of {group} has no straight-line programs; use the interpreter, or `frame = \"fixed\"`"
+    )]
+    Frame {
+        /// The group.
+        group: String,
+    },
+    /// A comoving frame in numbers of 32 bits: whole turns cannot be taken off its angle.
+    #[error(
+        "a comoving frame has no programs in single precision; use double precision, or `frame = \"fixed\"`"
+    )]
+    SingleFrame,
+    /// The matrices of the basis are linearly dependent.
+    #[error("the matrices of {group} are linearly dependent")]
+    Dependent {
+        /// The group.
+        group: String,
+    },
+    /// The programs do not fit together.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+}
