@@ -204,7 +204,7 @@ impl Kernel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::node::Graph;
+    use crate::graph::Graph;
 
     #[test]
     fn limits_under_which_no_guess_is_corrected_are_refused() {

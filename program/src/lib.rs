@@ -27,6 +27,8 @@ mod error;
 mod evaluate;
 pub mod fold;
 #[cfg(feature = "programs")]
+mod graph;
+#[cfg(feature = "programs")]
 mod interpret;
 #[cfg(feature = "programs")]
 mod kernel;
@@ -52,11 +54,13 @@ mod stepper;
 #[cfg(feature = "programs")]
 pub use error::ProgramError;
 #[cfg(feature = "programs")]
+pub use graph::Graph;
+#[cfg(feature = "programs")]
 pub use interpret::{Attempt, Scratch};
 #[cfg(feature = "programs")]
 pub use kernel::{BLOCK, Kernel, KernelParts, Programs};
 #[cfg(feature = "programs")]
-pub use node::{Cost, Graph, Id, Node};
+pub use node::{Cost, Id, Node};
 #[cfg(feature = "programs")]
 pub use number::{Lanes, Number};
 #[cfg(feature = "programs")]

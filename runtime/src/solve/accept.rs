@@ -6,10 +6,11 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
+use super::candidate::{Candidate, CandidateOf, NEAR};
 use super::confirm::confirm;
 use super::continuation::follow;
 use super::rate::estimated_ratio;
-use super::{Candidate, CandidateOf, Integrator, NEAR, Settings};
+use super::{Integrator, Settings};
 use crate::chart::Chart;
 use crate::error::{Circumstances, StepError};
 use crate::generating::series::LARGEST_RATIO;

@@ -2,7 +2,8 @@
 
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::{Candidate, CandidateOf, NEAR, Settings, inverse_scale};
+use super::candidate::{Candidate, CandidateOf, NEAR, inverse_scale};
+use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;

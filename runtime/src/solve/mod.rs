@@ -6,6 +6,7 @@
 //! none.
 
 mod accept;
+mod candidate;
 mod confirm;
 mod continuation;
 mod fixed_point;
@@ -14,6 +15,7 @@ mod plain;
 mod rate;
 mod settings;
 
+pub use candidate::{Candidate, CandidateOf};
 pub use fixed_point::MAX_EVALUATIONS;
 pub use newton::MAX_ITERATIONS;
 pub use settings::Settings;
@@ -69,22 +71,6 @@ pub trait Integrator: GeneratingFunction {
         Driven::none(Scalar::of(0.0))
     }
 }
-
-/// A step as a method of solution proposes it.
-#[derive(Clone, Debug)]
-pub struct Candidate<V, T> {
-    /// The chart coordinate of the group increment.
-    pub x: V,
-    /// How far the solution lies from the first guess of p, relative to the largest coordinate of μ.
-    pub moved: T,
-    /// A bound on what is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
-    pub residual: T,
-    /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was done).
-    pub iterations: u32,
-}
-
-/// A candidate for a step of `S`.
-pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
 /// The outcome of driving programs.
 #[derive(Clone, Debug)]
@@ -176,14 +162,4 @@ fn propose_scaled<S: Integrator + ?Sized>(
         Solver::Newton => newton::careful(generating, mu, scale, guess, settings),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess, settings),
     }
-}
-
-/// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
-/// (tried by the program `stress`, not proven).
-const NEAR: f64 = 0.05;
-
-/// The inverse of the largest coordinate of μ, by which sizes are measured; μ = 0, whose solution is p = 0, must not
-/// divide 0 by 0.
-fn inverse_scale<T: Scalar, V: Coordinates<T>>(mu: &V) -> T {
-    T::of(1.0) / (mu.largest_entry() + T::of(f64::from(f32::MIN_POSITIVE)))
 }

@@ -52,7 +52,7 @@ const MUTANTS: [Mutant; 24] = [
     ),
     mutant(
         "nearness times 10",
-        "runtime/src/solve/mod.rs",
+        "runtime/src/solve/candidate.rs",
         "const NEAR: f64 = 0.05",
         "const NEAR: f64 = 0.5",
     ),

@@ -33,7 +33,7 @@ const CRATES: [&str; 16] = [
 
 /// Circles that there may be. The first is that of an evaluator, whose parts call one another as the parts of an
 /// expression do: a value may be a function, whose body is evaluated. The others are to go.
-const KEPT: [(&str, &[&str]); 7] = [
+const KEPT: [(&str, &[&str]); 4] = [
     (
         "codegen",
         &[
@@ -47,10 +47,7 @@ const KEPT: [(&str, &[&str]); 7] = [
     ),
     ("codegen", &["emit::c::fold", "emit::c::fold_table"]),
     ("program", &["dispatch", "drive"]),
-    ("program", &["node", "program"]),
     ("run", &["ensemble::engine", "ensemble::march", "ensemble::rows", "ensemble::steps"]),
-    ("runtime", &["solve", "solve::fixed_point", "solve::newton"]),
-    ("runtime", &["solve::confirm", "solve::continuation"]),
 ];
 
 /// Names that lead from the root of a crate to a module or an item.
