@@ -29,7 +29,6 @@ use crate::error::StepError;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
-use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// Up to this dimension Newton's method is faster than the fixed point.
