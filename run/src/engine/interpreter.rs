@@ -13,7 +13,8 @@ use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem;
 use coadjoint_program::fold::FoldError;
 
-use super::steep::STEEP;
+/// Above this ratio of terms a run says so; above twice this its steps are refused.
+pub const STEEP: f64 = 0.25;
 
 /// The results of a program.
 struct Outputs<'s, T> {

@@ -13,10 +13,10 @@ pub use advise::advise;
 pub use card::{card, device_text};
 pub use compiled::{Compiled, Kept, Numbers};
 pub use group::{cayley_group, product_group, whole_group};
-pub use interpreter::Interpreter;
+pub use interpreter::{Interpreter, STEEP};
 pub use kick::{Forces, Step, Torque};
 pub use restore::{Restore, entries_of, phase_of};
-pub use steep::{STEEP, Steepness};
+pub use steep::Steepness;
 
 use coadjoint::LieGroup;
 use nalgebra::DVector;

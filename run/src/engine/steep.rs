@@ -3,12 +3,9 @@
 use coadjoint::groups::{Chart, Coordinates};
 use coadjoint::{GeneratingFunction, LieGroup, Scalar, plumbing};
 
-use super::Interpreter;
+use super::interpreter::Interpreter;
 
-/// Above this ratio of terms a run says so; above twice this its steps are refused.
-pub const STEEP: f64 = 0.25;
-
-/// Measures the ratio of terms by which steps are judged where it may be above [`STEEP`].
+/// Measures the ratio of terms by which steps are judged where it may be above [`STEEP`](super::STEEP).
 pub struct Steepness<'s, S> {
     step: &'s S,
 }
@@ -20,7 +17,7 @@ impl<'s, 'a, G: LieGroup<Scalar = f64>, C: Chart<G>> Steepness<'s, Interpreter<'
     }
 
     /// The ratio at p, of the last two terms of ∂S or that which the rate at which motions part stands for; 0 where it is
-    /// known to be at most [`STEEP`] and p need not be looked at.
+    /// known to be at most [`STEEP`](super::STEEP) and p need not be looked at.
     pub fn ratio(&self, p: &G::Vector) -> f64 {
         let quiet = p.pairing(p).sqrt() <= self.step.quiet;
         let of_terms = if quiet { 0.0 } else { self.step.series_ratio(p) };
