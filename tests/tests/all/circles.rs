@@ -45,7 +45,7 @@ const KEPT: [(&str, &[&str]); 3] = [
             "parse::rust::value",
         ],
     ),
-    ("program", &["dispatch", "drive"]),
+    ("program", &["kernel", "schedule"]),
     ("run", &["ensemble::engine", "ensemble::march", "ensemble::rows", "ensemble::steps"]),
 ];
 
