@@ -61,5 +61,5 @@ pub use build_script::{Build, BuildError};
 pub use coadjoint_symbolic::judge;
 pub use coadjoint_symbolic::{
     cancel, comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem,
-    step, tolerance,
+    splitting, step, tolerance,
 };

@@ -220,6 +220,11 @@ impl Graph {
 
     /// The nodes of another program on these inputs, its slots being this graph's; the ids of its results.
     pub fn call(&mut self, program: &Program, inputs: &[Id]) -> Vec<Id> {
+        self.call_from(program, inputs, 0)
+    }
+
+    /// The same where the program's first slot is this one of the graph's.
+    pub fn call_from(&mut self, program: &Program, inputs: &[Id], first_slot: usize) -> Vec<Id> {
         let mut ids: Vec<Id> = Vec::with_capacity(program.nodes().len());
         for node in program.nodes() {
             let id = match *node {
@@ -227,7 +232,7 @@ impl Graph {
                 Node::Zero => self.zero(),
                 Node::Constant(bits) => self.constant(f64::from_bits(bits)),
                 Node::Epsilon => self.epsilon(),
-                Node::Slot(i) => self.slot(i as usize),
+                Node::Slot(i) => self.slot(first_slot + i as usize),
                 Node::Add(a, b) => self.add(ids[a.index()], ids[b.index()]),
                 Node::Sub(a, b) => self.sub(ids[a.index()], ids[b.index()]),
                 Node::Mul(a, b) => self.mul(ids[a.index()], ids[b.index()]),

@@ -7,7 +7,7 @@ use crate::dispatch;
 use crate::kernel::Kernel;
 use crate::number::Lanes;
 use crate::packed::Packed;
-use crate::schedule::{Block, Kind, Part, Places, Statement, Test, Variable};
+use crate::schedule::{Block, Kept, Kind, Part, Places, Statement, Test, Variable};
 use crate::stepper::{Outcome, Stepper, WIDTH};
 
 /// Memory in which programs are evaluated, reused from call to call.
@@ -98,8 +98,8 @@ struct Walk<'k, T, const L: usize> {
     numbers: Vec<T>,
     /// The counts, by the number of their variables.
     counts: [[u64; L]; Variable::ALL.len()],
-    /// g and μ at the start of the block.
-    start: Vec<T>,
+    /// g and μ where they are kept: at the start of the block, and of a step with kicks.
+    kept: [Vec<T>; 2],
     /// Which trajectories move on.
     live: [bool; L],
     /// Whether a step was refused.
@@ -126,7 +126,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
             places,
             numbers,
             counts: [[0; L]; Variable::ALL.len()],
-            start: Vec::new(),
+            kept: [Vec::new(), Vec::new()],
             live: [false; L],
             refused: false,
             steps: 0,
@@ -182,17 +182,18 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                     *count += u64::from(holds);
                 }
             }
-            Statement::Keep => {
-                self.start.clear();
-                self.start.extend_from_slice(&self.numbers[self.places.state()]);
+            Statement::Keep(which) => {
+                let kept = &mut self.kept[*which as usize];
+                kept.clear();
+                kept.extend_from_slice(&self.numbers[self.places.state()]);
             }
-            Statement::Restore => {
+            Statement::Restore(which) => {
                 let state = &mut self.numbers[self.places.state()];
-                for (now, &start) in state.iter_mut().zip(&self.start) {
-                    *now = now.update(mask, start);
+                for (now, &kept) in state.iter_mut().zip(&self.kept[*which as usize]) {
+                    *now = now.update(mask, kept);
                 }
                 let count = self.counts[Variable::Count as usize];
-                for lane in (0..L).filter(|&lane| mask[lane]) {
+                for lane in (0..L).filter(|&lane| *which == Kept::Block && mask[lane]) {
                     self.counts[Variable::Done as usize][lane] -= count[lane];
                 }
             }
@@ -243,7 +244,11 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                 _ => self.inputs.extend_from_slice(&self.numbers[self.places.range(input)]),
             }
         }
-        dispatch::evaluate(program, &self.inputs, &self.slots, &mut self.nodes);
+        // Trajectories that were refused are flows behind.
+        let flow = self.counts[Variable::Flow as usize].into_iter().max();
+        let flow = flow.filter(|_| part.is_of_flow()).unwrap_or(0);
+        let slots = self.slots.get(flow as usize * self.kernel.slots_of_flow()..);
+        dispatch::evaluate(program, &self.inputs, slots.unwrap_or_default(), &mut self.nodes);
         let mut results = program.outputs().iter().map(|id| self.nodes[id.index()]);
         for &output in outputs {
             let own = within.owns(output);

@@ -16,6 +16,14 @@
 //!     if sound(g, μ) is not 1: back to the start of the block, stop
 //! ```
 //!
+//! Where a potential breaks the symmetry a step is a sequence of kicks and flows that begins and ends with a kick. Each flow
+//! has folded coefficients of its own, those of its length, and so has the last kick:
+//!
+//! ```text
+//! for each flow: μ = kick(g, μ), then as above from guess to transport, with the coefficients of the flow
+//! μ = kick(g, μ)
+//! ```
+//!
 //! A refused step leaves the state as it was; whoever drives the kernel may then follow the solution by other means or
 //! say why there is none.
 
@@ -79,7 +87,15 @@ pub struct Kernel {
     corrections: u32,
     precision: Precision,
     programs: Programs,
+    kicks: Option<Kicks>,
     schedule: Block,
+}
+
+/// Kicks between the flows of a step.
+#[derive(Clone, Debug, PartialEq)]
+struct Kicks {
+    kick: Program,
+    flows: u32,
 }
 
 impl Kernel {
@@ -117,7 +133,7 @@ impl Kernel {
             return Err(ProgramError::Limits);
         }
         let precision = Precision::Double;
-        let schedule = schedule(corrections, programs.frame.is_some());
+        let schedule = schedule(corrections, programs.frame.is_some(), None);
         Ok(Self {
             dim,
             element,
@@ -128,8 +144,25 @@ impl Kernel {
             corrections,
             precision,
             programs,
+            kicks: None,
             schedule,
         })
+    }
+
+    /// The same with kicks between the flows of a step, of which there are this many: `kick` is g (m), μ (n) ↦ the
+    /// kicked μ (n). All programs then read the coefficients of a flow, or those of the last kick.
+    ///
+    /// # Errors
+    /// [`ProgramError::Shape`] where `kick` has other inputs and outputs.
+    pub fn with_kicks(self, kick: Program, flows: u32) -> Result<Self, ProgramError> {
+        let (n, m) = (self.dim, self.element);
+        let (expected, found) = ((m + n, n), (kick.inputs(), kick.outputs().len()));
+        if found != expected {
+            return Err(ProgramError::Shape { program: "kick", expected, found });
+        }
+        let slots = self.slots.max(kick.slots());
+        let schedule = schedule(self.corrections, self.programs.frame.is_some(), Some(flows));
+        Ok(Self { slots, kicks: Some(Kicks { kick, flows }), schedule, ..self })
     }
 
     /// The same step in numbers of this length, whose rounding the tolerance follows.
@@ -164,10 +197,28 @@ impl Kernel {
         self.constants
     }
 
-    /// How many folded coefficients the programs read.
+    /// How many folded coefficients a step has; with kicks those of every flow and of the last kick.
     #[must_use]
     pub fn slots(&self) -> usize {
+        self.slots * self.flows().map_or(1, |flows| flows as usize + 1)
+    }
+
+    /// How many of them the programs read at a time.
+    #[must_use]
+    pub fn slots_of_flow(&self) -> usize {
         self.slots
+    }
+
+    /// The flows between the kicks of a step, where it has kicks.
+    #[must_use]
+    pub fn flows(&self) -> Option<u32> {
+        self.kicks.as_ref().map(|kicks| kicks.flows)
+    }
+
+    /// The program of a kick.
+    #[must_use]
+    pub fn kick(&self) -> Option<&Program> {
+        self.kicks.as_ref().map(|kicks| &kicks.kick)
     }
 
     /// The largest residual bound of a solved step, relative to the largest coordinate of μ.

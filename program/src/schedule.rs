@@ -39,6 +39,9 @@ pub enum Variable {
     Count,
     /// How many corrections were made in the step.
     Tried,
+    /// How many flows of a step with kicks were made: the same count for all trajectories side by side. Programs read the
+    /// coefficients of this number.
+    Flow,
 }
 
 /// The kind of a variable's contents.
@@ -54,7 +57,7 @@ pub enum Kind {
 
 impl Variable {
     /// All of them in order, with their names in texts.
-    pub const ALL: [(Self, &'static str); 12] = [
+    pub const ALL: [(Self, &'static str); 13] = [
         (Self::Element, "g"),
         (Self::Momentum, "mu"),
         (Self::Guess, "p"),
@@ -67,6 +70,7 @@ impl Variable {
         (Self::Done, "done"),
         (Self::Count, "count"),
         (Self::Tried, "tried"),
+        (Self::Flow, "flow"),
     ];
 
     /// Its name in texts.
@@ -83,7 +87,7 @@ impl Variable {
             Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim()),
             Self::Constants => Kind::Array(kernel.constants()),
             Self::ResidualBound | Self::Distance | Self::Moved | Self::Right => Kind::Number,
-            Self::Done | Self::Count | Self::Tried => Kind::Count,
+            Self::Done | Self::Count | Self::Tried | Self::Flow => Kind::Count,
         }
     }
 }
@@ -142,17 +146,28 @@ pub enum Part {
     Transport,
     Frame,
     Sound,
+    Kick,
+}
+
+/// The states that are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// That at the start of a block of steps.
+    Block,
+    /// That at the start of a step with kicks.
+    Step,
 }
 
 impl Part {
     /// All of them in order, with their names in texts.
-    pub const ALL: [(Self, &'static str); 6] = [
+    pub const ALL: [(Self, &'static str); 7] = [
         (Self::Guess, "guess"),
         (Self::Correct, "correct"),
         (Self::Accept, "accept"),
         (Self::Transport, "transport"),
         (Self::Frame, "frame"),
         (Self::Sound, "sound"),
+        (Self::Kick, "kick"),
     ];
 
     /// The program in this kernel, if there is one.
@@ -166,7 +181,14 @@ impl Part {
             Self::Transport => Some(&programs.transport),
             Self::Frame => programs.frame.as_ref(),
             Self::Sound => Some(&programs.sound),
+            Self::Kick => kernel.kick(),
         }
+    }
+
+    /// Whether it reads the coefficients of a flow, where a step has kicks.
+    #[must_use]
+    pub fn is_of_flow(self) -> bool {
+        !matches!(self, Self::Frame | Self::Sound)
     }
 
     /// The variables it reads and those it assigns, in order. All are read before any is assigned.
@@ -182,6 +204,7 @@ impl Part {
             Self::Transport => (&[Element, Momentum, Increment], &[Element, Momentum]),
             Self::Frame => (&[Element, Momentum, Count], &[Element, Momentum]),
             Self::Sound => (&[Element, Momentum], &[Right]),
+            Self::Kick => (&[Element, Momentum], &[Momentum]),
         }
     }
 }
@@ -230,10 +253,10 @@ pub enum Statement {
     Lengthen,
     /// Adds 1 to a count.
     Next(Variable),
-    /// Keeps the state as that at the start of a block.
-    Keep,
-    /// Takes it back from there, and counts the steps of the block no more.
-    Restore,
+    /// Keeps the state.
+    Keep(Kept),
+    /// Takes it back from there; the steps of a block are then counted no more.
+    Restore(Kept),
     /// Reports the corrections and the residual bound of the step made, where a target reports them.
     Note,
     /// Stops the trajectory because its step is not right.
@@ -246,8 +269,9 @@ pub enum Statement {
     If(Condition, Block),
 }
 
-/// The loop of a kernel with at most `corrections` corrections of a step; `framed` if it has a comoving frame.
-pub(crate) fn schedule(corrections: u32, framed: bool) -> Block {
+/// The loop of a kernel with at most `corrections` corrections of a step; `framed` if it has a comoving frame; `flows` are
+/// those between the kicks of a step.
+pub(crate) fn schedule(corrections: u32, framed: bool, flows: Option<u32>) -> Block {
     use Statement::{
         Call, If, Keep, Lengthen, Next, Note, RefuseState, RefuseStep, Restore, While,
     };
@@ -256,27 +280,49 @@ pub(crate) fn schedule(corrections: u32, framed: bool) -> Block {
     let block = |variables: &[_], body| Block { variables: variables.to_vec(), body };
     let correction = vec![Call(Part::Correct), Lengthen, Next(Tried)];
     let corrections = vec![(true, Below(Tried, corrections)), (true, Open)];
-    let moved = vec![Call(Part::Transport), Note, Next(Done), Next(Count)];
-    let step = vec![
+    let mut refused = vec![RefuseStep];
+    let mut moved = vec![Call(Part::Transport), Note];
+    let counted = [Next(Done), Next(Count)];
+    match flows {
+        Some(_) => refused.push(Restore(Kept::Step)),
+        None => moved.extend(counted.clone()),
+    }
+    let mut flow = vec![
         Call(Part::Guess),
         While(corrections, block(&[(Moved, Some(0))], correction)),
         Call(Part::Accept),
-        If(vec![(false, IsRight)], block(&[], vec![RefuseStep])),
+        If(vec![(false, IsRight)], block(&[], refused)),
         If(vec![(true, IsRight)], block(&[], moved)),
     ];
+    if flows.is_some() {
+        flow.insert(0, Call(Part::Kick));
+        flow.push(Next(Flow));
+    }
     let numbers =
         [(ResidualBound, Some(1)), (Distance, Some(0)), (Right, Some(0)), (Tried, Some(0))];
-    let step = block(&[&[(Guess, None), (Constants, None)], &numbers[..]].concat(), step);
+    let flow = block(&[&[(Guess, None), (Constants, None)], &numbers[..]].concat(), flow);
+    let step = match flows {
+        None => flow,
+        Some(flows) => {
+            let last = [&[Call(Part::Kick)], &counted[..]].concat();
+            let body = vec![
+                Keep(Kept::Step),
+                While(vec![(true, Live), (true, Below(Flow, flows))], flow),
+                If(vec![(true, Live)], block(&[], last)),
+            ];
+            block(&[(Flow, Some(0))], body)
+        }
+    };
     let mut check = vec![Call(Part::Sound)];
     if framed {
         check.insert(0, Call(Part::Frame));
     }
-    let broken = block(&[], vec![RefuseState, Restore]);
+    let broken = block(&[], vec![RefuseState, Restore(Kept::Block)]);
     check.push(If(vec![(false, IsRight)], broken));
     let check = block(&[(Right, Some(0))], check);
     let most = Below(Count, BLOCK as u32);
     let steps = vec![
-        Keep,
+        Keep(Kept::Block),
         While(vec![(true, Live), (true, Remaining), (true, most)], step),
         If(vec![(false, Below(Count, 1))], check),
     ];

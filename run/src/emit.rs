@@ -2,20 +2,18 @@
 
 use std::path::Path;
 
-use coadjoint::groups::Exponential;
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
-use coadjoint_codegen::integrator::Kick;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::system::System;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::{ModelFile, problem};
 use coadjoint_program::Precision;
 use coadjoint_program::print::DeviceLanguage;
 
-use crate::engine::{Interpreter, device_text, whole_group};
+use crate::engine::device_text;
 use crate::error::RunError;
-use crate::load::integrator;
+use crate::load::{integrator, with_kicks};
 
 /// The source of emitted code.
 #[derive(Debug)]
@@ -67,22 +65,21 @@ pub fn header(
     prefix: Option<String>,
 ) -> Result<String, RunError> {
     let style = HeaderOptions { language, ..HeaderOptions::default() };
-    let (problem, style, choice) = match source {
+    let (integrator, style, choice) = match source {
         Source::Model(model) => {
-            let problem = problem(&model, "learned")?;
-            (problem, HeaderOptions { only_step: Some(model.step), ..style }, None)
+            let integrator = integrator(path, problem(&model, "learned")?)?;
+            (integrator, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
         Source::System(system, choice) => {
-            refuse_potential(path, &system, "C")?;
-            let units = system.units;
+            let units = &system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
             let momentum = (0..system.problem.algebra.dim()).map(of).collect();
             let time = units.time.clone();
-            (system.problem, HeaderOptions { time, momentum, ..style }, choice)
+            let integrator = with_kicks(path, system.problem, system.potential)?;
+            (integrator, HeaderOptions { time, momentum, ..style }, choice)
         }
     };
-    let prefix = prefix.unwrap_or_else(|| problem.name.clone());
-    let integrator = integrator(path, problem)?;
+    let prefix = prefix.unwrap_or_else(|| integrator.problem.name.clone());
     let text =
         c::header(&integrator, &HeaderOptions { prefix, ..style }).map_err(RunError::of(path))?;
     let line = choice.as_ref().map(|choice| format!("/* {} */\n", chosen(choice)));
@@ -109,30 +106,24 @@ pub fn kernel(
     precision: Precision,
     language: DeviceLanguage,
 ) -> Result<String, RunError> {
-    let (problem, step, choice): (Problem, f64, Option<Choice>) = match source {
+    let (integrator, step, choice): (Integrator, f64, Option<Choice>) = match source {
         Source::Model(model) => {
             if step.is_some() {
                 return Err(RunError::Option("--step: a learned model has its own".into()));
             }
-            (problem(&model, "learned")?, model.step, None)
+            (integrator(path, problem(&model, "learned")?)?, model.step, None)
         }
         Source::System(system, choice) => {
-            refuse_potential(path, &system, "kernels")?;
             let step = step.or(system.run.step).ok_or_else(|| RunError::Missing {
                 file: path.into(),
                 key: "[integrator] step",
                 example: "step = 0.1",
                 option: "--step 0.1",
             })?;
-            (system.problem, step, choice)
+            (with_kicks(path, system.problem, system.potential)?, step, choice)
         }
     };
-    let integrator = integrator(path, problem)?;
     let problem = &integrator.problem;
-    // Coefficients are those of the step, whatever the group's elements are made of.
-    let group = whole_group(path, &problem.algebra)?;
-    let interpreter = Interpreter::<_, Exponential>::new(&integrator, group, step)
-        .map_err(|source| RunError::Step { time: 0.0, source })?;
     let chosen = choice.as_ref().map(|choice| format!("\n{}", chosen(choice)));
     let about = format!(
         "{} on {}, {} chart, K = {}, step {step}.{}\nWritten by coadjoint {}.",
@@ -143,15 +134,5 @@ pub fn kernel(
         chosen.unwrap_or_default(),
         env!("CARGO_PKG_VERSION"),
     );
-    device_text(&interpreter, precision, language, &about)
-}
-
-fn refuse_potential(path: &Path, system: &System, what: &str) -> Result<(), RunError> {
-    if system.potential.is_none() {
-        return Ok(());
-    }
-    Err(RunError::Option(format!(
-        "{}: the kicks of a potential are not written as {what}: emit Rust, or leave `potential` out",
-        path.display()
-    )))
+    device_text(&integrator, step, precision, language, &about)
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::Invariants;
-use coadjoint_codegen::system::{self, Options, Run, System};
+use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
 use crate::engine::{Forces, Kept};
@@ -34,6 +35,22 @@ pub fn read_with(name: &str, text: &str, options: Options) -> Result<System, Run
 /// Where the series cannot be derived, or is too large.
 pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
     Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
+}
+
+/// Derives and lowers a problem, with the kicks of a potential between flows.
+///
+/// # Errors
+/// As [`integrator`].
+pub fn with_kicks(
+    path: &Path,
+    problem: Problem,
+    potential: Option<(Potential, Splitting)>,
+) -> Result<Integrator, RunError> {
+    let integrator = integrator(path, problem)?;
+    let Some((potential, splitting)) = potential else { return Ok(integrator) };
+    integrator.with_kicks(Kick::build(potential), splitting).ok_or_else(|| {
+        RunError::Option("the potential has other parameters than the Hamiltonian".to_owned())
+    })
 }
 
 /// A system with its series as programs.
@@ -68,8 +85,8 @@ impl Derived {
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, .. } = system;
         let invariants = Invariants::new(&problem, potential.as_ref().map(|(kicks, _)| kicks));
+        let integrator = with_kicks(file, problem, potential.clone())?;
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
-        let integrator = integrator(file, problem)?;
         Ok(Self { file: file.to_owned(), integrator, invariants, forces, kept: Kept::default() })
     }
 }

@@ -39,5 +39,6 @@ pub mod number;
 pub mod poly;
 pub mod potential;
 pub mod problem;
+pub mod splitting;
 pub mod step;
 pub mod tolerance;

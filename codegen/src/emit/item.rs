@@ -41,7 +41,10 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
         true => Step::on_matrices(integrator),
         false => Step::build(integrator),
     };
-    let step = step.ok().filter(|step| step_operations(step) <= MOST_OPERATIONS);
+    // Kicks are items of their own.
+    let step = step
+        .ok()
+        .filter(|step| step.kernel().flows().is_none() && step_operations(step) <= MOST_OPERATIONS);
     let summary = header::lines(integrator, step.as_ref());
     let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
     let fold = FoldTable::new(integrator);

@@ -2,7 +2,7 @@
 
 use coadjoint_program::{Cost, Kernel, Program};
 
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Kicks};
 use crate::lie::Chart;
 
 /// The lines of a paragraph, at most `width` columns each; a line that begins with a space stays as it is.
@@ -33,7 +33,7 @@ pub fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String
         Chart::Exponential => "exponential",
         Chart::Cayley => "Cayley",
     };
-    vec![
+    let mut list = vec![
         format!("Hamiltonian: {}", quoted(&problem.source)),
         format!(
             "Group: {}. Chart: {}. Truncation K = {}, order of accuracy {}.",
@@ -42,15 +42,30 @@ pub fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String
             problem.truncation,
             integrator.order()
         ),
-        String::new(),
-        "The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = \
+    ];
+    let mut map = MAP.to_owned();
+    if let Some(Kicks { kick, splitting, .. }) = &integrator.kicks {
+        list.push(format!("Potential: {}", quoted(&kick.potential.source)));
+        let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
+        list.push(format!(
+            "Splitting: {name}, {flows} flows between kicks, order of accuracy {order}."
+        ));
+        map.push_str(KICKED);
+    }
+    list.extend([String::new(), map, String::new()]);
+    list
+}
+
+/// The paragraph about a step.
+const MAP: &str = "The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = \
          ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h \
          is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every \
-         Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times."
-            .to_owned(),
-        String::new(),
-    ]
-}
+         Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.";
+
+/// The same where kicks are between flows.
+const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \
+         momentum and the Casimirs, only those remain conserved that the potential leaves invariant, and the order of accuracy \
+         is the lesser of both.";
 
 /// The cost of a step with one correction, and with as many as there may be.
 pub fn costs(kernel: &Kernel) -> [String; 2] {
@@ -65,15 +80,14 @@ pub fn costs(kernel: &Kernel) -> [String; 2] {
     .map(Program::cost);
     let frame = programs.frame.as_ref().map_or(Cost::default(), Program::cost);
     let corrections = kernel.corrections();
-    let usual = sum(&[(1, guess), (1, correct), (1, accept), (1, transport)]);
-    let most = sum(&[
-        (1, guess),
-        (corrections as usize, correct),
-        (1, accept),
-        (1, transport),
-        (1, sound),
-        (1, frame),
-    ]);
+    let flows = kernel.flows().unwrap_or(1) as usize;
+    let kicks = kernel.kick().map_or((0, Cost::default()), |kick| (flows + 1, kick.cost()));
+    let step = |corrections: u32| {
+        let times = corrections as usize * flows;
+        [(flows, guess), (times, correct), (flows, accept), (flows, transport), kicks]
+    };
+    let usual = sum(&step(1));
+    let most = sum(&[&step(corrections)[..], &[(1, sound), (1, frame)]].concat());
     [
         format!("Cost of a step with one correction, as most have: {usual}."),
         format!("Cost at most ({corrections} corrections, and a check of the state): {most}."),

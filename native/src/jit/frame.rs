@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use coadjoint_program::Kernel;
-use coadjoint_program::schedule::{Places, Variable};
+use coadjoint_program::schedule::{Kept, Places, Variable};
 
 use super::error::JitError;
 
@@ -14,8 +14,8 @@ const MOST: usize = 1 << 18;
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     variables: Places,
-    /// g, then μ, at the start of the block.
-    pub(super) start: usize,
+    /// Where g, then μ, are kept: at the start of the block, and of a step with kicks.
+    kept: Range<usize>,
     /// All of them.
     size: usize,
     /// Where programs keep values that have no register, one program after the other.
@@ -25,9 +25,10 @@ pub(super) struct Frame {
 impl Frame {
     pub(super) fn of(kernel: &Kernel) -> Self {
         let variables = Places::of(kernel);
-        let start = variables.len();
-        let size = start + variables.state().len();
-        Self { variables, start, size, scratch: size }
+        let states = if kernel.flows().is_some() { 2 } else { 1 };
+        let kept = variables.len()..variables.len() + states * variables.state().len();
+        let size = kept.end;
+        Self { variables, kept, size, scratch: size }
     }
 
     /// Its size in bytes, for numbers of this size.
@@ -48,12 +49,17 @@ impl Frame {
 
     /// Forgets the values that have no register.
     pub(super) fn clear(&mut self) {
-        self.scratch = self.start + self.state().len();
+        self.scratch = self.kept.end;
     }
 
     /// Where a variable's numbers are; those of a count, where programs read it.
     pub(super) fn places(&self, variable: Variable) -> Range<usize> {
         self.variables.range(variable)
+    }
+
+    /// Where g and μ are kept.
+    pub(super) fn kept(&self, kept: Kept) -> usize {
+        self.kept.start + kept as usize * self.state().len()
     }
 
     /// Where g and μ are.

@@ -1,7 +1,7 @@
 //! The loop of a kernel: its statements as Cranelift's instructions, for one trajectory or for a pair under masks.
 
 use coadjoint_program::Kernel;
-use coadjoint_program::schedule::{Block, Kind, Part, Statement, Test, Variable};
+use coadjoint_program::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, I8, I64, I64X2};
 use cranelift_codegen::ir::{InstBuilder, Value};
@@ -29,7 +29,8 @@ impl<'f, 'k> Loop<'f, 'k> {
             Form::Pair => (I64X2, I64X2),
         };
         let builder = &mut coder.builder;
-        let counts = Variable::ALL.iter().map(|_| builder.declare_var(count)).collect();
+        let kind = |(variable, _)| if variable == Variable::Flow { I64 } else { count };
+        let counts = Variable::ALL.map(|one| builder.declare_var(kind(one))).to_vec();
         let [live, steps] = [flag, count].map(|kind| builder.declare_var(kind));
         let report = [I64, F64].map(|kind| builder.declare_var(kind));
         Self { coder, kernel, counts, live, steps, report }
@@ -82,7 +83,10 @@ impl<'f, 'k> Loop<'f, 'k> {
         for &(variable, initial) in &block.variables {
             match (variable.kind(self.kernel), initial) {
                 (Kind::Count, initial) => {
-                    let value = self.whole(initial.unwrap_or(0));
+                    let value = match variable {
+                        Variable::Flow => self.coder.integer(0),
+                        _ => self.whole(initial.unwrap_or(0)),
+                    };
                     self.set(variable, value);
                 }
                 (_, Some(initial)) => {
@@ -112,13 +116,15 @@ impl<'f, 'k> Loop<'f, 'k> {
             Statement::Next(variable) => {
                 let before = self.get(*variable);
                 // A mask is −1 where it is set.
+                let mask = mask.filter(|_| *variable != Variable::Flow);
                 let less = mask.unwrap_or_else(|| self.coder.integer(u64::MAX));
                 let sum = self.coder.builder.ins().isub(before, less);
                 self.set(*variable, sum);
             }
-            Statement::Keep => self.copy_state(None, false),
-            Statement::Restore => {
-                self.copy_state(mask, true);
+            Statement::Keep(kept) => self.copy_state(None, *kept, false),
+            Statement::Restore(Kept::Step) => self.copy_state(mask, Kept::Step, true),
+            Statement::Restore(Kept::Block) => {
+                self.copy_state(mask, Kept::Block, true);
                 let [done, mut count] = [Variable::Done, Variable::Count].map(|of| self.get(of));
                 if let Some(mask) = mask {
                     count = self.coder.builder.ins().band(count, mask);
@@ -167,11 +173,19 @@ impl<'f, 'k> Loop<'f, 'k> {
                 self.coder.store(self.coder.frame.places(input).start, number);
             }
         }
+        let first = self.coder.slots;
+        if self.kernel.flows().is_some() && part.is_of_flow() {
+            let flow = self.get(Variable::Flow);
+            let bytes = self.coder.integer(8 * self.kernel.slots_of_flow() as u64);
+            let bytes = self.coder.builder.ins().imul(flow, bytes);
+            self.coder.slots = self.coder.builder.ins().iadd(first, bytes);
+        }
         self.coder.evaluate(self.kernel, part, |coder, i, value| {
             if let Some((variable, place)) = coder.frame.find(outputs, i) {
                 coder.assign(mask.filter(|_| !within.owns(variable)), place, value);
             }
         });
+        self.coder.slots = first;
     }
 
     /// Counts as numbers.
@@ -191,8 +205,8 @@ impl<'f, 'k> Loop<'f, 'k> {
     }
 
     /// Copies g and μ to where they are kept, or back.
-    fn copy_state(&mut self, mask: Option<Value>, back: bool) {
-        let (state, start) = (self.coder.frame.state(), self.coder.frame.start);
+    fn copy_state(&mut self, mask: Option<Value>, kept: Kept, back: bool) {
+        let (state, start) = (self.coder.frame.state(), self.coder.frame.kept(kept));
         for (now, kept) in state.zip(start..) {
             let (from, to) = if back { (kept, now) } else { (now, kept) };
             let value = self.coder.load(from);
@@ -246,6 +260,10 @@ impl<'f, 'k> Loop<'f, 'k> {
         let (a, b) = match test {
             Test::Live => return self.coder.builder.use_var(self.live),
             Test::Remaining => (self.get(Variable::Done), self.coder.builder.use_var(self.steps)),
+            Test::Below(Variable::Flow, most) => {
+                let flow = self.get(Variable::Flow);
+                (self.spread(flow), self.whole(most))
+            }
             Test::Below(a, most) => (self.get(a), self.whole(most)),
             Test::Right => return self.compare(Variable::Right, FloatCC::Equal, 1.0),
             Test::Open => {

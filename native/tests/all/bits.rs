@@ -1,7 +1,7 @@
 //! A compiled step has the bits of the interpreter, in scalars and in lanes, whatever is refused.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{bits, kernel, lane, state};
+use crate::common::{bits, kernel, kicked, lane, state};
 use coadjoint_native::{COptions, CacheFolder, Entry, Native};
 use coadjoint_program::{Kernel, Stepper, Trajectories, WIDTH};
 
@@ -61,9 +61,12 @@ fn random_kernels_have_the_bits_of_the_interpreter() {
     let mut met = Met::default();
     let shapes = [[3, 4, 1], [1, 1, 0], [6, 7, 3], [2, 0, 2], [5, 9, 0], [3, 3, 6]];
     for (seed, shape) in (1..).zip(shapes) {
-        for frame in [false, true] {
+        for (frame, flows) in [(false, 0), (true, 0), (false, seed as u32 % 4 + 1)] {
             let refusal = if seed % 2 == 0 { 0.05 } else { 0.4 };
-            let kernel = kernel(seed, shape, 40, frame, refusal);
+            let mut kernel = kernel(seed, shape, 40, frame, refusal);
+            if flows > 0 {
+                kernel = kicked(kernel, seed, flows);
+            }
             let entry = compiled(&kernel);
             for steps in [0, 1, 7, 256, 700] {
                 compare(&kernel, &entry, seed, steps, &mut met);

@@ -51,6 +51,7 @@ fn random_programs_have_the_same_bits() {
             nodes: 1 + chance.below(120),
             corrections: round % 7,
             comoving: chance.below(2) == 0,
+            flows: [0, 0, 1, 3][chance.below(4)],
         };
         let sample = wild::kernel(shape, &mut chance);
         let entry = jit::compile(&sample.kernel, Trajectories::Both).unwrap();

@@ -67,7 +67,6 @@ pub fn device_unit(
     language: DeviceLanguage,
     about: &str,
 ) -> String {
-    let precision = kernel.precision();
     let device = Device::new(kernel, language);
     let mut text = comment(kernel, about);
     text.push_str(match language {
@@ -75,7 +74,7 @@ pub fn device_unit(
         DeviceLanguage::Cuda => HEAD_CUDA,
     });
     text.push_str(&device.sizes(kernel));
-    text.push_str(&device.coefficients(slots, precision));
+    text.push_str(&device.coefficients(kernel, slots));
     text.push_str(COPY);
     for signature in signatures(kernel, PREFIX) {
         text.push('\n');
@@ -84,6 +83,8 @@ pub fn device_unit(
     let style = LoopStyle {
         prefix: PREFIX.into(),
         count: "COUNT".into(),
+        slots: "coadjoint_slots".into(),
+        slots_of_flow: device.places.len().to_string(),
         copy: "coadjoint_copy".into(),
         live: "why == 0u".into(),
         right: "right == ONE".into(),
@@ -141,7 +142,7 @@ impl Device {
         let c = C {
             head: if inlined { INLINE } else { CALLED }.into(),
             number: number.into(),
-            slots: String::new(),
+            slots: if kernel.flows().is_some() { "COEFFICIENTS".into() } else { String::new() },
             pointer: "*RESTRICT ".into(),
             suffix: suffix.into(),
             ..C::default()
@@ -190,22 +191,26 @@ impl Device {
     }
 
     /// The array of the folded coefficients that the programs read.
-    fn coefficients(&self, slots: &[f64], precision: Precision) -> String {
-        let count = self.places.len();
+    fn coefficients(&self, kernel: &Kernel, slots: &[f64]) -> String {
+        let flows = kernel.flows().map_or(1, |flows| flows as usize + 1);
+        let count = self.places.len() * flows;
         if count == 0 {
             return String::new();
         }
         let space = match self.language {
             DeviceLanguage::OpenCl => "__constant",
-            DeviceLanguage::Cuda if count * precision.bytes() <= CONSTANT_BYTES => {
+            DeviceLanguage::Cuda if count * self.precision.bytes() <= CONSTANT_BYTES => {
                 "static __constant__ const"
             }
             DeviceLanguage::Cuda => "static __device__ const",
         };
         let mut text = format!("\n{space} NUMBER coadjoint_slots[{count}] = {{\n");
-        for &index in self.places.keys() {
-            let value = slots.get(index).copied().unwrap_or(0.0);
-            text.push_str(&format!("    {},\n", self.literal(value)));
+        for flow in 0..flows {
+            for &index in self.places.keys() {
+                let value = slots.get(flow * kernel.slots_of_flow() + index);
+                let value = value.copied().unwrap_or(0.0);
+                text.push_str(&format!("    {},\n", self.literal(value)));
+            }
         }
         text.push_str("};\n");
         text
@@ -239,7 +244,10 @@ impl Dialect for Device {
 
     fn slot(&self, index: usize) -> String {
         let place = self.places.get(&index).map_or_else(|| index.to_string(), usize::to_string);
-        format!("coadjoint_slots[{place}]")
+        match self.c.slots.is_empty() {
+            true => format!("coadjoint_slots[{place}]"),
+            false => format!("c[{place}]"),
+        }
     }
 
     fn operation(&self, node: Node, operands: &[&str]) -> String {
@@ -277,6 +285,7 @@ const HEAD_OPENCL: &str = r"
 #define GLOBAL __global
 #define RESTRICT restrict
 #define COUNT ulong
+#define COEFFICIENTS __constant NUMBER *
 #define ROW get_global_id(0)
 ";
 
@@ -287,6 +296,7 @@ const HEAD_CUDA: &str = r#"
 #define GLOBAL
 #define RESTRICT __restrict__
 #define COUNT unsigned long long
+#define COEFFICIENTS const NUMBER *
 #define ROW ((COUNT)blockIdx.x * blockDim.x + threadIdx.x)
 #ifndef NAN
 #define NAN (0.0f / 0.0f)

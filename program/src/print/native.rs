@@ -87,13 +87,14 @@ fn sizes(kernel: &Kernel) -> String {
          #define EXPORT __attribute__((visibility(\"default\")))\n\
          #define DIM {n}\n#define ELEMENT {m}\n\
          #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n\
-         #define TOLERANCE {}\n#define NEAR {}\n\
+         #define TOLERANCE {}\n#define NEAR {}\n#define SLOTS {}\n\
          #define WIDTH {WIDTH}\n\
          EXPORT const unsigned long long coadjoint_sizes[4] = {{{ABI}, {n}, {m}, {}}};\n",
         array(n),
         array(m),
         literal(tolerance),
         literal(near),
+        kernel.slots_of_flow(),
         kernel.slots(),
     )
 }

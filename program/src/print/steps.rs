@@ -8,7 +8,7 @@ use super::c::C;
 use super::dialect::Dialect;
 use crate::kernel::Kernel;
 use crate::node::{Id, Node};
-use crate::schedule::{Block, Kind, Part, Statement, Test, Variable};
+use crate::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 
 /// How a language writes the loop. The function around it has g, μ, `steps` and whatever `live` reads.
 #[derive(Clone, Debug)]
@@ -19,6 +19,10 @@ pub struct LoopStyle {
     pub count: String,
     /// The lengths of g and of μ.
     pub sizes: [String; 2],
+    /// The list of the coefficients.
+    pub slots: String,
+    /// How many of them are those of a flow between kicks.
+    pub slots_of_flow: String,
     /// The name of a function that copies (to, from, length).
     pub copy: String,
     /// The condition under which a trajectory moves on.
@@ -40,6 +44,8 @@ impl Default for LoopStyle {
             prefix: "scalar_".into(),
             count: "unsigned long long".into(),
             sizes: ["ELEMENT", "DIM"].map(String::from),
+            slots: "c".into(),
+            slots_of_flow: "SLOTS".into(),
             copy: "copy".into(),
             live: "live".into(),
             open: "!(residual_bound <= TOLERANCE) && distance <= NEAR".into(),
@@ -120,9 +126,15 @@ impl<D: Dialect> Writer<'_, D> {
                 let value = self.dialect.constant(f64::from(initial.unwrap_or(0)));
                 format!("{number} {name}{end} = {value};")
             }
+            (Kind::Count, _) if self.shared(variable) => format!("unsigned int {name} = 0u;"),
             (Kind::Count, _) => format!("{count} {name} = {};", self.whole(0)),
         };
         self.line(&text);
+    }
+
+    /// Whether a count is one number for all lanes.
+    fn shared(&self, count: Variable) -> bool {
+        self.lanes && count == Variable::Flow
     }
 
     fn block(&mut self, block: &Block, mask: Option<&str>) {
@@ -159,18 +171,23 @@ impl<D: Dialect> Writer<'_, D> {
                 let sum = self.dialect.operation(Node::Add(Id(0), Id(0)), &["distance", "moved"]);
                 self.copy(mask, Variable::Distance, "distance", &sum)
             }
-            Statement::Next(variable) => match mask {
+            Statement::Next(variable) => match mask.filter(|_| !self.shared(*variable)) {
                 None => format!("{}++;", variable.name()),
                 Some(mask) => format!("{} -= {mask};", variable.name()),
             },
-            Statement::Keep => {
-                self.declare(Variable::Element, "_start", None);
-                self.declare(Variable::Momentum, "_start", None);
-                self.state(mask, ["_start", ""])
+            Statement::Keep(kept) => {
+                let end = end_of(*kept);
+                self.declare(Variable::Element, end, None);
+                self.declare(Variable::Momentum, end, None);
+                self.state(mask, [end, ""])
             }
-            Statement::Restore => {
-                let count = mask.map_or("count".into(), |mask| format!("count & {mask}"));
-                format!("{}\ndone -= {count};", self.state(mask, ["", "_start"]))
+            Statement::Restore(kept) => {
+                let mut text = self.state(mask, ["", end_of(*kept)]);
+                if *kept == Kept::Block {
+                    let count = mask.map_or("count".into(), |mask| format!("count & {mask}"));
+                    text.push_str(&format!("\ndone -= {count};"));
+                }
+                text
             }
             Statement::Note => self.style.note.clone(),
             Statement::RefuseStep => refused(0),
@@ -210,15 +227,25 @@ impl<D: Dialect> Writer<'_, D> {
         };
         let mut arguments: Vec<String> = inputs.iter().map(input).collect();
         if !self.c.slots.is_empty() {
-            arguments.insert(0, "c".into());
+            let LoopStyle { slots, slots_of_flow, .. } = self.style;
+            let flow = Variable::Flow.name();
+            arguments.insert(
+                0,
+                match self.kernel.flows() {
+                    Some(_) if part.is_of_flow() => format!("&{slots}[{flow} * {slots_of_flow}]"),
+                    _ => slots.clone(),
+                },
+            );
         }
+        // The loop that a kick is in has other states beside it.
+        let beside = if part == Part::Kick { "_kicked" } else { "_next" };
         let mut moves = Vec::new();
         for &output in outputs {
             let mut name = output.name().to_string();
             // A value that the program reads, or that may not change in all lanes, is stored beside it first.
             if inputs.contains(&output) || (self.lanes && !block.owns(output)) {
-                self.declare(output, "_next", None);
-                let next = format!("{name}_next");
+                self.declare(output, beside, None);
+                let next = format!("{name}{beside}");
                 moves.push(self.copy(mask, output, &name, &next));
                 name = next;
             }
@@ -239,7 +266,12 @@ impl<D: Dialect> Writer<'_, D> {
                 Test::Remaining => "done < steps".into(),
                 Test::Below(a, b) => {
                     let sign = if holds { "<" } else { ">=" };
-                    return format!("({} {sign} {})", a.name(), self.whole(b));
+                    let name = if self.shared(a) {
+                        format!("counts({})", a.name())
+                    } else {
+                        a.name().into()
+                    };
+                    return format!("({name} {sign} {})", self.whole(b));
                 }
                 Test::Open => style.open.clone(),
                 Test::Right => style.right.clone(),
@@ -256,5 +288,13 @@ impl<D: Dialect> Writer<'_, D> {
         }
         let list: Vec<String> = condition.iter().map(test).collect();
         format!("({})", list.join(if self.lanes { " & " } else { " && " }))
+    }
+}
+
+/// The end of the names of a state that is kept.
+fn end_of(kept: Kept) -> &'static str {
+    match kept {
+        Kept::Block => "_start",
+        Kept::Step => "_before",
     }
 }

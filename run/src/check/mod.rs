@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Group, Interpreter, STEEP, Steepness, Step, advise, cayley_group, product_group,
+    Group, Interpreter, Map, STEEP, Steepness, advise, cayley_group, product_group,
 };
 use crate::error::RunError;
 use crate::load::Derived;
@@ -132,7 +132,7 @@ fn laws_of<G: Group, C: Chart<G>>(
     }));
     if let Some(forces) = &system.forces {
         let make = |h| forces.step::<G, C>(integrator, &group, h);
-        let expected = forces.order().min(integrator.order() as u32);
+        let expected = forces.splitting.order().min(integrator.order() as u32);
         laws.extend(kicked(h, make, expected.into(), &group, (&points, &starts)).map_err(at)?);
     }
     Ok((laws, ratio))
@@ -141,7 +141,7 @@ fn laws_of<G: Group, C: Chart<G>>(
 /// The laws that are left to the whole step where a potential breaks the symmetry.
 fn kicked<'a, G: Group>(
     h: f64,
-    make: impl Fn(f64) -> Result<Step<'a, G>, StepError>,
+    make: impl Fn(f64) -> Result<Map<'a, G>, StepError>,
     expected: f64,
     group: &G,
     (points, starts): (&[Phase<G>], &[Phase<G>]),
@@ -149,11 +149,11 @@ fn kicked<'a, G: Group>(
     let (there, back) = (make(h)?, make(-h)?);
     let (mut symplectic, mut symmetric) = (None, 0.0_f64);
     for point in points {
-        let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0))?;
+        let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state).map(drop))?;
         symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
         let mut state = point.clone();
-        there(&mut state, 0.0)?;
-        back(&mut state, h)?;
+        there(&mut state)?;
+        back(&mut state)?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = worse(symmetric, difference);
     }
@@ -167,7 +167,7 @@ fn kicked<'a, G: Group>(
     let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
     let order = order::measure(h, expected, group, starts, |h, steps, state| {
         let step = make(h)?;
-        (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
+        (0..steps).try_for_each(|_| step(state).map(drop))
     });
     let statement = "flows and kicks: that of the splitting";
     let order = Law { name: "order+V", statement, ..order };

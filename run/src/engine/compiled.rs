@@ -1,21 +1,23 @@
-//! The steps of an interpreter as straight-line programs: evaluated, or as machine code.
+//! Steps as straight-line programs: evaluated, or as machine code.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use coadjoint::groups::Chart;
-use coadjoint::steps::StepReport;
-use coadjoint::{LieGroup, Phase, StepError};
+use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Scratch, Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
+use super::Restore;
+use super::interpreter::coefficients;
 use super::restore::{entries_of, phase_of};
-use super::{Interpreter, Restore};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
 /// Programs of more operations than this are not compiled: they are evaluated as data.
 pub(super) const MOST_OPERATIONS: usize = 60_000;
+
+/// The most iterations and the largest residual of the solves of steps, where they are known.
+pub type Solves = Option<(u32, f64)>;
 
 /// A state as the programs have it.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +78,7 @@ impl Kept {
     }
 }
 
-/// The steps of an interpreter as straight-line programs.
+/// Steps as straight-line programs.
 pub struct Compiled {
     programs: Arc<Programs>,
     slots: Vec<f64>,
@@ -100,13 +102,14 @@ impl std::fmt::Debug for Compiled {
 }
 
 impl Compiled {
-    /// The steps of `interpreter`, `steps` of which are going to be made, of these trajectories; `None` where they are not
-    /// made of programs. What is kept of the same integrator is used again.
+    /// Steps of this size, `steps` of which are going to be made, of these trajectories; `None` where they are not made of
+    /// programs. What is kept of the same integrator is used again.
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
-    pub fn new<G: LieGroup<Scalar = f64>, C: Chart<G>>(
-        interpreter: &Interpreter<'_, G, C>,
+    pub fn new(
+        integrator: &Integrator,
+        size: f64,
         backend: Backend,
         steps: f64,
         trajectories: Trajectories,
@@ -118,7 +121,7 @@ impl Compiled {
         };
         let programs = match kept.programs.get() {
             Some(programs) => programs.clone(),
-            None => match Programs::build(interpreter.integrator) {
+            None => match Programs::build(integrator) {
                 Ok(programs) => kept.programs.get_or_init(|| programs).clone(),
                 Err(error) => return unfit(&error),
             },
@@ -126,18 +129,16 @@ impl Compiled {
         let step = &programs.step;
         let parts = step.kernel().programs();
         let operations = parts.correct.nodes().len() + parts.transport.nodes().len();
-        let backend = match backend {
-            Backend::Auto if operations > MOST_OPERATIONS => Backend::Interpreter,
-            Backend::Auto | Backend::Interpreter => backend,
-            _ if operations > MOST_OPERATIONS => {
-                let most = MOST_OPERATIONS;
-                return Err(RunError::Option(format!(
-                    "--backend: a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
-                )));
-            }
-            _ => backend,
-        };
-        let slots = interpreter.slots[..=step.radius_at()].to_vec();
+        let large = operations > MOST_OPERATIONS;
+        if large && !matches!(backend, Backend::Auto | Backend::Interpreter) {
+            let most = MOST_OPERATIONS;
+            return unfit(&format_args!(
+                "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
+            ));
+        }
+        let backend = if large { Backend::Interpreter } else { backend };
+        let slots = coefficients(integrator, step, size)
+            .map_err(|source| RunError::Step { time: 0.0, source })?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
@@ -188,7 +189,7 @@ impl Compiled {
         &self,
         numbers: &mut Numbers,
         steps: u64,
-        mut rescue: impl FnMut(&mut Numbers) -> Result<StepReport<f64>, StepError>,
+        mut rescue: impl FnMut(&mut Numbers) -> Result<Solves, StepError>,
     ) -> Result<Outcome, (u64, StepError)> {
         let mut total = Outcome::default();
         while total.steps < steps {
@@ -199,24 +200,26 @@ impl Compiled {
             total.steps += made.steps;
             note(&mut total, made.corrections, made.residual);
             if made.steps < asked {
-                let report = rescue(numbers).map_err(|error| (total.steps, error))?;
-                note(&mut total, report.iterations, report.residual);
+                let solves = rescue(numbers).map_err(|error| (total.steps, error))?;
+                if let Some((iterations, residual)) = solves {
+                    note(&mut total, iterations, residual);
+                }
                 total.steps += 1;
             }
         }
         Ok(total)
     }
 
-    /// One step that the programs have refused, by the interpreter of the generating function, which follows a solution
-    /// from the identity or says why there is none.
-    pub fn rescue<G: Restore, C: Chart<G>>(
+    /// One step that the programs have refused, by `step`, which follows a solution from the identity or says why there
+    /// is none.
+    pub fn rescue<G: Restore, R>(
         &self,
-        interpreter: &Interpreter<'_, G, C>,
+        group: &G,
         numbers: &mut Numbers,
-    ) -> Result<StepReport<f64>, StepError> {
-        let group = &interpreter.group;
+        step: impl FnOnce(&mut Phase<G>) -> Result<R, StepError>,
+    ) -> Result<R, StepError> {
         let mut phase = self.phase(group, numbers);
-        let report = coadjoint::steps::advance(interpreter, &mut phase)?;
+        let report = step(&mut phase)?;
         *numbers = self.numbers(group, &phase);
         Ok(report)
     }

@@ -11,6 +11,7 @@ use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem;
+use coadjoint_codegen::step::Step;
 use coadjoint_program::fold::FoldError;
 
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
@@ -40,6 +41,16 @@ pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError
             StepError::InvalidParameter { name: "of the generating function", value }
         }
     }
+}
+
+/// The coefficients that the programs of a step of this size read.
+pub(super) fn coefficients(
+    integrator: &Integrator,
+    step: &Step,
+    size: f64,
+) -> Result<Vec<f64>, StepError> {
+    let symbols = problem::values(&integrator.problem.symbols);
+    step.fold(size, &[]).map_err(|error| refusal(error, size, &symbols))
 }
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.

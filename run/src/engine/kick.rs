@@ -1,9 +1,9 @@
-//! A potential run by the interpreter, and its kicks between flows.
+//! A potential run by the interpreter, and its kicks between flows: what programs refuse, and what has none.
 
 use std::cell::RefCell;
 
 use coadjoint::groups::Chart;
-use coadjoint::steps::{Kicked, Prk4, Prk6, Rkn4, Rkn6, Splitting as Sequence, Strang};
+use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::graph;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
@@ -13,7 +13,7 @@ use coadjoint_codegen::system::Splitting;
 use nalgebra::DVector;
 
 use super::interpreter::refusal;
-use super::{Group, Interpreter};
+use super::{Group, Interpreter, Solves};
 
 /// The kicks of a potential.
 #[derive(Debug)]
@@ -24,8 +24,26 @@ pub struct Forces {
     pub splitting: Splitting,
 }
 
-/// A step, from the time given.
-pub type Step<'a, G> = Box<dyn Fn(&mut Phase<G>, f64) -> Result<(), StepError> + 'a>;
+/// Makes a step of a state.
+pub type Map<'a, G> = Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + 'a>;
+
+/// The step of this size by the generic solver: a flow, or flows and kicks. It serves where programs refuse a step, and
+/// where a system has none.
+pub fn map<'a, G: Group + 'a, C: Chart<G> + 'a>(
+    integrator: &'a Integrator,
+    forces: Option<&'a Forces>,
+    group: &G,
+    size: f64,
+) -> Result<Map<'a, G>, StepError> {
+    if let Some(forces) = forces {
+        return forces.step::<G, C>(integrator, group, size);
+    }
+    let step = Interpreter::<G, C>::new(integrator, group.clone(), size)?;
+    Ok(Box::new(move |phase| {
+        let report = advance(&step, phase)?;
+        Ok(Some((report.iterations, report.residual)))
+    }))
+}
 
 impl Forces {
     /// Derives the torque.
@@ -33,30 +51,11 @@ impl Forces {
         Self { kick: Kick::build(potential), splitting }
     }
 
-    /// The order of the splitting.
-    pub fn order(&self) -> u32 {
-        match self.splitting {
-            Splitting::Strang => Strang::ORDER,
-            Splitting::Rkn4 => Rkn4::ORDER,
-            Splitting::Rkn6 => Rkn6::ORDER,
-            Splitting::Prk4 => Prk4::ORDER,
-            Splitting::Prk6 => Prk6::ORDER,
-        }
-    }
-
     /// The longest flow of a step, as a share of it.
     pub fn longest_flow(&self) -> f64 {
-        let parts = match self.splitting {
-            Splitting::Strang => Strang::PARTS,
-            Splitting::Rkn4 => Rkn4::PARTS,
-            Splitting::Rkn6 => Rkn6::PARTS,
-            Splitting::Prk4 => Prk4::PARTS,
-            Splitting::Prk6 => Prk6::PARTS,
-        };
-        parts.iter().copied().fold(0.0, |longest: f64, part| match part.abs() > longest.abs() {
-            true => part,
-            false => longest,
-        })
+        let longer =
+            |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
+        self.splitting.flows().into_iter().fold(0.0, longer)
     }
 
     /// The step of flows and kicks.
@@ -65,27 +64,28 @@ impl Forces {
         integrator: &'a Integrator,
         group: &G,
         step: f64,
-    ) -> Result<Step<'a, G>, StepError> {
-        match self.splitting {
-            Splitting::Strang => self.composed::<G, C, Strang>(integrator, group, step),
-            Splitting::Rkn4 => self.composed::<G, C, Rkn4>(integrator, group, step),
-            Splitting::Rkn6 => self.composed::<G, C, Rkn6>(integrator, group, step),
-            Splitting::Prk4 => self.composed::<G, C, Prk4>(integrator, group, step),
-            Splitting::Prk6 => self.composed::<G, C, Prk6>(integrator, group, step),
-        }
-    }
-
-    fn composed<'a, G: Group + 'a, C: Chart<G> + 'a, M: Sequence + 'a>(
-        &'a self,
-        integrator: &'a Integrator,
-        group: &G,
-        step: f64,
-    ) -> Result<Step<'a, G>, StepError> {
+    ) -> Result<Map<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone())?;
-        let torque = move |_: f64, g: &G::Element| torque.torque(g);
-        let flow = |part: f64| Interpreter::<G, C>::new(integrator, group.clone(), part);
-        let kicked = Kicked::<M, _, _>::new(step, torque, flow)?;
-        Ok(Box::new(move |phase, time| kicked.advance(phase, time)))
+        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), step * part);
+        let flows: Result<Vec<_>, _> = self.splitting.flows().into_iter().map(flow).collect();
+        let (kicks, flows) = (self.splitting.kicks(), flows?);
+        Ok(Box::new(move |phase| {
+            let mut state = phase.clone();
+            for (i, part) in kicks.iter().enumerate() {
+                let torque = torque.torque(&state.group_element);
+                for (mu, torque) in state.momentum.iter_mut().zip(&torque) {
+                    *mu = torque.mul_add(step * part, *mu);
+                }
+                if let Some(flow) = flows.get(i) {
+                    advance(flow, &mut state)?;
+                }
+            }
+            if state.momentum.iter().any(|mu| !mu.is_finite()) {
+                return Err(StepError::NonFiniteState);
+            }
+            *phase = state;
+            Ok(None)
+        }))
     }
 }
 

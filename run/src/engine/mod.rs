@@ -11,10 +11,10 @@ mod steep;
 
 pub use advise::advise;
 pub use card::{card, device_text};
-pub use compiled::{Compiled, Kept, Numbers};
+pub use compiled::{Compiled, Kept, Numbers, Solves};
 pub use group::{cayley_group, product_group, whole_group};
 pub use interpreter::{Interpreter, STEEP};
-pub use kick::{Forces, Step, Torque};
+pub use kick::{Forces, Map, Torque, map};
 pub use restore::{Restore, entries_of, phase_of};
 pub use steep::Steepness;
 

@@ -6,13 +6,12 @@ use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::StepError;
-use coadjoint::steps::StepReport;
 use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
 use coadjoint_program::WIDTH;
 use rayon::prelude::*;
 
 use super::engine::larger;
-use crate::engine::{Compiled, Numbers};
+use crate::engine::{Compiled, Numbers, Solves};
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 const STRETCH: u64 = 256;
@@ -22,7 +21,7 @@ pub struct Manner<'a> {
     /// By these programs, where there are any.
     pub compiled: Option<&'a Compiled>,
     /// Makes a step that they have refused.
-    pub rescue: &'a (dyn Fn(&mut Numbers) -> Result<StepReport<f64>, StepError> + Sync),
+    pub rescue: &'a (dyn Fn(&mut Numbers) -> Result<Solves, StepError> + Sync),
     /// The ratio of the last two terms of the series at a momentum, looked at after each stretch.
     pub ratio: &'a (dyn Fn(&[f64]) -> f64 + Sync),
     /// Where it is set, nothing more is made.

@@ -58,8 +58,9 @@ where
     ) -> Result<Self, RunError> {
         let stepper = Interpreter::<G, C>::new(integrator, group, step)
             .map_err(|source| RunError::Step { time: 0.0, source })?;
-        let compiled = Compiled::new(&stepper, how.backend, how.work, Trajectories::Lanes, kept)?;
-        let card = how.device.map(|asked| card(&stepper, asked.device, asked.precision));
+        let compiled =
+            Compiled::new(integrator, step, how.backend, how.work, Trajectories::Lanes, kept)?;
+        let card = how.device.map(|asked| card(integrator, step, asked.device, asked.precision));
         let card = card.transpose()?.map(Mutex::new);
         let (redone, shorter) = Default::default();
         let invariants = Invariants::of(&integrator.problem.algebra);
@@ -180,7 +181,7 @@ where
                 let mut phase = self.phase(state);
                 let report = coadjoint::steps::advance(&self.stepper, &mut phase)?;
                 *state = self.numbers(&phase);
-                Ok(report)
+                Ok(Some((report.iterations, report.residual)))
             },
             ratio: &|mu| steepness.ratio(&DVector::from_column_slice(mu)),
             stop: watch.stop,

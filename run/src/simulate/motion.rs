@@ -2,17 +2,13 @@
 
 use std::cell::RefCell;
 
-use coadjoint::groups::Chart;
-use coadjoint::{GeneratingFunction, Phase, StepError};
+use coadjoint::{Phase, StepError};
 use coadjoint_codegen::step::Scratch;
 use nalgebra::DVector;
 
 use super::schedule::Schedule;
-use crate::engine::{Compiled, Interpreter, Numbers, Restore, entries_of, phase_of};
+use crate::engine::{Compiled, Numbers, Restore, Solves, entries_of, phase_of};
 use crate::number::maximum;
-
-/// The most iterations and the largest residual of the solves of steps, where there were any.
-pub type Solves = Option<(u32, f64)>;
 
 /// How the numbers of a state are read.
 pub trait Space {
@@ -154,35 +150,22 @@ impl<G: Restore> Motion for OneByOne<'_, G> {
 }
 
 /// A state that programs move; `steps` are made where these refuse, and beside the grid.
-pub struct ByPrograms<'a, 's, G: Restore, C> {
+pub struct ByPrograms<'a, G: Restore> {
     compiled: &'a Compiled,
-    interpreter: &'a Interpreter<'s, G, C>,
     steps: Steps<'a, G>,
-    /// The error of a step that there is not, with advice, from the state before it.
-    advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
     state: Numbers,
     scratch: RefCell<Scratch>,
 }
 
-impl<'a, 's, G: Restore, C: Chart<G>> ByPrograms<'a, 's, G, C> {
+impl<'a, G: Restore> ByPrograms<'a, G> {
     /// From the state with this matrix, row by row.
-    pub fn new(
-        compiled: &'a Compiled,
-        interpreter: &'a Interpreter<'s, G, C>,
-        steps: Steps<'a, G>,
-        advised: &'a dyn Fn(StepError, &Phase<G>) -> StepError,
-        start: Numbers,
-    ) -> Self {
+    pub fn new(compiled: &'a Compiled, steps: Steps<'a, G>, start: Numbers) -> Self {
         let state = Numbers { g: compiled.element_of(&start.g), mu: start.mu };
-        Self { compiled, interpreter, steps, advised, state, scratch: RefCell::default() }
-    }
-
-    fn phase(&self) -> Phase<G> {
-        self.compiled.phase(self.interpreter.group(), &self.state)
+        Self { compiled, steps, state, scratch: RefCell::default() }
     }
 }
 
-impl<G: Restore, C> Space for ByPrograms<'_, '_, G, C> {
+impl<G: Restore> Space for ByPrograms<'_, G> {
     fn size(&self) -> usize {
         self.steps.group.matrix_size()
     }
@@ -198,7 +181,7 @@ impl<G: Restore, C> Space for ByPrograms<'_, '_, G, C> {
     }
 }
 
-impl<G: Restore, C: Chart<G>> Motion for ByPrograms<'_, '_, G, C> {
+impl<G: Restore> Motion for ByPrograms<'_, G> {
     fn state(&self) -> &Numbers {
         &self.state
     }
@@ -207,18 +190,20 @@ impl<G: Restore, C: Chart<G>> Motion for ByPrograms<'_, '_, G, C> {
         self.state = state;
     }
 
-    fn advance(&mut self, _first: u64, count: u64) -> Result<Solves, (u64, StepError)> {
-        let Self { compiled, interpreter, state, .. } = self;
-        let made = compiled.advance(state, count, |numbers| compiled.rescue(interpreter, numbers));
-        let made = made.map_err(|(done, error)| (done, (self.advised)(error, &self.phase())))?;
+    fn advance(&mut self, first: u64, count: u64) -> Result<Solves, (u64, StepError)> {
+        let Self { compiled, steps, state, .. } = self;
+        let time = steps.schedule.time(first);
+        let one = |phase: &mut Phase<G>| (steps.step)(time, phase);
+        let made =
+            compiled.advance(state, count, |state| compiled.rescue(steps.group, state, one))?;
         // A bound, which may be far below what rounding leaves.
         Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
     }
 
     fn beside(&self, time: f64, part: f64) -> Result<Numbers, StepError> {
-        let mut phase = self.phase();
+        let mut phase = self.compiled.phase(self.steps.group, &self.state);
         (self.steps.side)(time, part, &mut phase)?;
-        Ok(self.compiled.numbers(self.interpreter.group(), &phase))
+        Ok(self.compiled.numbers(self.steps.group, &phase))
     }
 
     fn ratio(&self) -> f64 {

@@ -8,9 +8,7 @@ use coadjoint_program::Trajectories;
 
 use super::setup::not_an_element;
 use crate::backend::Backend;
-use crate::engine::{
-    Compiled, Interpreter, Numbers, Restore, advise, cayley_group, entries_of, phase_of,
-};
+use crate::engine::{Compiled, Numbers, Restore, advise, cayley_group, entries_of, map, phase_of};
 use crate::error::RunError;
 use crate::load::Derived;
 
@@ -24,7 +22,7 @@ enum Group {
     Cayley(DirectProduct<CayleyMatrixGroup>),
 }
 
-/// The step of one size, ready to be made from any state. Steps of systems with a potential are not made so.
+/// The step of one size, ready to be made from any state.
 #[derive(Debug)]
 pub struct Single<S> {
     system: S,
@@ -40,21 +38,13 @@ impl<S: AsRef<Derived>> Single<S> {
     /// Where the step makes no sense, or the backend asked for cannot be had.
     pub fn new(system: S, step: f64, backend: Backend, steps: f64) -> Result<Self, RunError> {
         let derived = system.as_ref();
-        if derived.forces.is_some() {
-            let what = "single steps of a system with a potential are not made: simulate it";
-            return Err(RunError::Option(what.into()));
-        }
         let plain = derived.group()?;
         let group = match derived.integrator.problem.chart {
             lie::Chart::Exponential => Group::Exponential(plain),
             lie::Chart::Cayley => Group::Cayley(cayley_group(&derived.file, &plain)?),
         };
-        let compiled = match &group {
-            Group::Exponential(group) => {
-                compile::<_, Exponential>(derived, group, step, backend, steps)?
-            }
-            Group::Cayley(group) => compile::<_, Cayley>(derived, group, step, backend, steps)?,
-        };
+        let (integrator, kept) = (&derived.integrator, &derived.kept);
+        let compiled = Compiled::new(integrator, step, backend, steps, Trajectories::One, kept)?;
         Ok(Self { system, group, step, compiled })
     }
 
@@ -112,29 +102,34 @@ impl<S: AsRef<Derived>> Single<S> {
         mu: &mut [f64],
         steps: u64,
     ) -> Result<(), (u64, StepError)> {
-        let make = |h| Interpreter::<G, C>::new(&self.system.as_ref().integrator, group.clone(), h);
+        let derived = self.system.as_ref();
+        let make = |h| map::<G, C>(&derived.integrator, derived.forces.as_ref(), group, h);
         let advised = |error, matrix: &[f64], mu: &[f64]| {
             advise(error, self.step, |h| {
-                let mut phase = phase_of(group, matrix, mu);
-                make(h).is_ok_and(|step| coadjoint::steps::advance(&step, &mut phase).is_ok())
+                make(h).is_ok_and(|step| step(&mut phase_of(group, matrix, mu)).is_ok())
             })
         };
-        let Some(compiled) = &self.compiled else {
-            let step = make(self.step).map_err(|error| (1, error))?;
-            let mut phase = phase_of(group, matrix, mu);
-            let made = coadjoint::steps::advance_by(&step, &mut phase, steps);
-            matrix.copy_from_slice(&entries_of(group, &phase.group_element));
-            mu.copy_from_slice(phase.momentum.as_slice());
-            return made
-                .map(drop)
-                .map_err(|stopped| (stopped.steps + 1, advised(stopped.error, matrix, mu)));
+        let made = match &self.compiled {
+            Some(compiled) => {
+                let mut numbers = Numbers { g: compiled.element_of(matrix), mu: mu.to_vec() };
+                let made = compiled.advance(&mut numbers, steps, |numbers| {
+                    compiled.rescue(group, numbers, |phase| make(self.step)?(phase))
+                });
+                matrix.copy_from_slice(&compiled.matrix_of(&numbers.g));
+                mu.copy_from_slice(&numbers.mu);
+                made.map(drop)
+            }
+            None => {
+                let step = make(self.step).map_err(|error| (1, error))?;
+                let mut phase = phase_of(group, matrix, mu);
+                let made = (0..steps)
+                    .try_for_each(|done| step(&mut phase).map(drop).map_err(|error| (done, error)));
+                matrix.copy_from_slice(&entries_of(group, &phase.group_element));
+                mu.copy_from_slice(phase.momentum.as_slice());
+                made
+            }
         };
-        let mut numbers = Numbers { g: compiled.element_of(matrix), mu: mu.to_vec() };
-        let made = compiled
-            .advance(&mut numbers, steps, |numbers| compiled.rescue(&make(self.step)?, numbers));
-        matrix.copy_from_slice(&compiled.matrix_of(&numbers.g));
-        mu.copy_from_slice(&numbers.mu);
-        made.map(drop).map_err(|(done, error)| (done + 1, advised(error, matrix, mu)))
+        made.map_err(|(done, error)| (done + 1, advised(error, matrix, mu)))
     }
 }
 
@@ -142,16 +137,4 @@ fn nearest<G: Restore>(group: &G, matrix: &[f64]) -> Result<Vec<f64>, ElementErr
     let size = group.matrix_size();
     let element = group.element_from_matrix(|i, j| matrix[i * size + j])?;
     Ok(entries_of(group, &element))
-}
-
-fn compile<G: Restore, C: Chart<G>>(
-    derived: &Derived,
-    group: &G,
-    step: f64,
-    backend: Backend,
-    steps: f64,
-) -> Result<Option<Compiled>, RunError> {
-    let interpreter = Interpreter::<G, C>::new(&derived.integrator, group.clone(), step)
-        .map_err(|source| RunError::Step { time: 0.0, source })?;
-    Compiled::new(&interpreter, backend, steps, Trajectories::One, &derived.kept)
 }

@@ -2,19 +2,18 @@
 
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 
 use super::march::Subject;
-use super::motion::{ByPrograms, OneByOne, Solves, Steps};
+use super::motion::{ByPrograms, OneByOne, Steps};
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
 use crate::engine::{
-    Compiled, Forces, Interpreter, Restore, Steepness, advise, cayley_group, product_group,
+    Compiled, Forces, Interpreter, Restore, Steepness, advise, cayley_group, map, product_group,
     whole_group,
 };
 use crate::error::RunError;
@@ -83,75 +82,29 @@ fn integrate<G: Restore, C: Chart<G>>(
 ) -> Result<Outcome, RunError> {
     let subject =
         Subject { file: &system.file, setup, watched: system.watched(), warnings: Vec::new() };
-    match &system.forces {
-        Some(forces) => kicked::<G, C>(system, &subject, group, forces, sink),
-        None => flow::<G, C>(system, &subject, group, sink),
-    }
-}
-
-/// Flows and kicks.
-fn kicked<G: Restore, C: Chart<G>>(
-    system: &Derived,
-    subject: &Subject<'_>,
-    group: &G,
-    forces: &Forces,
-    sink: &mut dyn Sink,
-) -> Result<Outcome, RunError> {
-    let (integrator, schedule) = (&system.integrator, &subject.setup.schedule);
+    let (integrator, forces) = (&system.integrator, system.forces.as_ref());
+    let (schedule, kept) = (&setup.schedule, &system.kept);
     let h = schedule.step;
-    let make = |h| forces.step::<G, C>(integrator, group, h);
+    let make = |h| map::<G, C>(integrator, forces, group, h);
     let made = make(h).map_err(at_start)?;
-    let longest = h * forces.longest_flow();
-    let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest);
-    let flow = flow.map_err(at_start)?;
+    let longest = h * forces.map_or(1.0, Forces::longest_flow);
+    let flow = Interpreter::<G, C>::new(integrator, group.clone(), longest).map_err(at_start)?;
     let steepness = Steepness::new(&flow);
-    let step = |time, phase: &mut Phase<G>| {
-        let made = made(phase, time);
-        made.map(|()| None).map_err(|error| {
-            let works = |h| make(h).is_ok_and(|s| s(&mut phase.clone(), time).is_ok());
-            advise(error, h, works)
+    let step = |_, phase: &mut Phase<G>| {
+        made(phase).map_err(|error| {
+            advise(error, h, |h| make(h).is_ok_and(|step| step(&mut phase.clone()).is_ok()))
         })
     };
-    let side = |time, part, phase: &mut Phase<G>| make(part)?(phase, time);
-    let ratio = |mu: &DVector<f64>| steepness.ratio(mu);
-    let steps = Steps { group, schedule, step: &step, side: &side, ratio: &ratio };
-    let start = subject.setup.start(subject.file, group)?;
-    subject.run(&mut OneByOne::new(steps, start), sink)
-}
-
-/// The flow alone.
-fn flow<G: Restore, C: Chart<G>>(
-    system: &Derived,
-    subject: &Subject<'_>,
-    group: &G,
-    sink: &mut dyn Sink,
-) -> Result<Outcome, RunError> {
-    let (integrator, setup) = (&system.integrator, subject.setup);
-    let schedule = &setup.schedule;
-    let h = schedule.step;
-    let series = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
-    let interpreter = series(h).map_err(at_start)?;
-    let steepness = Steepness::new(&interpreter);
-    let advised = |error, phase: &Phase<G>| {
-        advise(error, h, |h| series(h).is_ok_and(|step| advance(&step, &mut phase.clone()).is_ok()))
-    };
-    let step = |_, phase: &mut Phase<G>| -> Result<Solves, StepError> {
-        let report = advance(&interpreter, phase).map_err(|error| advised(error, phase))?;
-        Ok(Some((report.iterations, report.residual)))
-    };
-    let side = |_, part, phase: &mut Phase<G>| advance(&series(part)?, phase).map(drop);
+    let side = |_, part, phase: &mut Phase<G>| make(part)?(phase).map(drop);
     let ratio = |mu: &DVector<f64>| steepness.ratio(mu);
     let steps = Steps { group, schedule, step: &step, side: &side, ratio: &ratio };
     let start = setup.start(subject.file, group)?;
-    let expected = schedule.steps as f64;
-    let kept = &system.kept;
-    let Some(compiled) =
-        Compiled::new(&interpreter, setup.backend, expected, Trajectories::One, kept)?
-    else {
+    let (backend, expected) = (setup.backend, schedule.steps as f64);
+    let compiled = Compiled::new(integrator, h, backend, expected, Trajectories::One, kept)?;
+    let Some(compiled) = compiled else {
         return subject.run(&mut OneByOne::new(steps, start), sink);
     };
-    let mut motion = ByPrograms::new(&compiled, &interpreter, steps, &advised, start);
-    let outcome = subject.run(&mut motion, sink);
+    let outcome = subject.run(&mut ByPrograms::new(&compiled, steps, start), sink);
     compiled.code().notes().iter().for_each(|note| sink.warn(note));
     Ok(Outcome { backend: Some(compiled.code().used()), ..outcome? })
 }

@@ -40,6 +40,18 @@ impl Coefficients {
         self.bases.len() - 1
     }
 
+    /// Adds the bases and slots of another table, whose symbols come after `symbols` of this one; the number of its first slot.
+    pub fn append(&mut self, other: &Self, symbols: usize) -> usize {
+        let (base, slot) = (self.bases.len(), self.slots.len());
+        let shifted = |term: &Contribution| {
+            let symbol_powers = [&vec![0; symbols][..], &term.symbol_powers].concat();
+            Contribution { symbol_powers, ..term.clone() }
+        };
+        self.bases.extend(other.bases.iter().map(|terms| terms.iter().map(shifted).collect()));
+        self.slots.extend(other.slots.iter().map(|&(own, scale)| (base + own, scale)));
+        slot
+    }
+
     /// Declares the bases added so far to be those of the series with these terms.
     pub fn end_series(&mut self, terms: &[BaseTerm]) {
         self.monomials = terms.iter().map(|term| term.factors.clone()).collect();

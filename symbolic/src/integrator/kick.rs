@@ -1,9 +1,10 @@
 //! The programs of a potential: its value and its torque.
 
 use super::coefficients::Coefficients;
-use super::{lower, terms};
+use super::{Integrator, lower, terms};
 use crate::graph::Program;
 use crate::potential::Potential;
+use crate::splitting::Splitting;
 
 /// Everything a back end needs to write or run kicks.
 ///
@@ -36,5 +37,31 @@ impl Kick {
             .collect();
         let torque = lower::vector_program(&mut coefficients, entries, &components);
         Self { potential, coefficients, energy, torque }
+    }
+}
+
+/// The kicks between the flows of an integrator, over its coefficients.
+#[derive(Clone, Debug)]
+pub struct Kicks {
+    /// Their programs.
+    pub kick: Kick,
+    /// The number of the programs' first slot among those of the integrator.
+    pub first: usize,
+    /// How kicks and flows are composed.
+    pub splitting: Splitting,
+}
+
+impl Integrator {
+    /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
+    #[must_use]
+    pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {
+        let problem = &mut self.problem;
+        if kick.potential.parameters != problem.parameters {
+            return None;
+        }
+        let first = self.coefficients.append(&kick.coefficients, problem.symbols.len());
+        problem.symbols.extend(kick.potential.symbols.iter().cloned());
+        self.kicks = Some(Kicks { kick, first, splitting });
+        Some(self)
     }
 }

@@ -10,7 +10,7 @@ mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
 pub use fold::FoldTable;
-pub use kick::Kick;
+pub use kick::{Kick, Kicks};
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
 
@@ -54,6 +54,8 @@ pub struct Integrator {
     pub energy: Program,
     /// μ ↦ y for each part of the comoving frame's motion: exp y follows the map of S.
     pub frame: Vec<Program>,
+    /// The kicks of a potential between flows.
+    pub kicks: Option<Kicks>,
 }
 
 impl Integrator {
@@ -168,6 +170,7 @@ impl Integrator {
             predictor,
             energy,
             frame,
+            kicks: None,
         })
     }
 

@@ -30,6 +30,7 @@ use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::splitting::Splitting;
 pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
 use motion::Motion;
@@ -52,6 +53,8 @@ pub struct Step {
     fold: FoldTable,
     symbols: Vec<ParameterExpr>,
     radius_at: usize,
+    /// Where there are kicks.
+    splitting: Option<Splitting>,
 }
 
 impl Step {
@@ -99,7 +102,8 @@ impl Step {
         let radius_at = FoldTable::radius_at(integrator);
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
-        Ok(Self { kernel, group, fold, symbols, radius_at })
+        let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting })
     }
 
     /// The programs.
@@ -108,14 +112,22 @@ impl Step {
         &self.kernel
     }
 
-    /// All numbers that the programs read as coefficients, for a step size and the parameters' scalars.
+    /// All numbers that the programs read as coefficients, for a step size and the parameters' scalars. With kicks there is
+    /// a list for each flow and one for the last kick, one after the other.
     ///
     /// # Errors
     /// [`FoldError`] where the step size is zero, or a number is not finite.
     pub fn fold(&self, step: f64, parameters: &[f64]) -> Result<Vec<f64>, FoldError> {
         let symbols: Vec<f64> =
             self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect();
-        self.fold.fold(step, &symbols)
+        let Some(splitting) = self.splitting else { return self.fold.fold(step, &symbols) };
+        let flows = splitting.flows();
+        let mut all = Vec::new();
+        for (kick, flow) in splitting.kicks().into_iter().zip(flows.iter().chain(flows.first())) {
+            all.extend(self.fold.fold(step * flow, &symbols)?);
+            all.push(step * kick);
+        }
+        Ok(all)
     }
 
     /// The place among the coefficients of the square of the |μ| up to which the series can be trusted.

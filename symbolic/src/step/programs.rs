@@ -9,7 +9,7 @@ use super::product::Product;
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Kicks};
 use crate::lie;
 use crate::poly::Polynomial;
 
@@ -31,24 +31,62 @@ pub fn kernel(
     (base, bound_len): (usize, usize),
 ) -> Result<Kernel, StepError> {
     let (guess, correct) = scheme.programs(integrator, group, (base, bound_len));
+    let radius = base + bound_len;
+    let (transport, frame) = (transport(group), frame(integrator, group)?);
+    // Between kicks a frame moves on with each flow.
+    let (transport, frame) = match (frame, &integrator.kicks) {
+        (Some(frame), Some(_)) => (followed(group, &transport, &frame), None),
+        (frame, _) => (transport, frame),
+    };
     let programs = Programs {
         guess,
         correct,
-        accept: accept(integrator, scheme, group, base + bound_len),
-        transport: transport(group),
-        frame: frame(integrator, group)?,
+        accept: accept(integrator, scheme, group, radius),
+        transport,
+        frame,
         sound: sound(group),
         watch: watch(integrator, group),
         matrix: matrix(group),
     };
-    Ok(Kernel::new(KernelParts {
+    let kernel = Kernel::new(KernelParts {
         dim: group.dim(),
         element: group.element(),
         tolerance: ROUNDINGS * f64::EPSILON,
         near: NEAR,
         corrections: scheme.corrections(),
         programs,
-    })?)
+    })?;
+    match &integrator.kicks {
+        Some(kicks) => {
+            let flows = kicks.splitting.flows().len() as u32;
+            Ok(kernel.with_kicks(kick(kicks, group, radius + 1), flows)?)
+        }
+        None => Ok(kernel),
+    }
+}
+
+/// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick.
+fn kick(kicks: &Kicks, group: &Product, length: usize) -> Program {
+    let (n, m) = (group.dim(), group.element());
+    let mut graph = Graph::new();
+    let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
+    let matrix = group.matrix(&mut graph, &g);
+    let torque = graph.call_from(&kicks.kick.torque, matrix.entries(), kicks.first);
+    let length = graph.slot(length);
+    let mut kicked = |(&torque, &mu): (&Id, &Id)| graph.times_plus(torque, length, mu);
+    let outputs: Vec<Id> = torque.iter().zip(&mu).map(&mut kicked).collect();
+    graph.finish(m + n, &outputs)
+}
+
+/// g, μ, x ↦ the state moved by the increment, then by the frame of one flow.
+fn followed(group: &Product, transport: &Program, frame: &Program) -> Program {
+    let (n, m) = (group.dim(), group.element());
+    let mut graph = Graph::new();
+    let state = inputs(&mut graph, 0, m + n + n);
+    let mut moved = graph.call(transport, &state);
+    moved.push(graph.constant(1.0));
+    let outputs = graph.call(frame, &moved);
+    graph.finish(m + n + n, &outputs)
 }
 
 /// μ, x, the residual bound, the distance from the guess ↦ 1 where the step is right.
@@ -127,13 +165,21 @@ fn sound(group: &Product) -> Program {
     graph.finish(m + n, &[verdict])
 }
 
-/// g, μ ↦ the energy H_red(μ), then the Casimirs of low degree.
+/// g, μ ↦ the energy H_red(μ) + V(g), then the Casimirs of low degree that are conserved.
 fn watch(integrator: &Integrator, group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
     let mut graph = Graph::new();
-    let mu = inputs(&mut graph, m, n);
+    let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
     let mut outputs = graph.call(&integrator.energy, &mu);
-    for casimir in lie::watched_casimirs(&integrator.problem.algebra) {
+    let mut casimirs = lie::watched_casimirs(&integrator.problem.algebra);
+    if let Some(Kicks { kick, first, .. }) = &integrator.kicks {
+        let matrix = group.matrix(&mut graph, &g);
+        for energy in graph.call_from(&kick.energy, matrix.entries(), *first) {
+            outputs[0] = graph.add(outputs[0], energy);
+        }
+        casimirs.retain(|casimir| kick.potential.keeps(casimir));
+    }
+    for casimir in casimirs {
         outputs.push(polynomial(&mut graph, &casimir, &mu));
     }
     graph.finish(m + n, &outputs)

@@ -15,6 +15,7 @@ mod derivation;
 mod graph;
 #[cfg(feature = "judge")]
 mod judge;
+mod kicks;
 mod lie_algebra;
 mod polynomial;
 mod series_naive;

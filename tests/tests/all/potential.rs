@@ -2,14 +2,18 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::steps::{Kicked, Rkn4, Rkn6, Splitting, Strang};
+use coadjoint::steps::{Kicked, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 use coadjoint::{LieGroup, Phase, SO3, StepError, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::number::{Rational, integer};
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, System, read};
+use coadjoint_program::Stepper;
 use coadjoint_tests::bridge::matrix_group;
 use nalgebra::{DVector, UnitQuaternion, Vector3};
 
@@ -40,6 +44,58 @@ fn attitude() -> UnitQuaternion<f64> {
 fn hand_written(earth: [f64; 3], attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
     let r = attitude.inverse() * Vector3::from(earth);
     r.cross(&Vector3::from(INERTIA).component_mul(&r)) * 3.0
+}
+
+/// The lengths of kicks and flows of a step.
+fn lengths<M: Splitting>() -> [Vec<f64>; 2] {
+    let kicks = (0..=M::STAGES).map(|i| M::KICKS[i.min(M::STAGES - i)]);
+    let flows = (0..M::STAGES).map(|i| M::PARTS[i.min(M::STAGES - 1 - i)]);
+    [kicks.collect(), flows.collect()]
+}
+
+#[test]
+fn splittings_of_files_are_those_of_the_runtime() {
+    use coadjoint_codegen::splitting::Splitting as OfFiles;
+    for (of_files, expected, order) in [
+        (OfFiles::Strang, lengths::<Strang>(), Strang::ORDER),
+        (OfFiles::Rkn4, lengths::<Rkn4>(), Rkn4::ORDER),
+        (OfFiles::Rkn6, lengths::<Rkn6>(), Rkn6::ORDER),
+        (OfFiles::Prk4, lengths::<Prk4>(), Prk4::ORDER),
+        (OfFiles::Prk6, lengths::<Prk6>(), Prk6::ORDER),
+    ] {
+        assert_eq!([of_files.kicks(), of_files.flows()], expected, "{of_files:?}");
+        assert_eq!(of_files.order(), order, "{of_files:?}");
+    }
+}
+
+#[test]
+fn a_kernel_with_kicks_makes_the_steps_of_the_runtime() {
+    const STEPS: u64 = 50;
+    let h = 0.05;
+    let text = "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2 + y^2/2.5 + z^2/3\"\n\
+        potential = \"1.5*(g[2][0]^2 + 1.25*g[2][1]^2 + 1.5*g[2][2]^2)\"\n[integrator]\nsplitting = \"rkn4\"\n";
+    let options = Options { truncation: Some(7), ..Options::default() };
+    let System { problem, potential, .. } = read(text, options).unwrap();
+    let (potential, splitting) = potential.unwrap();
+    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
+    let integrator = integrator.with_kicks(Kick::build(potential), splitting).unwrap();
+    let step = Step::build(&integrator).unwrap();
+    let slots = step.fold(h, &[]).unwrap();
+    let q = attitude();
+    let (mut g, mut mu) = (vec![q.w, q.i, q.j, q.k], vec![0.4, -0.8, 0.6]);
+    let mut expected = Phase::<SO3>::new(q, Vector3::new(mu[0], mu[1], mu[2]));
+    assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, STEPS).steps, STEPS);
+    let field = GravityGradient::<f64>::new(INERTIA, [0.0, 0.0, 1.0]).unwrap();
+    let torque = |_: f64, g: &UnitQuaternion<f64>| field.torque(g);
+    let by_hand = Kicked::<Rkn4, _, _>::new(h, torque, |h| Satellite::new(h, INERTIA)).unwrap();
+    for _ in 0..STEPS {
+        by_hand.advance(&mut expected, 0.0).unwrap();
+    }
+    let q = expected.group_element;
+    let expected = [q.w, q.i, q.j, q.k].into_iter().chain(expected.momentum.iter().copied());
+    for (found, expected) in g.into_iter().chain(mu).zip(expected) {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
 }
 
 #[test]

@@ -47,6 +47,7 @@ fn paragraphs(
 ) -> Vec<String> {
     let problem = &integrator.problem;
     let kernel = step.kernel();
+    let lists = kernel.flows().map_or(1, |flows| flows as usize + 1);
     let time =
         options.time.as_ref().map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
     let parameters = if problem.parameters.is_empty() { "" } else { ", &parameters" };
@@ -88,8 +89,8 @@ fn paragraphs(
     list.extend([
         format!(
             "Data: {} coefficients ({} bytes) in a map, {} bytes in a state.",
-            fold.len(),
-            8 * fold.len(),
+            fold.len() * lists,
+            8 * fold.len() * lists,
             8 * (kernel.dim() + kernel.element())
         ),
         String::new(),

@@ -10,6 +10,8 @@ use crate::step::Step;
 /// The functions that make steps.
 pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
+    let of = if kernel.flows().is_some() { "&c[flow * @P@_COEFFICIENTS]" } else { "c" };
+    let refused_step = REFUSED_STEP.replace("(c,", &format!("({of},"));
     let style = LoopStyle {
         prefix: "@p@_internal_".into(),
         count: "uint32_t".into(),
@@ -18,7 +20,8 @@ pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
         live: "status == @P@_OK".into(),
         open: "@p@_internal_open(residual_bound, distance)".into(),
         right: "right > 0.5".into(),
-        refuse: [REFUSED_STEP, REFUSED_STATE].map(String::from),
+        slots_of_flow: "@P@_COEFFICIENTS".into(),
+        refuse: [refused_step, REFUSED_STATE.into()],
         ..LoopStyle::default()
     };
     let dialect = Portable::new(names, fold.places.clone());

@@ -8,10 +8,12 @@ use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Node, Program};
 
 use super::dialect::decimal;
-use super::fold_text::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, SYMBOLS, WITHIN};
+use super::fold_text::{
+    ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, STEP, SYMBOLS, WITHIN,
+};
 use super::names::Names;
 use super::{HeaderError, HeaderOptions, parameter};
-use crate::integrator::{FoldTable, Integrator};
+use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::step::Step;
 
 /// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
@@ -22,6 +24,8 @@ pub struct Folding {
     pub places: BTreeMap<usize, usize>,
     /// The data that folding reads.
     pub table: FoldTable,
+    /// The place of the length of a kick, where there are kicks.
+    kick_at: Option<usize>,
 }
 
 /// The numbers of the slots that programs read.
@@ -43,7 +47,7 @@ impl Folding {
         let programs = step.kernel().programs();
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
-        list.extend(&programs.frame);
+        list.extend(programs.frame.iter().chain(step.kernel().kick()));
         let slots = integrator.coefficients.slots();
         let mut wanted: Vec<(usize, u32, usize)> = read(&list)
             .into_iter()
@@ -53,20 +57,25 @@ impl Folding {
         if wanted.is_empty() {
             return Err(HeaderError::Constant);
         }
-        let of_step = slots.len()..=FoldTable::radius_at(integrator);
+        let radius_at = FoldTable::radius_at(integrator);
+        let of_step = slots.len()..radius_at;
+        // The length of a kick, which the programs know after the radius.
+        let kick = step.kernel().flows().map(|_| radius_at + 1);
         let all = wanted.into_iter().map(|(.., slot)| slot).chain(of_step);
+        let all = all.chain(kick).chain([radius_at]);
         let places: BTreeMap<usize, usize> = all.zip(0..).collect();
         let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
         let highest = table.lists().last.iter().map(|term| term.3).max().unwrap_or(0);
         if highest as usize >= DEGREES {
             return Err(HeaderError::Degree { degree: highest + 1, limit: DEGREES as u32 });
         }
-        Ok(Self { places, table })
+        let kick_at = kick.and_then(|at| places.get(&at).copied());
+        Ok(Self { places, table, kick_at })
     }
 
     /// How many coefficients there are.
     pub fn len(&self) -> usize {
-        self.table.len()
+        self.places.len()
     }
 
     /// The function that folds.
@@ -96,7 +105,11 @@ impl Folding {
         let products = fold.products.len();
         let powers = fold.parts.iter().map(|part| part.0 as usize + 1).max().unwrap_or(1);
         let stack = if products > 0 { 2 * products + 1 } else { 0 } + powers + 2 * bounds + 16;
-        text.push_str(&ABOUT.replace("/*BYTES*/", &(8 * stack).to_string()));
+        let about = ABOUT.replace("/*BYTES*/", &(8 * stack).to_string());
+        let begin = text.len();
+        if self.kick_at.is_none() {
+            text.push_str(&about);
+        }
         text.push_str(&format!(
             "static inline @p@_status @p@_init(@p@_map *map, double h{parameters})\n{{\n"
         ));
@@ -149,6 +162,14 @@ impl Folding {
                 .replace("/*LAST*/", if fold.last.is_empty() { "" } else { LAST })
                 .replace("/*SUMMAND*/", summand)
             + &END.replace("/*RADIUS*/", if fold.last.is_empty() { "" } else { RADIUS });
+        let text = match (self.kick_at, &integrator.kicks) {
+            (Some(kick_at), Some(kicks)) => {
+                let passed = if parameters.is_empty() { "" } else { ", parameters" };
+                let step = of_step(kicks, &parameters, passed);
+                text[..begin].to_owned() + &of_flow(&text[begin..], kick_at) + &about + &step
+            }
+            _ => text,
+        };
         let sizes = [
             ("/*POWERS*/", powers),
             ("/*BASES*/", fold.bases.len()),
@@ -225,4 +246,33 @@ fn rows(list: impl Iterator<Item = String>, width: usize, text: &mut String) {
         let _ = writeln!(text, "        {},", row.join(", "));
     }
     text.push_str("    };\n");
+}
+
+/// The function that folds for a flow and the kick before it, from that which folds for a step.
+fn of_flow(text: &str, kick_at: usize) -> String {
+    text.replace(
+        "@p@_init(@p@_map *map, double h",
+        "@p@_internal_fold(double *c, double h, double kick",
+    )
+    .replace("map->c", "c")
+    .replace("    map->status = status;\n", "")
+    .replace(
+        "    if (status != @P@_OK) {\n",
+        &format!("    c[{kick_at}u] = kick;\n    if (status != @P@_OK) {{\n"),
+    )
+}
+
+/// The function that folds for all flows and kicks of a step.
+fn of_step(kicks: &Kicks, parameters: &str, passed: &str) -> String {
+    let list = |lengths: Vec<f64>| {
+        let lengths: Vec<String> = lengths.iter().map(|length| format!("{length:?}")).collect();
+        format!("{{\n        {},\n    }}", lengths.join(",\n        "))
+    };
+    let mut flows = kicks.splitting.flows();
+    // After the last kick there is none.
+    flows.extend(flows.first().copied());
+    STEP.replace("/*FLOWS*/", &list(flows))
+        .replace("/*KICKS*/", &list(kicks.splitting.kicks()))
+        .replace("/*PARAMETERS*/", parameters)
+        .replace("/*PASSED*/", passed)
 }

@@ -174,3 +174,23 @@ pub const END: &str = "/*RADIUS*/    for (i = 0u; i < (@P@_COEFFICIENTS - 1u); i
     return status;
 }
 ";
+
+/// Folding for a step of kicks and flows.
+pub const STEP: &str =
+    "static inline @p@_status @p@_init(@p@_map *map, double h/*PARAMETERS*/)
+{
+    /* The flows and kicks of a step, as parts of it. */
+    static const double flows[@P@_FLOWS + 1u] = /*FLOWS*/;
+    static const double kicks[@P@_FLOWS + 1u] = /*KICKS*/;
+    @p@_status status = @P@_OK;
+    uint32_t i;
+    for (i = 0u; i <= @P@_FLOWS; i++) {
+        const @p@_status found = @p@_internal_fold(&map->c[i * @P@_COEFFICIENTS], h * flows[i], h * kicks[i]/*PASSED*/);
+        if (status == @P@_OK) {
+            status = found;
+        }
+    }
+    map->status = status;
+    return status;
+}
+";

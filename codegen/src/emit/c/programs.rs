@@ -12,7 +12,7 @@ use crate::step::Step;
 /// Operations of a function at most: compilers allot registers in a time that grows faster than its length.
 const LONGEST: usize = 1000;
 
-/// Some outputs of the program that watches a state, as a program of μ alone, which is all that it reads.
+/// Some outputs of the program that watches a state, as a program of μ alone, which is all that Casimirs are of.
 fn watched(step: &Step, outputs: std::ops::Range<usize>) -> Program {
     let kernel = step.kernel();
     let (n, m) = (kernel.dim(), kernel.element());
@@ -22,6 +22,19 @@ fn watched(step: &Step, outputs: std::ops::Range<usize>) -> Program {
     inputs.extend((0..n).map(|i| graph.input(i)));
     let all = graph.call(&kernel.programs().watch, &inputs);
     graph.finish(n, all.get(outputs).unwrap_or(&[]))
+}
+
+/// The energy: of μ, or with a potential of g and μ.
+fn energy(step: &Step) -> Program {
+    let kernel = step.kernel();
+    if kernel.flows().is_none() {
+        return watched(step, 0..1);
+    }
+    let inputs = kernel.element() + kernel.dim();
+    let mut graph = Graph::new();
+    let state: Vec<_> = (0..inputs).map(|i| graph.input(i)).collect();
+    let all = graph.call(&kernel.programs().watch, &state);
+    graph.finish(inputs, all.get(..1).unwrap_or(&[]))
 }
 
 /// How many Casimirs are watched.
@@ -50,6 +63,7 @@ pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
             "accept" => "1 where a step is right",
             "transport" => "the state moved by the increment x",
             "frame" => "the state moved on by the comoving frame",
+            "kick" => "mu kicked by the torque of the potential",
             _ => "1 where a state is finite and on the group",
         };
         print(about, &signature);
@@ -60,13 +74,11 @@ pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let name = |name: &str| format!("{prefix}{name}");
     let signature = Signature { name: name("matrix"), program, inputs, outputs };
     print("the matrix of a group element", &signature);
-    let (energy, count) = (watched(step, 0..1), casimirs(step));
+    let (energy, count) = (energy(step), casimirs(step));
     let mu = || vec![array("mu", n)];
     let outputs = vec![Field::number("energy")];
-    print(
-        "the energy",
-        &Signature { name: name("energy"), program: &energy, inputs: mu(), outputs },
-    );
+    let inputs = if kernel.flows().is_some() { vec![array("g", m), array("mu", n)] } else { mu() };
+    print("the energy", &Signature { name: name("energy"), program: &energy, inputs, outputs });
     if count > 0 {
         let program = &watched(step, 1..1 + count);
         let outputs = vec![array("casimirs", count)];

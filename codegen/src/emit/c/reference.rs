@@ -41,7 +41,14 @@ pub(crate) fn types(
     if casimirs(step) > 0 {
         size("CASIMIRS", casimirs(step), "Casimirs of degree three at most that are looked at.");
     }
-    size("COEFFICIENTS", fold.len(), "Folded coefficients.");
+    let about = match kernel.flows() {
+        Some(flows) => {
+            size("FLOWS", flows as usize, "Flows of a step, between kicks.");
+            "Folded coefficients of a flow and the kick before it."
+        }
+        None => "Folded coefficients.",
+    };
+    size("COEFFICIENTS", fold.len(), about);
     size("BLOCK", BLOCK as usize, "Steps after which the state is looked at.");
     if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
         size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");
@@ -76,7 +83,13 @@ pub(crate) fn types(
         let _ = writeln!(text, "     *  mu[{i}] = {}{unit}", c_comment(name));
     }
     text.push_str("     */\n    double mu[@P@_DIMENSION];\n} @p@_state;\n");
-    text.push_str(MAP);
+    text.push_str(&MAP.replace(
+        "/*LENGTH*/",
+        match kernel.flows() {
+            Some(_) => "(@P@_FLOWS + 1u) * @P@_COEFFICIENTS",
+            None => "@P@_COEFFICIENTS",
+        },
+    ));
     names.fill(&text)
 }
 
@@ -108,7 +121,12 @@ pub(crate) fn functions(integrator: &Integrator, step: &Step, names: &Names) -> 
         .replace("/*IDENTITY*/", &numbers)
         .replace("/*BACK*/", &back)
         .replace("/*ARGUMENT*/", if inverted.is_empty() { "none" } else { "back" })
-        .replace("/*SINGULAR*/", singular);
+        .replace("/*SINGULAR*/", singular)
+        .replace("/*OF*/", if integrator.kicks.is_some() { "state->g, " } else { "" })
+        .replace(
+            "/*POTENTIAL*/",
+            if integrator.kicks.is_some() { " and the potential" } else { "" },
+        );
     if casimirs(step) > 0 {
         text.push_str(CASIMIRS);
     }
@@ -178,7 +196,7 @@ const MAP: &str = "
 /** The step for one step size and one set of parameters; made by @p@_init, and only read after that. */
 typedef struct @p@_map {
     /** Folded coefficients. */
-    double c[@P@_COEFFICIENTS];
+    double c[/*LENGTH*/];
     /** Whether steps can be made with it. */
     @p@_status status;
 } @p@_map;

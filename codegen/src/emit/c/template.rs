@@ -110,11 +110,11 @@ static inline void @p@_spatial_momentum(const @p@_state *state, double *spatial)
 /*BACK*/    @p@_internal_spatial(none, state->g, /*ARGUMENT*/, state->mu, spatial);
 }
 
-/** The energy: the Hamiltonian at the body momentum. Steps keep it near its first value for all times. */
+/** The energy: the Hamiltonian at the body momentum/*POTENTIAL*/. Steps keep it near its first value for all times. */
 static inline double @p@_energy(const @p@_map *map, const @p@_state *state)
 {
     double energy = 0.0;
-    @p@_internal_energy(map->c, state->mu, &energy);
+    @p@_internal_energy(map->c, /*OF*/state->mu, &energy);
     return energy;
 }
 ";

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use coadjoint_codegen::emit::c::{HeaderError, HeaderOptions, Language, header};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters};
@@ -61,6 +61,16 @@ const BRACKETS: &str = "name = \"brackets\"\ncoordinates = [\"a\", \"b\", \"c\"]
 const RING: &str = "name = \"ring\"\ngroup = \"SO3^9\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
     hamiltonian = \"sum(i, 0..9, z[i]^2/3 - x[i]*x[(i + 1) % 9] - y[i]*y[(i + 1) % 9])\"\n\
     [integrator]\nstep = 0.05\n[initial]\nmomentum = [\"cos(1.3*i)\", \"sin(1.3*i)\", \"0.5*sin(2*i)\"]\n";
+
+/// A body about a fixed point under gravity, and the same on a group by tables beside a rotation.
+const PENDULUM: &str = "name = \"pendulum\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+    hamiltonian = \"x^2/2 + y^2/(2*I2) + z^2/4\"\npotential = \"-m*g0*g[2][2] + sqrt(m)*g[0][1]/3\"\n\
+    [parameters]\nm = 1\ng0 = 9.81\nI2 = 2.8\n[integrator]\nstep = 0.02\nsplitting = \"rkn6\"\n\
+    [initial]\nmomentum = [0.5, -1.4, 0.8]\n";
+const SATELLITE: &str = "name = \"satellite\"\ngroup = \"SO3*SO2\"\ncoordinates = [\"x\", \"y\", \"z\", \"l\"]\n\
+    hamiltonian = \"x^2/2 + y^2/2.5 + z^2/3 + l\"\n\
+    potential = \"1.5*(g[0][0]*g[3][3] + g[1][0]*g[4][3])^2 + 2*(g[0][1]*g[3][3] + g[1][1]*g[4][3])^2\"\n\
+    [integrator]\nstep = 0.05\nsplitting = \"prk4\"\n[initial]\nmomentum = [0.1, -0.2, 1.6, 0.0]\n";
 
 const SYSTEMS: &[System] = &[
     System {
@@ -144,6 +154,26 @@ const SYSTEMS: &[System] = &[
         large: true,
     },
     System {
+        name: "pendulum",
+        text: PENDULUM,
+        truncation: 5,
+        chart: Chart::Exponential,
+        parameters: Parameters::Kept,
+        language: Language::C,
+        golden: false,
+        large: false,
+    },
+    System {
+        name: "satellite",
+        text: SATELLITE,
+        truncation: 3,
+        chart: Chart::Exponential,
+        parameters: Parameters::Substituted,
+        language: Language::Cpp,
+        golden: false,
+        large: false,
+    },
+    System {
         name: "plane_and_spin",
         text: PRODUCT,
         truncation: 3,
@@ -211,7 +241,10 @@ impl Built {
         };
         let read = system::read(&text(system.text), options).unwrap();
         let (units, run) = (read.units, read.run);
-        let integrator = Integrator::build(read.problem, TermLimit::default()).unwrap();
+        let mut integrator = Integrator::build(read.problem, TermLimit::default()).unwrap();
+        if let Some((potential, splitting)) = read.potential {
+            integrator = integrator.with_kicks(Kick::build(potential), splitting).unwrap();
+        }
         let problem = &integrator.problem;
         let style = HeaderOptions {
             language: system.language,

@@ -124,6 +124,13 @@ pub fn kernel(
     Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).unwrap()
 }
 
+/// The same kernel with kicks between flows.
+pub fn kicked(kernel: Kernel, seed: u64, flows: u32) -> Kernel {
+    let (n, m) = (kernel.dim(), kernel.element());
+    let kick = program(&mut Draw::new(seed ^ 0x1234), m + n, n, 20, &[]);
+    kernel.with_kicks(kick, flows).unwrap()
+}
+
 /// Slots, and g and μ of lanes side by side.
 pub fn state(kernel: &Kernel, seed: u64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut draw = Draw::new(seed ^ 0xabcd);

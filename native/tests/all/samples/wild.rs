@@ -16,6 +16,8 @@ pub struct Shape {
     pub nodes: usize,
     pub corrections: u32,
     pub comoving: bool,
+    /// Flows between kicks; 0 without kicks.
+    pub flows: u32,
 }
 
 pub fn kernel(shape: Shape, chance: &mut Chance) -> Sample {
@@ -38,8 +40,12 @@ pub fn kernel(shape: Shape, chance: &mut Chance) -> Sample {
         corrections: shape.corrections,
         programs,
     };
-    let kernel = Kernel::new(parts).unwrap();
-    let slots = (0..shape.slots).map(|_| chance.number()).collect();
+    let mut kernel = Kernel::new(parts).unwrap();
+    if shape.flows > 0 {
+        let kick = random(shape, m + n, n, None, chance);
+        kernel = kernel.with_kicks(kick, shape.flows).unwrap();
+    }
+    let slots = (0..kernel.slots()).map(|_| chance.number()).collect();
     Sample { kernel, slots, draw }
 }
 
