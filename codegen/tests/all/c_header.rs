@@ -1,7 +1,7 @@
 //! Headers of C: the committed ones are what is written now, compilers have nothing to say about them, and they compute
 //! the interpreter's bits.
 //!
-//! `COADJOINT_BLESS=1 cargo test -p coadjoint-codegen --test c_header` rewrites the files. A tool that is missing leaves
+//! `COADJOINT_BLESS=1 cargo test -p coadjoint-codegen --test all c_header` rewrites the files. A tool that is missing leaves
 //! its part out, with a line that says so; with `COADJOINT_REQUIRE_TOOLS` set it fails.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -9,8 +9,8 @@ mod systems;
 
 use crate::tools::{self, FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::Language;
-use coadjoint_codegen::integrator::FoldTable;
 use coadjoint_program::{Scratch, Stepper};
+use num_traits::ToPrimitive;
 use systems::Built;
 
 /// Steps of a run: more than a block.
