@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use coadjoint::LieGroup;
 use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
+use coadjoint::steps::advance;
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
@@ -263,8 +264,9 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         1.0,
     );
     let step = step.map_err(|error| said(&error))?;
+    let kept = Kept::default();
     let compiled =
-        Compiled::new(&step, Backend::Interpreter, 1.0, Trajectories::One, &Kept::default());
+        Compiled::new(&integrator, 1.0, Backend::Interpreter, 1.0, Trajectories::One, &kept);
     let compiled = compiled.map_err(|error| said(&error))?.ok_or_else(|| said(&"no programs"))?;
     let steepness = Steepness::new(&step);
     let identity = compiled.element_of(&entries_of(&group, &group.identity()));
@@ -275,7 +277,13 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut state = Numbers { g: identity.clone(), mu: mu.clone() };
-        let made = compiled.advance(&mut state, 1, |own| compiled.rescue(&step, own)).is_ok();
+        let rescue = |own: &mut Numbers| {
+            compiled.rescue(&group, own, |phase| {
+                let made = advance(&step, phase)?;
+                Ok(Some((made.iterations, made.residual)))
+            })
+        };
+        let made = compiled.advance(&mut state, 1, rescue).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);
