@@ -5,10 +5,10 @@
  * Hamiltonian: long^2/(2*I1) + middle^2/(2*I2) + short^2/(2*I3)
  * Group: SO3. Chart: exponential. Truncation K = 7, order of accuracy 8.
  *
- * What a step does. With the body momentum mu and the group element g, the equations of motion are dmu/dt =
- * ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h
- * is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every
- * Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.
+ * The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = ad*_(dH/dmu) mu
+ * and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h is a symplectic
+ * map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every Casimir are
+ * conserved to rounding, step after step, and the energy stays near its first value for all times.
  *
  * How to use it:
  *      toutatis_map map;
@@ -20,12 +20,12 @@
  * once, and pointers must not be null. The step size h is a time in d; every status other than TOUTATIS_OK says
  * why a call was refused and leaves the state as it was.
  *
- * What is refused. A step is accepted only where its equation is solved to rounding near the first guess and
- * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
- * the solution from the identity; this header does not: take a smaller step.
+ * Refusals. A step is accepted only where its equation is solved to rounding near the first guess and everything
+ * used is known to hold there. Longer steps are refused with a status. The library in Rust then follows the
+ * solution from the identity; this header does not: take a smaller step.
  *
  * Cost of a step with one correction, as most have: 489 multiplications, 408 additions, 4 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 3276 multiplications, 2673 additions, 38 divisions and
+ * Cost at most (12 corrections, and a check of the state): 3276 multiplications, 2673 additions, 38 divisions and
  * roots.
  * Data: 228 coefficients (1824 bytes) in a map, 56 bytes in a state.
  *
@@ -316,7 +316,7 @@ static inline void toutatis_internal_guess(const double *TOUTATIS_RESTRICT c, co
 }
 
 /* Internal: one correction of p. */
-static inline void toutatis_internal_correct(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT p, const double *TOUTATIS_RESTRICT mu, const double *TOUTATIS_RESTRICT k, double *TOUTATIS_RESTRICT p_next, double *TOUTATIS_RESTRICT x, double *TOUTATIS_RESTRICT left, double *TOUTATIS_RESTRICT moved)
+static inline void toutatis_internal_correct(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT p, const double *TOUTATIS_RESTRICT mu, const double *TOUTATIS_RESTRICT k, double *TOUTATIS_RESTRICT p_next, double *TOUTATIS_RESTRICT x, double *TOUTATIS_RESTRICT residual_bound, double *TOUTATIS_RESTRICT moved)
 {
     const double t8 = p[1] * p[1];
     const double t9 = p[0] * p[0];
@@ -633,12 +633,12 @@ static inline void toutatis_internal_correct(const double *TOUTATIS_RESTRICT c, 
     x[0] = t395;
     x[1] = t396;
     x[2] = t397;
-    *left = t426;
+    *residual_bound = t426;
     *moved = t403;
 }
 
 /* Internal: 1 where a step is right. */
-static inline void toutatis_internal_accept(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT mu, const double *TOUTATIS_RESTRICT x, double left, double way, double *TOUTATIS_RESTRICT right)
+static inline void toutatis_internal_accept(const double *TOUTATIS_RESTRICT c, const double *TOUTATIS_RESTRICT mu, const double *TOUTATIS_RESTRICT x, double residual_bound, double distance, double *TOUTATIS_RESTRICT right)
 {
     const double t10 = 2.220446049250313e-16 * 4.0;
     const double t13 = x[0] * x[0];
@@ -649,15 +649,15 @@ static inline void toutatis_internal_accept(const double *TOUTATIS_RESTRICT c, c
     const double t21 = (t17 <= 1.7976931348623157e308) ? 0.0 : 1.0;
     const double t22 = t21 + t21;
     const double t23 = t18 + t22;
-    const double t24 = mu[0] * mu[0];
-    const double t25 = TOUTATIS_FMA(mu[1], mu[1], t24);
-    const double t26 = TOUTATIS_FMA(mu[2], mu[2], t25);
-    const double t30 = (c[227] <= 3.4028234663852886e38) ? 4.0 : 9.0;
-    const double t31 = t23 * t30;
-    const double t32 = (t26 <= c[227]) ? 1.0 : 0.0;
-    const double t33 = (t31 <= 1.0) ? t32 : 0.0;
-    const double t34 = (way <= 0.05) ? t33 : 0.0;
-    const double t35 = (left <= t10) ? t34 : 0.0;
+    const double t27 = (c[227] <= 3.4028234663852886e38) ? 4.0 : 9.0;
+    const double t28 = t23 * t27;
+    const double t29 = mu[0] * mu[0];
+    const double t30 = TOUTATIS_FMA(mu[1], mu[1], t29);
+    const double t31 = TOUTATIS_FMA(mu[2], mu[2], t30);
+    const double t32 = (t31 <= c[227]) ? 1.0 : 0.0;
+    const double t33 = (t28 <= 1.0) ? t32 : 0.0;
+    const double t34 = (distance <= 0.05) ? t33 : 0.0;
+    const double t35 = (residual_bound <= t10) ? t34 : 0.0;
     *right = t35;
 }
 
@@ -907,13 +907,14 @@ static inline void toutatis_internal_copy(double *to, const double *from, uint32
 }
 
 /* Internal: whether an equation is corrected again: not solved, and near the first guess. */
-static inline bool toutatis_internal_open(double left, double way)
+static inline bool toutatis_internal_open(double residual_bound, double distance)
 {
-    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
+    return (!(residual_bound <= 8.881784197001252e-16)) && (distance <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
-static inline toutatis_status toutatis_internal_reason(const double *c, const double *mu, double left, double way)
+static inline toutatis_status toutatis_internal_reason(const double *c, const double *mu,
+    double residual_bound, double distance)
 {
     toutatis_status status = TOUTATIS_BEYOND_CHART;
     double square = 0.0;
@@ -925,7 +926,7 @@ static inline toutatis_status toutatis_internal_reason(const double *c, const do
         status = TOUTATIS_NOT_FINITE;
     } else if (!(square <= c[TOUTATIS_COEFFICIENTS - 1u])) {
         status = TOUTATIS_BEYOND_SERIES;
-    } else if ((!(left <= 8.881784197001252e-16)) || (!(way <= 0.05))) {
+    } else if ((!(residual_bound <= 8.881784197001252e-16)) || (!(distance <= 0.05))) {
         status = TOUTATIS_NOT_SOLVED;
     } else {
         /* What is left is the chart. */
@@ -943,8 +944,8 @@ static inline toutatis_status toutatis_internal_reason(const double *c, const do
 static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
-     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
+     * distance from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[TOUTATIS_ELEMENT];
     double mu[TOUTATIS_DIMENSION];
@@ -962,22 +963,22 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
         while ((status == TOUTATIS_OK) && (done < steps) && (count < 256u)) {
             double p[TOUTATIS_DIMENSION];
             double k[2];
-            double left = 1.0;
-            double way = 0.0;
+            double residual_bound = 1.0;
+            double distance = 0.0;
             double right = 0.0;
             uint32_t tried = 0u;
             toutatis_internal_guess(c, mu, p, k);
-            while ((tried < 12u) && (toutatis_internal_open(left, way))) {
+            while ((tried < 12u) && (toutatis_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
                 double p_next[TOUTATIS_DIMENSION];
-                toutatis_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                toutatis_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
                 toutatis_internal_copy(p, p_next, TOUTATIS_DIMENSION);
-                way = way + moved;
+                distance = distance + moved;
                 tried++;
             }
-            toutatis_internal_accept(c, mu, x, left, way, &right);
+            toutatis_internal_accept(c, mu, x, residual_bound, distance, &right);
             if (!(right > 0.5)) {
-                status = toutatis_internal_reason(c, mu, left, way);
+                status = toutatis_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
                 double g_next[TOUTATIS_ELEMENT];
@@ -1221,7 +1222,7 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
         3u, 4u, 5u, 6u, 7u, 10u, 11u, 13u, 14u, 15u, 16u, 17u,
         18u, 19u, 20u, 21u, 22u, 23u, 24u,
     };
-    static const uint16_t last_degree[19] = {
+    static const uint16_t last_place[19] = {
         5u, 7u, 5u, 7u, 7u, 5u, 7u, 5u, 7u, 5u, 7u, 7u,
         5u, 7u, 5u, 7u, 7u, 7u, 7u,
     };
@@ -1239,7 +1240,7 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
     double power[9];
     double last[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     double before[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    double radius;
+    double radius = DBL_MAX;
     toutatis_status status = TOUTATIS_OK;
     uint32_t term = 0u;
     uint32_t part = 0u;
@@ -1265,15 +1266,14 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
                 sum = sum + factor[term];
             }
             sum = sum * power[power_of[part]];
-            if ((next_last < 19u) && (last_part[next_last] == part)) {
+            for (; (next_last < 19u) && (last_part[next_last] == part); next_last++) {
                 const double size = fabs(sum) * last_weight[next_last];
-                i = last_degree[next_last];
+                i = last_place[next_last];
                 if (last_is_highest[next_last] == 1u) {
                     last[i] = last[i] + size;
                 } else {
                     before[i] = before[i] + size;
                 }
-                next_last++;
             }
             value = value + sum;
         }
@@ -1281,7 +1281,10 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
             map->c[slot] = value * (double)scale[slot];
         }
     }
-    radius = toutatis_internal_radius(last, before);
+    for (i = 0u; i < 8u; i += 8u) {
+        const double own = toutatis_internal_radius(&last[i], &before[i]);
+        radius = (own < radius) ? own : radius;
+    }
     for (i = 0u; i < (TOUTATIS_COEFFICIENTS - 1u); i++) {
         if ((status == TOUTATIS_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
             status = TOUTATIS_BAD_PARAMETER;

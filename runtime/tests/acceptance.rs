@@ -49,7 +49,8 @@ const AXIS: Vector3<f64> = Vector3::new(0.0, 0.0, 1.0);
 
 #[test]
 fn a_solution_beyond_a_fork_is_refused() {
-    let refused = |step: &dyn Fn(&Vector3<f64>) -> Result<Vector3<f64>, StepError>| {
+    type Step<'a> = dyn Fn(&Vector3<f64>) -> Result<Vector3<f64>, StepError> + 'a;
+    let refused = |step: &Step<'_>| {
         let error = step(&AXIS).unwrap_err();
         assert!(matches!(error, StepError::NotFollowed { .. }), "{error}");
     };

@@ -8,7 +8,7 @@
  * 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.
  * Let targets be multiples of 256, or one.
  *
- * A step takes 206 operations and 288 for each correction, most often one.
+ * A step takes 206 operations and 315 for each correction, most often one.
  */
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -18,6 +18,7 @@
 #define GLOBAL __global
 #define RESTRICT restrict
 #define COUNT ulong
+#define COEFFICIENTS __constant NUMBER *
 #define ROW get_global_id(0)
 #define NUMBER float
 #define ONE 1.0f
@@ -142,7 +143,7 @@ INLINE void coadjoint_guess(const float *RESTRICT mu, float *RESTRICT p, float *
     k[1] = 0.0f;
 }
 
-INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu, const float *RESTRICT k, float *RESTRICT p_next, float *RESTRICT x, float *RESTRICT left, float *RESTRICT moved)
+INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu, const float *RESTRICT k, float *RESTRICT p_next, float *RESTRICT x, float *RESTRICT residual_bound, float *RESTRICT moved)
 {
     const float t8 = p[1] * p[1];
     const float t10 = p[2] * p[2];
@@ -311,68 +312,107 @@ INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu,
     const float t217 = -t216;
     const float t218 = fma(t210, t217, t214);
     const float t219 = 1.0f / t218;
-    const float t220 = fma(t203, t208, t204);
-    const float t221 = fma(t203, t212, t205);
-    const float t222 = fma(t217, t220, t221);
-    const float t223 = t219 * t222;
-    const float t224 = -t210;
-    const float t225 = fma(t223, t224, t220);
-    const float t226 = t215 * t225;
-    const float t227 = fma(t172, t226, t203);
-    const float t228 = fma(t175, t223, t227);
-    const float t229 = t206 * t228;
-    const float t230 = t14 * t229;
-    const float t231 = fma(t28, t226, t230);
-    const float t232 = fma(t31, t223, t231);
-    const float t233 = t28 * t229;
-    const float t234 = fma(t20, t226, t233);
-    const float t235 = fma(t34, t223, t234);
-    const float t236 = t31 * t229;
-    const float t237 = fma(t34, t226, t236);
-    const float t238 = fma(t24, t223, t237);
-    const float t239 = p[0] - t229;
-    const float t240 = p[1] - t226;
-    const float t241 = p[2] - t223;
-    const float t242 = t15 - t232;
-    const float t243 = t21 - t235;
-    const float t244 = t25 - t238;
-    const float t245 = fabs(t229);
-    const float t246 = fabs(t226);
-    const float t247 = (t246 <= t245) ? t245 : t246;
-    const float t248 = fabs(t223);
-    const float t249 = (t248 <= t247) ? t247 : t248;
-    const float t250 = k[0] * t249;
-    const float t251 = fabs(t232);
-    const float t252 = fabs(t235);
-    const float t253 = (t252 <= t251) ? t251 : t252;
-    const float t254 = fabs(t238);
+    const float t220 = 2.0f * t169;
+    const float t221 = 2.0f * t172;
+    const float t222 = 2.0f * t175;
+    const float t223 = 2.0f * t178;
+    const float t224 = 2.0f * t181;
+    const float t225 = 2.0f * t184;
+    const float t226 = 2.0f * t187;
+    const float t227 = 2.0f * t190;
+    const float t228 = 2.0f * t193;
+    const float t229 = t15 + t225;
+    const float t230 = t222 - t21;
+    const float t231 = t227 - t15;
+    const float t232 = t25 + t221;
+    const float t233 = t21 + t226;
+    const float t234 = t223 - t25;
+    const float t235 = t220 * t220;
+    const float t236 = fabs(t235);
+    const float t237 = t232 * t234;
+    const float t238 = fabs(t237);
+    const float t239 = t236 + t238;
+    const float t240 = t230 * t233;
+    const float t241 = fabs(t240);
+    const float t242 = t239 + t241;
+    const float t243 = t224 * t224;
+    const float t244 = fabs(t243);
+    const float t245 = t238 + t244;
+    const float t246 = t229 * t231;
+    const float t247 = fabs(t246);
+    const float t248 = t245 + t247;
+    const float t249 = t241 + t247;
+    const float t250 = t228 * t228;
+    const float t251 = fabs(t250);
+    const float t252 = t249 + t251;
+    const float t253 = fabs(t242);
+    const float t254 = fabs(t248);
     const float t255 = (t254 <= t253) ? t253 : t254;
-    const float t256 = fabs(t15);
-    const float t257 = fabs(t21);
-    const float t258 = (t257 <= t256) ? t256 : t257;
-    const float t259 = fabs(t25);
-    const float t260 = (t259 <= t258) ? t258 : t259;
-    const float t261 = t260 * t260;
-    const float t262 = 0x1p-2f * t261;
-    const float t263 = t250 * t262;
-    const float t264 = fma(0x1p-1f, t255, t263);
-    const float t265 = k[1] * t250;
-    const float t266 = fma(t255, t264, t265);
-    const float t270 = 0x1p-23f * 4.0f;
-    const float t271 = (t250 <= 0x1.0624dep-10f) ? t266 : t250;
-    const float t272 = (t271 <= t250) ? t271 : t250;
-    const float t273 = (t250 <= t270) ? t272 : t271;
-    p_next[0] = t239;
-    p_next[1] = t240;
-    p_next[2] = t241;
-    x[0] = t242;
-    x[1] = t243;
-    x[2] = t244;
-    *left = t273;
-    *moved = t250;
+    const float t256 = fabs(t252);
+    const float t257 = (t256 <= t255) ? t255 : t256;
+    const float t259 = fma(t203, t208, t204);
+    const float t260 = fma(t203, t212, t205);
+    const float t261 = fma(t217, t259, t260);
+    const float t262 = t219 * t261;
+    const float t263 = -t210;
+    const float t264 = fma(t262, t263, t259);
+    const float t265 = t215 * t264;
+    const float t266 = fma(t172, t265, t203);
+    const float t267 = fma(t175, t262, t266);
+    const float t268 = t206 * t267;
+    const float t269 = t14 * t268;
+    const float t270 = fma(t28, t265, t269);
+    const float t271 = fma(t31, t262, t270);
+    const float t272 = t28 * t268;
+    const float t273 = fma(t20, t265, t272);
+    const float t274 = fma(t34, t262, t273);
+    const float t275 = t31 * t268;
+    const float t276 = fma(t34, t265, t275);
+    const float t277 = fma(t24, t262, t276);
+    const float t278 = p[0] - t268;
+    const float t279 = p[1] - t265;
+    const float t280 = p[2] - t262;
+    const float t281 = t15 - t271;
+    const float t282 = t21 - t274;
+    const float t283 = t25 - t277;
+    const float t284 = fabs(t268);
+    const float t285 = fabs(t265);
+    const float t286 = (t285 <= t284) ? t284 : t285;
+    const float t287 = fabs(t262);
+    const float t288 = (t287 <= t286) ? t286 : t287;
+    const float t289 = k[0] * t288;
+    const float t291 = (t257 <= 0x1.ce147ap+1f) ? t289 : 0x1.fffffep+127f;
+    const float t292 = fabs(t271);
+    const float t293 = fabs(t274);
+    const float t294 = (t293 <= t292) ? t292 : t293;
+    const float t295 = fabs(t277);
+    const float t296 = (t295 <= t294) ? t294 : t295;
+    const float t297 = fabs(t15);
+    const float t298 = fabs(t21);
+    const float t299 = (t298 <= t297) ? t297 : t298;
+    const float t300 = fabs(t25);
+    const float t301 = (t300 <= t299) ? t299 : t300;
+    const float t302 = t301 * t301;
+    const float t303 = 0x1p-2f * t302;
+    const float t304 = t291 * t303;
+    const float t305 = fma(0x1p-1f, t296, t304);
+    const float t306 = k[1] * t291;
+    const float t307 = fma(t296, t305, t306);
+    const float t311 = 0x1p-23f * 4.0f;
+    const float t312 = (t291 <= 0x1.0624dep-10f) ? t307 : t291;
+    const float t313 = (t312 <= t291) ? t312 : t291;
+    const float t314 = (t291 <= t311) ? t313 : t312;
+    p_next[0] = t278;
+    p_next[1] = t279;
+    p_next[2] = t280;
+    x[0] = t281;
+    x[1] = t282;
+    x[2] = t283;
+    *residual_bound = t314;
+    *moved = t291;
 }
 
-INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, float left, float way, float *RESTRICT right)
+INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, float residual_bound, float distance, float *RESTRICT right)
 {
     const float t10 = 0x1p-23f * 4.0f;
     const float t13 = x[0] * x[0];
@@ -383,16 +423,16 @@ INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, 
     const float t21 = (t17 <= INFINITY) ? 0.0f : 1.0f;
     const float t22 = t21 + t21;
     const float t23 = t18 + t22;
-    const float t24 = mu[0] * mu[0];
-    const float t25 = fma(mu[1], mu[1], t24);
-    const float t26 = fma(mu[2], mu[2], t25);
-    const float t31 = (coadjoint_slots[45] <= 0x1.fffffep+127f) ? 0x1.3c0ca4p+2f : 9.0f;
-    const float t32 = t23 * t31;
-    const float t33 = (t26 <= coadjoint_slots[45]) ? 1.0f : 0.0f;
-    const float t34 = (t32 <= 1.0f) ? t33 : 0.0f;
-    const float t35 = (way <= 0x1.99999ap-5f) ? t34 : 0.0f;
-    const float t36 = (left <= t10) ? t35 : 0.0f;
-    *right = t36;
+    const float t27 = (coadjoint_slots[45] <= 0x1.fffffep+127f) ? 4.0f : 9.0f;
+    const float t28 = t23 * t27;
+    const float t29 = mu[0] * mu[0];
+    const float t30 = fma(mu[1], mu[1], t29);
+    const float t31 = fma(mu[2], mu[2], t30);
+    const float t32 = (t31 <= coadjoint_slots[45]) ? 1.0f : 0.0f;
+    const float t33 = (t28 <= 1.0f) ? t32 : 0.0f;
+    const float t34 = (distance <= 0x1.99999ap-5f) ? t33 : 0.0f;
+    const float t35 = (residual_bound <= t10) ? t34 : 0.0f;
+    *right = t35;
 }
 
 INLINE void coadjoint_transport(const float *RESTRICT g, const float *RESTRICT mu, const float *RESTRICT x, float *RESTRICT g_next, float *RESTRICT mu_next)
@@ -535,22 +575,22 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *REST
         while ((why == 0u) && (done < steps) && (count < 256u)) {
             float p[DIM];
             float k[2];
-            float left = 1.0f;
-            float way = 0.0f;
+            float residual_bound = 1.0f;
+            float distance = 0.0f;
             float right = 0.0f;
             COUNT tried = 0u;
             coadjoint_guess(mu, p, k);
-            while ((tried < 12u) && (!(left <= TOLERANCE) && way <= NEAR)) {
+            while ((tried < 12u) && (!(residual_bound <= TOLERANCE) && distance <= NEAR)) {
                 float moved = 0.0f;
                 float p_next[DIM];
-                coadjoint_correct(p, mu, k, p_next, x, &left, &moved);
+                coadjoint_correct(p, mu, k, p_next, x, &residual_bound, &moved);
                 coadjoint_copy(p, p_next, DIM);
-                way = way + moved;
+                distance = distance + moved;
                 tried++;
             }
-            coadjoint_accept(mu, x, left, way, &right);
+            coadjoint_accept(mu, x, residual_bound, distance, &right);
             if (!(right == ONE)) {
-                why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;
+                why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;
             }
             if (right == ONE) {
                 float g_next[ELEMENT];

@@ -8,7 +8,7 @@
  * 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.
  * Let targets be multiples of 256, or one.
  *
- * A step takes 206 operations and 288 for each correction, most often one.
+ * A step takes 206 operations and 315 for each correction, most often one.
  */
 
 #define KERNEL extern "C" __global__
@@ -17,6 +17,7 @@
 #define GLOBAL
 #define RESTRICT __restrict__
 #define COUNT unsigned long long
+#define COEFFICIENTS const NUMBER *
 #define ROW ((COUNT)blockIdx.x * blockDim.x + threadIdx.x)
 #ifndef NAN
 #define NAN (0.0f / 0.0f)
@@ -147,7 +148,7 @@ INLINE void coadjoint_guess(const double *RESTRICT mu, double *RESTRICT p, doubl
     k[1] = 0.0;
 }
 
-INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT mu, const double *RESTRICT k, double *RESTRICT p_next, double *RESTRICT x, double *RESTRICT left, double *RESTRICT moved)
+INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT mu, const double *RESTRICT k, double *RESTRICT p_next, double *RESTRICT x, double *RESTRICT residual_bound, double *RESTRICT moved)
 {
     const double t8 = __dmul_rn(p[1], p[1]);
     const double t10 = __dmul_rn(p[2], p[2]);
@@ -316,68 +317,107 @@ INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT m
     const double t217 = -t216;
     const double t218 = __fma_rn(t210, t217, t214);
     const double t219 = __ddiv_rn(1.0, t218);
-    const double t220 = __fma_rn(t203, t208, t204);
-    const double t221 = __fma_rn(t203, t212, t205);
-    const double t222 = __fma_rn(t217, t220, t221);
-    const double t223 = __dmul_rn(t219, t222);
-    const double t224 = -t210;
-    const double t225 = __fma_rn(t223, t224, t220);
-    const double t226 = __dmul_rn(t215, t225);
-    const double t227 = __fma_rn(t172, t226, t203);
-    const double t228 = __fma_rn(t175, t223, t227);
-    const double t229 = __dmul_rn(t206, t228);
-    const double t230 = __dmul_rn(t14, t229);
-    const double t231 = __fma_rn(t28, t226, t230);
-    const double t232 = __fma_rn(t31, t223, t231);
-    const double t233 = __dmul_rn(t28, t229);
-    const double t234 = __fma_rn(t20, t226, t233);
-    const double t235 = __fma_rn(t34, t223, t234);
-    const double t236 = __dmul_rn(t31, t229);
-    const double t237 = __fma_rn(t34, t226, t236);
-    const double t238 = __fma_rn(t24, t223, t237);
-    const double t239 = __dsub_rn(p[0], t229);
-    const double t240 = __dsub_rn(p[1], t226);
-    const double t241 = __dsub_rn(p[2], t223);
-    const double t242 = __dsub_rn(t15, t232);
-    const double t243 = __dsub_rn(t21, t235);
-    const double t244 = __dsub_rn(t25, t238);
-    const double t245 = fabs(t229);
-    const double t246 = fabs(t226);
-    const double t247 = (t246 <= t245) ? t245 : t246;
-    const double t248 = fabs(t223);
-    const double t249 = (t248 <= t247) ? t247 : t248;
-    const double t250 = __dmul_rn(k[0], t249);
-    const double t251 = fabs(t232);
-    const double t252 = fabs(t235);
-    const double t253 = (t252 <= t251) ? t251 : t252;
-    const double t254 = fabs(t238);
+    const double t220 = __dmul_rn(2.0, t169);
+    const double t221 = __dmul_rn(2.0, t172);
+    const double t222 = __dmul_rn(2.0, t175);
+    const double t223 = __dmul_rn(2.0, t178);
+    const double t224 = __dmul_rn(2.0, t181);
+    const double t225 = __dmul_rn(2.0, t184);
+    const double t226 = __dmul_rn(2.0, t187);
+    const double t227 = __dmul_rn(2.0, t190);
+    const double t228 = __dmul_rn(2.0, t193);
+    const double t229 = __dadd_rn(t15, t225);
+    const double t230 = __dsub_rn(t222, t21);
+    const double t231 = __dsub_rn(t227, t15);
+    const double t232 = __dadd_rn(t25, t221);
+    const double t233 = __dadd_rn(t21, t226);
+    const double t234 = __dsub_rn(t223, t25);
+    const double t235 = __dmul_rn(t220, t220);
+    const double t236 = fabs(t235);
+    const double t237 = __dmul_rn(t232, t234);
+    const double t238 = fabs(t237);
+    const double t239 = __dadd_rn(t236, t238);
+    const double t240 = __dmul_rn(t230, t233);
+    const double t241 = fabs(t240);
+    const double t242 = __dadd_rn(t239, t241);
+    const double t243 = __dmul_rn(t224, t224);
+    const double t244 = fabs(t243);
+    const double t245 = __dadd_rn(t238, t244);
+    const double t246 = __dmul_rn(t229, t231);
+    const double t247 = fabs(t246);
+    const double t248 = __dadd_rn(t245, t247);
+    const double t249 = __dadd_rn(t241, t247);
+    const double t250 = __dmul_rn(t228, t228);
+    const double t251 = fabs(t250);
+    const double t252 = __dadd_rn(t249, t251);
+    const double t253 = fabs(t242);
+    const double t254 = fabs(t248);
     const double t255 = (t254 <= t253) ? t253 : t254;
-    const double t256 = fabs(t15);
-    const double t257 = fabs(t21);
-    const double t258 = (t257 <= t256) ? t256 : t257;
-    const double t259 = fabs(t25);
-    const double t260 = (t259 <= t258) ? t258 : t259;
-    const double t261 = __dmul_rn(t260, t260);
-    const double t262 = __dmul_rn(0x1p-2, t261);
-    const double t263 = __dmul_rn(t250, t262);
-    const double t264 = __fma_rn(0x1p-1, t255, t263);
-    const double t265 = __dmul_rn(k[1], t250);
-    const double t266 = __fma_rn(t255, t264, t265);
-    const double t270 = __dmul_rn(0x1p-52, 4.0);
-    const double t271 = (t250 <= 0x1.0624dd2f1a9fcp-10) ? t266 : t250;
-    const double t272 = (t271 <= t250) ? t271 : t250;
-    const double t273 = (t250 <= t270) ? t272 : t271;
-    p_next[0] = t239;
-    p_next[1] = t240;
-    p_next[2] = t241;
-    x[0] = t242;
-    x[1] = t243;
-    x[2] = t244;
-    *left = t273;
-    *moved = t250;
+    const double t256 = fabs(t252);
+    const double t257 = (t256 <= t255) ? t255 : t256;
+    const double t259 = __fma_rn(t203, t208, t204);
+    const double t260 = __fma_rn(t203, t212, t205);
+    const double t261 = __fma_rn(t217, t259, t260);
+    const double t262 = __dmul_rn(t219, t261);
+    const double t263 = -t210;
+    const double t264 = __fma_rn(t262, t263, t259);
+    const double t265 = __dmul_rn(t215, t264);
+    const double t266 = __fma_rn(t172, t265, t203);
+    const double t267 = __fma_rn(t175, t262, t266);
+    const double t268 = __dmul_rn(t206, t267);
+    const double t269 = __dmul_rn(t14, t268);
+    const double t270 = __fma_rn(t28, t265, t269);
+    const double t271 = __fma_rn(t31, t262, t270);
+    const double t272 = __dmul_rn(t28, t268);
+    const double t273 = __fma_rn(t20, t265, t272);
+    const double t274 = __fma_rn(t34, t262, t273);
+    const double t275 = __dmul_rn(t31, t268);
+    const double t276 = __fma_rn(t34, t265, t275);
+    const double t277 = __fma_rn(t24, t262, t276);
+    const double t278 = __dsub_rn(p[0], t268);
+    const double t279 = __dsub_rn(p[1], t265);
+    const double t280 = __dsub_rn(p[2], t262);
+    const double t281 = __dsub_rn(t15, t271);
+    const double t282 = __dsub_rn(t21, t274);
+    const double t283 = __dsub_rn(t25, t277);
+    const double t284 = fabs(t268);
+    const double t285 = fabs(t265);
+    const double t286 = (t285 <= t284) ? t284 : t285;
+    const double t287 = fabs(t262);
+    const double t288 = (t287 <= t286) ? t286 : t287;
+    const double t289 = __dmul_rn(k[0], t288);
+    const double t291 = (t257 <= 0x1.ce147ae147ae1p+1) ? t289 : 0x1.fffffep+127;
+    const double t292 = fabs(t271);
+    const double t293 = fabs(t274);
+    const double t294 = (t293 <= t292) ? t292 : t293;
+    const double t295 = fabs(t277);
+    const double t296 = (t295 <= t294) ? t294 : t295;
+    const double t297 = fabs(t15);
+    const double t298 = fabs(t21);
+    const double t299 = (t298 <= t297) ? t297 : t298;
+    const double t300 = fabs(t25);
+    const double t301 = (t300 <= t299) ? t299 : t300;
+    const double t302 = __dmul_rn(t301, t301);
+    const double t303 = __dmul_rn(0x1p-2, t302);
+    const double t304 = __dmul_rn(t291, t303);
+    const double t305 = __fma_rn(0x1p-1, t296, t304);
+    const double t306 = __dmul_rn(k[1], t291);
+    const double t307 = __fma_rn(t296, t305, t306);
+    const double t311 = __dmul_rn(0x1p-52, 4.0);
+    const double t312 = (t291 <= 0x1.0624dd2f1a9fcp-10) ? t307 : t291;
+    const double t313 = (t312 <= t291) ? t312 : t291;
+    const double t314 = (t291 <= t311) ? t313 : t312;
+    p_next[0] = t278;
+    p_next[1] = t279;
+    p_next[2] = t280;
+    x[0] = t281;
+    x[1] = t282;
+    x[2] = t283;
+    *residual_bound = t314;
+    *moved = t291;
 }
 
-INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x, double left, double way, double *RESTRICT right)
+INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x, double residual_bound, double distance, double *RESTRICT right)
 {
     const double t10 = __dmul_rn(0x1p-52, 4.0);
     const double t13 = __dmul_rn(x[0], x[0]);
@@ -388,16 +428,16 @@ INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x
     const double t21 = (t17 <= 0x1.fffffffffffffp+1023) ? 0.0 : 1.0;
     const double t22 = __dadd_rn(t21, t21);
     const double t23 = __dadd_rn(t18, t22);
-    const double t24 = __dmul_rn(mu[0], mu[0]);
-    const double t25 = __fma_rn(mu[1], mu[1], t24);
-    const double t26 = __fma_rn(mu[2], mu[2], t25);
-    const double t31 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 0x1.3c0ca4587e6b8p+2 : 9.0;
-    const double t32 = __dmul_rn(t23, t31);
-    const double t33 = (t26 <= coadjoint_slots[45]) ? 1.0 : 0.0;
-    const double t34 = (t32 <= 1.0) ? t33 : 0.0;
-    const double t35 = (way <= 0x1.999999999999ap-5) ? t34 : 0.0;
-    const double t36 = (left <= t10) ? t35 : 0.0;
-    *right = t36;
+    const double t27 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 4.0 : 9.0;
+    const double t28 = __dmul_rn(t23, t27);
+    const double t29 = __dmul_rn(mu[0], mu[0]);
+    const double t30 = __fma_rn(mu[1], mu[1], t29);
+    const double t31 = __fma_rn(mu[2], mu[2], t30);
+    const double t32 = (t31 <= coadjoint_slots[45]) ? 1.0 : 0.0;
+    const double t33 = (t28 <= 1.0) ? t32 : 0.0;
+    const double t34 = (distance <= 0x1.999999999999ap-5) ? t33 : 0.0;
+    const double t35 = (residual_bound <= t10) ? t34 : 0.0;
+    *right = t35;
 }
 
 INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT mu, const double *RESTRICT x, double *RESTRICT g_next, double *RESTRICT mu_next)
@@ -540,22 +580,22 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *REST
         while ((why == 0u) && (done < steps) && (count < 256u)) {
             double p[DIM];
             double k[2];
-            double left = 1.0;
-            double way = 0.0;
+            double residual_bound = 1.0;
+            double distance = 0.0;
             double right = 0.0;
             COUNT tried = 0u;
             coadjoint_guess(mu, p, k);
-            while ((tried < 12u) && (!(left <= TOLERANCE) && way <= NEAR)) {
+            while ((tried < 12u) && (!(residual_bound <= TOLERANCE) && distance <= NEAR)) {
                 double moved = 0.0;
                 double p_next[DIM];
-                coadjoint_correct(p, mu, k, p_next, x, &left, &moved);
+                coadjoint_correct(p, mu, k, p_next, x, &residual_bound, &moved);
                 coadjoint_copy(p, p_next, DIM);
-                way = __dadd_rn(way, moved);
+                distance = __dadd_rn(distance, moved);
                 tried++;
             }
-            coadjoint_accept(mu, x, left, way, &right);
+            coadjoint_accept(mu, x, residual_bound, distance, &right);
             if (!(right == ONE)) {
-                why = !(way <= NEAR) ? 2u : !(left <= TOLERANCE) ? 1u : 3u;
+                why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;
             }
             if (right == ONE) {
                 double g_next[ELEMENT];

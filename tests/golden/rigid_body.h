@@ -5,10 +5,10 @@
  * Hamiltonian: x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)
  * Group: SO3. Chart: exponential. Truncation K = 5, order of accuracy 6.
  *
- * What a step does. With the body momentum mu and the group element g, the equations of motion are dmu/dt =
- * ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h
- * is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every
- * Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.
+ * The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = ad*_(dH/dmu) mu
+ * and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h is a symplectic
+ * map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every Casimir are
+ * conserved to rounding, step after step, and the energy stays near its first value for all times.
  *
  * How to use it:
  *      rigid_body_map map;
@@ -20,12 +20,12 @@
  * once, and pointers must not be null. The step size h is a time in s; every status other than RIGID_BODY_OK says
  * why a call was refused and leaves the state as it was.
  *
- * What is refused. A step is accepted only where its equation is solved to rounding near the first guess and
- * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
- * the solution from the identity; this header does not: take a smaller step.
+ * Refusals. A step is accepted only where its equation is solved to rounding near the first guess and everything
+ * used is known to hold there. Longer steps are refused with a status. The library in Rust then follows the
+ * solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 361 multiplications, 280 additions, 4 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 2532 multiplications, 1929 additions, 38 divisions and
+ * Cost of a step with one correction, as most have: 376 multiplications, 292 additions, 4 divisions and roots.
+ * Cost at most (12 corrections, and a check of the state): 2712 multiplications, 2073 additions, 38 divisions and
  * roots.
  * Data: 114 coefficients (912 bytes) in a map, 56 bytes in a state.
  *
@@ -244,7 +244,7 @@ static inline void rigid_body_internal_guess(const double *RIGID_BODY_RESTRICT c
 }
 
 /* Internal: one correction of p. */
-static inline void rigid_body_internal_correct(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT p, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT k, double *RIGID_BODY_RESTRICT p_next, double *RIGID_BODY_RESTRICT x, double *RIGID_BODY_RESTRICT left, double *RIGID_BODY_RESTRICT moved)
+static inline void rigid_body_internal_correct(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT p, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT k, double *RIGID_BODY_RESTRICT p_next, double *RIGID_BODY_RESTRICT x, double *RIGID_BODY_RESTRICT residual_bound, double *RIGID_BODY_RESTRICT moved)
 {
     const double t8 = p[1] * p[1];
     const double t9 = p[0] * p[0];
@@ -448,69 +448,108 @@ static inline void rigid_body_internal_correct(const double *RIGID_BODY_RESTRICT
     const double t272 = -t271;
     const double t273 = RIGID_BODY_FMA(t265, t272, t269);
     const double t274 = 1.0 / t273;
-    const double t275 = RIGID_BODY_FMA(t258, t263, t259);
-    const double t276 = RIGID_BODY_FMA(t258, t267, t260);
-    const double t277 = RIGID_BODY_FMA(t272, t275, t276);
-    const double t278 = t274 * t277;
-    const double t279 = -t265;
-    const double t280 = RIGID_BODY_FMA(t278, t279, t275);
-    const double t281 = t270 * t280;
-    const double t282 = RIGID_BODY_FMA(t227, t281, t258);
-    const double t283 = RIGID_BODY_FMA(t230, t278, t282);
-    const double t284 = t261 * t283;
-    const double t285 = t58 * t284;
-    const double t286 = RIGID_BODY_FMA(t66, t281, t285);
-    const double t287 = RIGID_BODY_FMA(t73, t278, t286);
-    const double t288 = t66 * t284;
-    const double t289 = RIGID_BODY_FMA(t78, t281, t288);
-    const double t290 = RIGID_BODY_FMA(t85, t278, t289);
-    const double t291 = t73 * t284;
-    const double t292 = RIGID_BODY_FMA(t85, t281, t291);
-    const double t293 = RIGID_BODY_FMA(t89, t278, t292);
-    const double t294 = p[0] - t284;
-    const double t295 = p[1] - t281;
-    const double t296 = p[2] - t278;
-    const double t297 = t26 - t287;
-    const double t298 = t39 - t290;
-    const double t299 = t52 - t293;
-    const double t300 = fabs(t284);
-    const double t301 = fabs(t281);
-    const double t302 = (t301 <= t300) ? t300 : t301;
-    const double t303 = fabs(t278);
-    const double t304 = (t303 <= t302) ? t302 : t303;
-    const double t305 = k[0] * t304;
-    const double t306 = fabs(t287);
-    const double t307 = fabs(t290);
-    const double t308 = (t307 <= t306) ? t306 : t307;
-    const double t309 = fabs(t293);
+    const double t275 = 2.0 * t224;
+    const double t276 = 2.0 * t227;
+    const double t277 = 2.0 * t230;
+    const double t278 = 2.0 * t233;
+    const double t279 = 2.0 * t236;
+    const double t280 = 2.0 * t239;
+    const double t281 = 2.0 * t242;
+    const double t282 = 2.0 * t245;
+    const double t283 = 2.0 * t248;
+    const double t284 = t26 + t280;
+    const double t285 = t277 - t39;
+    const double t286 = t282 - t26;
+    const double t287 = t52 + t276;
+    const double t288 = t39 + t281;
+    const double t289 = t278 - t52;
+    const double t290 = t275 * t275;
+    const double t291 = fabs(t290);
+    const double t292 = t287 * t289;
+    const double t293 = fabs(t292);
+    const double t294 = t291 + t293;
+    const double t295 = t285 * t288;
+    const double t296 = fabs(t295);
+    const double t297 = t294 + t296;
+    const double t298 = t279 * t279;
+    const double t299 = fabs(t298);
+    const double t300 = t293 + t299;
+    const double t301 = t284 * t286;
+    const double t302 = fabs(t301);
+    const double t303 = t300 + t302;
+    const double t304 = t296 + t302;
+    const double t305 = t283 * t283;
+    const double t306 = fabs(t305);
+    const double t307 = t304 + t306;
+    const double t308 = fabs(t297);
+    const double t309 = fabs(t303);
     const double t310 = (t309 <= t308) ? t308 : t309;
-    const double t311 = fabs(t26);
-    const double t312 = fabs(t39);
-    const double t313 = (t312 <= t311) ? t311 : t312;
-    const double t314 = fabs(t52);
-    const double t315 = (t314 <= t313) ? t313 : t314;
-    const double t316 = t315 * t315;
-    const double t317 = 0.25 * t316;
-    const double t318 = t305 * t317;
-    const double t319 = RIGID_BODY_FMA(0.5, t310, t318);
-    const double t320 = k[1] * t305;
-    const double t321 = RIGID_BODY_FMA(t310, t319, t320);
-    const double t325 = 2.220446049250313e-16 * 4.0;
-    const double t326 = (t305 <= 0.001) ? t321 : t305;
-    const double t327 = (t326 <= t305) ? t326 : t305;
-    const double t328 = (t305 <= t325) ? t327 : t326;
-    p_next[0] = t294;
-    p_next[1] = t295;
-    p_next[2] = t296;
-    x[0] = t297;
-    x[1] = t298;
-    x[2] = t299;
-    *left = t328;
-    *moved = t305;
+    const double t311 = fabs(t307);
+    const double t312 = (t311 <= t310) ? t310 : t311;
+    const double t314 = RIGID_BODY_FMA(t258, t263, t259);
+    const double t315 = RIGID_BODY_FMA(t258, t267, t260);
+    const double t316 = RIGID_BODY_FMA(t272, t314, t315);
+    const double t317 = t274 * t316;
+    const double t318 = -t265;
+    const double t319 = RIGID_BODY_FMA(t317, t318, t314);
+    const double t320 = t270 * t319;
+    const double t321 = RIGID_BODY_FMA(t227, t320, t258);
+    const double t322 = RIGID_BODY_FMA(t230, t317, t321);
+    const double t323 = t261 * t322;
+    const double t324 = t58 * t323;
+    const double t325 = RIGID_BODY_FMA(t66, t320, t324);
+    const double t326 = RIGID_BODY_FMA(t73, t317, t325);
+    const double t327 = t66 * t323;
+    const double t328 = RIGID_BODY_FMA(t78, t320, t327);
+    const double t329 = RIGID_BODY_FMA(t85, t317, t328);
+    const double t330 = t73 * t323;
+    const double t331 = RIGID_BODY_FMA(t85, t320, t330);
+    const double t332 = RIGID_BODY_FMA(t89, t317, t331);
+    const double t333 = p[0] - t323;
+    const double t334 = p[1] - t320;
+    const double t335 = p[2] - t317;
+    const double t336 = t26 - t326;
+    const double t337 = t39 - t329;
+    const double t338 = t52 - t332;
+    const double t339 = fabs(t323);
+    const double t340 = fabs(t320);
+    const double t341 = (t340 <= t339) ? t339 : t340;
+    const double t342 = fabs(t317);
+    const double t343 = (t342 <= t341) ? t341 : t342;
+    const double t344 = k[0] * t343;
+    const double t346 = (t312 <= 9.0) ? t344 : 3.4028234663852886e38;
+    const double t347 = fabs(t326);
+    const double t348 = fabs(t329);
+    const double t349 = (t348 <= t347) ? t347 : t348;
+    const double t350 = fabs(t332);
+    const double t351 = (t350 <= t349) ? t349 : t350;
+    const double t352 = fabs(t26);
+    const double t353 = fabs(t39);
+    const double t354 = (t353 <= t352) ? t352 : t353;
+    const double t355 = fabs(t52);
+    const double t356 = (t355 <= t354) ? t354 : t355;
+    const double t357 = t356 * t356;
+    const double t358 = 0.25 * t357;
+    const double t359 = t346 * t358;
+    const double t360 = RIGID_BODY_FMA(0.5, t351, t359);
+    const double t361 = k[1] * t346;
+    const double t362 = RIGID_BODY_FMA(t351, t360, t361);
+    const double t366 = 2.220446049250313e-16 * 4.0;
+    const double t367 = (t346 <= 0.001) ? t362 : t346;
+    const double t368 = (t367 <= t346) ? t367 : t346;
+    const double t369 = (t346 <= t366) ? t368 : t367;
+    p_next[0] = t333;
+    p_next[1] = t334;
+    p_next[2] = t335;
+    x[0] = t336;
+    x[1] = t337;
+    x[2] = t338;
+    *residual_bound = t369;
+    *moved = t346;
 }
 
 /* Internal: 1 where a step is right. */
-static inline void rigid_body_internal_accept(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT x, double left, double way, double *RIGID_BODY_RESTRICT right)
+static inline void rigid_body_internal_accept(const double *RIGID_BODY_RESTRICT c, const double *RIGID_BODY_RESTRICT mu, const double *RIGID_BODY_RESTRICT x, double residual_bound, double distance, double *RIGID_BODY_RESTRICT right)
 {
     const double t10 = 2.220446049250313e-16 * 4.0;
     const double t13 = x[0] * x[0];
@@ -521,15 +560,15 @@ static inline void rigid_body_internal_accept(const double *RIGID_BODY_RESTRICT 
     const double t21 = (t17 <= 1.7976931348623157e308) ? 0.0 : 1.0;
     const double t22 = t21 + t21;
     const double t23 = t18 + t22;
-    const double t24 = mu[0] * mu[0];
-    const double t25 = RIGID_BODY_FMA(mu[1], mu[1], t24);
-    const double t26 = RIGID_BODY_FMA(mu[2], mu[2], t25);
-    const double t30 = (c[113] <= 3.4028234663852886e38) ? 4.0 : 9.0;
-    const double t31 = t23 * t30;
-    const double t32 = (t26 <= c[113]) ? 1.0 : 0.0;
-    const double t33 = (t31 <= 1.0) ? t32 : 0.0;
-    const double t34 = (way <= 0.05) ? t33 : 0.0;
-    const double t35 = (left <= t10) ? t34 : 0.0;
+    const double t27 = (c[113] <= 3.4028234663852886e38) ? 4.0 : 9.0;
+    const double t28 = t23 * t27;
+    const double t29 = mu[0] * mu[0];
+    const double t30 = RIGID_BODY_FMA(mu[1], mu[1], t29);
+    const double t31 = RIGID_BODY_FMA(mu[2], mu[2], t30);
+    const double t32 = (t31 <= c[113]) ? 1.0 : 0.0;
+    const double t33 = (t28 <= 1.0) ? t32 : 0.0;
+    const double t34 = (distance <= 0.05) ? t33 : 0.0;
+    const double t35 = (residual_bound <= t10) ? t34 : 0.0;
     *right = t35;
 }
 
@@ -779,13 +818,14 @@ static inline void rigid_body_internal_copy(double *to, const double *from, uint
 }
 
 /* Internal: whether an equation is corrected again: not solved, and near the first guess. */
-static inline bool rigid_body_internal_open(double left, double way)
+static inline bool rigid_body_internal_open(double residual_bound, double distance)
 {
-    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
+    return (!(residual_bound <= 8.881784197001252e-16)) && (distance <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
-static inline rigid_body_status rigid_body_internal_reason(const double *c, const double *mu, double left, double way)
+static inline rigid_body_status rigid_body_internal_reason(const double *c, const double *mu,
+    double residual_bound, double distance)
 {
     rigid_body_status status = RIGID_BODY_BEYOND_CHART;
     double square = 0.0;
@@ -797,7 +837,7 @@ static inline rigid_body_status rigid_body_internal_reason(const double *c, cons
         status = RIGID_BODY_NOT_FINITE;
     } else if (!(square <= c[RIGID_BODY_COEFFICIENTS - 1u])) {
         status = RIGID_BODY_BEYOND_SERIES;
-    } else if ((!(left <= 8.881784197001252e-16)) || (!(way <= 0.05))) {
+    } else if ((!(residual_bound <= 8.881784197001252e-16)) || (!(distance <= 0.05))) {
         status = RIGID_BODY_NOT_SOLVED;
     } else {
         /* What is left is the chart. */
@@ -815,8 +855,8 @@ static inline rigid_body_status rigid_body_internal_reason(const double *c, cons
 static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, rigid_body_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
-     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
+     * distance from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[RIGID_BODY_ELEMENT];
     double mu[RIGID_BODY_DIMENSION];
@@ -834,22 +874,22 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
         while ((status == RIGID_BODY_OK) && (done < steps) && (count < 256u)) {
             double p[RIGID_BODY_DIMENSION];
             double k[2];
-            double left = 1.0;
-            double way = 0.0;
+            double residual_bound = 1.0;
+            double distance = 0.0;
             double right = 0.0;
             uint32_t tried = 0u;
             rigid_body_internal_guess(c, mu, p, k);
-            while ((tried < 12u) && (rigid_body_internal_open(left, way))) {
+            while ((tried < 12u) && (rigid_body_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
                 double p_next[RIGID_BODY_DIMENSION];
-                rigid_body_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                rigid_body_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
                 rigid_body_internal_copy(p, p_next, RIGID_BODY_DIMENSION);
-                way = way + moved;
+                distance = distance + moved;
                 tried++;
             }
-            rigid_body_internal_accept(c, mu, x, left, way, &right);
+            rigid_body_internal_accept(c, mu, x, residual_bound, distance, &right);
             if (!(right > 0.5)) {
-                status = rigid_body_internal_reason(c, mu, left, way);
+                status = rigid_body_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
                 double g_next[RIGID_BODY_ELEMENT];
@@ -1034,7 +1074,7 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
     static const uint16_t last_part[10] = {
         2u, 3u, 4u, 6u, 7u, 8u, 9u, 10u, 11u, 12u,
     };
-    static const uint16_t last_degree[10] = {
+    static const uint16_t last_place[10] = {
         3u, 5u, 5u, 3u, 5u, 3u, 5u, 5u, 5u, 5u,
     };
     static const uint16_t last_is_highest[10] = {
@@ -1048,7 +1088,7 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
     double power[7];
     double last[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     double before[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    double radius;
+    double radius = DBL_MAX;
     rigid_body_status status = RIGID_BODY_OK;
     uint32_t term = 0u;
     uint32_t part = 0u;
@@ -1074,15 +1114,14 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
                 sum = sum + factor[term];
             }
             sum = sum * power[power_of[part]];
-            if ((next_last < 10u) && (last_part[next_last] == part)) {
+            for (; (next_last < 10u) && (last_part[next_last] == part); next_last++) {
                 const double size = fabs(sum) * last_weight[next_last];
-                i = last_degree[next_last];
+                i = last_place[next_last];
                 if (last_is_highest[next_last] == 1u) {
                     last[i] = last[i] + size;
                 } else {
                     before[i] = before[i] + size;
                 }
-                next_last++;
             }
             value = value + sum;
         }
@@ -1090,7 +1129,10 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
             map->c[slot] = value * (double)scale[slot];
         }
     }
-    radius = rigid_body_internal_radius(last, before);
+    for (i = 0u; i < 6u; i += 6u) {
+        const double own = rigid_body_internal_radius(&last[i], &before[i]);
+        radius = (own < radius) ? own : radius;
+    }
     for (i = 0u; i < (RIGID_BODY_COEFFICIENTS - 1u); i++) {
         if ((status == RIGID_BODY_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
             status = RIGID_BODY_BAD_PARAMETER;

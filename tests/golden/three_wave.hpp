@@ -5,10 +5,10 @@
  * Hamiltonian: h^2/(8*double^3) + sin(s)*e*f
  * Group: SL2. Chart: Cayley. Truncation K = 3, order of accuracy 4.
  *
- * What a step does. With the body momentum mu and the group element g, the equations of motion are dmu/dt =
- * ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h
- * is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every
- * Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.
+ * The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = ad*_(dH/dmu) mu
+ * and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h is a symplectic
+ * map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every Casimir are
+ * conserved to rounding, step after step, and the energy stays near its first value for all times.
  *
  * How to use it:
  *      three_wave_map map;
@@ -20,12 +20,12 @@
  * once, and pointers must not be null. The step size h is a time in s; every status other than THREE_WAVE_OK says
  * why a call was refused and leaves the state as it was.
  *
- * What is refused. A step is accepted only where its equation is solved to rounding near the first guess and
- * everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows
- * the solution from the identity; this header does not: take a smaller step.
+ * Refusals. A step is accepted only where its equation is solved to rounding near the first guess and everything
+ * used is known to hold there. Longer steps are refused with a status. The library in Rust then follows the
+ * solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 270 multiplications, 159 additions, 12 divisions and roots.
- * Cost at most (12 corrections, and a look at the state): 2063 multiplications, 1228 additions, 90 divisions and
+ * Cost of a step with one correction, as most have: 289 multiplications, 171 additions, 12 divisions and roots.
+ * Cost at most (12 corrections, and a check of the state): 2291 multiplications, 1372 additions, 90 divisions and
  * roots.
  * Data: 35 coefficients (280 bytes) in a map, 56 bytes in a state.
  *
@@ -250,7 +250,7 @@ static inline void three_wave_internal_guess(const double *THREE_WAVE_RESTRICT c
 }
 
 /* Internal: one correction of p. */
-static inline void three_wave_internal_correct(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT p, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT k, double *THREE_WAVE_RESTRICT p_next, double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT left, double *THREE_WAVE_RESTRICT moved)
+static inline void three_wave_internal_correct(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT p, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT k, double *THREE_WAVE_RESTRICT p_next, double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT residual_bound, double *THREE_WAVE_RESTRICT moved)
 {
     const double t8 = p[0] * p[0];
     const double t11 = p[2] * c[5];
@@ -437,69 +437,108 @@ static inline void three_wave_internal_correct(const double *THREE_WAVE_RESTRICT
     const double t201 = -t200;
     const double t202 = THREE_WAVE_FMA(t194, t201, t198);
     const double t203 = 1.0 / t202;
-    const double t204 = THREE_WAVE_FMA(t187, t192, t188);
-    const double t205 = THREE_WAVE_FMA(t187, t196, t189);
-    const double t206 = THREE_WAVE_FMA(t201, t204, t205);
-    const double t207 = t203 * t206;
-    const double t208 = -t194;
-    const double t209 = THREE_WAVE_FMA(t207, t208, t204);
-    const double t210 = t199 * t209;
-    const double t211 = THREE_WAVE_FMA(t156, t210, t187);
-    const double t212 = THREE_WAVE_FMA(t159, t207, t211);
-    const double t213 = t190 * t212;
-    const double t214 = t30 * t213;
-    const double t215 = THREE_WAVE_FMA(t32, t210, t214);
-    const double t216 = THREE_WAVE_FMA(t34, t207, t215);
-    const double t217 = t32 * t213;
-    const double t218 = THREE_WAVE_FMA(t18, t210, t217);
-    const double t219 = THREE_WAVE_FMA(t37, t207, t218);
-    const double t220 = t34 * t213;
-    const double t221 = THREE_WAVE_FMA(t37, t210, t220);
-    const double t222 = THREE_WAVE_FMA(t25, t207, t221);
-    const double t223 = p[0] - t213;
-    const double t224 = p[1] - t210;
-    const double t225 = p[2] - t207;
-    const double t226 = t15 - t216;
-    const double t227 = t23 - t219;
-    const double t228 = t27 - t222;
-    const double t229 = fabs(t213);
-    const double t230 = fabs(t210);
-    const double t231 = (t230 <= t229) ? t229 : t230;
-    const double t232 = fabs(t207);
-    const double t233 = (t232 <= t231) ? t231 : t232;
-    const double t234 = k[0] * t233;
-    const double t235 = fabs(t216);
-    const double t236 = fabs(t219);
-    const double t237 = (t236 <= t235) ? t235 : t236;
-    const double t238 = fabs(t222);
-    const double t239 = (t238 <= t237) ? t237 : t238;
-    const double t240 = fabs(t15);
-    const double t241 = fabs(t23);
-    const double t242 = (t241 <= t240) ? t240 : t241;
-    const double t243 = fabs(t27);
-    const double t244 = (t243 <= t242) ? t242 : t243;
-    const double t245 = t244 * t244;
-    const double t247 = t245 * 0.25;
-    const double t248 = t234 * t247;
-    const double t249 = THREE_WAVE_FMA(0.5, t239, t248);
-    const double t250 = k[1] * t234;
-    const double t251 = THREE_WAVE_FMA(t239, t249, t250);
-    const double t255 = 2.220446049250313e-16 * 4.0;
-    const double t256 = (t234 <= 0.001) ? t251 : t234;
-    const double t257 = (t256 <= t234) ? t256 : t234;
-    const double t258 = (t234 <= t255) ? t257 : t256;
-    p_next[0] = t223;
-    p_next[1] = t224;
-    p_next[2] = t225;
-    x[0] = t226;
-    x[1] = t227;
-    x[2] = t228;
-    *left = t258;
-    *moved = t234;
+    const double t205 = t153 * 2.0;
+    const double t206 = t156 * 2.0;
+    const double t207 = t159 * 2.0;
+    const double t208 = t162 * 2.0;
+    const double t209 = t165 * 2.0;
+    const double t210 = t168 * 2.0;
+    const double t211 = t171 * 2.0;
+    const double t212 = t174 * 2.0;
+    const double t213 = t177 * 2.0;
+    const double t214 = THREE_WAVE_FMA(t15, 2.0, t209);
+    const double t216 = THREE_WAVE_FMA(t23, (-2.0), t206);
+    const double t217 = THREE_WAVE_FMA(t15, (-2.0), t213);
+    const double t218 = THREE_WAVE_FMA(t27, 2.0, t207);
+    const double t219 = t23 + t211;
+    const double t220 = t208 - t27;
+    const double t221 = t205 * t205;
+    const double t222 = fabs(t221);
+    const double t223 = t216 * t220;
+    const double t224 = fabs(t223);
+    const double t225 = t222 + t224;
+    const double t226 = t218 * t219;
+    const double t227 = fabs(t226);
+    const double t228 = t225 + t227;
+    const double t229 = t214 * t214;
+    const double t230 = fabs(t229);
+    const double t231 = t224 + t230;
+    const double t232 = t210 * t212;
+    const double t233 = fabs(t232);
+    const double t234 = t231 + t233;
+    const double t235 = t227 + t233;
+    const double t236 = t217 * t217;
+    const double t237 = fabs(t236);
+    const double t238 = t235 + t237;
+    const double t239 = fabs(t228);
+    const double t240 = fabs(t234);
+    const double t241 = (t240 <= t239) ? t239 : t240;
+    const double t242 = fabs(t238);
+    const double t243 = (t242 <= t241) ? t241 : t242;
+    const double t245 = THREE_WAVE_FMA(t187, t192, t188);
+    const double t246 = THREE_WAVE_FMA(t187, t196, t189);
+    const double t247 = THREE_WAVE_FMA(t201, t245, t246);
+    const double t248 = t203 * t247;
+    const double t249 = -t194;
+    const double t250 = THREE_WAVE_FMA(t248, t249, t245);
+    const double t251 = t199 * t250;
+    const double t252 = THREE_WAVE_FMA(t156, t251, t187);
+    const double t253 = THREE_WAVE_FMA(t159, t248, t252);
+    const double t254 = t190 * t253;
+    const double t255 = t30 * t254;
+    const double t256 = THREE_WAVE_FMA(t32, t251, t255);
+    const double t257 = THREE_WAVE_FMA(t34, t248, t256);
+    const double t258 = t32 * t254;
+    const double t259 = THREE_WAVE_FMA(t18, t251, t258);
+    const double t260 = THREE_WAVE_FMA(t37, t248, t259);
+    const double t261 = t34 * t254;
+    const double t262 = THREE_WAVE_FMA(t37, t251, t261);
+    const double t263 = THREE_WAVE_FMA(t25, t248, t262);
+    const double t264 = p[0] - t254;
+    const double t265 = p[1] - t251;
+    const double t266 = p[2] - t248;
+    const double t267 = t15 - t257;
+    const double t268 = t23 - t260;
+    const double t269 = t27 - t263;
+    const double t270 = fabs(t254);
+    const double t271 = fabs(t251);
+    const double t272 = (t271 <= t270) ? t270 : t271;
+    const double t273 = fabs(t248);
+    const double t274 = (t273 <= t272) ? t272 : t273;
+    const double t275 = k[0] * t274;
+    const double t277 = (t243 <= 3.61) ? t275 : 3.4028234663852886e38;
+    const double t278 = fabs(t257);
+    const double t279 = fabs(t260);
+    const double t280 = (t279 <= t278) ? t278 : t279;
+    const double t281 = fabs(t263);
+    const double t282 = (t281 <= t280) ? t280 : t281;
+    const double t283 = fabs(t15);
+    const double t284 = fabs(t23);
+    const double t285 = (t284 <= t283) ? t283 : t284;
+    const double t286 = fabs(t27);
+    const double t287 = (t286 <= t285) ? t285 : t286;
+    const double t288 = t287 * t287;
+    const double t290 = t288 * 0.25;
+    const double t291 = t277 * t290;
+    const double t292 = THREE_WAVE_FMA(0.5, t282, t291);
+    const double t293 = k[1] * t277;
+    const double t294 = THREE_WAVE_FMA(t282, t292, t293);
+    const double t298 = 2.220446049250313e-16 * 4.0;
+    const double t299 = (t277 <= 0.001) ? t294 : t277;
+    const double t300 = (t299 <= t277) ? t299 : t277;
+    const double t301 = (t277 <= t298) ? t300 : t299;
+    p_next[0] = t264;
+    p_next[1] = t265;
+    p_next[2] = t266;
+    x[0] = t267;
+    x[1] = t268;
+    x[2] = t269;
+    *residual_bound = t301;
+    *moved = t277;
 }
 
 /* Internal: 1 where a step is right. */
-static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT x, double left, double way, double *THREE_WAVE_RESTRICT right)
+static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT x, double residual_bound, double distance, double *THREE_WAVE_RESTRICT right)
 {
     const double t10 = 2.220446049250313e-16 * 4.0;
     const double t13 = x[0] - x[0];
@@ -522,14 +561,14 @@ static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT 
     const double t33 = (t30 <= 1.7976931348623157e308) ? 0.0 : 1.0;
     const double t34 = t33 + t33;
     const double t35 = t31 + t34;
-    const double t36 = mu[0] * mu[0];
-    const double t37 = THREE_WAVE_FMA(mu[1], mu[1], t36);
-    const double t38 = THREE_WAVE_FMA(mu[2], mu[2], t37);
-    const double t41 = t35 * 9.0;
-    const double t42 = (t38 <= c[34]) ? 1.0 : 0.0;
-    const double t43 = (t41 <= 1.0) ? t42 : 0.0;
-    const double t44 = (way <= 0.05) ? t43 : 0.0;
-    const double t45 = (left <= t10) ? t44 : 0.0;
+    const double t38 = t35 * 9.0;
+    const double t39 = mu[0] * mu[0];
+    const double t40 = THREE_WAVE_FMA(mu[1], mu[1], t39);
+    const double t41 = THREE_WAVE_FMA(mu[2], mu[2], t40);
+    const double t42 = (t41 <= c[34]) ? 1.0 : 0.0;
+    const double t43 = (t38 <= 1.0) ? t42 : 0.0;
+    const double t44 = (distance <= 0.05) ? t43 : 0.0;
+    const double t45 = (residual_bound <= t10) ? t44 : 0.0;
     *right = t45;
 }
 
@@ -711,13 +750,14 @@ static inline void three_wave_internal_copy(double *to, const double *from, uint
 }
 
 /* Internal: whether an equation is corrected again: not solved, and near the first guess. */
-static inline bool three_wave_internal_open(double left, double way)
+static inline bool three_wave_internal_open(double residual_bound, double distance)
 {
-    return (!(left <= 8.881784197001252e-16)) && (way <= 0.05);
+    return (!(residual_bound <= 8.881784197001252e-16)) && (distance <= 0.05);
 }
 
 /* Internal: why a step was not accepted. */
-static inline three_wave_status three_wave_internal_reason(const double *c, const double *mu, double left, double way)
+static inline three_wave_status three_wave_internal_reason(const double *c, const double *mu,
+    double residual_bound, double distance)
 {
     three_wave_status status = THREE_WAVE_BEYOND_CHART;
     double square = 0.0;
@@ -729,7 +769,7 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
         status = THREE_WAVE_NOT_FINITE;
     } else if (!(square <= c[THREE_WAVE_COEFFICIENTS - 1u])) {
         status = THREE_WAVE_BEYOND_SERIES;
-    } else if ((!(left <= 8.881784197001252e-16)) || (!(way <= 0.05))) {
+    } else if ((!(residual_bound <= 8.881784197001252e-16)) || (!(distance <= 0.05))) {
         status = THREE_WAVE_NOT_SOLVED;
     } else {
         /* What is left is the chart. */
@@ -747,8 +787,8 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
 static inline three_wave_status three_wave_advance(const three_wave_map *map, three_wave_state *state, uint32_t steps,
     uint32_t *made)
 {
-    /* A step solves its equation by corrections: p from the first guess on, x, a bound on what is left of the
-     * equation, and the way from the guess, both relative to the largest coordinate of the momentum. */
+    /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
+     * distance from the guess, both relative to the largest coordinate of the momentum. */
     const double *c = map->c;
     double g[THREE_WAVE_ELEMENT];
     double mu[THREE_WAVE_DIMENSION];
@@ -766,22 +806,22 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
         while ((status == THREE_WAVE_OK) && (done < steps) && (count < 256u)) {
             double p[THREE_WAVE_DIMENSION];
             double k[2];
-            double left = 1.0;
-            double way = 0.0;
+            double residual_bound = 1.0;
+            double distance = 0.0;
             double right = 0.0;
             uint32_t tried = 0u;
             three_wave_internal_guess(c, mu, p, k);
-            while ((tried < 12u) && (three_wave_internal_open(left, way))) {
+            while ((tried < 12u) && (three_wave_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
                 double p_next[THREE_WAVE_DIMENSION];
-                three_wave_internal_correct(c, p, mu, k, p_next, x, &left, &moved);
+                three_wave_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
                 three_wave_internal_copy(p, p_next, THREE_WAVE_DIMENSION);
-                way = way + moved;
+                distance = distance + moved;
                 tried++;
             }
-            three_wave_internal_accept(c, mu, x, left, way, &right);
+            three_wave_internal_accept(c, mu, x, residual_bound, distance, &right);
             if (!(right > 0.5)) {
-                status = three_wave_internal_reason(c, mu, left, way);
+                status = three_wave_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
                 double g_next[THREE_WAVE_ELEMENT];
@@ -961,7 +1001,7 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
     static const uint16_t last_part[5] = {
         0u, 1u, 2u, 3u, 4u,
     };
-    static const uint16_t last_degree[5] = {
+    static const uint16_t last_place[5] = {
         1u, 3u, 1u, 3u, 3u,
     };
     static const uint16_t last_is_highest[5] = {
@@ -976,7 +1016,7 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
     double power[5];
     double last[4] = {0.0, 0.0, 0.0, 0.0};
     double before[4] = {0.0, 0.0, 0.0, 0.0};
-    double radius;
+    double radius = DBL_MAX;
     three_wave_status status = THREE_WAVE_OK;
     uint32_t term = 0u;
     uint32_t part = 0u;
@@ -1013,15 +1053,14 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
                 sum = sum + (factor[term] * product[product_of[term]]);
             }
             sum = sum * power[power_of[part]];
-            if ((next_last < 5u) && (last_part[next_last] == part)) {
+            for (; (next_last < 5u) && (last_part[next_last] == part); next_last++) {
                 const double size = fabs(sum) * last_weight[next_last];
-                i = last_degree[next_last];
+                i = last_place[next_last];
                 if (last_is_highest[next_last] == 1u) {
                     last[i] = last[i] + size;
                 } else {
                     before[i] = before[i] + size;
                 }
-                next_last++;
             }
             value = value + sum;
         }
@@ -1029,7 +1068,10 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
             map->c[slot] = value * (double)scale[slot];
         }
     }
-    radius = three_wave_internal_radius(last, before);
+    for (i = 0u; i < 4u; i += 4u) {
+        const double own = three_wave_internal_radius(&last[i], &before[i]);
+        radius = (own < radius) ? own : radius;
+    }
     for (i = 0u; i < (THREE_WAVE_COEFFICIENTS - 1u); i++) {
         if ((status == THREE_WAVE_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
             status = THREE_WAVE_BAD_PARAMETER;

@@ -160,8 +160,7 @@ fn kernels_are_emitted() {
         assert!(!single.contains("double "), "{single}");
     }
     for (more, expected) in [
-        (&["examples/satellite.toml", "--language", "cuda"][..], "potential"),
-        (&[BODY, "--language", "cuda", "--keep-parameters"], "--keep-parameters"),
+        (&[BODY, "--language", "cuda", "--keep-parameters"][..], "--keep-parameters"),
         (&[BODY, "--step", "0.1"], "--step is for --language opencl and cuda"),
     ] {
         let (code, _, said) = run(&[&["emit"], more].concat());

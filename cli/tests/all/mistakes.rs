@@ -96,7 +96,7 @@ fn what_a_run_needs_is_asked_for() {
     for (line, key) in
         [("step = 0.1", "step"), ("time = 1.0", "time"), ("momentum = [1, 2, 3]", "momentum")]
     {
-        let system = folder.write("system.toml", &GOOD.replace(line, ""));
+        let system = folder.write("system.toml", GOOD.replace(line, ""));
         let (code, _, error) = run(&["simulate", &system]);
         assert_eq!(code, 2);
         assert!(

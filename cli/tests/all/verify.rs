@@ -55,7 +55,7 @@ fn runs_of_every_kind_are_right() {
     let folder = Folder::new();
     let so2 = "hamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 5\nstep = 0.2\n\
                [initial]\nmomentum = [1.0, 0.3, 0.5]\n[run]\ntime = 4\n";
-    let su2 = folder.write("system.toml", &format!("group = \"SU2\"\n{so2}"));
+    let su2 = folder.write("system.toml", format!("group = \"SU2\"\n{so2}"));
     let mixed = folder.name("mixed.toml");
     let product = "group = \"SO3*SE2\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]*mu[3] + \
                    mu[3]^2/2 + mu[4]^2/3\"\n[integrator]\ntruncation = 3\nstep = 0.1\n[initial]\n\

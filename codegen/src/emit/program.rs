@@ -25,10 +25,12 @@ const INLINED_IN_LANES: usize = 6000;
 #[must_use]
 pub fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
     let called = quote!(#krate::plumbing::called(|| #call));
-    match operations {
-        0..=LARGE => call.clone(),
-        ..=INLINED_IN_LANES => quote!(if T::SINGLE { #called } else { #call }),
-        _ => called,
+    if operations <= LARGE {
+        call.clone()
+    } else if operations <= INLINED_IN_LANES {
+        quote!(if T::SINGLE { #called } else { #call })
+    } else {
+        called
     }
 }
 

@@ -1,4 +1,5 @@
 //! Compilers and checkers of the machine.
+#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

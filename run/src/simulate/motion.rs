@@ -64,16 +64,22 @@ impl<G: Restore> Space for Matrices<'_, G> {
     }
 }
 
+/// Makes a step of the grid from this time.
+type GridStep<'a, G> = dyn Fn(f64, &mut Phase<G>) -> Result<Solves, StepError> + 'a;
+
+/// Makes a step of another length from this time: (time, length, state).
+type SideStep<'a, G> = dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError> + 'a;
+
 /// Steps of a group's states, made one by one.
 pub struct Steps<'a, G: Restore> {
     /// The group.
     pub group: &'a G,
     /// The grid.
     pub schedule: &'a Schedule,
-    /// Makes a step of the grid from this time.
-    pub step: &'a dyn Fn(f64, &mut Phase<G>) -> Result<Solves, StepError>,
-    /// Makes a step of another length from this time: (time, length, state).
-    pub side: &'a dyn Fn(f64, f64, &mut Phase<G>) -> Result<(), StepError>,
+    /// A step of the grid.
+    pub step: &'a GridStep<'a, G>,
+    /// A step of another length.
+    pub side: &'a SideStep<'a, G>,
     /// The ratio of [`Motion::ratio`] at a momentum.
     pub ratio: &'a dyn Fn(&DVector<f64>) -> f64,
 }

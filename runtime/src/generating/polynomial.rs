@@ -44,11 +44,14 @@ pub struct PolynomialFunction<G, C> {
     series: Option<TruncatedSeries>,
 }
 
+/// A term of S_K or S_{K−2} as (coefficient, whether it is one of S_K, monomial).
+type LastTerm = (f64, bool, Vec<(u32, u32)>);
+
 /// The last two terms of a truncated series.
 #[derive(Clone, Debug)]
 struct TruncatedSeries {
-    /// The terms of S_K and S_{K−2} as (coefficient, whether it is one of S_K, monomial).
-    last: Vec<(f64, bool, Vec<(u32, u32)>)>,
+    /// The terms of S_K and S_{K−2}.
+    last: Vec<LastTerm>,
     /// The direct factor of the group that each coordinate belongs to.
     factors: Vec<u32>,
     /// Up to which |p| of each factor their ratio is at most ½ in every direction.

@@ -250,7 +250,7 @@ impl<'a> Flow<'a> {
     fn sixth_order(&mut self, jets: &[Vec<Id>]) -> Vec<Id> {
         let straight = self.combine(jets, |k| moment(0, k));
         let outer = self.combine(jets, |k| ratio(20, 1) * a1(k) + a3(k));
-        let a1 = self.combine(jets, |k| a1(k));
+        let a1 = self.combine(jets, a1);
         let a2 = self.combine(jets, |k| ratio(12, 1) * moment(1, k));
         let twice_a3 = self.combine(jets, |k| ratio(2, 1) * a3(k));
         let c = self.bracket(&ratio(1, 1), &a1, &a2);
@@ -274,9 +274,9 @@ impl<'a> Flow<'a> {
         let u = self.combine(jets, |k| a1(k) + a3(k) / ratio(28, 1));
         let v = self.combine(jets, |k| a2(k) + ratio(3, 28) * a4(k));
         let last = self.combine(jets, |k| ratio(-9, 1) * a2(k) - ratio(9, 4) * a4(k));
-        let first = self.combine(jets, |k| a1(k));
+        let first = self.combine(jets, a1);
         let second = self.combine(jets, a2);
-        let third = self.combine(jets, |k| a3(k));
+        let third = self.combine(jets, a3);
 
         let s1 = self.bracket(&ratio(1, 28), &u, &v);
         let r1 = self.add(&s1, &[(ratio(-1, 14), &third)]);

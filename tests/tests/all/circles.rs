@@ -2,7 +2,7 @@
 //!
 //! File A depends on file B where A imports or names an item that B defines, `mod.rs` and re-exports seen through. Tests
 //! within the crates do not count.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -228,7 +228,7 @@ impl Sources {
     }
 
     /// A path in the module `from`, from the root of the crate; `None` where it leads out of the crate.
-    fn from_root(&self, from: &Names, path: &[String]) -> Option<Names> {
+    fn seen_from_root(&self, from: &Names, path: &[String]) -> Option<Names> {
         let mut base = from.clone();
         let mut rest = path;
         if rest.first().is_some_and(|name| name == "crate") {
@@ -273,7 +273,7 @@ impl Sources {
                     own if own == name => &path[at + 1..],
                     _ => continue,
                 };
-                let target = self.from_root(&module, &import.path);
+                let target = self.seen_from_root(&module, &import.path);
                 let target = target.map(|target| [&target, rest].concat());
                 match target.and_then(|target| self.defining(&target, seen)) {
                     None if import.name == "*" => {}
@@ -291,7 +291,7 @@ impl Sources {
         let of = |(own, module): (&'_ Names, &Module)| {
             let imports = module.imports.iter().filter(|import| !import.public);
             let paths = imports.map(|import| &import.path).chain(&module.paths);
-            let paths = paths.filter_map(|path| self.from_root(own, path));
+            let paths = paths.filter_map(|path| self.seen_from_root(own, path));
             let files = paths.filter_map(|path| self.defining(&path, &mut BTreeSet::new()));
             files.filter(|file| file != own).collect()
         };

@@ -10,8 +10,8 @@ use coadjoint_codegen::system::{Options, read};
 use coadjoint_tests::matrix_free::MatrixFree;
 use coadjoint_tests::reference::{end_state, numbers};
 
-/// A free symmetric body.
-#[lie_poisson(group = SO3, truncation = 1, frame = comoving)]
+/// A free symmetric body. S₃ vanishes, which K = 1 would not tell.
+#[lie_poisson(group = SO3, truncation = 3, frame = comoving)]
 fn dumbbell(mu: [f64; 3], transverse: f64, axial: f64) -> f64 {
     let [x, y, z] = mu;
     (x * x + y * y) / (2.0 * transverse) + z * z / (2.0 * axial)

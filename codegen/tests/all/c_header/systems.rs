@@ -9,7 +9,6 @@ use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{self, Options, Parameters};
-use num_traits::ToPrimitive;
 
 use crate::tools::{FLAGS_CPP, Tool, output};
 
@@ -210,7 +209,6 @@ pub struct Built {
     /// The step size.
     pub step: f64,
     pub momentum: Vec<f64>,
-    pub symbols: Vec<f64>,
     /// Whether every matrix is an element, so far as steps can tell.
     pub any_element: bool,
     pub file: String,
@@ -256,13 +254,6 @@ impl Built {
             only_step: None,
         };
         let header = header(&integrator, &style).unwrap();
-        let values: Vec<f64> = problem
-            .parameters
-            .iter()
-            .flat_map(|parameter| parameter.default.clone().unwrap())
-            .map(|value| value.to_f64().unwrap())
-            .collect();
-        let symbols = problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&values)).collect();
         let prefix = coadjoint_codegen::emit::c::prefix(&problem.name);
         let ending = if system.language == Language::Cpp { "hpp" } else { "h" };
         let programs = Step::build(&integrator).unwrap();
@@ -270,7 +261,6 @@ impl Built {
             system,
             step: run.step.unwrap(),
             momentum: run.momentum.unwrap(),
-            symbols,
             any_element: any_element(&programs),
             programs,
             file: format!("{prefix}.{ending}"),
