@@ -55,7 +55,7 @@ pub struct Refused<'a> {
 /// them.
 pub type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
 
-/// The outcome of [`Card::advance`].
+/// The outcome of `Card::advance`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Advanced {
     /// How often a thread refused a step that the caller was then given to make.
