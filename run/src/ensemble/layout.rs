@@ -95,7 +95,7 @@ impl Found {
     /// By the names of columns, or by their number where they have no names.
     ///
     /// # Errors
-    /// As [`Found::find`], and for a number of columns that no state has.
+    /// A column is missing, is there twice, or is named after a parameter; or no state has this number of columns.
     pub fn of(
         shape: Shape,
         known: &Known,

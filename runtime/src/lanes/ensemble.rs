@@ -29,7 +29,7 @@ pub struct Failure {
 /// over rayon's threads.
 ///
 /// The result does not depend on the number of threads, on the grouping into lanes, or on the
-/// processor's vector width: each trajectory gets the bits that [`advance_by`](crate::steps::advance_by)
+/// processor's vector width: each trajectory gets the bits that [`advance_by`]
 /// gives. Each lane has a verdict of its own: a trajectory that is refused keeps its last good state and is
 /// reported (sorted by index); the others go on, with the same bits.
 pub fn advance_all<S>(step: &S, states: &mut [Phase<S::Group>], steps: u64) -> Vec<Failure>
