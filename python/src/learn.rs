@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 
 use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
 use coadjoint_learn::{Kind, ModelFile, NetworkSettings, Request, learn_columns};
-use coadjoint_run::simulate::{Setup, algebra_of, run_model, schedule_of};
+use coadjoint_run::simulate::{Schedule, Setup, algebra_of, run_model};
 use coadjoint_run::{RunError, emit};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -164,7 +164,7 @@ impl ModelCore {
         let momentum = momentum.as_array().to_vec();
         let (model, name) = (self.model.clone(), self.name.clone());
         let made = work(py, progress.as_ref(), move |control| -> Result<_, RunError> {
-            let schedule = schedule_of(time, model.step)?;
+            let schedule = Schedule::of_model(model.step, time)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let setup =
                 Setup { recording: true, every: Some(every), ..Setup::new(schedule, momentum) };

@@ -53,7 +53,7 @@ pub fn result_of<'py>(
     let scales = &outcome.scales;
     let scales = (scales.spatial_momentum, scales.casimirs.clone(), scales.energy);
     found.set_item("drift_scale", scales)?;
-    found.set_item("unknown", outcome.unknown.0)?;
+    found.set_item("unknown", outcome.unknown)?;
     found.set_item("unmeasured", outcome.unmeasured)?;
     found.set_item("potential", outcome.potential)?;
     found.set_item("has_energy", outcome.energy.is_some())?;

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use coadjoint_run::simulate::{Begun, Block, Halt, Record, Resume, Sink, Standing};
+use coadjoint_run::simulate::{Begun, Block, Halt, Record, Resume, Sink};
 
 use crate::control::Control;
 
@@ -59,8 +59,8 @@ impl Sink for Keeper<'_> {
         Ok(())
     }
 
-    fn pause(&mut self, standing: &Standing<'_>) -> Result<(), Halt> {
-        self.control.done.store(standing.step, Ordering::Relaxed);
+    fn pause(&mut self, steps: u64, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
+        self.control.done.store(steps, Ordering::Relaxed);
         if self.control.stop.load(Ordering::Relaxed) { Err(Halt) } else { Ok(()) }
     }
 

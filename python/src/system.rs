@@ -11,7 +11,7 @@ use coadjoint_codegen::system::System;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
-    self, Attitude, Found, How, Known, Layout, Shape, Watch, matrix_size,
+    self, Attitude, Engine, Found, How, Known, Layout, Shape, Watch, matrix_size,
 };
 use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
@@ -266,19 +266,18 @@ impl Core {
             let derived = derive(&cache, &here.name, system, true)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
-            let engine =
-                ensemble::engine(path, &derived.integrator, schedule.step, how, &derived.kept)?;
+            let (integrator, kept) = (&derived.integrator, &derived.kept);
+            let engine = Engine::new(path, integrator, schedule.step, how, kept)?;
             let layout = Found::of(engine.shape(), &Known::default(), &[], width)?.layout;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let pool =
                 pool.map_err(|error| RunError::Option(format!("threads={threads}: {error}")))?;
-            let engine = engine.as_ref();
             let (failed, drift) = pool.install(|| {
                 let made = |made: u64| control.done.store(made, Ordering::Relaxed);
                 let watch = Watch { made: &made, stop: &control.stop };
-                ensemble::advance_all(engine, &layout, schedule.steps, &mut values, &watch)
+                engine.advance_all(&layout, schedule.steps, &mut values, &watch)
             })?;
             let notes = engine.notes();
             Ok((

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
@@ -10,7 +11,7 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
-use crate::engine::{Forces, Kept};
+use crate::engine::{Charted, Forces, Kept, product_group, whole_group};
 use crate::error::RunError;
 
 /// Reads the text of a system file as it stands; `name` is what mistakes call it.
@@ -88,6 +89,37 @@ impl Derived {
         let integrator = with_kicks(file, problem, potential.clone())?;
         let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
         Ok(Self { file: file.to_owned(), integrator, invariants, forces, kept: Kept::default() })
+    }
+
+    /// The group that the equations are on. Kicks look at the matrices of the whole group; a flow alone goes factor by
+    /// factor.
+    ///
+    /// # Errors
+    /// Where the data defines no group.
+    pub fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
+        let algebra = &self.integrator.problem.algebra;
+        match &self.forces {
+            Some(_) => whole_group(&self.file, algebra),
+            None => product_group(&self.file, algebra),
+        }
+    }
+
+    /// The same with the chart of the steps.
+    pub(crate) fn charted(&self) -> Result<Charted, RunError> {
+        Charted::new(&self.file, self.group()?, self.integrator.problem.chart)
+    }
+
+    /// The method of a run, in a few words.
+    pub fn label(&self) -> String {
+        let problem = &self.integrator.problem;
+        let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
+        if problem.comoving.is_some() {
+            label.push_str(", comoving");
+        }
+        if let Some(forces) = &self.forces {
+            label = format!("{label}, {}", forces.splitting.name());
+        }
+        label
     }
 }
 

@@ -77,7 +77,7 @@ impl Journal {
     }
 
     /// Takes note of drifts, and of what has made the steps.
-    pub(crate) fn raise(&mut self, drift: Drift, engine: &dyn Engine) {
+    pub(crate) fn raise(&mut self, drift: Drift, engine: &Engine<'_>) {
         let Drift { conserved, unmeasured, ratio } = self.drift().max(drift);
         self.spatial_momentum = conserved.spatial_momentum.map(f64::to_bits);
         self.casimirs = conserved.casimirs.map(f64::to_bits);

@@ -15,7 +15,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::engine::Kept;
-use coadjoint_run::ensemble::{Asked, How, Known, Use, engine, problem_of};
+use coadjoint_run::ensemble::{Asked, Engine, How, Known, Use, problem_of};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -46,7 +46,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     // Little is left of what a device makes.
     let work = if device.is_some() { 0.0 } else { work(options, &integrator, steps) };
     let how = How { backend: options.backend, work, device };
-    let engine = engine(path, &integrator, step, how, &Kept::default())?;
+    let engine = Engine::new(path, &integrator, step, how, &Kept::default())?;
     let states = States::open(initial, form, engine.shape(), &known)?;
     let problem = &integrator.problem;
     let mut identity: Identity = [
@@ -66,7 +66,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         identity.insert("precision".to_owned(), format!("single, by {device} ({name})"));
     }
     let job = Job {
-        engine: engine.as_ref(),
+        engine: &engine,
         inputs,
         range: options.shard.rows(states.count()?),
         states,
@@ -89,8 +89,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(text) = report::warning(&outcome) {
         eprintln!("warning: {text}");
     }
-    let (format, engine) = (options.format, engine.as_ref());
-    out!("{}", report::report(&outcome, &integrator, (step, steps), engine, format));
+    let report = report::report(&outcome, &integrator, (step, steps), &engine, options.format);
+    out!("{report}");
     let failed = outcome.journal.rejected;
     if outcome.trajectories > 0 && failed == outcome.trajectories {
         return Err(CliError::Rows { failed, list: outcome.list });

@@ -25,7 +25,7 @@ pub(crate) fn report(
     outcome: &Outcome,
     integrator: &Integrator,
     (step, steps): (f64, u64),
-    engine: &dyn Engine,
+    engine: &Engine<'_>,
     format: Format,
 ) -> String {
     let (truncation, chart) = (integrator.problem.truncation, integrator.problem.chart);

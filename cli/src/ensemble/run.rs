@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::file::{self, Extent, Output, beside, passing};
-use coadjoint_run::ensemble::{Drift, Engine, Rejected, Watch, piece as length};
+use coadjoint_run::ensemble::{Drift, Engine, Rejected, Watch};
 
 use super::journal::{ANEW, Finished, Journal};
 use super::states::{Form, Piece, States};
@@ -28,7 +28,7 @@ const LIST: &[u8] = b"row,step,reason\n";
 /// A run that is set up.
 pub(crate) struct Job<'a> {
     /// Advances rows.
-    pub engine: &'a dyn Engine,
+    pub engine: &'a Engine<'a>,
     /// Where rows come from.
     pub states: States,
     /// Everything the run reads.
@@ -209,14 +209,13 @@ impl Run<'_> {
         let (engine, steps) = (self.job.engine, self.job.steps.max(1));
         let bar = progress::bar(count.saturating_mul(steps), "trajectories");
         let layout = self.job.states.found.layout;
-        let card = engine.device().is_some_and(|by| !by.processor);
         let earlier = self.journal.redone;
         let (mut piece, stop) = (Piece::default(), AtomicBool::new(false));
         let mut noted = Instant::now();
         self.journal.raise(Drift::default(), engine);
         while self.journal.rows < count {
             let done = self.journal.rows;
-            let take = length(layout.width(), self.job.steps, card).min(count - done);
+            let take = engine.piece(layout.width(), self.job.steps).min(count - done);
             self.job.states.read(take, &mut piece)?;
             let made = |made: u64| {
                 bar.set_position(done.saturating_mul(steps).saturating_add(take * made));

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use coadjoint_learn::npy_header;
-use coadjoint_learn::table::{Row, Table};
+use coadjoint_learn::table::{Row, Table, csv_lines};
 use coadjoint_run::ensemble::{Found, Known, Rejected, Rows, Shape};
-use csv::WriterBuilder;
 use rayon::prelude::*;
 
 use crate::error::CliError;
@@ -143,7 +142,7 @@ impl States {
     /// The bytes before the first of `count` rows that are written.
     pub(crate) fn header(&self, count: u64) -> Vec<u8> {
         match self.form {
-            Form::Csv => lines(std::iter::once(self.written.iter().map(|(name, _)| name))),
+            Form::Csv => csv_lines([self.written.iter().map(|(name, _)| name)]),
             Form::Npy => npy_header(&[count, self.found.layout.width() as u64]),
             #[cfg(feature = "parquet")]
             Form::Parquet => Vec::new(),
@@ -160,7 +159,7 @@ impl States {
         // Pieces of fixed size, joined in order: the same bytes whatever the threads.
         let pieces = piece.rows.values.par_chunks(PIECE * width).enumerate();
         let pieces = pieces.map(|(number, values)| {
-            lines(values.chunks(width).enumerate().map(|(place, row)| {
+            csv_lines(values.chunks(width).enumerate().map(|(place, row)| {
                 let cells = piece.cells.get(number * PIECE + place);
                 written.iter().enumerate().map(move |(cell, (_, own))| match own {
                     Some(column) => row[*column].to_string().into_bytes(),
@@ -193,12 +192,4 @@ impl States {
             .map_err(std::io::Error::other)?;
         to.sync()
     }
-}
-
-/// Lines of CSV; cells are in quotes where they would be read as something else without.
-fn lines<R: IntoIterator<Item: AsRef<[u8]>>>(rows: impl Iterator<Item = R>) -> Vec<u8> {
-    let mut writer = WriterBuilder::new().comment(Some(b'#')).from_writer(Vec::new());
-    // Writing into memory cannot fail.
-    rows.for_each(|row| drop(writer.write_record(row)));
-    writer.into_inner().unwrap_or_default()
 }

@@ -1,27 +1,48 @@
 //! The outputs of a run: records, pictures and checkpoints, and messages to the user.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use coadjoint_run::RunError;
-use coadjoint_run::simulate::{Begun, Halt, Moment, Outcome, Record, Resume, Sink, Standing};
+use coadjoint_run::simulate::{Begun, Halt, Moment, Outcome, Record, Resume, Sink};
 use indicatif::ProgressBar;
 
-use super::checkpoint::{ANEW, Checkpoint};
-use super::header::Header;
 use super::interrupt::Guard;
-use super::records::Records;
-use super::samples::Samples;
-use super::setup::Settings;
-use super::target::Target;
-use super::trajectory::Trajectory;
+use super::records::{Checkpoint, Records};
+use super::samples::{Sample, Samples};
+use super::settings::{Header, Settings};
+use super::target::{Target, paths};
 use crate::error::CliError;
 use crate::note::{self, Identity};
 use crate::progress;
 
-/// The outputs of a run.
-pub(crate) struct Keeper<'a> {
-    settings: &'a Settings,
+/// The way to forget an earlier run.
+const ANEW: &str = "remove it to begin anew";
+
+/// A run that has ended, for reports and pictures.
+#[derive(Clone, Debug)]
+pub(crate) struct Trajectory {
+    /// The method.
+    pub label: String,
+    pub header: Header,
+    /// K; `None` for a method beside ours.
+    pub truncation: Option<usize>,
+    /// Names of the momentum's coordinates.
+    pub coordinates: Vec<String>,
+    /// A bounded choice of the moments of the run, the start first and the end last; empty where no picture is
+    /// asked for.
+    pub samples: Vec<Sample>,
+    /// A line about the step, where another was used than was asked for.
+    pub announcement: Option<String>,
+    /// The end, and the maxima over all steps.
+    pub outcome: Outcome,
+    /// The file with the records, and how many there are.
+    pub out: Option<(PathBuf, u64)>,
+}
+
+/// The outputs of a run that is going on.
+struct Keeper<'a> {
+    settings: &'a Settings<'a>,
     header: &'a Header,
     /// Which drifts records have.
     known: [bool; 3],
@@ -37,12 +58,9 @@ pub(crate) struct Keeper<'a> {
     failure: Option<CliError>,
 }
 
-/// Makes a run by `drive`, and keeps its outputs.
-///
-/// # Errors
-/// Why it stopped; the records made so far are kept.
+/// Makes a run by `drive`, and keeps its outputs; where it stops, the records made so far are kept.
 pub(crate) fn keep(
-    settings: &Settings,
+    settings: &Settings<'_>,
     label: String,
     header: Header,
     coordinates: &[String],
@@ -86,7 +104,7 @@ pub(crate) fn keep(
         header,
         truncation: None,
         coordinates: coordinates.to_vec(),
-        records: samples.map(Samples::finish).unwrap_or_default(),
+        samples: samples.map(Samples::finish).unwrap_or_default(),
         announcement: settings.setup.schedule.announcement(),
         outcome,
         out: target.zip(rows).map(|(target, rows)| (target.path.clone(), rows)),
@@ -101,13 +119,12 @@ impl Keeper<'_> {
         // First of all: what is read below is then not another run's.
         let output = settings.out.as_ref().map(Target::open).transpose()?.flatten();
         let header = self.header.clone().with_scales(begun.known, begun.scales);
-        let names = begun.columns();
-        let checkpoint = settings.checkpoint.as_ref();
-        let found: Option<Checkpoint> = match checkpoint {
+        let path = settings.checkpoint.as_ref().map(|(path, _)| path.as_path());
+        let found = match path {
             None => None,
-            Some((path, _)) => note::read(path, "checkpoint", ANEW)?,
+            Some(path) => note::read::<Checkpoint>(path, "checkpoint", ANEW)?.map(|f| (path, f)),
         };
-        if let (Some(found), Some((path, _))) = (&found, checkpoint) {
+        if let Some((path, found)) = &found {
             let advice = "give the same command as then, or another --checkpoint";
             note::agree(path, &found.identity, &self.identity(), advice)?;
             let samples = found.samples.as_ref();
@@ -118,9 +135,11 @@ impl Keeper<'_> {
                 )));
             }
         }
-        let open = |target| Records::open(target, output, header, names, found.as_ref());
-        self.records = settings.out.as_ref().map(open).transpose()?;
-        let (Some(found), Some((path, _))) = (found, checkpoint) else { return Ok(None) };
+        if let Some(target) = &settings.out {
+            let found = found.as_ref().map(|(_, found)| found);
+            self.records = Some(Records::open(target, output, header, begun.columns(), found)?);
+        }
+        let Some((path, found)) = found else { return Ok(None) };
         let path = path.display();
         if found.complete {
             eprintln!(
@@ -135,9 +154,9 @@ impl Keeper<'_> {
     }
 
     /// Between steps.
-    fn tend(&mut self, standing: &Standing<'_>) -> Result<(), CliError> {
+    fn tend(&mut self, n: u64, state: &dyn Fn() -> Resume) -> Result<(), CliError> {
         let schedule = &self.settings.setup.schedule;
-        let (n, end) = (standing.step, standing.step == schedule.steps);
+        let end = n == schedule.steps;
         if let Some(bar) = self.bar.as_ref().filter(|_| self.shown.elapsed() >= progress::INTERVAL)
         {
             bar.set_position(n);
@@ -157,7 +176,7 @@ impl Keeper<'_> {
         if let Some((path, interval)) = checkpoint
             && (end || stop || self.saved.elapsed() >= *interval)
         {
-            self.save(path, standing)?;
+            self.save(path, end, state())?;
         }
         if !stop {
             return Ok(());
@@ -173,19 +192,19 @@ impl Keeper<'_> {
     }
 
     /// Writes a checkpoint; the records that it counts are on the disk before.
-    fn save(&mut self, path: &Path, standing: &Standing<'_>) -> Result<(), CliError> {
+    fn save(&mut self, path: &Path, complete: bool, resume: Resume) -> Result<(), CliError> {
         let vouched = self.records.as_mut().map(Records::vouch).transpose()?;
         let (extent, rows) = vouched.unwrap_or_default();
         let checkpoint = Checkpoint {
             identity: self.identity(),
-            resume: (standing.state)(),
+            resume,
             bytes: extent.bytes,
             records_crc32: extent.crc32,
             rows,
             samples: self.samples.clone(),
-            complete: standing.step == self.settings.setup.schedule.steps,
+            complete,
         };
-        note::write(&checkpoint, path, &self.settings.inputs())?;
+        note::write(&checkpoint, path, &paths(&self.settings.inputs))?;
         self.saved = Instant::now();
         Ok(())
     }
@@ -240,8 +259,8 @@ impl Sink for Keeper<'_> {
         }
     }
 
-    fn pause(&mut self, standing: &Standing<'_>) -> Result<(), Halt> {
-        let tended = self.tend(standing);
+    fn pause(&mut self, steps: u64, state: &dyn Fn() -> Resume) -> Result<(), Halt> {
+        let tended = self.tend(steps, state);
         self.note(tended)
     }
 

@@ -1,47 +1,40 @@
 //! `coadjoint simulate`: a run, what it kept, and pictures of it.
 
-mod checkpoint;
 mod element;
-mod header;
 mod interrupt;
 mod keep;
-mod learned;
 mod plot;
 mod records;
 mod report;
 mod rival;
 mod samples;
-mod setup;
+mod settings;
 mod target;
-mod trajectory;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
-use coadjoint_run::simulate::{Schedule, Sink};
+use coadjoint_learn::{LearnError, ModelFile};
+use coadjoint_run::simulate::{Schedule, Setup, Sink, algebra_of, run_model};
 use coadjoint_run::{Derived, text_hash};
 
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
 use crate::source::Source;
 use crate::{load, progress};
-use header::Header;
-use keep::keep;
-use setup::Settings;
-use target::{Place, Target};
-use trajectory::Trajectory;
+use keep::{Trajectory, keep};
+use settings::{Header, Settings, every};
+use target::{Place, Target, paths};
 
 /// Runs every truncation asked for.
-pub fn run(options: &SimulateOptions) -> Result<(), CliError> {
-    let out = setup::check_names(options)?;
+pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
+    let out = settings::check_names(options)?;
     let (runs, units) = match &options.input.model {
-        Some(path) => (vec![learned::run(path, options, out.clone())?], Units::default()),
+        Some(path) => (vec![follow(path, options, out.clone())?], Units::default()),
         None => runs(options, out.as_ref())?,
     };
     if let Some(path) = &options.plot {
-        let inputs = setup::inputs(options);
-        let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
-        plot::draw(path, &inputs, &runs, &units)?;
+        plot::draw(path, &paths(&settings::inputs(options)), &runs, &units)?;
     }
     let report = report::report(&runs, &units, options.format);
     // Records on the standard output are not mixed with the report.
@@ -82,7 +75,7 @@ fn runs(
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         drop(phase);
-        let setup = setup::setup(options, path, &system)?;
+        let setup = settings::setup(options, path, &system)?;
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();
@@ -112,9 +105,46 @@ fn runs(
     Ok((runs, units))
 }
 
+/// Follows a learned map, which has its own step.
+fn follow(
+    path: &Path,
+    options: &SimulateOptions,
+    out: Option<Target>,
+) -> Result<Trajectory, CliError> {
+    let missing = |option: &str| {
+        CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
+    };
+    if options.accuracy.step.is_some() || options.accuracy.tolerance.is_some() {
+        let what = "a learned model has a step of its own: leave out --step and --tolerance";
+        return Err(CliError::Option(what.to_owned()));
+    }
+    if options.start.is_empty() {
+        return Err(missing("start"));
+    }
+    let time = options.time.ok_or_else(|| missing("time"))?;
+    let hash = text_hash(&load::text(path)?);
+    let model = ModelFile::load(path)?;
+    let (expected, found) = (algebra_of(&model)?.dim(), options.start.len());
+    if found != expected {
+        return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
+    }
+    if let Some(bad) = options.start.iter().find(|value| !value.is_finite()) {
+        return Err(CliError::Option(format!("--start: {bad} is no finite number")));
+    }
+    let schedule = Schedule::of_model(model.step, time)?;
+    let every = Some(every(options.every.unwrap_or(1))?);
+    let setup = Setup { every, ..Setup::new(schedule, options.start.clone()) };
+    let settings = Settings::new(options, (path, &hash), out, setup)?;
+    let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
+    let label = format!("learned {}, {}", model.model.name(), model.chart);
+    let header = Header::of_model(&settings, &model);
+    let drive = |sink: &mut dyn Sink| run_model(path, &model, &settings.setup, sink);
+    keep(&settings, label, header, &coordinates, drive)
+}
+
 /// The step size used and how many steps end at the time T, by the options, else by the file. Where it is
 /// not the step asked for, a line on the error stream says so.
-pub fn schedule(
+pub(crate) fn schedule(
     file: &Path,
     step: Option<f64>,
     time: Option<f64>,

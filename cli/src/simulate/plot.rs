@@ -7,7 +7,7 @@ use coadjoint_codegen::system::Units;
 use coadjoint_draw::run::{Picture, Run, Series, render};
 use serde_json::Value;
 
-use super::trajectory::Trajectory;
+use super::keep::Trajectory;
 use crate::error::{CliError, unwritten};
 
 /// Writes the picture of some runs of one system.
@@ -69,14 +69,14 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
     let momentum = |(i, name): (usize, &String)| Series {
         name: name.clone(),
         unit: units.coordinate(i).map(str::to_owned),
-        values: run.records.iter().map(|record| record.momentum[i]).collect(),
+        values: run.samples.iter().map(|sample| sample.momentum[i]).collect(),
     };
     let drift = |name: &str, which: usize| Series {
         name: name.to_owned(),
         unit: None,
-        values: run.records.iter().map(|record| record.drift.numbers()[which]).collect(),
+        values: run.samples.iter().map(|sample| sample.drift.numbers()[which]).collect(),
     };
-    let [spatial, casimirs, energy] = run.outcome.unknown.known();
+    let [spatial, casimirs, energy] = run.outcome.unknown.map(|why| why.is_none());
     let mut drifts = Vec::new();
     if energy {
         drifts.push(drift("energy", 2));
@@ -96,7 +96,7 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
     }
     Run {
         label: run.label.clone(),
-        times: run.records.iter().map(|record| record.time).collect(),
+        times: run.samples.iter().map(|sample| sample.time).collect(),
         momentum: run.coordinates.iter().enumerate().map(momentum).collect(),
         drifts,
     }

@@ -1,23 +1,46 @@
-//! Records written as they are made.
+//! Records written as they are made, and the checkpoint that counts them.
 
 use std::io::{Error, ErrorKind, Write, stdout};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::file::{self, Extent, Output};
 use coadjoint_learn::npy_header;
+use coadjoint_learn::table::csv_lines;
 use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::Resume;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::checkpoint::Checkpoint;
-use super::header::Header;
-use super::target::{Form, Place, Target};
+use super::samples::Samples;
+use super::settings::Header;
+use super::target::{Form, Place, Target, paths};
 use crate::error::{CliError, unwritten};
+use crate::note::Identity;
 
 /// Bytes kept in memory before they are written.
 const BUFFER: usize = 1 << 16;
 /// Records reach the file at least this often, as far as steps allow.
 const DELAY: Duration = Duration::from_millis(500);
+
+/// The progress of a run, on the disk. Records that it counts are there before it is.
+#[derive(Debug, Deserialize, Serialize)]
+pub(crate) struct Checkpoint {
+    /// The description of the run.
+    pub identity: Identity,
+    /// The state, and the maxima so far.
+    pub resume: Resume,
+    /// Bytes of the file of records.
+    pub bytes: u64,
+    /// The checksum of these.
+    pub records_crc32: u32,
+    /// Records in it.
+    pub rows: u64,
+    /// The moments kept for pictures, if any are.
+    pub samples: Option<Samples>,
+    /// Whether the run has finished.
+    pub complete: bool,
+}
 
 /// A file, a device or the standard output that takes records.
 pub(crate) struct Records {
@@ -41,10 +64,7 @@ pub(crate) struct Records {
 impl Records {
     /// Begins anew, or goes on where a checkpoint was made: what came after it is cut off, and nothing is added to a file
     /// that an earlier run has completed. `output` is the file that the target has opened.
-    ///
-    /// # Errors
-    /// Where it cannot be written, or is not the file of the checkpoint.
-    pub fn open(
+    pub(crate) fn open(
         target: &Target,
         output: Option<Output>,
         header: Header,
@@ -79,7 +99,7 @@ impl Records {
                     for line in records.header.lines() {
                         records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
                     }
-                    records.buffer.extend_from_slice(names_line(&records.names)?.as_bytes());
+                    records.buffer.extend(csv_lines([&records.names]));
                 }
                 Form::Npy => records.describe(false)?,
             }
@@ -112,18 +132,11 @@ impl Records {
     }
 
     /// Adds a record.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
     pub(crate) fn row(&mut self, values: impl Iterator<Item = f64>) -> Result<(), CliError> {
         match self.target.form {
             Form::Csv => {
-                for (place, value) in values.enumerate() {
-                    if place > 0 {
-                        self.buffer.push(b',');
-                    }
-                    self.buffer.extend_from_slice(shortest(value).as_bytes());
-                }
+                let cells: Vec<String> = values.map(shortest).collect();
+                self.buffer.extend_from_slice(cells.join(",").as_bytes());
                 self.buffer.push(b'\n');
             }
             Form::Npy => values.for_each(|value| self.buffer.extend(value.to_le_bytes())),
@@ -133,9 +146,6 @@ impl Records {
     }
 
     /// Writes what waits, if it has waited for long.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
     pub(crate) fn tick(&mut self) -> Result<(), CliError> {
         if self.waiting > 0 && self.flushed.elapsed() >= DELAY { self.flush() } else { Ok(()) }
     }
@@ -152,14 +162,12 @@ impl Records {
                     out.write_all(&self.buffer).and_then(|()| out.flush())
                 }
             };
+            let unread = |error: &Error| {
+                error.kind() == ErrorKind::BrokenPipe && self.target.place != Place::File
+            };
             match written {
                 Ok(()) => {}
-                Err(error)
-                    if error.kind() == ErrorKind::BrokenPipe
-                        && self.target.place != Place::File =>
-                {
-                    self.closed = true;
-                }
+                Err(error) if unread(&error) => self.closed = true,
                 Err(error) => {
                     kept = self.keep_whole();
                     outcome = Err(self.failed(error));
@@ -202,9 +210,6 @@ impl Records {
     }
 
     /// Writes all to the disk and says how much there is.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
     pub(crate) fn vouch(&mut self) -> Result<(Extent, u64), CliError> {
         self.flush()?;
         let Some(output) = &self.output else { return Ok((Extent::default(), self.written)) };
@@ -213,18 +218,12 @@ impl Records {
     }
 
     /// Says at the end of the file that it is complete; it still has the name of a part.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
     pub(crate) fn complete(&mut self) -> Result<(), CliError> {
         self.close(&format!("complete: {} records", self.rows()));
         self.vouch().map(drop)
     }
 
     /// Gives a complete file its name.
-    ///
-    /// # Errors
-    /// Where the name cannot be given.
     pub(crate) fn publish(mut self) -> Result<(), CliError> {
         if self.target.form == Form::Npy && self.output.is_some() {
             self.describe(true)?;
@@ -255,8 +254,8 @@ impl Records {
         object.insert("complete".into(), Value::Bool(complete));
         let text = format!("{:#}\n", Value::Object(object));
         let path = self.target.description();
-        let inputs: Vec<&Path> = self.target.inputs.iter().map(PathBuf::as_path).collect();
-        file::write(&path, &inputs, text.as_bytes()).map_err(unwritten(&path))
+        let written = file::write(&path, &paths(&self.target.inputs), text.as_bytes());
+        written.map_err(unwritten(&path))
     }
 
     fn failed(&self, error: Error) -> CliError {
@@ -265,14 +264,4 @@ impl Records {
             _ => unwritten(&self.target.part())(error),
         }
     }
-}
-
-/// Names with commas or quotes are quoted.
-fn names_line(names: &[String]) -> Result<String, CliError> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let unwritten =
-        |error: &dyn std::fmt::Display| CliError::Option(format!("the names of columns: {error}"));
-    writer.write_record(names).map_err(|error| unwritten(&error))?;
-    let bytes = writer.into_inner().map_err(|error| unwritten(&error))?;
-    String::from_utf8(bytes).map_err(|error| unwritten(&error))
 }

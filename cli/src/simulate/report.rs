@@ -8,8 +8,8 @@ use coadjoint_run::simulate::{Block, Outcome, Warning, split};
 use serde_json::{Value, json};
 
 use super::element::lines;
+use super::keep::Trajectory;
 use super::plot::brief;
-use super::trajectory::Trajectory;
 use crate::named::Format;
 
 /// Larger group elements are given by their blocks only.
@@ -33,7 +33,7 @@ pub(crate) fn report(runs: &[Trajectory], units: &Units, format: Format) -> Stri
 fn object(run: &Trajectory, units: &Units) -> Value {
     let end = &run.outcome;
     let names = ["spatial_momentum", "casimirs", "energy"];
-    let [spatial, casimirs, energy] = end.unknown.known();
+    let [spatial, casimirs, energy] = end.unknown.map(|why| why.is_none());
     let drifts = [end.drift.spatial_momentum, end.drift.casimirs, end.drift.energy];
     let drifts = names.iter().zip(drifts).filter_map(|(name, drift)| Some((*name, json!(drift?))));
     let scales = [
@@ -171,7 +171,7 @@ fn text(run: &Trajectory, units: &Units) -> String {
     let drifts = [end.drift.spatial_momentum, end.drift.casimirs, end.drift.energy];
     let names = ["spatial momentum", &casimirs, "energy"];
     for (i, (name, drift)) in names.iter().zip(drifts).enumerate() {
-        let _ = match (end.unknown.0[i], drift) {
+        let _ = match (end.unknown[i], drift) {
             // Learned maps have no energy, of which nothing is said.
             (Some(_), _) if i == 2 => Ok(()),
             (Some(why), _) => writeln!(out, "    {name:<16} {why}"),

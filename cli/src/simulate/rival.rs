@@ -1,9 +1,11 @@
 //! An adaptive Runge–Kutta method on the same equations, as the paper's figures have it.
 
+use std::sync::Arc;
+
 use coadjoint::{LieGroup, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::poly::Numeric;
-use coadjoint_run::engine::{Numbers, Restore, Torque};
-use coadjoint_run::simulate::{Matrices, Moment, Recorder};
+use coadjoint_run::engine::{Elements, Numbers, Restore, Torque};
+use coadjoint_run::simulate::{Moment, Recorder};
 use coadjoint_run::{Derived, RunError};
 use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, Solout, Solution,
@@ -11,10 +13,9 @@ use differential_equations::prelude::{
 use nalgebra::{DMatrix, DVector};
 use serde_json::json;
 
-use super::header::Header;
+use super::keep::Trajectory;
 use super::samples::Samples;
-use super::setup::Settings;
-use super::trajectory::Trajectory;
+use super::settings::{Header, Settings};
 use crate::error::CliError;
 use crate::progress;
 
@@ -25,7 +26,7 @@ type Group = DirectProduct<MatrixGroup>;
 /// (between them it would be the interpolation that is measured).
 pub(crate) fn rk45(
     system: &Derived,
-    settings: &Settings,
+    settings: &Settings<'_>,
     header: Header,
     tolerance: f64,
 ) -> Result<Trajectory, CliError> {
@@ -40,7 +41,8 @@ pub(crate) fn rk45(
     let (n, size) = (problem.algebra.dim(), group.matrix_size());
     let hamiltonian = system.invariants.hamiltonian.as_ref();
     let gradient: Vec<Numeric> = hamiltonian.map(|h| h.gradient(n)).unwrap_or_default();
-    let start = setup.start(&system.file, group)?;
+    let space = Elements { group: Arc::new(group.clone()), compiled: None };
+    let start = setup.start(&system.file, &space)?;
     // μ, and the matrix of g row by row.
     let state: Vec<f64> = start.mu.iter().chain(&start.g).copied().collect();
 
@@ -59,7 +61,6 @@ pub(crate) fn rk45(
     };
     let end = setup.schedule.end;
     let name = format!("RK45, tolerance {tolerance:e}");
-    let space = Matrices(group);
     let mut recorder = Recorder::new(system.watched(), &space, &start);
     let failed = |time: f64, what: String| CliError::Rival(format!("at time {time}: {what}"));
     let moment = recorder.visit(0.0, &space, &start).map_err(|what| failed(0.0, what))?;
@@ -84,7 +85,7 @@ pub(crate) fn rk45(
         label: name,
         truncation: None,
         coordinates: problem.coordinates.clone(),
-        records: if settings.sampled { samples.finish() } else { Vec::new() },
+        samples: if settings.sampled { samples.finish() } else { Vec::new() },
         announcement: None,
         outcome,
         out: None,
@@ -117,7 +118,7 @@ const KNOWN: [&str; 7] = [
 
 /// Looks at the method's own steps as they are made; none are kept.
 struct Watch<'a> {
-    space: Matrices<'a, Group>,
+    space: Elements<Group>,
     recorder: Recorder<'a>,
     samples: Samples,
     last: Numbers,

@@ -1,9 +1,7 @@
 //! A bounded choice of the moments of a run, for pictures.
 
-use coadjoint_run::simulate::Drift;
+use coadjoint_run::simulate::{Drift, DriftFields};
 use serde::{Deserialize, Serialize};
-
-use super::trajectory::Record;
 
 /// The number of first moments that are all kept.
 const HEAD: usize = 512;
@@ -14,17 +12,27 @@ const FEWEST: usize = 256;
 /// The most numbers kept.
 const NUMBERS: usize = 1 << 18;
 
+/// A moment kept for pictures.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+pub(crate) struct Sample {
+    pub time: f64,
+    pub momentum: Vec<f64>,
+    /// The largest differences since the sample before.
+    #[serde(with = "DriftFields")]
+    pub drift: Drift,
+}
+
 /// The first moments of a run, and every 2^k-th of the rest with the largest drift since the one before,
 /// so that thinning hides no peak.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub(crate) struct Samples {
-    records: Vec<Record>,
+    records: Vec<Sample>,
     most: usize,
     stride: u64,
     /// How many moments were offered after the head.
     offered: u64,
     /// The largest drift since the last moment kept.
-    pending: Option<Record>,
+    pending: Option<Sample>,
 }
 
 impl Samples {
@@ -39,7 +47,7 @@ impl Samples {
         if let Some(pending) = &self.pending {
             drift.raise(pending.drift);
         }
-        let record = || Record { time, momentum: momentum.to_vec(), drift };
+        let record = || Sample { time, momentum: momentum.to_vec(), drift };
         if self.records.len() < HEAD {
             self.records.push(record());
             return;
@@ -61,7 +69,7 @@ impl Samples {
         let tail = self.records.split_off(HEAD);
         let mut before = None;
         for (place, mut record) in tail.into_iter().enumerate() {
-            if let Some(Record { drift, .. }) = before.take() {
+            if let Some(Sample { drift, .. }) = before.take() {
                 record.drift.raise(drift);
             }
             if place % 2 == 0 {
@@ -75,7 +83,7 @@ impl Samples {
     }
 
     /// The records, the last moment offered among them.
-    pub(crate) fn finish(mut self) -> Vec<Record> {
+    pub(crate) fn finish(mut self) -> Vec<Sample> {
         self.records.extend(self.pending);
         self.records
     }

@@ -31,55 +31,42 @@ pub(crate) enum Place {
 pub(crate) struct Target {
     /// The name given.
     pub path: PathBuf,
-    /// The format.
     pub form: Form,
-    /// The kind of place.
     pub place: Place,
     /// The files that the run reads.
     pub inputs: Vec<PathBuf>,
 }
 
 impl Target {
-    /// The target of `--out`.
-    ///
-    /// # Errors
-    /// Where the name has no known ending, its folder is not there, or it is one of the inputs.
+    /// The target of `--out`: refused where the name has no known ending, its folder is not there, or it is an input.
     pub(crate) fn new(path: &Path, inputs: &[PathBuf]) -> Result<Self, CliError> {
-        let target = |form, place| {
-            let target = Self { path: path.to_owned(), form, place, inputs: inputs.to_vec() };
-            target.check()?;
-            Ok(target)
-        };
-        if path == Path::new("-") {
-            return target(Form::Csv, Place::Standard);
-        }
+        let refuse = |what: &str| CliError::Option(format!("--out {}: {what}", path.display()));
         let ending = path.extension().and_then(|ending| ending.to_str());
         let special = std::fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
-        if special {
-            return match ending {
-                Some("npy") => Err(CliError::Option(format!(
-                    "--out {}: .npy needs a file whose beginning can be written last; this is a \
-                     device or a pipe: write .csv",
-                    path.display()
-                ))),
-                _ => target(Form::Csv, Place::Device),
-            };
-        }
-        file::check(path, &[]).map_err(unwritten(path))?;
-        match ending {
-            Some("csv") => target(Form::Csv, Place::File),
-            Some("npy") => target(Form::Npy, Place::File),
-            _ => Err(CliError::Option(format!(
-                "--out {}: the name must end in .csv or .npy (or be - for the standard output)",
-                path.display()
-            ))),
-        }
+        let (form, place) = if path == Path::new("-") {
+            (Form::Csv, Place::Standard)
+        } else if special && ending == Some("npy") {
+            return Err(refuse(
+                ".npy needs a file whose beginning can be written last; this is a device or a pipe: write .csv",
+            ));
+        } else if special {
+            (Form::Csv, Place::Device)
+        } else {
+            file::check(path, &[]).map_err(unwritten(path))?;
+            match ending {
+                Some("csv") => (Form::Csv, Place::File),
+                Some("npy") => (Form::Npy, Place::File),
+                _ => {
+                    let what =
+                        "the name must end in .csv or .npy (or be - for the standard output)";
+                    return Err(refuse(what));
+                }
+            }
+        };
+        Self { path: path.to_owned(), form, place, inputs: inputs.to_vec() }.checked()
     }
 
-    /// The name of the file of one of several truncations: the truncation stands before the ending.
-    ///
-    /// # Errors
-    /// Where the place is no file.
+    /// The file of one of several truncations: the truncation stands before the ending of its name.
     pub(crate) fn numbered(&self, truncation: usize) -> Result<Self, CliError> {
         if self.place != Place::File {
             return Err(CliError::Option(format!(
@@ -90,9 +77,16 @@ impl Target {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
         let ending = self.path.extension().unwrap_or_default().to_string_lossy();
         let path = self.path.with_file_name(format!("{stem}-K{truncation}.{ending}"));
-        let target = Self { path, ..self.clone() };
-        target.check()?;
-        Ok(target)
+        Self { path, ..self.clone() }.checked()
+    }
+
+    /// Refuses names that are inputs.
+    fn checked(self) -> Result<Self, CliError> {
+        let inputs = paths(&self.inputs);
+        for name in self.names() {
+            file::check(&name, &inputs).map_err(unwritten(&name))?;
+        }
+        Ok(self)
     }
 
     /// The names of the files that are written.
@@ -104,33 +98,26 @@ impl Target {
         }
     }
 
-    /// Refuses names that are inputs.
-    fn check(&self) -> Result<(), CliError> {
-        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
-        let names = self.names();
-        names.iter().try_for_each(|name| file::check(name, &inputs).map_err(unwritten(name)))
-    }
-
     /// Opens it, and keeps other runs out; `None` for the standard output.
-    ///
-    /// # Errors
-    /// Where it cannot be written, or another run writes it.
     pub(crate) fn open(&self) -> Result<Option<Output>, CliError> {
-        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
-        let opened = (self.place != Place::Standard).then(|| Output::open(&self.path, &inputs));
-        opened.transpose().map_err(unwritten(&self.part()))
+        if self.place == Place::Standard {
+            return Ok(None);
+        }
+        Output::open(&self.path, &paths(&self.inputs)).map(Some).map_err(unwritten(&self.part()))
     }
 
     /// The name that is written to until all is there.
     pub(crate) fn part(&self) -> PathBuf {
-        match self.place {
-            Place::File => passing(&self.path),
-            _ => self.path.clone(),
-        }
+        if self.place == Place::File { passing(&self.path) } else { self.path.clone() }
     }
 
     /// The JSON file beside a matrix.
     pub(crate) fn description(&self) -> PathBuf {
         beside(&self.path, ".json")
     }
+}
+
+/// The same names, borrowed.
+pub(crate) fn paths(list: &[PathBuf]) -> Vec<&Path> {
+    list.iter().map(PathBuf::as_path).collect()
 }

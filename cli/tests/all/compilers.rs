@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::support::{Folder, coadjoint, root};
+use crate::support::{BODY, Folder, Ran};
 
 /// A compiler that tells its version, and for everything else runs this script.
 fn compiler(folder: &Path, script: &str) -> String {
@@ -28,26 +28,15 @@ fn a_run_never_waits_for_a_compiler() {
     let folder = Folder::new();
     let started = folder.at("started");
     let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
-    let states = folder.at("states.csv");
-    fs::write(&states, "mu_1,mu_2,mu_3\n2,0.5,1\n").unwrap();
-    let (states, out) = (states.to_str().unwrap(), folder.at("out.csv"));
-    let simulate = ["simulate", "examples/rigid_body.toml", "--time", "80000"];
-    let ensemble =
-        ["ensemble", "examples/rigid_body.toml", "--initial", states, "--time", "16000", "--out"];
-    let ensemble = ensemble.into_iter().chain(out.to_str()).collect();
+    folder.write("states.csv", "mu_1,mu_2,mu_3\n2,0.5,1\n");
+    let simulate = format!("simulate {BODY} --time 80000");
+    let ensemble = format!("ensemble {BODY} --initial states.csv --time 16000 --out out.csv");
     let fails = "echo 'error: out of paper' >&2; exit 1";
-    for (arguments, script) in [(Vec::from(simulate), hangs.as_str()), (ensemble, fails)] {
-        let run = || {
-            let mut command = coadjoint();
-            command.current_dir(root()).env("CC", compiler(folder.path(), script));
-            command.env("XDG_CACHE_HOME", folder.path());
-            let output = command.args(&arguments).args(["--format", "json"]).output().unwrap();
-            let error = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert!(output.status.success(), "{error}");
-            (String::from_utf8(output.stdout).unwrap(), error)
-        };
-        let (report, error) = run();
-        assert!(report.contains("interpreter") && !report.contains("machine code"), "{report}");
+    for (arguments, script) in [(simulate, hangs.as_str()), (ensemble, fails)] {
+        let mut command = folder.command(&format!("{arguments} --format json"));
+        command.env("CC", compiler(folder.path(), script)).env("XDG_CACHE_HOME", folder.path());
+        let ran = Ran::of(&command.output().unwrap()).ok().prints(&["interpreter"]);
+        assert!(!ran.out.contains("machine code"), "{ran:?}");
         if script == hangs {
             let pid = fs::read_to_string(&started).unwrap();
             let begun = Instant::now();
@@ -57,7 +46,7 @@ fn a_run_never_waits_for_a_compiler() {
             }
             assert!(!alive(&pid), "{pid} goes on");
         } else {
-            assert!(error.contains("out of paper; the run goes on without it"), "{error}");
+            ran.says(&["out of paper; the run goes on without it"]);
         }
     }
 }

@@ -2,6 +2,7 @@
 //! (`docs/book/src`), each in a folder of its own with the examples (`support/page.rs`).
 
 use crate::support::page::{Block, blocks, file_name, run, with_examples};
+use crate::support::{root, text_of as page};
 
 #[test]
 fn the_two_commands_of_the_readme_stand_there() {
@@ -12,9 +13,7 @@ fn the_two_commands_of_the_readme_stand_there() {
         commands,
         "cargo run --release -- simulate examples/rigid_body.toml\ncargo test --workspace\n"
     );
-    let (code, out, err) = crate::support::run(&["simulate", "examples/rigid_body.toml"]);
-    assert_eq!(code, 0, "{err}");
-    assert!(out.contains("drift"), "{out}");
+    crate::support::run("simulate examples/rigid_body.toml").ok().prints(&["drift"]);
 }
 
 #[test]
@@ -30,7 +29,7 @@ fn the_commands_own_readme() {
 #[test]
 fn readme_and_other_pages() {
     let mut paths = vec!["README.md".to_owned()];
-    for entry in std::fs::read_dir(crate::support::root().join("docs")).unwrap() {
+    for entry in std::fs::read_dir(root().join("docs")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         paths.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
     }
@@ -129,7 +128,7 @@ fn every_block_is_run() {
 /// The chapters by name, with their text.
 fn chapters() -> Vec<(String, String)> {
     let mut chapters = Vec::new();
-    for entry in std::fs::read_dir(crate::support::root().join("docs/book/src")).unwrap() {
+    for entry in std::fs::read_dir(root().join("docs/book/src")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         if let Some(stem) = name.strip_suffix(".md") {
             chapters.push((stem.to_owned(), page(&format!("docs/book/src/{name}"))));
@@ -138,8 +137,4 @@ fn chapters() -> Vec<(String, String)> {
     chapters.sort();
     assert!(chapters.len() > 10);
     chapters
-}
-
-fn page(path: &str) -> String {
-    std::fs::read_to_string(crate::support::root().join(path)).unwrap()
 }

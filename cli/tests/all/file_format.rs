@@ -1,6 +1,6 @@
 //! docs/book/src/file-format.md: every example on the page is a file that works, and no key is forgotten.
 
-use crate::support::{Folder, root, run};
+use crate::support::{Folder, run, text_of};
 use coadjoint_codegen::expr::Function;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
@@ -8,7 +8,7 @@ use coadjoint_codegen::problem::{FrameChoice, Solver};
 use coadjoint_codegen::system::{Options, Splitting, read};
 
 fn page() -> String {
-    std::fs::read_to_string(root().join("docs/book/src/file-format.md")).unwrap()
+    text_of("docs/book/src/file-format.md")
 }
 
 /// The fenced blocks of a language.
@@ -37,10 +37,8 @@ fn every_example_of_the_page_works() {
         );
         assert!(!series.unwrap().order(1).is_zero(), "{text}");
         if system.run.time.is_some() {
-            let folder = Folder::new();
-            let (code, out, error) = run(&["simulate", &folder.write("system.toml", text)]);
-            assert_eq!(code, 0, "{text}\n{error}");
-            assert!(out.contains("largest relative drift"), "{out}");
+            let ran = Folder::with(text).run("simulate system.toml");
+            ran.ok().prints(&["largest relative drift"]);
             runs += 1;
         }
     }
@@ -101,10 +99,5 @@ fn every_key_and_every_name_is_on_the_page() {
 
 #[test]
 fn the_help_leads_to_the_page() {
-    let (code, out, _) = run(&["simulate", "--help"]);
-    assert_eq!(code, 0);
-    assert!(
-        out.contains("docs/book/src/file-format.md") && out.contains("coadjoint groups"),
-        "{out}"
-    );
+    run("simulate --help").ok().prints(&["docs/book/src/file-format.md", "coadjoint groups"]);
 }

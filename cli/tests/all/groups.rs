@@ -1,6 +1,6 @@
 //! `groups`: what is printed is what the integrators use, and docs/book/src/groups.md is what is printed.
 
-use crate::support::{json, root, run};
+use crate::support::{json, refused, root, run};
 use coadjoint::groups::{Heisenberg, SE2, SU2};
 use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::lie::catalogue;
@@ -34,7 +34,7 @@ where
     G::Vector: std::ops::Index<usize, Output = f64>,
 {
     use coadjoint::groups::Coordinates;
-    let facts = json(&["groups", name, "--json"]);
+    let facts = run(&format!("groups '{name}' --json")).json();
     let components = facts["ad_star"]["components"].as_array().unwrap();
     let n = components.len();
     let (xi, mu) = (numbers_of(n, 0.3), numbers_of(n, 2.9));
@@ -53,19 +53,18 @@ fn the_sign_of_ad_star_is_that_of_the_integrators() {
     assert_sign("SE2", &SE2::new());
     assert_sign("SE3", &SE3::new());
     assert_sign("Heisenberg", &Heisenberg::new());
-    let (_, out, _) = run(&["groups", "SO3"]);
-    assert!(out.contains("ad*_ξ μ = μ × ξ"), "{out}");
+    run("groups SO3").prints(&["ad*_ξ μ = μ × ξ"]);
 }
 
 /// Every group of the catalogue is listed, with its dimension and its charts.
 #[test]
 fn the_list_is_that_of_the_catalogue() {
-    let list = json(&["groups", "--json"]);
+    let list = json("groups");
     let list = list.as_array().unwrap();
     let names: Vec<&str> = list.iter().map(|group| group["name"].as_str().unwrap()).collect();
     assert_eq!(names, catalogue::names());
-    let (code, text, _) = run(&["groups"]);
-    assert_eq!(code, 0);
+    let written = ["SO3*SE3", "SO3^64", "SO3 |x R3", "[algebra]"];
+    let text = run("groups").ok().prints(&written).out;
     for group in list {
         let name = group["name"].as_str().unwrap();
         let dim = catalogue::lookup(name).unwrap().dim();
@@ -75,16 +74,13 @@ fn the_list_is_that_of_the_catalogue() {
         let line = text.lines().find(|line| line.split(' ').next() == Some(name)).unwrap();
         assert!(line.contains(&format!(" {dim} ")), "{line}");
     }
-    for written in ["SO3*SE3", "SO3^64", "SO3 |x R3", "[algebra]"] {
-        assert!(text.contains(written), "{written}");
-    }
 }
 
 /// The printed constants are those of the printed matrices.
 #[test]
 fn structure_constants_are_the_commutators_of_the_basis() {
     for name in ["SO4", "SU3", "U2", "SL2", "SO3 |x Sym3"] {
-        let facts = json(&["groups", name, "--json"]);
+        let facts = run(&format!("groups '{name}' --json")).json();
         let size = facts["matrix_size"].as_u64().unwrap() as usize;
         let matrix = |entries: &serde_json::Value| {
             let mut matrix = nalgebra::DMatrix::<f64>::zeros(size, size);
@@ -114,28 +110,19 @@ fn structure_constants_are_the_commutators_of_the_basis() {
 
 #[test]
 fn products_and_mistakes() {
-    let facts = json(&["groups", "SO3^64", "--format", "json"]);
+    let facts = json("groups SO3^64");
     assert_eq!(facts["dimension"], 192);
     assert_eq!(facts["casimirs"]["generators"].as_array().unwrap().len(), 64);
-    let (code, out, _) = run(&["groups", "SO3*Heisenberg"]);
-    assert_eq!(code, 0);
-    assert!(out.contains("μ1^2 + μ2^2 + μ3^2") && out.contains("  μ6\n"), "{out}");
-    assert_eq!(json(&["groups", "Heisenberg", "--json"])["nilpotent"], true);
-    assert_eq!(json(&["groups", "SE2", "--json"])["nilpotent"], false);
-
-    for (name, said) in [
-        ("SO33", "too large"),
-        ("so3", "did you mean `SO3`"),
-        ("SO3 |x R4", "R3 and Sym3"),
-        ("", "a group such as SO3"),
-    ] {
-        let (code, _, error) = run(&["groups", name]);
-        assert_eq!(code, 2, "{name}");
-        assert!(error.contains(said), "{error}");
-    }
-    let (code, _, error) = run(&["groups", "SU4", "--degree", "40"]);
-    assert_eq!(code, 2);
-    assert!(error.contains("lower degree"), "{error}");
+    run("groups SO3*Heisenberg").ok().prints(&["μ1^2 + μ2^2 + μ3^2", "  μ6\n"]);
+    assert_eq!(json("groups Heisenberg")["nilpotent"], true);
+    assert_eq!(json("groups SE2")["nilpotent"], false);
+    refused(&[
+        ("groups SO33", "too large"),
+        ("groups so3", "did you mean `SO3`"),
+        ("groups 'SO3 |x R4'", "R3 and Sym3"),
+        ("groups ''", "a group such as SO3"),
+        ("groups SU4 --degree 40", "lower degree"),
+    ]);
 }
 
 /// The page is made of the command's own output; `COADJOINT_BLESS=1` writes it anew.
@@ -143,15 +130,11 @@ fn products_and_mistakes() {
 fn the_page_is_what_the_command_prints() {
     let path = root().join("docs/book/src/groups.md");
     let mut page = String::from(INTRODUCTION);
-    let commands = std::iter::once(None).chain(catalogue::names().iter().copied().map(Some));
-    for name in commands {
-        let mut arguments = vec!["groups"];
-        arguments.extend(name);
-        let (code, out, error) = run(&arguments);
-        assert_eq!(code, 0, "{error}");
-        let title = name.unwrap_or("All names");
-        page.push_str(&format!("\n## {title}\n\n```text\n$ coadjoint {}\n", arguments.join(" ")));
-        page.push_str(&format!("{}\n```\n", out.trim_end()));
+    let groups = catalogue::names().iter().map(|name| (*name, format!("groups {name}")));
+    for (title, command) in std::iter::once(("All names", "groups".to_owned())).chain(groups) {
+        let out = run(&command).ok().out;
+        page +=
+            &format!("\n## {title}\n\n```text\n$ coadjoint {command}\n{}\n```\n", out.trim_end());
     }
     if std::env::var_os("COADJOINT_BLESS").is_some() {
         std::fs::write(&path, &page).unwrap();

@@ -1,16 +1,26 @@
 //! `learn`, `simulate --model`, `emit --model`, `geometrize`, and where `reproduce` has gone.
 
-use crate::support::{Folder, json, run};
+use crate::support::{BODY, Folder, json, refused};
+use serde_json::Value;
+
+const RUN: &str = "simulate --model model.json --out run.csv";
+
+/// A folder with a learned map.
+fn place() -> Folder {
+    let place = Folder::new();
+    place.pairs("train.csv", 40, 1);
+    place.run("learn train.csv --group SO3 --dt 0.1 --degree 2 --out model.json").ok();
+    place
+}
 
 /// From data on disk to a model, its drifts, and its code.
 #[test]
 fn learn_simulate_and_emit() {
-    let folder = Folder::new();
-    let (train, test) = (folder.pairs("train.csv", 60, 1), folder.pairs("test.csv", 20, 2));
-    let (model, out) = (folder.name("model.json"), folder.name("run.csv"));
-    let data = ["learn", &train, "--test", &test, "--group", "SO3", "--dt", "0.1"];
-    let summary =
-        json(&[&data[..], &["--degree", "4", "--format", "json", "--out", &model]].concat());
+    let place = Folder::new();
+    place.pairs("train.csv", 60, 1);
+    place.pairs("test.csv", 20, 2);
+    let data = "learn train.csv --test test.csv --group SO3 --dt 0.1 --degree 4 --out model.json";
+    let summary = place.json(data);
     for data in ["train", "test"] {
         for quantity in ["x", "momentum", "group"] {
             assert!(summary[data]["mse"][quantity].as_f64().unwrap() < 1e-13, "{summary}");
@@ -18,109 +28,128 @@ fn learn_simulate_and_emit() {
         }
     }
     assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12);
-
-    let start = ["simulate", "--start", "2,0.5,1", "--time", "10", "--model", &model];
-    let (code, said, error) = run(&[&start[..], &["--out", &out]].concat());
-    assert_eq!(code, 0, "{error}");
-    assert!(said.starts_with("learned polynomial, exp: 100 steps to time 10"), "{said}");
-    let rows = folder.text("run.csv");
-    assert_eq!(rows.lines().filter(|line| !line.starts_with('#')).count(), 102);
-
-    let (code, module, _) = run(&["emit", "--model", &model]);
-    assert!(code == 0 && module.contains("pub struct Learned"), "{module}");
+    let ran = place.run(&format!("{RUN} --start 2,0.5,1 --time 10")).ok();
+    assert!(ran.out.starts_with("learned polynomial, exp: 100 steps to time 10"), "{ran:?}");
+    assert_eq!(place.table("run.csv").len(), 102);
+    place.run("emit --model model.json").ok().prints(&["pub struct Learned"]);
 }
 
 #[test]
 fn bad_data_and_models_exit_with_two() {
-    let folder = Folder::new();
-    let model = folder.write("model.json", "{}");
-    let missing = ["learn", "missing.csv", "--dt", "0.1"];
-    let (network, body) =
-        (["--model", "network", "--activation", "relu"], "examples/rigid_body.toml");
+    let place = Folder::new();
+    place.write("model.json", "{}");
     // The verb of earlier versions names the program that has its place.
     let paper = "cargo run --release -p coadjoint-paper -- all --quick --html report.html";
-    for (arguments, expected) in [
-        (
-            &["simulate", "--start", "2,0.5,1", "--time", "10", "--model", &model][..],
-            "is not `coadjoint-model`",
-        ),
-        (&missing, "missing.csv"),
-        (&[&missing[..], &network].concat(), "piecewise constant"),
-        (&["geometrize", "--dt", "0.1"], "DATA"),
-        (&["geometrize", "--system", body, "--dt", "0.1", "--within", "3,1"], "is no interval"),
-        (&["reproduce"], paper),
-        (&["reproduce", "all", "--quick", "--html", "report.html"], paper),
-    ] {
-        let (code, _, error) = run(arguments);
-        assert_eq!(code, 2, "{arguments:?}: {error}");
-        assert!(error.contains(expected), "{arguments:?}: {error}");
-    }
+    place.refused(&[
+        (&format!("{RUN} --start 2,0.5,1 --time 10"), "is not `coadjoint-model`"),
+        ("learn missing.csv --dt 0.1", "missing.csv"),
+        ("learn missing.csv --dt 0.1 --model network --activation relu", "piecewise constant"),
+        ("geometrize --dt 0.1", "DATA"),
+        (&format!("geometrize --system {BODY} --dt 0.1 --within 3,1"), "is no interval"),
+        ("reproduce", paper),
+        ("reproduce all --quick --html report.html", paper),
+    ]);
 }
 
 /// Forward Euler on a system file, geometrized: the Casimir stays, and the model says it is one of
 /// momenta.
 #[test]
 fn geometrize_a_method_on_a_system() {
-    let folder = Folder::new();
-    let out = folder.name("model.json");
-    let pairs =
-        ["geometrize", "--system", "examples/rigid_body.toml", "--map", "euler", "--dt", "0.1"];
-    let fit = ["--samples", "200", "--degree", "4", "--start", "2,0.5,1", "--format", "json"];
-    let summary = json(&[&pairs[..], &fit, &["--out", &out]].concat());
+    let place = Folder::new();
+    let pairs = "geometrize --system examples/rigid_body.toml --map euler --dt 0.1 --samples 200";
+    let summary = place.json(&format!("{pairs} --degree 4 --start 2,0.5,1 --out model.json"));
     assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12, "{summary}");
     // Euler's map is not Poisson: what is left is its own defect.
     let left = summary["train"]["mse"]["momentum"].as_f64().unwrap();
     assert!((1e-8..1e-2).contains(&left), "{summary}");
-    let model = coadjoint_learn::ModelFile::load(out.as_ref()).unwrap();
+    let model = coadjoint_learn::ModelFile::load(&place.at("model.json")).unwrap();
     assert!(!model.attitude && model.group == "SO3");
+    // Lists that begin with a minus are no options.
+    let pairs = "geometrize --system examples/rigid_body.toml --dt 0.1 --samples 40 --steps 10";
+    json(&format!("{pairs} --degree 2 --within -2,2 --start -1,0.5,1"));
 }
 
 /// Numbers that make no sense, and sizes that no memory holds, are refused as arguments.
 #[test]
 fn arguments_without_sense_are_refused_before_anything_is_allocated() {
-    let folder = Folder::new();
+    let place = Folder::new();
     let mut text = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n".to_owned();
     for i in 0..40 {
         let x = f64::from(i) / 40.0;
         text += &format!("{},{},1,{},{},1.01\n", x, 1.0 - x, x + 0.01, 0.99 - x);
     }
-    let data = &folder.write("pairs.csv", text);
-    let body = "examples/rigid_body.toml";
-    for (arguments, expected) in [
-        (["learn", data, "--dt", "0.1", "--start", "nan,1,1"].as_slice(), "start is NaN"),
-        (&["learn", data, "--dt", "0.1", "--start", "1,inf,1"], "start is inf"),
-        (&["learn", data, "--dt", "0.1", "--ridge", "nan"], "ridge is NaN"),
-        (&["learn", data, "--dt", "0.1", "--degree", "50"], "23425 coefficients"),
-        (&["learn", data, "--dt", "0.1", "--degree", "1000"], "167668500 coefficients"),
-        (&["learn", data, "--dt", "0.1", "--degree", "0"], "degree is 0"),
-        (
-            &["geometrize", "--system", body, "--dt", "0.1", "--samples", "1000000000"],
-            "--samples 1000000000: at most 100000 pairs",
-        ),
-        (&["geometrize", "--system", body, "--dt", "0.1", "--start", "nan,0,0"], "start is NaN"),
+    place.write("pairs.csv", text);
+    for (option, word) in [
+        ("--start nan,1,1", "start is NaN"),
+        ("--start 1,inf,1", "start is inf"),
+        ("--ridge nan", "ridge is NaN"),
+        ("--degree 50", "23425 coefficients"),
+        ("--degree 1000", "167668500 coefficients"),
+        ("--degree 0", "degree is 0"),
     ] {
-        let (code, _, error) = run(arguments);
-        assert_eq!(code, 2, "{arguments:?}: {error}");
-        assert!(error.contains(expected), "{arguments:?}: {error}");
+        place.refused(&[(&format!("learn pairs.csv --dt 0.1 {option}"), word)]);
     }
+    let body = format!("geometrize --system {BODY} --dt 0.1");
+    refused(&[
+        (&format!("{body} --samples 1000000000"), "--samples 1000000000: at most 100000 pairs"),
+        (&format!("{body} --start nan,0,0"), "start is NaN"),
+    ]);
 }
 
 /// Data that do not support a model are refused in words.
 #[test]
 fn data_that_support_no_model_are_refused() {
-    let folder = Folder::new();
+    let place = Folder::new();
     let head = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
-    let three = "1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n";
+    let three = format!("{head}1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n");
     let wide = "mu_1,mu_2,mu_3,mu_4,mu_next_1,mu_next_2,mu_next_3\n1,0,0,0,1,0,0\n";
     for (text, options, expected) in [
-        (format!("{head}{three}"), &["--degree", "4"][..], "3 samples do not determine"),
-        (format!("{head}{three}"), &[], "3 samples do not determine"),
-        (head.to_owned(), &[], "no usable sample"),
-        (format!("{head}1,0,0,1.1,0,0\n"), &[], "a Casimir of the group differs by 2.1e-1"),
-        (wide.to_owned(), &[], "a momentum of this group has 4 entries where 3 are needed"),
+        (three.clone(), "--degree 4", "3 samples do not determine"),
+        (three, "", "3 samples do not determine"),
+        (head.to_owned(), "", "no usable sample"),
+        (format!("{head}1,0,0,1.1,0,0\n"), "", "a Casimir of the group differs by 2.1e-1"),
+        (wide.to_owned(), "", "a momentum of this group has 4 entries where 3 are needed"),
     ] {
-        let path = folder.write("data.csv", &text);
-        let (code, _, error) = run(&[&["learn", &path, "--dt", "0.1"], options].concat());
-        assert!(code != 0 && error.contains(expected), "{text}{error}");
+        place.write("data.csv", &text);
+        let ran = place.run(&format!("learn data.csv --dt 0.1 {options}")).says(&[expected]);
+        assert!(ran.code != 0, "{text}{ran:?}");
     }
+}
+
+#[test]
+fn reports_and_files_of_learned_runs_are_those_of_every_run() {
+    let place = place();
+    let report = place.json(&format!("{RUN} --start 2,0.5,1 --time 1000 --every 100"));
+    assert_eq!(report["method"], "learned polynomial, exp");
+    let drift = &report["drift"];
+    for number in
+        [&drift["casimirs"], &drift["spatial_momentum"], &report["solver"]["max_residual"]]
+    {
+        assert!(number.as_f64().unwrap() < 1e-10, "{report}");
+    }
+    assert!(report.get("energy").is_none() && drift.get("energy").is_none());
+    let text = place.text("run.csv");
+    assert!(text.contains("# model: model.json") && text.contains("# complete: 101 records"));
+    assert_eq!(
+        place.table("run.csv")[0].join(","),
+        "time,mu_1,mu_2,mu_3,g_11,g_12,g_13,g_21,g_22,g_23,g_31,g_32,g_33,spatial_momentum_drift,casimir_drift"
+    );
+    place.refused(&[("verify run.csv", "learned map")]);
+}
+
+/// A number that is not finite ends the run with the time, and the records up to there stay. The map has one step: another
+/// time is refused, not rounded.
+#[test]
+fn learned_runs_that_cannot_be_made_are_refused() {
+    let place = place();
+    for (options, code, words) in [
+        ("--start nan,0,0 --time 10", 2, "--start: NaN is no finite number"),
+        ("--start 1e200,0,0 --time 10", 1, "at time 0, step "),
+        ("--start 2,0.5,1 --time 0.25", 2, "no whole number of steps"),
+    ] {
+        place.run(&format!("{RUN} {options}")).fails(code, &[words]);
+        assert!(!place.has("run.csv"));
+    }
+    let report: Value = place.json(&format!("{RUN} --start 2,0.5,1 --time 0.3"));
+    assert_eq!(report["steps"], 3);
 }

@@ -10,7 +10,6 @@ mod ensemble;
 mod file_format;
 mod groups;
 mod learn;
-mod learned_runs;
 mod mistakes;
 mod no_c;
 mod outputs;

@@ -3,16 +3,14 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-use crate::support::{Folder, coadjoint, root, run, said};
-
-const BODY: &str = "examples/rigid_body.toml";
+use crate::support::{BODY, Folder, Ran, root, run, text_of};
 
 /// A folder with a system, a table of momenta, and pairs to learn from.
 fn place() -> Folder {
     let place = Folder::new();
-    fs::copy(root().join(BODY), place.at("body.toml")).unwrap();
+    place.write("body.toml", text_of(BODY));
     let rows: String = (0..40).map(|i| format!("{},0.5,1\n", 1.0 + f64::from(i) / 40.0)).collect();
     place.write("states.csv", format!("mu_1,mu_2,mu_3\n{rows}"));
     let pair = |i: i32| {
@@ -51,58 +49,54 @@ fn an_output_is_never_an_input() {
         ("geometrize pairs.csv --dt 0.1 --out OUT", "pairs.csv"),
         ("geometrize --system body.toml --dt 0.1 --out OUT", "body.toml"),
     ] {
-        let before = fs::read(place.at(input)).unwrap();
+        let before = place.bytes(input);
         // The name itself where it can be given, links to it, and names that end in `.partial` until all is written.
         let ending = ["--plot", "simulate", "ensemble"].iter().any(|word| arguments.contains(word));
         let link = if arguments.contains("--plot") { "link.svg" } else { "link.csv" };
-        let out = |name: &str| arguments.replace("OUT", name);
         let refused = |name: &str| {
-            let output = place.run(&out(name));
-            assert_eq!(output.status.code(), Some(2), "{}: {}", out(name), said(&output));
-            assert!(said(&output).contains("the same file"), "{}: {}", out(name), said(&output));
-            assert!(fs::read(place.at(input)).unwrap() == before, "{}", out(name));
+            let out = arguments.replace("OUT", name);
+            place.refused(&[(&out, "the same file")]);
+            assert!(place.bytes(input) == before, "{out}");
         };
         if !ending || arguments.contains("--checkpoint") || input == "states.csv" {
             refused(input);
         }
         std::os::unix::fs::symlink(place.at(input), place.at(link)).unwrap();
         refused(link);
-        fs::remove_file(place.at(link)).unwrap();
+        place.remove(link);
         fs::hard_link(place.at(input), place.at(link)).unwrap();
         refused(link);
         // The name under which the file grows.
-        let passing = place.at(&format!("{link}.partial"));
-        fs::rename(place.at(link), &passing).unwrap();
+        let passing = format!("{link}.partial");
+        fs::rename(place.at(link), place.at(&passing)).unwrap();
         refused(link);
-        fs::remove_file(passing).unwrap();
+        place.remove(&passing);
     }
-    assert_eq!(names(&place), ["body.toml", "pairs.csv", "states.csv", "times"]);
+    assert_eq!(names(&place), ["body.toml", "examples", "pairs.csv", "states.csv", "times"]);
 }
 
 /// The command in a shell that limits files to this number of blocks of 512 bytes.
-fn limited(place: &Folder, blocks: u32, arguments: &str) -> Output {
+fn limited(place: &Folder, blocks: u32, arguments: &str) -> Ran {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" {arguments}");
     let mut command = Command::new("sh");
     command.current_dir(place.path()).args(["-c", &script]).arg(env!("CARGO_BIN_EXE_coadjoint"));
-    command.stdout(Stdio::piped()).stderr(Stdio::piped()).output().unwrap()
+    Ran::of(&command.output().unwrap())
 }
 
 #[test]
 fn a_full_disk_leaves_what_was_there_and_whole_records() {
     let place = place();
-    fs::write(place.at("old"), "what was there").unwrap();
+    place.write("old", "what was there");
     for arguments in ["emit body.toml --out old", "simulate body.toml --plot old.svg --time 1"] {
-        let output = limited(&place, 2, arguments);
-        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-        assert!(said(&output).contains("cannot write old"), "{}", said(&output));
+        limited(&place, 2, arguments).fails(1, &["cannot write old"]);
     }
-    assert_eq!(fs::read(place.at("old")).unwrap(), b"what was there");
+    assert_eq!(place.text("old"), "what was there");
     assert!(!names(&place).iter().any(|name| name.contains(".partial") || name.contains(".svg")));
     for name in ["t.csv", "t.npy"] {
-        let output = limited(&place, 16, &format!("simulate body.toml --time 100 --out {name}"));
-        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-        assert!(said(&output).contains(&format!("{name}.partial")), "{}", said(&output));
-        let part = fs::read(place.at(&format!("{name}.partial"))).unwrap();
+        let part = format!("{name}.partial");
+        limited(&place, 16, &format!("simulate body.toml --time 100 --out {name}"))
+            .fails(1, &[&part]);
+        let part = place.bytes(&part);
         // A row has 17 numbers.
         assert!(part.len() > 8192 - 17 * 24, "{name}: {} bytes", part.len());
         if name == "t.csv" {
@@ -120,31 +114,27 @@ fn a_full_disk_leaves_what_was_there_and_whole_records() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_closed_pipe_is_no_failure_and_a_full_device_is_one() {
-    let start = |arguments: &[&str], output: Stdio| {
-        let mut command = coadjoint();
-        command.args(arguments).stdout(output).stderr(Stdio::piped()).spawn().unwrap()
-    };
-    let emit = ["emit", BODY];
-    let records = |time| ["simulate", BODY, "--time", time, "--out", "-"];
-    for arguments in [&emit[..], &records("1e7")] {
+    let place = place();
+    let start =
+        |arguments: &str, output: Stdio| place.command(arguments).stdout(output).spawn().unwrap();
+    let emit = format!("emit {BODY}");
+    let records = |time| format!("simulate {BODY} --time {time} --out -");
+    for arguments in [&emit, &records("1e7")] {
         let mut child = start(arguments, Stdio::piped());
         drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+        let ran = Ran::of(&child.wait_with_output().unwrap()).ok();
+        assert!(ran.error.is_empty(), "{ran:?}");
     }
-    let place = place();
     std::os::unix::fs::symlink("/dev/full", place.at("full.csv")).unwrap();
-    let link = place.name("full.csv");
     for (arguments, expected) in [
-        (&emit[..], "error: standard output cannot be written".to_owned()),
-        (&records("50"), "cannot write the standard output".into()),
-        (&["simulate", BODY, "--out", "/dev/full"], "cannot write /dev/full".into()),
-        (&["simulate", BODY, "--out", &link], format!("cannot write {link}")),
+        (&emit, "error: standard output cannot be written"),
+        (&records("50"), "cannot write the standard output"),
+        (&format!("simulate {BODY} --out /dev/full"), "cannot write /dev/full"),
+        (&format!("simulate {BODY} --out full.csv"), "cannot write full.csv"),
     ] {
         let full = fs::File::options().write(true).open("/dev/full").unwrap();
         let output = start(arguments, full.into()).wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-        assert!(said(&output).contains(&expected), "{}", said(&output));
+        Ran::of(&output).fails(1, &[expected]);
     }
 }
 
@@ -156,31 +146,28 @@ fn a_changed_bit_never_gives_another_result() {
         "simulate body.toml --time 4 --out t.csv --checkpoint state --checkpoint-interval 0";
     let ensemble = "ensemble body.toml --initial states.csv --time 1 --out e.csv --keep";
     // Full after some records: the checkpoint before that stays.
-    assert_eq!(limited(&place, 12, simulate).status.code(), Some(1));
-    assert!(place.run(ensemble).status.success());
+    limited(&place, 12, simulate).fails(1, &[]);
+    place.run(ensemble).ok();
     let kept = ["state", "t.csv.partial", "e.csv", "e.csv.done"];
-    let before = kept.map(|name| fs::read(place.at(name)).unwrap());
-    let restore =
-        || kept.iter().zip(&before).for_each(|(name, old)| fs::write(place.at(name), old).unwrap());
+    let before = kept.map(|name| place.bytes(name));
     let results = || {
-        let outputs = [simulate, ensemble].map(|arguments| place.run(arguments));
+        let runs = [simulate, ensemble].map(|arguments| place.run(arguments));
         let files = ["t.csv", "e.csv"].map(|name| fs::read(place.at(name)).ok());
-        (outputs, files)
+        (runs, files)
     };
-    let (outputs, expected) = results();
-    assert!(outputs.iter().all(|output| output.status.success()), "{outputs:?}");
-    assert!(said(&outputs[0]).contains("going on from state at step "), "{outputs:?}");
+    let (runs, expected) = results();
+    assert!(runs.iter().all(|ran| ran.code == 0), "{runs:?}");
+    assert!(runs[0].error.contains("going on from state at step "), "{runs:?}");
     for (name, old) in kept.iter().zip(&before) {
-        for place_of in (0..old.len()).step_by(old.len() / 9) {
-            restore();
+        for byte in (0..old.len()).step_by(old.len() / 9) {
+            kept.iter().zip(&before).for_each(|(name, old)| place.write(name, old));
             let _ = fs::remove_file(place.at("t.csv"));
             let mut changed = old.clone();
-            changed[place_of] ^= 1;
-            fs::write(place.at(name), changed).unwrap();
-            let (outputs, files) = results();
-            for ((output, file), right) in outputs.iter().zip(files).zip(&expected) {
-                let failed = output.status.code() == Some(2);
-                assert!(failed || &file == right, "{name}, byte {place_of}: {}", said(output));
+            changed[byte] ^= 1;
+            place.write(name, changed);
+            let (runs, files) = results();
+            for ((ran, file), right) in runs.iter().zip(files).zip(&expected) {
+                assert!(ran.code == 2 || &file == right, "{name}, byte {byte}: {ran:?}");
             }
         }
     }
@@ -192,14 +179,10 @@ fn devices_pipes_and_large_files_are_refused() {
     let place = place();
     let status = Command::new("mkfifo").arg(place.at("pipe.csv")).status().unwrap();
     assert!(status.success());
-    fs::copy(place.at("pipe.csv").with_file_name("body.toml"), place.at("large.toml")).unwrap();
-    fs::File::options()
-        .write(true)
-        .open(place.at("large.toml"))
-        .unwrap()
-        .set_len(65_000_000)
-        .unwrap();
-    for (arguments, what) in [
+    place.write("large.toml", text_of(BODY));
+    let large = fs::File::options().write(true).open(place.at("large.toml")).unwrap();
+    large.set_len(65_000_000).unwrap();
+    place.refused(&[
         ("derive /dev/zero", "a device or a pipe"),
         ("derive pipe.csv", "a device or a pipe"),
         ("derive large.toml", "more than 64 MB"),
@@ -208,22 +191,15 @@ fn devices_pipes_and_large_files_are_refused() {
         ("ensemble body.toml --initial pipe.csv --out e.csv", "a device or a pipe"),
         ("learn pipe.csv --dt 0.1", "a device or a pipe"),
         ("verify body.toml pipe.csv", "a device or a pipe"),
-    ] {
-        let output = place.run(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", said(&output));
-        assert!(said(&output).contains(what), "{arguments}: {}", said(&output));
-    }
-    let mut raised = coadjoint();
-    let raised =
-        raised.env("COADJOINT_MAX_MEGABYTES", "100").arg("derive").arg(place.at("large.toml"));
-    let output = raised.output().unwrap();
-    assert!(!said(&output).contains("MB"), "{}", said(&output));
+    ]);
+    let mut raised = place.command("derive large.toml");
+    let raised = Ran::of(&raised.env("COADJOINT_MAX_MEGABYTES", "100").output().unwrap());
+    assert!(!raised.error.contains("MB"), "{raised:?}");
     let script = "cat body.toml | \"$0\" derive /dev/stdin";
     let mut shell = Command::new("sh");
     shell.current_dir(place.path()).args(["-c", script, env!("CARGO_BIN_EXE_coadjoint")]);
-    let piped = shell.output().unwrap();
-    assert!(piped.status.success(), "{}", said(&piped));
-    assert_eq!(run(&["derive", BODY]).1.as_bytes(), piped.stdout);
+    let piped = Ran::of(&shell.output().unwrap()).ok();
+    assert_eq!(run(&format!("derive {BODY}")).out, piped.out);
 }
 
 /// Whatever opens an output does so by the one function that knows all of this.

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use crate::support::{Folder, json, root, run};
+use crate::support::{Folder, json, root, run, text_of};
 use coadjoint_codegen::system::{Options, read};
 
 /// The picture of a run.
-fn picture(arguments: &[&str]) -> String {
-    let folder = Folder::new();
-    let path = folder.at("picture.svg");
-    let (code, _, error) =
-        run(&[&["simulate"], arguments, &["--plot", path.to_str().unwrap()]].concat());
-    assert_eq!(code, 0, "{error}");
-    std::fs::read_to_string(path).unwrap()
+fn picture(arguments: &str) -> String {
+    picture_in(&Folder::new(), &format!("examples/{arguments}"))
+}
+
+fn picture_in(folder: &Folder, arguments: &str) -> String {
+    folder.run(&format!("simulate {arguments} --plot picture.svg")).ok();
+    folder.text("picture.svg")
 }
 
 /// No two texts overlap, and none leaves the picture. Widths are those of a wide font.
@@ -61,7 +61,7 @@ fn contains(svg: &str, expected: &[&str]) {
 
 #[test]
 fn a_picture_says_what_was_run_in_which_units() {
-    let svg = picture(&["examples/rigid_body.toml", "--time", "20"]);
+    let svg = picture("rigid_body.toml --time 20");
     contains(
         &svg,
         &[
@@ -88,7 +88,7 @@ fn a_picture_says_what_was_run_in_which_units() {
 /// Every curve of a panel has a colour and a pattern of dashes of its own, and is named once.
 #[test]
 fn curves_are_told_apart_by_colour_and_by_dashes() {
-    let svg = picture(&["examples/su3_quadratic.toml", "--time", "2"]);
+    let svg = picture("su3_quadratic.toml --time 2");
     let motion = motion(&svg);
     let curves: Vec<&str> = motion.split("<polyline ").skip(1).collect();
     assert_eq!(curves.len(), 8);
@@ -110,7 +110,7 @@ fn curves_are_told_apart_by_colour_and_by_dashes() {
 #[test]
 fn many_coordinates_are_summarised_and_the_picture_says_so() {
     for (example, all) in [("heisenberg_spin_ring", 12), ("spin_chain_64", 192)] {
-        let svg = picture(&[&format!("examples/{example}.toml"), "--time", "1"]);
+        let svg = picture(&format!("{example}.toml --time 1"));
         let motion = motion(&svg);
         assert_eq!(motion.matches("<polyline ").count(), 8, "{example}");
         let more = format!(">{} more, from their least to their greatest</text>", all - 8);
@@ -122,15 +122,7 @@ fn many_coordinates_are_summarised_and_the_picture_says_so() {
 /// With several runs and a rival each run has a name in the legend of the drifts, and its settings.
 #[test]
 fn several_runs_are_compared() {
-    let svg = picture(&[
-        "examples/rigid_body.toml",
-        "--truncation",
-        "3,5,7",
-        "--compare",
-        "rk45",
-        "--time",
-        "10",
-    ]);
+    let svg = picture("rigid_body.toml --truncation 3,5,7 --compare rk45 --time 10");
     contains(
         &svg,
         &[
@@ -163,27 +155,26 @@ fn the_momentum_covers_the_time_of_the_drifts_or_says_why_not() {
             .collect();
         panels
     };
-    let whole = picture(&["examples/rigid_body.toml", "--time", "40"]);
+    let whole = picture("rigid_body.toml --time 40");
     assert!(!whole.contains("would run together"));
     let last = times(&whole);
     assert_eq!(last[0], last[1], "{last:?}");
 
-    let part = picture(&["examples/rigid_body.toml", "--time", "1000", "--step", "0.5"]);
+    let part = picture("rigid_body.toml --time 1000 --step 0.5");
     contains(&part, &["s of 1000 s: over all of it the oscillations would run together."]);
     assert_legible(&part);
     // Records too far apart to show any oscillation.
-    let coarse =
-        picture(&["examples/rigid_body.toml", "--time", "1000", "--step", "0.5", "--every", "18"]);
+    let coarse = picture("rigid_body.toml --time 1000 --step 0.5 --every 18");
     contains(&coarse, &["too far apart to follow every oscillation"]);
 }
 
 /// Coordinates with different units are not drawn on one axis.
 #[test]
 fn each_unit_has_a_panel() {
-    let svg = picture(&["examples/heavy_top.toml", "--time", "10"]);
+    let svg = picture("heavy_top.toml --time 10");
     contains(&svg, &[">Body momentum (kg m²/s)</text>", ">Body momentum (pure number)</text>"]);
     assert_legible(&svg);
-    let kicked = picture(&["examples/satellite.toml", "--time", "10"]);
+    let kicked = picture("satellite.toml --time 10");
     contains(&kicked, &[">rkn6</text>", "spatial momentum, the one component that is conserved"]);
     assert_legible(&kicked);
 }
@@ -191,14 +182,13 @@ fn each_unit_has_a_panel() {
 /// A name may hold what has a meaning in SVG, and be long.
 #[test]
 fn no_name_breaks_the_picture() {
-    let folder = Folder::new();
     let name = "a <b> & \\\"c\\\" ".repeat(12);
-    let text = format!(
+    let folder = Folder::with(&format!(
         "name = \"{name}\"\ngroup = \"SO3\"\ncoordinates = [\"{}\", \"y\", \"z\"]\nhamiltonian = \"y^2 + 2*z^2\"\n\
          [integrator]\nstep = 0.1\n[initial]\nmomentum = [0, 1e-9, 2e-9]\n[run]\ntime = 1\n",
         "long_name".repeat(12)
-    );
-    let svg = picture(&[&folder.write("system.toml", &text)]);
+    ));
+    let svg = picture_in(&folder, "system.toml");
     contains(&svg, &["a &lt;b&gt; &amp; &quot;c&quot;", "e-9</text>"]);
     assert_legible(&svg);
     // A file without units has none in its picture.
@@ -208,20 +198,17 @@ fn no_name_breaks_the_picture() {
 /// A report says in which units its numbers are; without units in the file it says nothing of them.
 #[test]
 fn reports_say_the_units() {
-    let (code, out, _) = run(&["simulate", "examples/heavy_top.toml", "--time", "1"]);
-    assert_eq!(code, 0);
-    assert!(out.contains("20 steps to time 1 s\n"), "{out}");
+    let top = "simulate examples/heavy_top.toml --time 1";
+    let out = run(top).ok().prints(&["20 steps to time 1 s\n"]).out;
     let line = |name: &str| out.lines().find(|line| line.trim().starts_with(name)).unwrap();
     assert!(
         line("Pi_y").ends_with(" kg m²/s") && line("Gamma_z").ends_with(" pure number"),
         "{out}"
     );
-    let report = json(&["simulate", "examples/heavy_top.toml", "--time", "1", "--format", "json"]);
+    let report = json(top);
     assert_eq!(report["units"]["time"], "s");
     assert_eq!(report["units"]["Pi_x"], "kg m²/s");
-
-    let without =
-        json(&["simulate", "examples/su3_quadratic.toml", "--time", "1", "--format", "json"]);
+    let without = json("simulate examples/su3_quadratic.toml --time 1");
     assert!(without.get("units").is_none());
 }
 
@@ -237,8 +224,7 @@ fn every_example_has_its_picture() {
         let example = std::fs::read_to_string(&path).unwrap();
         let system = read(&example, Options::default()).unwrap();
         let stem = path.file_stem().unwrap().to_str().unwrap();
-        let picture = root().join(format!("docs/images/{stem}.svg"));
-        let svg = std::fs::read_to_string(picture).unwrap();
+        let svg = text_of(&format!("docs/images/{stem}.svg"));
         let problem = &system.problem;
         assert_ne!(problem.name, "system", "{stem} has no name");
         let unit = system.units.time.map(|unit| format!(" {unit}")).unwrap_or_default();
@@ -279,16 +265,9 @@ fn hostile_names_stay_texts() {
              [units]\ntime = {unit}\nmomentum = {unit}\n[integrator]\ntruncation = 3\nstep = 0.1\n\
              [initial]\nmomentum = [1, 0.2, 0.1]\n[run]\ntime = 1"
         );
-        let system = folder.at("a\n# complete: 9 records\r\u{202e}.toml");
-        std::fs::write(&system, text).unwrap();
-        let system = system.to_str().unwrap();
-        let [table, svg] = ["run.csv", "run.svg"].map(|name| folder.at(name));
-        let [out, plot] = [&table, &svg].map(|path| path.to_str().unwrap());
-        let backend = ["--backend", "interpreter"];
-        let options = ["simulate", system, "--out", out, "--plot", plot];
-        let (code, _, error) = run(&[&options[..], &backend[..]].concat());
-        assert_eq!(code, 0, "{error}");
-        let svg = std::fs::read_to_string(svg).unwrap();
+        let system = "a\n# complete: 9 records\r\u{202e}.toml";
+        folder.write(system, text);
+        let svg = picture_in(&folder, &format!("'{system}' --out run.csv --backend interpreter"));
         let document = roxmltree::Document::parse(&svg).unwrap();
         let known =
             ["svg", "title", "desc", "rect", "g", "text", "line", "polyline", "polygon", "path"];
@@ -296,13 +275,12 @@ fn hostile_names_stay_texts() {
             assert!(known.contains(&node.tag_name().name()), "{}", node.tag_name().name());
         }
         assert!(!svg.contains(['\u{202e}', '\u{2066}', '\0', '\u{1b}']));
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&table).unwrap();
+        let table = folder.table("run.csv");
+        assert_eq!(table[0][..4], ["time", "a", "b", "c"]);
+        assert!(table.len() == 12 && table.iter().all(|row| row.len() == table[0].len()));
         assert_eq!(
-            reader.headers().unwrap().iter().take(4).collect::<Vec<_>>(),
-            ["time", "a", "b", "c"]
+            folder.text("run.csv").lines().filter(|line| line.starts_with("# complete")).count(),
+            1
         );
-        assert_eq!(reader.records().filter(Result::is_ok).count(), 11);
-        let text = std::fs::read_to_string(&table).unwrap();
-        assert_eq!(text.lines().filter(|line| line.starts_with("# complete")).count(), 1);
     }
 }

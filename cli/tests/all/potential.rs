@@ -1,29 +1,30 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
 
-use crate::support::{Folder, json, run, system};
+use crate::support::{Folder, json, text_of};
+use serde_json::Value;
+
+const SATELLITE: &str = "examples/satellite.toml";
 
 /// The largest difference from tests/reference/satellite.json, made by tests/reference/satellite.py.
-fn error(step: &str) -> (f64, serde_json::Value) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/satellite.json");
-    let reference: serde_json::Value =
-        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let arguments = ["--time", "20", "--step", step, "--every", "1000", "--format", "json"];
-    let report = json(&[&["simulate", "examples/satellite.toml"], &arguments[..]].concat());
-    let number = |value: &serde_json::Value| value.as_str().unwrap().parse::<f64>().unwrap();
+fn error(step: &str) -> (f64, Value) {
+    let reference: Value =
+        serde_json::from_str(&text_of("tests/reference/satellite.json")).unwrap();
+    let report = json(&format!("simulate {SATELLITE} --time 20 --step {step} --every 1000"));
+    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     let mut worst = 0.0_f64;
+    let mut compare = |found: &Value, expected: &Value| {
+        worst = worst.max((found.as_f64().unwrap() - number(expected)).abs());
+    };
     for i in 0..4 {
-        let found = report["momentum"][i].as_f64().unwrap();
-        worst = worst.max((found - number(&reference["momentum"][i])).abs());
+        compare(&report["momentum"][i], &reference["momentum"][i]);
     }
     for i in 0..3 {
         for j in 0..3 {
-            let found = report["group_element"][i][j].as_f64().unwrap();
-            worst = worst.max((found - number(&reference["attitude"][i][j])).abs());
+            compare(&report["group_element"][i][j], &reference["attitude"][i][j]);
         }
-        if i < 2 {
-            let found = report["group_element"][3 + i][3].as_f64().unwrap();
-            worst = worst.max((found - number(&reference["orbit"][i])).abs());
-        }
+    }
+    for i in 0..2 {
+        compare(&report["group_element"][3 + i][3], &reference["orbit"][i]);
     }
     (worst, report)
 }
@@ -47,7 +48,7 @@ fn the_satellite_reaches_its_reference() {
 
 #[test]
 fn the_laws_hold_with_kicks() {
-    let report = json(&["check", "examples/satellite.toml", "--points", "1", "--format", "json"]);
+    let report = json(&format!("check {SATELLITE} --points 1"));
     let laws = report["laws"].as_array().unwrap();
     assert!(laws.iter().all(|law| law["pass"] == true), "{report}");
     let law = |name: &str| laws.iter().find(|law| law["name"] == name).unwrap();
@@ -57,7 +58,7 @@ fn the_laws_hold_with_kicks() {
 
 #[test]
 fn a_broken_symmetry_is_said_and_not_measured() {
-    let (_folder, system) = system(
+    let folder = Folder::with(
         r#"
 group = "SO3"
 hamiltonian = "mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4"
@@ -72,46 +73,32 @@ momentum = [0.3, 0.2, 0.1]
 time = 2.0
 "#,
     );
-    let (code, text, error) = run(&["simulate", &system]);
-    assert_eq!(code, 0, "{error}");
-    assert!(text.contains("rkn4"), "{text}");
-    assert!(text.contains("not conserved: the potential breaks the symmetry"), "{text}");
-    assert!(text.contains("none that the kicks keep"), "{text}");
-    assert!(
-        json(&["simulate", &system, "--format", "json"])["drift"]["spatial_momentum"].is_null()
-    );
-    let (code, module, _) = run(&["emit", &system]);
-    assert_eq!(code, 0);
-    assert!(module.contains("SystemPotential") && module.contains("pub fn torque"), "{module}");
+    folder.run("simulate system.toml").ok().prints(&[
+        "rkn4",
+        "not conserved: the potential breaks the symmetry",
+        "none that the kicks keep",
+    ]);
+    assert!(folder.json("simulate system.toml")["drift"]["spatial_momentum"].is_null());
+    folder.run("emit system.toml").ok().prints(&["SystemPotential", "pub fn torque"]);
 }
 
 #[test]
 fn mistakes_have_their_places() {
-    let folder = Folder::new();
-    let system = |potential: &str, splitting: &str, hamiltonian: &str| {
-        format!(
-            "group = \"SO3\"\nhamiltonian = \"{hamiltonian}\"\npotential = \"{potential}\"\n\
-             [integrator]\nstep = 0.1\nsplitting = \"{splitting}\"\n[initial]\n\
-             momentum = [1, 0, 0]\n[run]\ntime = 1\n"
-        )
-    };
-    for (text, place, message) in [
-        (system("g[0][3]", "rkn4", "mu[0]^2"), ":3:14", "unknown variable `g[0][3]`"),
-        (system("1/g[0][0]", "rkn4", "mu[0]^2"), ":3:14", "division by the group element"),
-        (system("sqrt(g[0][0])", "rkn4", "mu[0]^2"), ":3:14", "the potential must be one"),
-        (system("2", "rkn4", "mu[0]^2"), ":3:13", "does not depend on the group element"),
-        (system("g[2][2]", "rkn5", "mu[0]^2"), ":6:13", "did you mean `rkn4`"),
-        (system("g[2][2]", "rkn6", "mu[0]^4"), ":6:13", "degree at most two"),
-        (
-            "group = \"SO3\"\nhamiltonian = \"mu[0]^2\"\n[integrator]\nsplitting = \"strang\"\n"
-                .into(),
-            ":4:13",
-            "there is none",
-        ),
+    for (potential, splitting, hamiltonian, place, message) in [
+        ("g[0][3]", "rkn4", "mu[0]^2", ":3:14", "unknown variable `g[0][3]`"),
+        ("1/g[0][0]", "rkn4", "mu[0]^2", ":3:14", "division by the group element"),
+        ("sqrt(g[0][0])", "rkn4", "mu[0]^2", ":3:14", "the potential must be one"),
+        ("2", "rkn4", "mu[0]^2", ":3:13", "does not depend on the group element"),
+        ("g[2][2]", "rkn5", "mu[0]^2", ":6:13", "did you mean `rkn4`"),
+        ("g[2][2]", "rkn6", "mu[0]^4", ":6:13", "degree at most two"),
+        ("", "strang", "mu[0]^2", ":5:13", "there is none"),
     ] {
-        let path = folder.write("system.toml", &text);
-        let (code, _, error) = run(&["simulate", &path]);
-        assert_eq!(code, 2, "{text}\n{error}");
-        assert!(error.contains(place) && error.contains(message), "{text}\n{error}");
+        let potential =
+            if potential.is_empty() { "" } else { &format!("potential = \"{potential}\"\n") };
+        let folder = Folder::with(&format!(
+            "group = \"SO3\"\nhamiltonian = \"{hamiltonian}\"\n{potential}[integrator]\nstep = 0.1\n\
+             splitting = \"{splitting}\"\n[initial]\nmomentum = [1, 0, 0]\n[run]\ntime = 1\n"
+        ));
+        folder.run("simulate system.toml").fails(2, &[place, message]);
     }
 }

@@ -1,6 +1,6 @@
 //! `simulate`: the reference end state, the keys programs rely on, and the files it writes.
 
-use crate::support::{Folder, json, numbers, root, run, system};
+use crate::support::{BODY, Folder, distance, json, numbers, run, text_of};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -14,21 +14,13 @@ const ATTITUDE: [[f64; 3]; 3] = [
 ];
 
 fn error(run: &Value) -> f64 {
-    let end = numbers(&run["momentum"]);
-    end.iter().zip(MOMENTUM).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    distance(&numbers(&run["momentum"]), &MOMENTUM)
 }
 
 /// The target of the command's main job: 1e-11 at K = 7; K = 3 and 5 as their orders say.
 #[test]
 fn the_rigid_body_of_the_paper_ends_where_it_should() {
-    let runs = json(&[
-        "simulate",
-        "examples/rigid_body.toml",
-        "--truncation",
-        "3,5,7",
-        "--format",
-        "json",
-    ]);
+    let runs = json(&format!("simulate {BODY} --truncation 3,5,7"));
     let runs = runs.as_array().unwrap();
     assert_eq!(runs.len(), 3);
     let errors: Vec<f64> = runs.iter().map(error).collect();
@@ -40,49 +32,27 @@ fn the_rigid_body_of_the_paper_ends_where_it_should() {
         assert!(run["drift"]["casimirs"].as_f64().unwrap() <= 1e-13);
     }
     for (row, expected) in runs[2]["group_element"].as_array().unwrap().iter().zip(ATTITUDE) {
-        for (a, b) in numbers(row).iter().zip(expected) {
-            assert!((a - b).abs() < 1e-11, "{a} {b}");
-        }
-    }
-}
-
-/// Options of earlier versions name what takes their place.
-#[test]
-fn removed_options_say_what_to_use() {
-    for (option, system) in [("--tuned", "rigid_body"), ("--fitted=12", "satellite")] {
-        let (code, _, error) = run(&["simulate", &format!("examples/{system}.toml"), option]);
-        assert_eq!(code, 2, "{error}");
-        let name = option.split('=').next().unwrap();
-        for said in [name, "--truncation", "frame = \"comoving\""] {
-            assert!(error.contains(said), "{error}");
-        }
+        assert!(distance(&numbers(row), &expected) < 1e-11, "{row}");
     }
 }
 
 #[test]
 fn json_has_the_keys_programs_rely_on() {
-    let run = json(&["simulate", "examples/heavy_top.toml", "--time", "1", "--format", "json"]);
-    assert_eq!(run["steps"], 20);
-    assert_eq!(run["time"], 1.0);
+    let run = json("simulate examples/heavy_top.toml --time 1");
+    assert_eq!((&run["steps"], &run["time"]), (&20.into(), &1.0.into()));
     assert_eq!(numbers(&run["momentum"]).len(), 6);
     assert_eq!(run["group_element"].as_array().unwrap().len(), 4);
-    for (table, key) in [
-        ("drift", "spatial_momentum"),
-        ("drift", "casimirs"),
-        ("drift", "energy"),
-        ("solver", "most_iterations"),
-        ("solver", "max_residual"),
-    ] {
-        assert!(run[table][key].is_number(), "{table}.{key}");
+    for key in ["spatial_momentum", "casimirs", "energy"] {
+        assert!(run["drift"][key].is_number(), "{key}");
     }
     assert!(run["solver"]["most_iterations"].as_f64().unwrap() >= 1.0);
     assert!(run["solver"]["max_residual"].as_f64().unwrap() < 1e-14);
-    assert_eq!((&run["step"], &run["step_asked"]), (&Value::from(0.05), &Value::from(0.05)));
-    assert_eq!((&run["chart"], &run["truncation"]), (&Value::from("exp"), &Value::from(7)));
+    assert_eq!((&run["step"], &run["step_asked"]), (&0.05.into(), &0.05.into()));
+    assert_eq!((&run["chart"], &run["truncation"]), (&"exp".into(), &7.into()));
     assert_eq!(run["coordinates"][3], "Gamma_x");
     assert_eq!(run["run"]["system"], "examples/heavy_top.toml");
-    let text = std::fs::read(root().join("examples/heavy_top.toml")).unwrap();
-    assert_eq!(run["run"]["system_sha256"], format!("{:x}", Sha256::digest(text)));
+    let hash = Sha256::digest(text_of("examples/heavy_top.toml"));
+    assert_eq!(run["run"]["system_sha256"], format!("{hash:x}"));
     assert!(run["energy"]["start"].is_f64() && run["energy"]["end"].is_f64());
 }
 
@@ -98,11 +68,11 @@ fn json_never_holds_null() {
         }
     }
     for arguments in [
-        &["examples/rigid_body.toml", "--time", "5", "--compare", "rk45"][..],
-        &["examples/satellite.toml", "--time", "1"],
-        &["examples/spin_chain_64.toml", "--time", "0.1"],
+        "rigid_body.toml --time 5 --compare rk45",
+        "satellite.toml --time 1",
+        "spin_chain_64.toml --time 0.1",
     ] {
-        let run = json(&[&["simulate"], arguments, &["--format", "json"]].concat());
+        let run = json(&format!("simulate examples/{arguments}"));
         assert!(!nulls(&run), "{run}");
     }
 }
@@ -110,61 +80,50 @@ fn json_never_holds_null() {
 /// Backwards from the end leads to the start.
 #[test]
 fn a_negative_step_runs_backwards() {
-    let arguments = ["simulate", "examples/rigid_body.toml", "--time", "2", "--format", "json"];
-    let forward = json(&arguments);
-    let text = std::fs::read_to_string(root().join("examples/rigid_body.toml")).unwrap();
-    let end = format!("momentum = {}", forward["momentum"]);
-    let element = format!("\ngroup_element = {}", forward["group_element"]);
-    let (_folder, system) = system(&text.replace("momentum = [2.0, 0.5, 1.0]", &(end + &element)));
-    let back = json(&["simulate", &system, "--time", "2", "--step", "-0.1", "--format", "json"]);
-    for (a, b) in numbers(&back["momentum"]).iter().zip([2.0, 0.5, 1.0]) {
-        assert!((a - b).abs() < 1e-13);
-    }
+    let forward = json(&format!("simulate {BODY} --time 2"));
+    let (mu, g) = (&forward["momentum"], &forward["group_element"]);
+    let end = format!("momentum = {mu}\ngroup_element = {g}");
+    let folder = Folder::with(&text_of(BODY).replace("momentum = [2.0, 0.5, 1.0]", &end));
+    let back = folder.json("simulate system.toml --time 2 --step -0.1");
+    assert!(distance(&numbers(&back["momentum"]), &[2.0, 0.5, 1.0]) < 1e-13);
     assert!((back["group_element"][0][0].as_f64().unwrap() - 1.0).abs() < 1e-13);
 }
 
 /// Both charts of one system, and algebras given by basis and by brackets.
 #[test]
 fn other_charts_and_algebras_keep_their_momentum_too() {
-    for arguments in [
-        &["simulate", "examples/rigid_body.toml", "--chart", "cayley", "--time", "5"][..],
-        &["simulate", "examples/sl2_by_basis.toml"],
-        &["simulate", "examples/so21_by_brackets.toml"],
-    ] {
-        let run = json(&[arguments, &["--format", "json"]].concat());
-        assert!(run["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-12, "{arguments:?}");
-        assert!(run["drift"]["casimirs"].as_f64().unwrap() < 1e-12, "{arguments:?}");
+    for arguments in
+        ["rigid_body.toml --chart cayley --time 5", "sl2_by_basis.toml", "so21_by_brackets.toml"]
+    {
+        let run = json(&format!("simulate examples/{arguments}"));
+        assert!(run["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-12, "{arguments}");
+        assert!(run["drift"]["casimirs"].as_f64().unwrap() < 1e-12, "{arguments}");
     }
 }
 
 #[test]
 fn tables_and_matrices_hold_the_same_numbers() {
     let folder = Folder::new();
-    let (table, matrix) = (folder.name("t.csv"), folder.name("t.npy"));
-    let base = ["simulate", "examples/rigid_body.toml", "--time", "2", "--every", "4", "--out"];
-    assert_eq!(run(&[&base[..], &[&table]].concat()).0, 0);
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&table).unwrap();
-    let header: Vec<String> = reader.headers().unwrap().iter().map(Into::into).collect();
-    assert_eq!(header[..5], ["time", "x", "y", "z", "g_11"]);
-    let rows: Vec<Vec<f64>> =
-        reader.records().map(|r| r.unwrap().iter().map(|x| x.parse().unwrap()).collect()).collect();
+    for out in ["t.csv", "t.npy"] {
+        folder.run(&format!("simulate {BODY} --time 2 --every 4 --out {out}")).ok();
+    }
+    let table = folder.table("t.csv");
+    assert_eq!(table[0][..5], ["time", "x", "y", "z", "g_11"]);
+    let row = |row: &Vec<String>| row.iter().map(|x| x.parse().unwrap()).collect();
+    let rows: Vec<Vec<f64>> = table[1..].iter().map(row).collect();
     // 20 steps, every 4th, and the start.
     assert_eq!(rows.len(), 6);
-    assert_eq!(rows[0][1..4], [2.0, 0.5, 1.0]);
-    assert_eq!(rows[5][0], 2.0);
-
-    assert_eq!(run(&[&base[..], &[&matrix]].concat()).0, 0);
+    assert_eq!((&rows[0][1..4], rows[5][0]), (&[2.0, 0.5, 1.0][..], 2.0));
     let bytes = folder.bytes("t.npy");
     let array = npyz::NpyFile::new(&bytes[..]).unwrap();
-    assert_eq!(array.shape(), [6, header.len() as u64]);
+    assert_eq!(array.shape(), [6, table[0].len() as u64]);
     assert_eq!(array.into_vec::<f64>().unwrap(), rows.concat());
 }
 
 /// As in the paper's figures: the Runge–Kutta method loses the momentum, the integrator keeps it.
 #[test]
 fn the_rival_drifts() {
-    let runs =
-        json(&["simulate", "examples/rigid_body.toml", "--compare", "rk45", "--format", "json"]);
+    let runs = json(&format!("simulate {BODY} --compare rk45"));
     let drift = |i: usize| runs[i]["drift"]["spatial_momentum"].as_f64().unwrap();
     assert!(drift(0) < 1e-13 && drift(1) > 1e-8);
     // Still the same system: it ends near the same place.
@@ -175,56 +134,42 @@ fn the_rival_drifts() {
 /// Steps end at the time asked for: 50 is 62.5 steps of 0.8. Where the step divides the time it stays.
 #[test]
 fn runs_end_at_the_time_asked_for() {
-    let body = ["simulate", "examples/rigid_body.toml", "--time", "50"];
-    let changed = json(&[&body[..], &["--step", "0.8", "--format", "json"]].concat());
-    assert_eq!(changed["time"], 50.0);
-    assert_eq!(changed["steps"], 63);
-    assert_eq!(changed["step"], 50.0 / 63.0);
-    assert_eq!(changed["step_asked"], 0.8);
-    let (code, out, error) = run(&[&body[..], &["--step", "0.8"]].concat());
+    for (time, asked, steps, step) in
+        [(50.0, 0.8, 63, 50.0 / 63.0), (50.0, 0.1, 500, 0.1), (0.05, 0.1, 1, 0.05)]
+    {
+        let ran = json(&format!("simulate {BODY} --time {time} --step {asked}"));
+        let found = ["time", "step_asked", "steps", "step"].map(|key| ran[key].as_f64().unwrap());
+        assert_eq!(found, [time, asked, f64::from(steps), step]);
+    }
     let line = "step 0.7936507936507936 in place of 0.8, so that 63 steps end at 50";
-    assert!(code == 0 && out.contains(line), "{out}");
-    assert_eq!(error.trim(), line);
-
-    let kept = json(&[&body[..], &["--step", "0.1", "--format", "json"]].concat());
-    assert_eq!((kept["steps"].as_u64(), kept["step"].as_f64()), (Some(500), Some(0.1)));
-    assert_eq!((kept["time"].as_f64(), kept["step_asked"].as_f64()), (Some(50.0), Some(0.1)));
-    let (_, out, error) = run(&[&body[..], &["--step", "0.1"]].concat());
-    assert!(error.is_empty() && !out.contains("in place of"), "{out}{error}");
-    // A step longer than the whole time.
-    let short = ["simulate", "examples/rigid_body.toml", "--time", "0.05", "--format", "json"];
-    let short = json(&short);
-    assert_eq!((short["steps"].as_u64(), short["time"].as_f64()), (Some(1), Some(0.05)));
+    let changed = run(&format!("simulate {BODY} --time 50 --step 0.8")).ok().prints(&[line]);
+    assert_eq!(changed.error.trim(), line);
+    let kept = run(&format!("simulate {BODY} --time 50 --step 0.1")).ok();
+    assert!(kept.error.is_empty() && !kept.out.contains("in place of"), "{kept:?}");
 }
 
 /// A number that is not finite ends the run with the time and the step; here only the energy is too large for one.
 #[test]
 fn what_is_not_finite_fails_the_run() {
-    let (_folder, system) = system(
+    let folder = Folder::with(
         "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2\"\n[integrator]\ntruncation = 1\nstep = 1e-201\n[initial]\n\
          momentum = [1e200, 0, 0]\n[run]\ntime = 1e-200\n",
     );
     for format in ["text", "json"] {
-        let (code, out, error) = run(&["simulate", &system, "--format", format]);
-        assert_eq!((code, out.as_str()), (1, ""), "{error}");
-        assert!(error.contains("at time 0, step 0: the energy is inf"), "{error}");
+        let ran = folder.run(&format!("simulate system.toml --format {format}"));
+        assert_eq!(ran.fails(1, &["at time 0, step 0: the energy is inf"]).out, "");
     }
 }
 
 /// Elements are printed by what they are; zeros outside of the blocks are not printed.
 #[test]
 fn group_elements_can_be_read() {
-    let text = |arguments: &[&str]| {
-        let (code, out, error) = run(&[&["simulate"], arguments].concat());
-        assert_eq!(code, 0, "{error}");
-        out
-    };
-    let body = text(&["examples/rigid_body.toml", "--time", "1"]);
+    let text = |arguments: &str| run(&format!("simulate examples/{arguments}")).ok().out;
+    let body = text("rigid_body.toml --time 1");
     let mut lines = body.lines().skip_while(|line| !line.contains("unit quaternion w, x, y, z"));
-    lines.next().unwrap();
-    let q: Vec<f64> =
-        lines.next().unwrap().split_whitespace().map(|word| word.parse().unwrap()).collect();
-    let matrix = json(&["simulate", "examples/rigid_body.toml", "--time", "1", "--format", "json"]);
+    let q = lines.nth(1).unwrap().split_whitespace().map(|word| word.parse().unwrap());
+    let q: Vec<f64> = q.collect();
+    let matrix = json(&format!("simulate {BODY} --time 1"));
     let g = |i: usize, j: usize| matrix["group_element"][i][j].as_f64().unwrap();
     let [w, x, y, z] = q[..] else { panic!("{q:?}") };
     assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-14);
@@ -235,12 +180,12 @@ fn group_elements_can_be_read() {
     ] {
         assert!((entry - expected).abs() < 1e-14, "{entry} {expected}");
     }
-    let ring = text(&["examples/heisenberg_spin_ring.toml", "--time", "0.1"]);
+    let ring = text("heisenberg_spin_ring.toml --time 0.1");
     assert_eq!(ring.matches("unit quaternion").count(), 4, "{ring}");
-    let chain = text(&["examples/spin_chain_64.toml", "--time", "0.1"]);
+    let chain = text("spin_chain_64.toml --time 0.1");
     assert!(chain.contains("group elements of 52 more factors"), "{chain}");
     assert!(chain.lines().count() < 64 * 3 + 50);
-    assert!(text(&["examples/three_wave.toml", "--time", "0.1"]).contains("complex 3 × 3 matrix"));
+    assert!(text("three_wave.toml --time 0.1").contains("complex 3 × 3 matrix"));
     for printed in [body, ring, chain] {
         assert!(!printed.contains("0.0000000000"), "{printed}");
     }
@@ -266,14 +211,10 @@ fn expressions_stand_for_their_numbers() {
         (brackets, "momentum = [1, 2, 3]", [1.8447868631, -0.1957286961, 3.2493771260]),
         (turning, "momentum = [1, 2, 3]", [1.2094191300, 1.1697698912, 3.3419969734]),
     ] {
-        let folder = Folder::new();
-        let text = format!(
-            "{system}[initial]\n{initial}\n[integrator]\nstep = \"1/50\"\n[run]\ntime = \"5*0.2\"\n"
-        );
-        let report = json(&["simulate", &folder.write("system.toml", &text), "--format", "json"]);
-        for (found, end) in numbers(&report["momentum"]).iter().zip(end) {
-            assert!((found - end).abs() < 2e-10, "{found} for {end}: {text}");
-        }
+        let run = "[integrator]\nstep = \"1/50\"\n[run]\ntime = \"5*0.2\"\n";
+        let folder = Folder::with(&format!("{system}[initial]\n{initial}\n{run}"));
+        let found = numbers(&folder.json("simulate system.toml")["momentum"]);
+        assert!(distance(&found, &end) < 2e-10, "{found:?} for {end:?}: {system}{initial}");
     }
 }
 
@@ -297,53 +238,45 @@ time = 20
 #[test]
 fn drifts_of_long_elements_are_not_measured() {
     for hamiltonian in ["a", "a^2/2 + b^2/3 - c^2/5 + a*c/5 + a/3"] {
-        let (folder, system) = system(&BOOSTS.replace("HAMILTONIAN", hamiltonian));
-        let out = folder.name("run.csv");
-        let report = json(&["simulate", &system, "--out", &out, "--format", "json"]);
+        let folder = Folder::with(&BOOSTS.replace("HAMILTONIAN", hamiltonian));
+        let report = folder.json("simulate system.toml --out run.csv");
         let end = report["drift_not_measurable_after"]["spatial_momentum"].as_f64().unwrap();
         assert!(end > 2.0 && end < 20.0, "{report}");
         assert!(report["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-8, "{report}");
-        let (_, text, _) = run(&["simulate", &system]);
-        assert!(text.contains("not measurable after t = "), "{text}");
-        let (code, said, error) = run(&["verify", &out]);
-        assert!(code == 0 && said.contains("no row is wrong"), "{said}{error}");
+        folder.run("simulate system.toml").ok().prints(&["not measurable after t = "]);
+        folder.run("verify run.csv").ok().prints(&["no row is wrong"]);
     }
 }
 
 /// A drift follows from the columns of the file and the scale that it names.
 #[test]
 fn the_scale_of_the_energy_is_the_energy_at_the_start() {
-    let (folder, system) = system(
+    let folder = Folder::with(
         "group = \"SO3\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/6 - 0.75\"\n[integrator]\nstep = 0.5\ntruncation = 3\n\
          [initial]\nmomentum = [0.5, 0.9, 1.5]\n[run]\ntime = 100\n",
     );
-    let out = folder.at("run.csv");
-    let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
+    let report = folder.json("simulate system.toml --out run.csv");
     let scale = report["drift_scale"]["energy"].as_f64().unwrap();
     assert!((scale - 0.0475).abs() < 1e-15, "{report}");
-    let text = std::fs::read_to_string(out).unwrap();
-    assert!(text.contains("# energy_scale: 0.0474"), "{text}");
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let place = |name: &str| names.iter().position(|known| *known == name).unwrap();
-    let rows: Vec<Vec<f64>> =
-        lines.map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
-    let (energy, drift) = (place("energy"), place("energy_drift"));
-    for row in &rows {
-        let expected = (row[energy] - rows[0][energy]).abs() / scale;
-        assert!((row[drift] - expected).abs() <= 1e-12 * expected, "{row:?}");
+    assert!(folder.text("run.csv").contains("# energy_scale: 0.0474"));
+    let table = folder.table("run.csv");
+    let place = |name: &str| table[0].iter().position(|known| known == name).unwrap();
+    let [energy, drift] = ["energy", "energy_drift"].map(place);
+    let number = |row: &Vec<String>, at: usize| row[at].parse::<f64>().unwrap();
+    for row in &table[1..] {
+        let expected = (number(row, energy) - number(&table[1], energy)).abs() / scale;
+        assert!((number(row, drift) - expected).abs() <= 1e-12 * expected, "{row:?}");
     }
 }
 
 /// A quantity that is unknown or not conserved has no number in any output.
 #[test]
 fn an_unknown_drift_is_absent() {
-    let (folder, system) = system(
+    let folder = Folder::with(
         "group = \"Aff1\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/3\"\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [1, 0.5]\n\
          [run]\ntime = 1\n",
     );
-    let out = folder.at("run.csv");
-    let report = json(&["simulate", &system, "--out", out.to_str().unwrap(), "--format", "json"]);
+    let report = folder.json("simulate system.toml --out run.csv");
     assert!(report["drift"].get("casimirs").is_none() && report["drift"]["energy"].is_number());
-    assert!(!std::fs::read_to_string(out).unwrap().contains("casimir"));
+    assert!(!folder.text("run.csv").contains("casimir"));
 }

@@ -1,21 +1,18 @@
 //! `verify`: right files are found right, and whatever was changed in them is found, by time or row.
 
-use crate::support::{Folder, json, root, run};
+use crate::support::{BODY, Folder, text_of};
 use serde_json::Value;
 
-const BODY: &str = "examples/rigid_body.toml";
-
-/// The records of a run.
-fn simulate(arguments: &[&str], out: &str) {
-    let (code, _, error) = run(&[&["simulate"], arguments, &["--out", out]].concat());
-    assert_eq!(code, 0, "{error}");
+/// A folder with the records of a run of the rigid body.
+fn place(options: &str) -> Folder {
+    let folder = Folder::new();
+    folder.run(&format!("simulate {BODY} {options} --out run.csv")).ok();
+    folder
 }
 
 /// The file is right; what was found.
-fn right(arguments: &[&str]) -> Value {
-    let (code, out, error) = run(&[&["verify"], arguments, &["--format", "json"]].concat());
-    assert_eq!(code, 0, "{arguments:?}: {out}{error}");
-    let found: Value = serde_json::from_str(&out).unwrap();
+fn right(folder: &Folder, arguments: &str) -> Value {
+    let found = folder.json(&format!("verify {arguments}"));
     for found in found.as_array().unwrap_or(&vec![found.clone()]) {
         assert_eq!(found["verdict"], "no row is wrong");
         assert!(found["rows"].as_u64().unwrap() > 0 && found["not_judged"] == 0, "{found}");
@@ -23,13 +20,9 @@ fn right(arguments: &[&str]) -> Value {
     found
 }
 
-/// The command ends with this code and says all of these.
-fn said(arguments: &[&str], expected: i32, words: &[&str]) {
-    let (code, out, error) = run(&[&["verify"], arguments].concat());
-    assert_eq!(code, expected, "{arguments:?}: {out}{error}");
-    for word in words {
-        assert!(error.contains(word), "{word}: {error}");
-    }
+/// The file is wrong, which is said by these words.
+fn wrong(folder: &Folder, arguments: &str, words: &str) {
+    folder.run(&format!("verify {arguments}")).fails(1, &[words]);
 }
 
 /// The text with another cell in a line, both counted from 0, comments not counted.
@@ -53,107 +46,92 @@ fn changed(text: &str, line: usize, column: usize, cell: &dyn Fn(f64) -> f64) ->
 #[test]
 fn runs_of_every_kind_are_right() {
     let folder = Folder::new();
-    let so2 = "hamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 5\nstep = 0.2\n\
-               [initial]\nmomentum = [1.0, 0.3, 0.5]\n[run]\ntime = 4\n";
-    let su2 = folder.write("system.toml", format!("group = \"SU2\"\n{so2}"));
-    let mixed = folder.name("mixed.toml");
-    let product = "group = \"SO3*SE2\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]*mu[3] + \
-                   mu[3]^2/2 + mu[4]^2/3\"\n[integrator]\ntruncation = 3\nstep = 0.1\n[initial]\n\
-                   momentum = [1.0, 0.3, 0.5, 0.2, 0.4, 0.1]\n[run]\ntime = 2\n";
-    std::fs::write(&mixed, product).unwrap();
-    for (system, more) in [
-        (BODY, &["--time", "5"][..]),
-        (BODY, &["--time", "5", "--every", "7", "--at", "0.33,1.25,2"]),
-        (BODY, &["--time", "5", "--chart", "cayley", "--step", "-0.1"]),
-        ("examples/gyrostat.toml", &["--time", "10"]),
-        ("examples/heavy_top.toml", &["--time", "0.3"]),
+    folder.write(
+        "su2.toml",
+        "group = \"SU2\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5\"\n[integrator]\ntruncation = 5\n\
+         step = 0.2\n[initial]\nmomentum = [1.0, 0.3, 0.5]\n[run]\ntime = 4\n",
+    );
+    folder.write(
+        "mixed.toml",
+        "group = \"SO3*SE2\"\nhamiltonian = \"mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]*mu[3] + mu[3]^2/2 + mu[4]^2/3\"\n\
+         [integrator]\ntruncation = 3\nstep = 0.1\n[initial]\nmomentum = [1.0, 0.3, 0.5, 0.2, 0.4, 0.1]\n[run]\ntime = 2\n",
+    );
+    for run in [
+        "examples/rigid_body.toml --time 5",
+        "examples/rigid_body.toml --time 5 --every 7 --at 0.33,1.25,2",
+        "examples/rigid_body.toml --time 5 --chart cayley --step -0.1",
+        "examples/gyrostat.toml --time 10",
+        "examples/heavy_top.toml --time 0.3",
         // A comoving frame.
-        ("examples/lagrange_top.toml", &["--time", "0.5"]),
-        ("examples/so21_by_brackets.toml", &["--time", "1"]),
-        (su2.as_str(), &[]),
-        (mixed.as_str(), &[]),
+        "examples/lagrange_top.toml --time 0.5",
+        "examples/so21_by_brackets.toml --time 1",
+        "su2.toml",
+        "mixed.toml",
     ] {
-        for name in ["run.csv", "run.npy"] {
-            let out = folder.name(name);
-            simulate(&[&[system], more].concat(), &out);
-            let found = right(&[&out]);
-            assert!(found["momentum"].as_f64().unwrap() <= 1.0, "{system}: {found}");
-            assert!(found["group_element"].as_f64().unwrap() > 0.0, "{system}: {found}");
+        for out in ["run.csv", "run.npy"] {
+            folder.run(&format!("simulate {run} --out {out}")).ok();
+            let found = right(&folder, out);
+            assert!(found["momentum"].as_f64().unwrap() <= 1.0, "{run}: {found}");
+            assert!(found["group_element"].as_f64().unwrap() > 0.0, "{run}: {found}");
         }
     }
 }
 
 #[test]
 fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
-    let folder = Folder::new();
-    let out = folder.name("run.csv");
-    simulate(&[BODY, "--time", "10"], &out);
-    let judged = |n: &str| {
-        let (code, out, error) = run(&["verify", &out, "--sample", n, "--format", "json"]);
-        assert_eq!(code, 0, "{error}");
-        serde_json::from_str::<Value>(&out).unwrap()
-    };
-    let few = judged("7");
+    let folder = place("--time 10");
+    let few = folder.json("verify run.csv --sample 7");
     assert_eq!((few["rows"].as_u64(), few["steps"].as_u64()), (Some(7), Some(7)), "{few}");
     assert_eq!(few["not_sampled"], 93);
     assert_eq!(few["verdict"], "no row of the sample is wrong");
     // All rows are no sample.
-    let all = judged("1000");
-    assert_eq!((all["rows"].as_u64(), &all["verdict"]), (Some(100), &"no row is wrong".into()));
+    assert_eq!(right(&folder, "run.csv --sample 1000")["rows"], 100);
     // The last row is always in it; of the element of a row that is not in it nothing is said.
-    let text = std::fs::read_to_string(&out).unwrap();
+    let text = folder.text("run.csv");
     for (line, code) in [(101, 1), (50, 0)] {
-        std::fs::write(&out, changed(&text, line, 4, &|x| x + 1e-9)).unwrap();
-        assert_eq!(run(&["verify", &out, "--sample", "1"]).0, code, "line {line}");
-        assert_eq!(run(&["verify", &out]).0, 1, "line {line}");
+        folder.write("run.csv", changed(&text, line, 4, &|x| x + 1e-9));
+        folder.run("verify run.csv --sample 1").fails(code, &[]);
+        folder.run("verify run.csv").fails(1, &[]);
     }
-    said(&[&out, "--sample", "0"], 2, &["--sample"]);
+    folder.refused(&[("verify run.csv --sample 0", "--sample")]);
 }
 
 #[test]
 fn a_report_is_judged_from_its_start_to_its_end() {
     let folder = Folder::new();
-    let out = folder.name("report.json");
-    let written = |more: &[&str]| {
-        let arguments = ["simulate", BODY, "--time", "10", "--format", "json"];
-        let report = json(&[&arguments, more].concat());
-        std::fs::write(&out, report.to_string()).unwrap();
-        report
-    };
-    let mut report = written(&[]);
-    assert_eq!(right(&[&out])["steps"], 100);
+    let report = |more: &str| folder.json(&format!("simulate {BODY} --time 10 {more}"));
+    let write = |report: &Value| folder.write("report.json", report.to_string());
+    let mut report_of_one = report("");
+    write(&report_of_one);
+    assert_eq!(right(&folder, "report.json")["steps"], 100);
     // Several runs, one of them another method's.
-    written(&["--truncation", "3,5", "--compare", "rk45"]);
-    assert_eq!(right(&[&out]).as_array().unwrap().len(), 2);
+    write(&report("--truncation 3,5 --compare rk45"));
+    assert_eq!(right(&folder, "report.json").as_array().unwrap().len(), 2);
     // One a line.
-    std::fs::write(&out, format!("{report}\n{report}\n")).unwrap();
-    assert_eq!(right(&[&out]).as_array().unwrap().len(), 2);
-    let place = "row 2, time 10";
-    let z = report["momentum"][2].as_f64().unwrap();
-    report["momentum"][2] = (z + 1e-10).into();
-    std::fs::write(&out, report.to_string()).unwrap();
-    said(&[&out], 1, &[place]);
-    report["momentum"][2] = z.into();
-    let g = report["group_element_blocks"][0]["matrix"][1][2].as_f64().unwrap();
-    report["group_element_blocks"][0]["matrix"][1][2] = (g + 1e-9).into();
-    std::fs::write(&out, report.to_string()).unwrap();
-    said(&[&out], 1, &[place]);
-    std::fs::write(&out, "[1, 2").unwrap();
-    said(&[&out], 2, &["no JSON"]);
-    std::fs::write(&out, "{}").unwrap();
-    said(&[&out], 2, &["no report of `simulate --format json`"]);
+    folder.write("report.json", format!("{report_of_one}\n{report_of_one}\n"));
+    assert_eq!(right(&folder, "report.json").as_array().unwrap().len(), 2);
+    for (pointer, change) in [("/momentum/2", 1e-10), ("/group_element_blocks/0/matrix/1/2", 1e-9)]
+    {
+        let number = report_of_one.pointer_mut(pointer).unwrap();
+        let before = number.clone();
+        *number = (before.as_f64().unwrap() + change).into();
+        write(&report_of_one);
+        wrong(&folder, "report.json", "row 2, time 10");
+        *report_of_one.pointer_mut(pointer).unwrap() = before;
+    }
+    for (text, word) in [("[1, 2", "no JSON"), ("{}", "no report of `simulate --format json`")] {
+        folder.write("report.json", text);
+        folder.refused(&[("verify report.json", word)]);
+    }
 }
 
 #[test]
 fn what_was_changed_is_found_where_it_is() {
-    let folder = Folder::new();
-    let out = folder.name("run.csv");
-    simulate(&[BODY, "--time", "3"], &out);
-    right(&[&out]);
-    let text = std::fs::read_to_string(&out).unwrap();
-    let names: Vec<&str> =
-        text.lines().find(|line| !line.starts_with('#')).unwrap().split(',').collect();
-    let column = |name: &str| names.iter().position(|known| *known == name).unwrap();
+    let folder = place("--time 3");
+    right(&folder, "run.csv");
+    let text = folder.text("run.csv");
+    let names = folder.table("run.csv").remove(0);
+    let column = |name: &str| names.iter().position(|known| known == name).unwrap();
     type Change<'a> = (usize, usize, &'a dyn Fn(f64) -> f64, &'a str);
     let changes: [Change<'_>; 5] = [
         (12, 1, &|x| x + 1e-12, "row 12, time 1.1"),
@@ -163,178 +141,146 @@ fn what_was_changed_is_found_where_it_is() {
         (12, 2, &|_| f64::NAN, "row 12, time 1.1"),
     ];
     for (line, column, change, words) in changes {
-        std::fs::write(&out, changed(&text, line, column, change)).unwrap();
-        said(&[&out], 1, &[words]);
+        folder.write("run.csv", changed(&text, line, column, change));
+        wrong(&folder, "run.csv", words);
     }
     // A row is gone.
     let gone: Vec<&str> = text.lines().filter(|line| !line.starts_with("1.5,")).collect();
-    std::fs::write(&out, gone.join("\n")).unwrap();
-    said(&[&out], 1, &["there are 30 rows, and the file says that it has 31"]);
+    folder.write("run.csv", gone.join("\n"));
+    wrong(&folder, "run.csv", "there are 30 rows, and the file says that it has 31");
     // A matrix without names.
-    let out = folder.name("run.npy");
-    simulate(&[BODY, "--time", "3"], &out);
-    right(&[&out]);
-    let mut bytes = std::fs::read(&out).unwrap();
+    folder.run(&format!("simulate {BODY} --time 3 --out run.npy")).ok();
+    right(&folder, "run.npy");
+    let mut bytes = folder.bytes("run.npy");
     let place = 128 + 8 * (12 * names.len() + 2);
     let value = f64::from_le_bytes(bytes[place..place + 8].try_into().unwrap());
     bytes[place..place + 8].copy_from_slice(&(value * (1.0 + 1e-11)).to_le_bytes());
-    std::fs::write(&out, &bytes).unwrap();
-    said(&[&out], 1, &["row 13, time 1.2"]);
-    bytes.truncate(1000);
-    std::fs::write(&out, &bytes).unwrap();
-    said(&[&out], 2, &["its shape [31, 17] needs more than the 872 bytes"]);
+    folder.write("run.npy", &bytes);
+    wrong(&folder, "run.npy", "row 13, time 1.2");
+    folder.write("run.npy", &bytes[..1000]);
+    folder.refused(&[("verify run.npy", "its shape [31, 17] needs more than the 872 bytes")]);
 }
 
 /// Only runs of the exact series of the system file as it is can be judged; all others are refused by name.
 #[test]
 fn what_cannot_be_judged_is_refused() {
     let folder = Folder::new();
-    let out = folder.name("run.csv");
-    simulate(&["examples/satellite.toml", "--time", "1"], &out);
-    said(&[&out], 2, &["a system with a potential is not judged"]);
+    let refused = |word: &str| folder.refused(&[("verify run.csv", word)]);
+    let simulate = |run: &str| folder.run(&format!("simulate {run} --out run.csv")).ok();
+    simulate("examples/satellite.toml --time 1");
+    refused("a system with a potential is not judged");
     // Earlier versions made such runs.
-    simulate(&[BODY, "--time", "3"], &out);
     for (entry, refusal) in [("tuned: true", "was tuned"), ("fitted: 10", "was fitted")] {
-        let text = std::fs::read_to_string(&out).unwrap().replacen(
-            "# steps:",
-            &format!("# {entry}\n# steps:"),
-            1,
-        );
-        std::fs::write(&out, text).unwrap();
-        said(&[&out], 2, &[refusal]);
-        simulate(&[BODY, "--time", "3"], &out);
+        simulate(&format!("{BODY} --time 3"));
+        let text = folder.text("run.csv");
+        folder.write("run.csv", text.replacen("# steps:", &format!("# {entry}\n# steps:"), 1));
+        refused(refusal);
     }
-    let system = folder.name("body.toml");
-    std::fs::copy(root().join(BODY), &system).unwrap();
-    simulate(&[&system, "--time", "3"], &out);
-    right(&[&out]);
-    let text =
-        std::fs::read_to_string(&system).unwrap().replace("I1 = 1.5", "I1 = 1.6") + "\n# another\n";
-    std::fs::write(&system, text).unwrap();
-    said(&[&out], 2, &["is not the system file of this run"]);
+    let system = text_of(BODY);
+    folder.write("body.toml", &system);
+    simulate("body.toml --time 3");
+    right(&folder, "run.csv");
+    folder.write("body.toml", system.replace("I1 = 1.5", "I1 = 1.6") + "\n# another\n");
+    refused("is not the system file of this run");
     // A file that is no run, and a run without a row, are refused.
-    std::fs::write(&out, "time,x,y,z\n").unwrap();
-    said(&[&out], 2, &["does not say of which system it is"]);
-    said(&[BODY, &out], 3, &["not verified", "the file has no rows"]);
+    folder.write("run.csv", "time,x,y,z\n");
+    refused("does not say of which system it is");
+    folder
+        .run(&format!("verify {BODY} run.csv"))
+        .fails(3, &["not verified", "the file has no rows"]);
 }
 
 /// A part of a run is right as far as it goes, and is said to be a part.
 #[test]
 fn a_part_is_said_to_be_one() {
-    let folder = Folder::new();
-    let (whole, part) = (folder.name("t.csv"), folder.name("t.csv.partial"));
-    simulate(&[BODY, "--time", "3"], &whole);
+    let folder = place("--time 3");
     // As a run that is interrupted leaves it.
-    let text = std::fs::read_to_string(&whole).unwrap();
+    let text = folder.text("run.csv");
     let kept: Vec<&str> = text.lines().take_while(|line| !line.starts_with("1.5,")).collect();
-    std::fs::write(&part, kept.join("\n") + "\n# part: interrupted at time 1.4\n").unwrap();
-    let (code, said, error) = run(&["verify", &part]);
-    assert_eq!(code, 0, "{said}{error}");
-    assert!(said.contains("the file is a part of a run: interrupted at time 1.4"), "{said}");
+    folder.write("t.csv.partial", kept.join("\n") + "\n# part: interrupted at time 1.4\n");
+    let found = folder.run("verify t.csv.partial").ok();
+    found.prints(&["the file is a part of a run: interrupted at time 1.4"]);
 }
 
 /// Momenta that grow by tens of orders on a group that is not compact: no right row is called wrong.
 #[test]
 fn growing_momenta_are_judged_as_far_as_can_be() {
-    let folder = Folder::new();
-    let system = folder.write(
-        "system.toml",
+    let folder = Folder::with(
         "group = \"SL2\"\nhamiltonian = \"mu[0]^2/2+mu[1]*mu[2]\"\n[integrator]\ntruncation = 3\n\
          step = 0.1\n[initial]\nmomentum = [1,0.5,0.5]\n[run]\ntime = 10000\n",
     );
-    let out = folder.name("t.csv");
-    assert_eq!(run(&["simulate", &system, "--out", &out]).0, 1);
-    let (code, found, error) = run(&["verify", &format!("{out}.partial")]);
-    assert!(code == 0 || code == 3, "{found}{error}");
-    simulate(&[&system, "--time", "4"], &out);
-    right(&[&out]);
+    folder.run("simulate system.toml --out t.csv").fails(1, &[]);
+    let found = folder.run("verify t.csv.partial");
+    assert!(found.code == 0 || found.code == 3, "{found:?}");
+    folder.run("simulate system.toml --time 4 --out t.csv").ok();
+    right(&folder, "t.csv");
 }
 
 /// The end states of rows that were advanced, by momenta and attitudes in two forms.
 #[test]
 fn ensembles_are_judged_from_their_starts() {
     let folder = Folder::new();
-    let (states, out) = (folder.name("states.csv"), folder.name("ends.csv"));
-    let rows = "mu_1,name,mu_2,mu_3,q_w,q_x,q_y,q_z\n2.0,\"a, b\",0.5,1.0,1,0,0,0\n1.0,c,0.5,-1.0,0.6,0,0.8,0\n\
-                NaN,d,0,0,1,0,0,0\n0.1,e,0.2,0.3,0,0,0,1\n";
-    std::fs::write(&states, rows).unwrap();
-    let advance = |out: &str| {
-        let (code, _, error) = run(&[
-            "ensemble",
-            BODY,
-            "--initial",
-            &states,
-            "--out",
-            out,
-            "--time",
-            "5",
-            "--step",
-            "0.1",
-        ]);
-        assert_eq!(code, 0, "{error}");
-    };
-    advance(&out);
-    let judged = [BODY, out.as_str(), "--input", &states, "--steps", "50", "--step", "0.1"];
-    let found = right(&judged);
+    folder.write(
+        "states.csv",
+        "mu_1,name,mu_2,mu_3,q_w,q_x,q_y,q_z\n2.0,\"a, b\",0.5,1.0,1,0,0,0\n1.0,c,0.5,-1.0,0.6,0,0.8,0\n\
+         NaN,d,0,0,1,0,0,0\n0.1,e,0.2,0.3,0,0,0,1\n",
+    );
+    let states = format!("{BODY} --initial states.csv --time 5 --step 0.1");
+    folder.run(&format!("ensemble {states} --out ends.csv")).ok();
+    let judged = format!("{BODY} ends.csv --input states.csv --step 0.1 --steps");
+    let fifty = format!("{judged} 50");
+    let found = right(&folder, &fifty);
     assert!(found["rows"] == 3 && found["refused"] == 1 && found["steps"] == 150, "{found}");
-    let text = std::fs::read_to_string(&out).unwrap();
-    std::fs::write(&out, changed(&text, 2, 2, &|x| x + 1e-10)).unwrap();
-    said(&judged, 1, &["row 2: "]);
-    std::fs::write(&out, changed(&text, 4, 5, &|x| x + 1e-8)).unwrap();
-    said(&judged, 1, &["row 4: "]);
+    let text = folder.text("ends.csv");
+    for (row, column, change) in [(2, 2, 1e-10), (4, 5, 1e-8)] {
+        folder.write("ends.csv", changed(&text, row, column, &|x| x + change));
+        wrong(&folder, &fifty, &format!("row {row}: "));
+    }
     // A row that the run does not list as refused has an end.
-    std::fs::write(&out, &text).unwrap();
-    std::fs::remove_file(format!("{out}.rejected.csv")).unwrap();
-    said(&judged, 1, &["row 3: a number is not finite"]);
+    folder.write("ends.csv", &text);
+    let list = folder.bytes("ends.csv.rejected.csv");
+    folder.remove("ends.csv.rejected.csv");
+    wrong(&folder, &fifty, "row 3: a number is not finite");
     // Rows are counted.
-    let short: Vec<&str> = text.lines().take(4).collect();
-    std::fs::write(&out, short.join("\n")).unwrap();
-    advance(&folder.name("again.csv"));
-    std::fs::copy(folder.name("again.csv.rejected.csv"), format!("{out}.rejected.csv")).unwrap();
-    said(&judged, 1, &["the input has more than the 3 rows of the output"]);
+    folder.write("ends.csv.rejected.csv", list);
+    folder.write("ends.csv", text.lines().take(4).collect::<Vec<_>>().join("\n"));
+    wrong(&folder, &fifty, "the input has more than the 3 rows of the output");
     // Another number of steps leads elsewhere.
-    std::fs::write(&out, &text).unwrap();
-    let other = [BODY, out.as_str(), "--input", &states, "--steps", "49", "--step", "0.1"];
-    said(&other, 1, &["row 1: the momentum is off"]);
+    folder.write("ends.csv", &text);
+    wrong(&folder, &format!("{judged} 49"), "row 1: the momentum is off");
 }
 
 /// A row of numbers so large that the judge has none for what follows is not right, and not wrong.
 #[test]
 fn what_the_judge_cannot_tell_is_no_success() {
     let folder = Folder::new();
-    let (states, out) = (folder.name("states.csv"), folder.name("ends.csv"));
-    let text = "mu_1,mu_2,mu_3\n1e300,0,0\n";
-    std::fs::write(&states, text).unwrap();
-    std::fs::write(&out, text).unwrap();
-    let judged = [BODY, out.as_str(), "--input", &states, "--steps", "1", "--step", "0.1"];
-    said(&judged, 3, &["not verified: 1 rows could not be judged", "row 1"]);
+    folder.write("states.csv", "mu_1,mu_2,mu_3\n1e300,0,0\n");
+    folder
+        .run(&format!("verify {BODY} states.csv --input states.csv --steps 1 --step 0.1"))
+        .fails(3, &["not verified: 1 rows could not be judged", "row 1"]);
 }
 
 #[cfg(feature = "parquet")]
 #[test]
 fn parquet_files_are_judged_too() {
     let folder = Folder::new();
-    let (states, out) = (folder.name("states.csv"), folder.name("ends.parquet"));
-    std::fs::write(&states, "mu_1,mu_2,mu_3\n2.0,0.5,1.0\n1.0,0.5,-1.0\n").unwrap();
-    let advance = |states: &str, out: &str| {
-        let arguments = ["ensemble", BODY, "--initial", states, "--out", out, "--time", "5"];
-        assert_eq!(run(&arguments).0, 0);
-    };
-    advance(&states, &out);
-    let judged = [BODY, out.as_str(), "--input", &states, "--steps", "50", "--step", "0.1"];
-    right(&judged);
-    // The ends of other starts.
-    let other = folder.name("other.csv");
-    std::fs::write(&other, "mu_1,mu_2,mu_3\n2.0,0.5,1.0\n1.0,0.5,-1.0000000001\n").unwrap();
-    advance(&other, &out);
-    said(&judged, 1, &["row 2: "]);
+    let judged = format!("{BODY} ends.parquet --input states.csv --steps 50 --step 0.1");
+    // The ends of the starts, and of others.
+    for (file, last) in [("states.csv", "-1.0"), ("other.csv", "-1.0000000001")] {
+        folder.write(file, format!("mu_1,mu_2,mu_3\n2.0,0.5,1.0\n1.0,0.5,{last}\n"));
+        folder.run(&format!("ensemble {BODY} --initial {file} --out ends.parquet --time 5")).ok();
+        match file {
+            "states.csv" => drop(right(&folder, &judged)),
+            _ => wrong(&folder, &judged, "row 2: "),
+        }
+    }
 }
 
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn parquet_files_need_the_feature() {
     let folder = Folder::new();
-    let out = folder.name("ends.parquet");
-    std::fs::write(&out, "").unwrap();
-    said(&[BODY, &out], 2, &["without the feature `parquet`"]);
+    folder.write("ends.parquet", "");
+    let verify = format!("verify {BODY} ends.parquet");
+    folder.refused(&[(&verify, "without the feature `parquet`")]);
 }

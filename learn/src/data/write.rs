@@ -14,6 +14,7 @@ use crate::error::LearnError;
 use crate::function::entries;
 use crate::group::matrix_of;
 use crate::npy::npy_header;
+use crate::table::csv_lines;
 use coadjoint::LieGroup;
 
 /// Writes pairs as columns `mu_…`, `mu_next_…`, `g_…`, `g_next_…`, in the format of the ending:
@@ -51,7 +52,7 @@ pub fn write_pairs<G: LieGroup<Scalar = f64>>(
 pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let bytes = match ending.as_deref() {
-        Some("csv") => csv(columns).map_err(|error| LearnError::format(path, "CSV", error))?,
+        Some("csv") => csv(columns),
         Some("npz") => npz(columns).map_err(|error| LearnError::format(path, "NumPy", error))?,
         #[cfg(feature = "parquet")]
         Some("parquet") => {
@@ -63,14 +64,9 @@ pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
 }
 
 /// In the shortest decimal form that reads back to the same number.
-fn csv(columns: &Columns) -> Result<Vec<u8>, ::csv::Error> {
-    let mut writer = ::csv::Writer::from_writer(Vec::new());
-    writer.write_record(columns.names())?;
-    for row in 0..columns.rows() {
-        let cells = columns.values().iter().map(|column| column[row].to_string());
-        writer.write_record(cells)?;
-    }
-    writer.into_inner().map_err(|error| error.into_error().into())
+fn csv(columns: &Columns) -> Vec<u8> {
+    let cells = |row: usize| columns.values().iter().map(move |column| column[row].to_string());
+    [csv_lines([columns.names()]), csv_lines((0..columns.rows()).map(cells))].concat()
 }
 
 #[cfg(feature = "parquet")]

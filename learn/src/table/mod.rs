@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use ::csv::{ByteRecord, Position, Reader, ReaderBuilder};
+use ::csv::{ByteRecord, Position, Reader, ReaderBuilder, WriterBuilder};
 use coadjoint_codegen::diagnostic::{check_table, read_text};
 use coadjoint_codegen::file;
 use serde_json::Value;
@@ -350,6 +350,18 @@ impl Table {
     pub fn number(&self) -> u64 {
         self.next
     }
+}
+
+/// Lines of CSV; cells are in quotes where they would be read as something else without.
+#[must_use]
+pub fn csv_lines<R>(rows: impl IntoIterator<Item = R>) -> Vec<u8>
+where
+    R: IntoIterator<Item: AsRef<[u8]>>,
+{
+    let mut writer = WriterBuilder::new().comment(Some(b'#')).from_writer(Vec::new());
+    // Writing into memory cannot fail.
+    rows.into_iter().for_each(|row| drop(writer.write_record(row)));
+    writer.into_inner().unwrap_or_default()
 }
 
 /// A value of JSON as a line `# name: value` has it.

@@ -96,7 +96,7 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-fn laws_of<G: Group, C: Chart<G>>(
+fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
     system: &Derived,
     trial: &Trial,
     group: G,

@@ -114,7 +114,7 @@ impl Compiled {
         steps: f64,
         trajectories: Trajectories,
         kept: &Kept,
-    ) -> Result<Option<Self>, RunError> {
+    ) -> Result<Option<Arc<Self>>, RunError> {
         let unfit = |why: &dyn std::fmt::Display| match backend {
             Backend::Auto | Backend::Interpreter => Ok(None),
             _ => Err(RunError::Option(format!("--backend: {why}"))),
@@ -148,12 +148,17 @@ impl Compiled {
                 code
             }
         };
-        Ok(Some(Self { programs, slots, code, framed }))
+        Ok(Some(Arc::new(Self { programs, slots, code, framed })))
     }
 
     /// The backend that makes the steps.
     pub fn code(&self) -> &Code {
         &self.code
+    }
+
+    /// The backend that makes the steps now, in a few words.
+    pub fn maker(this: Option<&Self>) -> String {
+        this.map_or("interpreter", |compiled| compiled.code.maker()).to_owned()
     }
 
     /// The programs.

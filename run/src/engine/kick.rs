@@ -1,7 +1,5 @@
 //! A potential run by the interpreter, and its kicks between flows: what programs refuse, and what has none.
 
-use std::cell::RefCell;
-
 use coadjoint::groups::Chart;
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError};
@@ -13,7 +11,7 @@ use coadjoint_codegen::system::Splitting;
 use nalgebra::DVector;
 
 use super::interpreter::refusal;
-use super::{Group, Interpreter, Solves};
+use super::{Group, Interpreter, Solves, entries_of};
 
 /// The kicks of a potential.
 #[derive(Debug)]
@@ -25,11 +23,11 @@ pub struct Forces {
 }
 
 /// Makes a step of a state.
-pub type Map<'a, G> = Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + 'a>;
+pub type Map<'a, G> = Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + Send + Sync + 'a>;
 
 /// The step of this size by the generic solver: a flow, or flows and kicks. It serves where programs refuse a step, and
 /// where a system has none.
-pub fn map<'a, G: Group + 'a, C: Chart<G> + 'a>(
+pub fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     integrator: &'a Integrator,
     forces: Option<&'a Forces>,
     group: &G,
@@ -59,7 +57,7 @@ impl Forces {
     }
 
     /// The step of flows and kicks.
-    pub fn step<'a, G: Group + 'a, C: Chart<G> + 'a>(
+    pub fn step<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
         &'a self,
         integrator: &'a Integrator,
         group: &G,
@@ -95,8 +93,6 @@ pub struct Torque<'a, G> {
     kick: &'a Kick,
     group: G,
     slots: Vec<f64>,
-    /// Reused between evaluations: what programs need, and the entries of g.
-    scratch: RefCell<(Vec<f64>, Vec<f64>)>,
 }
 
 impl<'a, G: Group> Torque<'a, G> {
@@ -106,18 +102,14 @@ impl<'a, G: Group> Torque<'a, G> {
         // No coefficient holds the step size.
         let slots = FoldTable::of_kick(kick).fold(1.0, &symbols);
         let slots = slots.map_err(|error| refusal(error, 1.0, &symbols))?;
-        Ok(Self { kick, group, slots, scratch: RefCell::default() })
+        Ok(Self { kick, group, slots })
     }
 
     /// −g⁻¹dV(g).
     pub fn torque(&self, g: &G::Element) -> DVector<f64> {
-        let (scratch, entries) = &mut *self.scratch.borrow_mut();
-        let size = self.group.matrix_size();
-        let entry = |at: usize| self.group.matrix_entry(g, at / size, at % size);
-        entries.clear();
-        entries.extend((0..size * size).map(entry));
+        let entries = entries_of(&self.group, g);
         let mut result = vec![0.0; self.group.dim()];
-        graph::run(&self.kick.torque, entries, &self.slots, scratch, &mut result);
+        graph::run(&self.kick.torque, &entries, &self.slots, &mut Vec::new(), &mut result);
         DVector::from_vec(result)
     }
 }

@@ -12,7 +12,7 @@ pub trait Restore: Group {
     fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element;
 }
 
-impl<G: LieGroup<Scalar = f64, Element = DMatrix<f64>>> Restore for DirectProduct<G> {
+impl<G: LieGroup<Scalar = f64, Element = DMatrix<f64>> + Send + Sync> Restore for DirectProduct<G> {
     fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element {
         let mut first = 0;
         let factor = |factor: &G| {

@@ -1,23 +1,22 @@
-//! The trait for everything that advances rows of states.
+//! Rows of states in memory, and what advances them: by the programs where there are any, eight side by side, or one by one.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use coadjoint::groups::{Cayley, Exponential};
-use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, MatrixGroup};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::{Problem, Solver};
-use coadjoint_codegen::step;
+use coadjoint_codegen::step::{Invariants, nudge};
 use coadjoint_codegen::system::System;
 use coadjoint_native::cards::{Card, Device};
-use coadjoint_program::Precision;
+use coadjoint_program::{Precision, Trajectories};
+use rayon::prelude::*;
 
+use super::drift::{Drift, larger};
 use super::layout::{Layout, Shape};
-use super::rows::Rows;
-use super::steps::Steps;
+use super::march::{March, Way};
 use crate::backend::Backend;
-use crate::engine::{Kept, cayley_group, product_group};
+use crate::engine::{Charted, Compiled, Kept, Motion, Numbers, STEEP, card, product_group};
 use crate::error::RunError;
 
 /// The problem of an ensemble of this system.
@@ -38,57 +37,35 @@ pub fn problem_of(system: System) -> Result<Problem, RunError> {
     Ok(problem)
 }
 
-/// The largest drifts over an ensemble, each row's relative to its own [scales](coadjoint_codegen::step::Scales).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drift {
-    /// The drifts of the quantities known to be conserved; energies are not measured.
-    pub conserved: step::Drift,
-    /// Rows at whose end rounding of large numbers hides a drift.
-    pub unmeasured: u64,
-    /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
-    /// many steps), where it is worth a warning; else 0.
-    pub ratio: f64,
+/// A row that has no end state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rejected {
+    /// Its number, from 1; in a file the line of names is not counted.
+    pub row: u64,
+    /// The step that could not be made, from 1; 0 where the row itself is at fault.
+    pub step: u64,
+    /// Why.
+    pub reason: String,
 }
 
-impl Drift {
-    /// The larger of each, and the rows of both.
-    pub fn max(mut self, other: Self) -> Self {
-        self.conserved.raise(other.conserved);
-        self.unmeasured += other.unmeasured;
-        self.ratio = larger(self.ratio, other.ratio);
-        self
+/// Consecutive rows, numbers side by side.
+#[derive(Clone, Debug, Default)]
+pub struct Rows {
+    /// The number of the first one, from 1.
+    pub first: u64,
+    /// Row-major.
+    pub values: Vec<f64>,
+    /// Rows already known to be bad, ascending.
+    pub rejected: Vec<Rejected>,
+}
+
+impl Rows {
+    /// Empties it, to begin at row `first`.
+    pub fn clear(&mut self, first: u64) {
+        self.first = first;
+        self.values.clear();
+        self.rejected.clear();
     }
-}
-
-/// Something that advances rows of states.
-pub trait Engine: Sync {
-    /// The shape of a row.
-    fn shape(&self) -> Shape;
-
-    /// How many Casimirs are watched.
-    fn casimirs(&self) -> usize;
-
-    /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
-    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads.
-    ///
-    /// # Errors
-    /// Where a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
-    fn advance(
-        &self,
-        layout: &Layout,
-        steps: u64,
-        rows: &mut Rows,
-        watch: &Watch<'_>,
-    ) -> Result<Drift, RunError>;
-
-    /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
-    fn device(&self) -> Option<Use>;
-
-    /// The backend that evaluates steps now, in a few words: it may change while a compiler works.
-    fn backend(&self) -> String;
-
-    /// Notes on backends that are not available so far.
-    fn notes(&self) -> Vec<String>;
 }
 
 /// Who looks on while rows are advanced.
@@ -97,13 +74,6 @@ pub struct Watch<'a> {
     pub made: &'a dyn Fn(u64),
     /// Is looked at every few milliseconds; set it to stop.
     pub stop: &'a AtomicBool,
-}
-
-impl Watch<'_> {
-    /// Whether to stop.
-    pub fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
 }
 
 /// The device that is to make the steps.
@@ -130,26 +100,13 @@ pub struct Use {
     pub redone: u64,
 }
 
-impl Use {
-    /// The note on a device that has left this number of rows to others.
-    pub fn of(card: &Card, redone: u64) -> Self {
-        Self {
-            device: card.device(),
-            name: card.name().to_owned(),
-            precision: card.precision(),
-            processor: card.is_processor(),
-            redone,
-        }
-    }
-}
-
 impl std::fmt::Display for Use {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} ({}) in {} precision", self.device, self.name, self.precision)
     }
 }
 
-/// The backend that makes the steps.
+/// The means by which steps are made.
 #[derive(Clone, Copy, Debug)]
 pub struct How {
     /// The backend that evaluates programs.
@@ -160,31 +117,260 @@ pub struct How {
     pub device: Option<Asked>,
 }
 
-/// The engine of a system, which is called by its path in messages; what is kept of the same integrator is used again.
-///
-/// # Errors
-/// Where the step makes no sense, or the backend or device that the user named cannot be had.
-pub fn engine<'a>(
-    path: &Path,
+/// Advances rows of states of one system by steps of one size.
+pub struct Engine<'a> {
     integrator: &'a Integrator,
-    step: f64,
-    how: How,
-    kept: &Kept,
-) -> Result<Box<dyn Engine + 'a>, RunError> {
-    let group = product_group(path, &integrator.problem.algebra)?;
-    Ok(match integrator.problem.chart {
-        lie::Chart::Exponential => {
-            type On<'a> = Steps<'a, DirectProduct<MatrixGroup>, Exponential>;
-            Box::new(On::new(integrator, group, step, how, kept)?)
-        }
-        lie::Chart::Cayley => {
-            type On<'a> = Steps<'a, DirectProduct<CayleyMatrixGroup>, Cayley>;
-            Box::new(On::new(integrator, cayley_group(path, &group)?, step, how, kept)?)
-        }
-    })
+    motion: Box<dyn Motion + 'a>,
+    compiled: Option<Arc<Compiled>>,
+    card: Option<Mutex<Card>>,
+    /// Rows of which the device has refused a step.
+    redone: AtomicU64,
+    invariants: Invariants,
+    /// The numbers of the identity, where rows that give no attitude start.
+    identity: Vec<f64>,
 }
 
-/// The larger of two numbers; what is no number is larger than any.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
+impl<'a> Engine<'a> {
+    /// Of a system, which is called by its path in messages; what is kept of the same integrator is used again.
+    ///
+    /// # Errors
+    /// Where the step makes no sense, or the backend or device that the user named cannot be had.
+    pub fn new(
+        path: &Path,
+        integrator: &'a Integrator,
+        step: f64,
+        how: How,
+        kept: &Kept,
+    ) -> Result<Self, RunError> {
+        let problem = &integrator.problem;
+        let group = Charted::new(path, product_group(path, &problem.algebra)?, problem.chart)?;
+        let compiled =
+            Compiled::new(integrator, step, how.backend, how.work, Trajectories::Lanes, kept)?;
+        let card = how.device.map(|asked| card(integrator, step, asked.device, asked.precision));
+        let card = card.transpose()?.map(Mutex::new);
+        let motion = group.steps(integrator, None, step, compiled.clone());
+        let size = motion.space().size();
+        let identity = (0..size * size).map(|at| f64::from(u8::from(at / size == at % size)));
+        let identity = motion.space().numbers(&identity.collect::<Vec<_>>());
+        let (redone, invariants) = (AtomicU64::new(0), Invariants::of(&problem.algebra));
+        Ok(Self { integrator, motion, compiled, card, redone, invariants, identity })
+    }
+
+    /// The shape of a row.
+    pub fn shape(&self) -> Shape {
+        Shape::of(&self.integrator.problem.algebra)
+    }
+
+    /// How many Casimirs are watched.
+    pub fn casimirs(&self) -> usize {
+        self.invariants.casimirs.len()
+    }
+
+    /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
+    pub fn device(&self) -> Option<Use> {
+        let card = self.card.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(Use {
+            device: card.device(),
+            name: card.name().to_owned(),
+            precision: card.precision(),
+            processor: card.is_processor(),
+            redone: self.redone.load(Ordering::Relaxed),
+        })
+    }
+
+    /// The backend that evaluates steps now, in a few words: it may change while a compiler works.
+    pub fn backend(&self) -> String {
+        Compiled::maker(self.compiled.as_deref())
+    }
+
+    /// Notes on backends that are not available so far.
+    pub fn notes(&self) -> Vec<String> {
+        self.compiled.as_ref().map_or_else(Vec::new, |compiled| compiled.code().notes())
+    }
+
+    /// Rows taken at a time: enough for all threads, little enough to be noted often. A card has as many threads as rows.
+    pub fn piece(&self, width: usize, steps: u64) -> u64 {
+        if self.device().is_some_and(|by| !by.processor) {
+            return ((256 << 20) / (width as u64 * 8)).clamp(512, 1 << 20);
+        }
+        let memory = (8 << 20) / (width as u64 * 8);
+        (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
+    }
+
+    /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
+    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads.
+    ///
+    /// # Errors
+    /// Where a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
+    pub fn advance(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        rows: &mut Rows,
+        watch: &Watch<'_>,
+    ) -> Result<Drift, RunError> {
+        let width = layout.width();
+        let read: Vec<_> =
+            rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
+        let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
+        let (mut places, mut before) = (Vec::new(), Vec::new());
+        for ((place, state), row) in read.into_iter().enumerate().zip(rows.first..) {
+            match state {
+                _ if known.binary_search(&row).is_ok() => {}
+                Ok(state) => {
+                    places.push(place);
+                    before.push(state);
+                }
+                Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
+            }
+        }
+        let ways = self.march(before.clone(), steps, watch)?;
+        if watch.stop.load(Ordering::Relaxed) {
+            return Err(RunError::Halted { time: 0.0, step: 0 });
+        }
+        rows.values.fill(f64::NAN);
+        // The row at the end and its drift, or the step that was not made and why.
+        let end = |(before, way): (&Numbers, &Way)| {
+            if let Some((step, error)) = &way.stopped {
+                return Err((step + 1, error.to_string()));
+            }
+            let mut row = vec![0.0; width];
+            let (mu, attitude) = row.split_at_mut(before.mu.len());
+            mu.copy_from_slice(&way.state.mu);
+            if !attitude.is_empty() {
+                layout.write_attitude(&self.motion.space().matrix(&way.state.g), attitude);
+            }
+            check(layout, &row).map_err(|what| (steps, format!("{what} at the end")))?;
+            Ok((row, self.drift(before, &way.state)))
+        };
+        let ends: Vec<_> = before.par_iter().zip(&ways).map(end).collect();
+        let ratio = ways.iter().map(|way| way.ratio).fold(0.0, larger);
+        let ratio = if ratio <= STEEP { 0.0 } else { ratio };
+        let mut largest = Drift { ratio, ..Drift::default() };
+        for (place, end) in places.into_iter().zip(ends) {
+            match end {
+                Ok((row, drift)) => {
+                    rows.values[place * width..][..width].copy_from_slice(&row);
+                    largest = largest.max(drift);
+                }
+                Err((step, reason)) => {
+                    let row = rows.first + place as u64;
+                    rows.rejected.push(Rejected { row, step, reason });
+                }
+            }
+        }
+        rows.rejected.sort_by_key(|r| r.row);
+        Ok(largest)
+    }
+
+    /// Advances all rows in place, piece by piece. Rows that fail become NaN and are told. The watch is told the steps of
+    /// all rows together.
+    ///
+    /// # Errors
+    /// As [`Engine::advance`].
+    pub fn advance_all(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        values: &mut [f64],
+        watch: &Watch<'_>,
+    ) -> Result<(Vec<Rejected>, Drift), RunError> {
+        let width = layout.width();
+        let length = self.piece(width, steps) as usize;
+        let mut rows = Rows::default();
+        let (mut rejected, mut drift) = (Vec::new(), Drift::default());
+        for (number, own) in values.chunks_mut(length * width).enumerate() {
+            let first = (number * length) as u64;
+            rows.clear(first + 1);
+            rows.values.extend_from_slice(own);
+            let count = (own.len() / width) as u64;
+            let made = |made: u64| (watch.made)(first.saturating_mul(steps) + count * made);
+            let found = self.advance(layout, steps, &mut rows, &Watch { made: &made, ..*watch })?;
+            drift = drift.max(found);
+            own.copy_from_slice(&rows.values);
+            rejected.append(&mut rows.rejected);
+        }
+        Ok((rejected, drift))
+    }
+
+    /// The state of a row, or what is wrong with it.
+    fn read(&self, layout: &Layout, row: &[f64]) -> Result<Numbers, String> {
+        check(layout, row)?;
+        let (mu, attitude) = row.split_at(layout.shape.dim);
+        let space = self.motion.space();
+        let g = match layout.read_attitude(attitude)? {
+            None => self.identity.clone(),
+            Some(matrix) => {
+                let off = |_| "the attitude is no element of the group".to_owned();
+                space.numbers(&space.nearest(&matrix).map_err(off)?)
+            }
+        };
+        Ok(Numbers { g, mu: mu.to_vec() })
+    }
+
+    /// The drifts of one row.
+    fn drift(&self, before: &Numbers, after: &Numbers) -> Drift {
+        let (invariants, space) = (&self.invariants, self.motion.space());
+        let start = invariants.start(&before.mu, &space.spatial_momentum(before), Vec::new);
+        let conserved = |state: &Numbers| {
+            invariants.conserved(&state.mu, &space.spatial_momentum(state), Vec::new)
+        };
+        let mut beside = after.clone();
+        nudge(&mut beside.g);
+        nudge(&mut beside.mu);
+        let conserved = start.measured(&conserved(after), conserved(&beside));
+        let hidden = conserved.spatial_momentum.is_none()
+            || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
+        Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
+    }
+
+    /// Makes the steps of all states.
+    fn march(
+        &self,
+        states: Vec<Numbers>,
+        steps: u64,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Way>, RunError> {
+        let march = March { motion: self.motion.as_ref(), stop: watch.stop };
+        let mut ways: Vec<Way> = states.into_par_iter().map(|state| march.way(state)).collect();
+        match &self.card {
+            None => march.march(&mut ways, steps, watch.made),
+            Some(card) => {
+                // A thread that panicked has left a whole card: its rows are its own.
+                let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
+                let redone = march.march_on(&mut card, &mut ways, steps, watch.made);
+                self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
+            }
+        }
+        Ok(ways)
+    }
+}
+
+/// Refuses a row with a number that is not finite.
+fn check(layout: &Layout, row: &[f64]) -> Result<(), String> {
+    let Some(place) = row.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+    Err(format!("{} is {}", layout.names().swap_remove(place), row[place]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::Attitude;
+    use super::*;
+
+    #[test]
+    fn no_number_that_is_not_finite_becomes_an_end_state() {
+        let shape = Shape { dim: 3, matrix_size: 3, quaternions: true };
+        let layout = Layout { shape, attitude: Attitude::Quaternion };
+        let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];
+        assert_eq!(check(&layout, &row), Ok(()));
+        for (place, value, expected) in
+            [(1, f64::NAN, "mu_2 is NaN"), (5, f64::INFINITY, "q_y is inf")]
+        {
+            let mut wrong = row;
+            wrong[place] = value;
+            assert!(check(&layout, &wrong).unwrap_err().starts_with(expected));
+        }
+        assert!(larger(f64::NAN, 1.0).is_nan() && larger(1.0, f64::NAN).is_nan());
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0)), (2.0, 2.0));
+    }
 }

@@ -7,30 +7,26 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use coadjoint::StepError;
 use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
-use coadjoint_program::WIDTH;
+use coadjoint_program::{Precision, WIDTH};
 use rayon::prelude::*;
 
-use super::engine::larger;
-use crate::engine::{Compiled, Numbers, Solves};
+use super::drift::larger;
+use crate::engine::{Motion, Numbers};
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 const STRETCH: u64 = 256;
 
 /// How steps are made.
-pub struct Manner<'a> {
-    /// By these programs, where there are any.
-    pub compiled: Option<&'a Compiled>,
-    /// Makes a step that they have refused.
-    pub rescue: &'a (dyn Fn(&mut Numbers) -> Result<Solves, StepError> + Sync),
-    /// The ratio of the last two terms of the series at a momentum, looked at after each stretch.
-    pub ratio: &'a (dyn Fn(&[f64]) -> f64 + Sync),
+pub(super) struct March<'a> {
+    /// Makes them, and is asked for the ratio of the series after each stretch.
+    pub motion: &'a dyn Motion,
     /// Where it is set, nothing more is made.
     pub stop: &'a AtomicBool,
 }
 
 /// A trajectory on its way.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub(super) struct Way {
     /// Where it is.
     pub state: Numbers,
     /// The number of the step that could not be made, from 0, and why. The state is the one before it.
@@ -39,24 +35,17 @@ pub struct Way {
     pub ratio: f64,
 }
 
-impl Manner<'_> {
+impl March<'_> {
     /// From here.
-    pub fn way(&self, state: Numbers) -> Way {
-        Way { ratio: (self.ratio)(&state.mu), state, stopped: None }
+    pub(super) fn way(&self, state: Numbers) -> Way {
+        Way { ratio: self.motion.ratio(&state.mu), state, stopped: None }
     }
 
     /// Makes steps `first` to `end` of a trajectory by itself.
     fn alone(&self, way: &mut Way, first: u64, end: u64) {
-        let made = match self.compiled {
-            Some(compiled) => {
-                compiled.advance(&mut way.state, end - first, self.rescue).map(|_| ())
-            }
-            None => (0..end - first).try_for_each(|done| {
-                (self.rescue)(&mut way.state).map(|_| ()).map_err(|error| (done, error))
-            }),
-        };
+        let made = self.motion.advance(&mut way.state, end - first);
         way.stopped = made.err().map(|(done, error)| (first + done, error));
-        way.ratio = larger(way.ratio, (self.ratio)(&way.state.mu));
+        way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
     }
 
     /// Makes steps `first` to `end` of at most [`WIDTH`] trajectories side by side. A trajectory goes alone from the step on
@@ -65,31 +54,27 @@ impl Manner<'_> {
         if self.stop.load(Ordering::Relaxed) {
             return;
         }
-        let made = match self.compiled {
-            None => [0; WIDTH],
-            Some(compiled) => {
-                // Number i of trajectory r is at `i * WIDTH + r`.
-                let beside = |of: fn(&Numbers) -> &Vec<f64>| {
-                    let mut list =
-                        vec![0.0; ways.first().map_or(0, |w| of(&w.state).len()) * WIDTH];
-                    for (lane, way) in ways.iter().enumerate() {
-                        let places = list.iter_mut().skip(lane).step_by(WIDTH);
-                        places.zip(of(&way.state)).for_each(|(place, value)| *place = *value);
-                    }
-                    list
-                };
-                let (mut g, mut mu) = (beside(|state| &state.g), beside(|state| &state.mu));
-                let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
-                let made = compiled.advance_lanes(&mut g, &mut mu, end - first, live);
-                for (lane, Way { state, .. }) in ways.iter_mut().enumerate() {
-                    for (list, own) in [(&g, &mut state.g), (&mu, &mut state.mu)] {
-                        let values = list.iter().skip(lane).step_by(WIDTH);
-                        own.iter_mut().zip(values).for_each(|(own, value)| *own = *value);
-                    }
+        let mut made = [0; WIDTH];
+        if let Some(compiled) = self.motion.lanes() {
+            // Number i of trajectory r is at `i * WIDTH + r`.
+            let beside = |of: fn(&Numbers) -> &Vec<f64>| {
+                let mut list = vec![0.0; ways.first().map_or(0, |w| of(&w.state).len()) * WIDTH];
+                for (lane, way) in ways.iter().enumerate() {
+                    let places = list.iter_mut().skip(lane).step_by(WIDTH);
+                    places.zip(of(&way.state)).for_each(|(place, value)| *place = *value);
                 }
-                made
+                list
+            };
+            let (mut g, mut mu) = (beside(|state| &state.g), beside(|state| &state.mu));
+            let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
+            made = compiled.advance_lanes(&mut g, &mut mu, end - first, live);
+            for (lane, Way { state, .. }) in ways.iter_mut().enumerate() {
+                for (list, own) in [(&g, &mut state.g), (&mu, &mut state.mu)] {
+                    let values = list.iter().skip(lane).step_by(WIDTH);
+                    own.iter_mut().zip(values).for_each(|(own, value)| *own = *value);
+                }
             }
-        };
+        }
         for (way, made) in ways.iter_mut().zip(made) {
             if way.stopped.is_none() {
                 self.alone(way, first + made, end);
@@ -98,8 +83,8 @@ impl Manner<'_> {
     }
 
     /// Makes `steps` steps of all trajectories, a stretch of each before the next, which is then told to `told`.
-    pub fn march(&self, ways: &mut [Way], steps: u64, told: &dyn Fn(u64)) {
-        let abreast = if self.compiled.is_some() { WIDTH } else { 1 };
+    pub(super) fn march(&self, ways: &mut [Way], steps: u64, told: &dyn Fn(u64)) {
+        let abreast = if self.motion.lanes().is_some() { WIDTH } else { 1 };
         let mut done = 0;
         while done < steps && !self.stop.load(Ordering::Relaxed) {
             let end = steps.min(done + STRETCH);
@@ -121,20 +106,26 @@ impl Manner<'_> {
         }
     }
 
-    /// Makes `steps` steps of all trajectories on a device. `settle` puts a state of the device's precision onto the group:
-    /// before steps that the device refuses are made here, and at the end. How many trajectories had such steps.
+    /// Makes `steps` steps of all trajectories on a device; how many of them had steps that it refused, which are made here.
     ///
-    /// In double precision the states have the bits of [`march`](Self::march).
+    /// In double precision the states have the bits of [`march`](Self::march). States of single precision are put onto the
+    /// group before steps are made here, and at the end.
     ///
     /// # Errors
     /// Where the device fails; the states are lost then.
-    pub fn march_on(
+    pub(super) fn march_on(
         &self,
         card: &mut Card,
-        settle: &(dyn Fn(&mut Numbers) + Sync),
         ways: &mut [Way],
-        (steps, told): (u64, &dyn Fn(u64)),
+        steps: u64,
+        told: &dyn Fn(u64),
     ) -> Result<u64, DeviceError> {
+        let single = card.precision() == Precision::Single;
+        let settle = |own: &mut Numbers| {
+            if single {
+                own.g = self.motion.space().settled(&own.g);
+            }
+        };
         let row = |way: &mut Way| {
             let Numbers { g, mu } = &mut way.state;
             Row { g: take(g), mu: take(mu), ..Row::default() }
@@ -162,7 +153,7 @@ impl Manner<'_> {
         ways.par_iter_mut().zip(rows).for_each(|(way, row)| {
             way.state = Numbers { g: row.g, mu: row.mu };
             settle(&mut way.state);
-            way.ratio = larger(way.ratio, (self.ratio)(&way.state.mu));
+            way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
         });
         Ok(redone.len() as u64)
     }

@@ -1,29 +1,24 @@
 //! A learned map, run by the driver of every other run.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use coadjoint::StepError;
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::steps::advance;
-use coadjoint_codegen::lie::{LieAlgebra, catalogue};
+use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::step::Invariants;
-use coadjoint_learn::{Generating, LearnError, ModelFile};
+use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 
 use super::march::Subject;
-use super::motion::{OneByOne, Steps};
 use super::recorder::{Outcome, Watched};
-use super::schedule::Schedule;
 use super::setup::Setup;
 use super::sink::Sink;
-use super::warning::Warning;
-use crate::engine::Restore;
-use crate::engine::{cayley_group, product_group};
+use super::tally::Warning;
+use crate::engine::{
+    Charted, Elements, Motion, Numbers, Restore, Solves, Space, one_by_one, product_group,
+};
 use crate::error::RunError;
-
-/// How far, relatively, a time may be from a whole number of steps.
-const WHOLE: f64 = 1e-9;
-/// The most steps of a run: beyond, the time is surely a slip.
-const MOST_STEPS: f64 = 1e12;
 
 /// The algebra of a model.
 ///
@@ -37,7 +32,7 @@ pub fn algebra_of(model: &ModelFile) -> Result<LieAlgebra, RunError> {
 }
 
 /// Follows a learned map, which is called `file` in messages and has its own step: the setup's schedule is that of
-/// [`schedule_of`].
+/// [`Schedule::of_model`](super::Schedule::of_model).
 ///
 /// # Errors
 /// Settings that make no sense, and why the run stopped.
@@ -57,54 +52,48 @@ pub fn run_model(
     let watched =
         Watched { algebra: &algebra, coordinates: &coordinates, invariants: &invariants, attitude };
     let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
-    let subject = Subject { file, setup, watched, warnings };
-    let group = product_group(file, &algebra)?;
-    match model.chart.as_str() {
-        "cayley" => follow::<_, Cayley>(cayley_group(file, &group)?, &subject, model, sink),
-        _ => follow::<_, Exponential>(group, &subject, model, sink),
+    let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
+    let group = Charted::new(file, product_group(file, &algebra)?, chart)?;
+    let motion: Box<dyn Motion + '_> = match &group {
+        Charted::Exponential(group) => Box::new(Learned::<_, Exponential>::new(group, model)),
+        Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model)),
+    };
+    let start = setup.start(file, motion.space())?;
+    Subject { setup, watched, warnings }.run(motion.as_ref(), start, sink)
+}
+
+struct Learned<'a, G: Restore, C: Chart<G>> {
+    elements: Elements<G>,
+    map: Generating<G, C, &'a Model>,
+}
+
+impl<'a, G: Restore, C: Chart<G>> Learned<'a, G, C> {
+    fn new(group: &Arc<G>, model: &'a ModelFile) -> Self {
+        let map = Generating::new((**group).clone(), &model.model);
+        Self { elements: Elements { group: group.clone(), compiled: None }, map }
     }
 }
 
-/// Whole steps of the model's own size that end at the time.
-///
-/// # Errors
-/// Where none do.
-pub fn schedule_of(time: f64, step: f64) -> Result<Schedule, RunError> {
-    let steps = (time / step).round();
-    if !(steps.is_finite() && (1.0..MOST_STEPS).contains(&steps)) {
-        return Err(RunError::Option(format!(
-            "the time {time} is no number of steps of {step}, the step the model was learned for"
-        )));
+impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
+    fn space(&self) -> &dyn Space {
+        &self.elements
     }
-    let end = steps * step;
-    if (end - time).abs() > WHOLE * time {
-        return Err(RunError::Option(format!(
-            "the time {time} is no whole number of steps of {step}, the step the model was learned \
-             for: give --time {end}"
-        )));
-    }
-    Ok(Schedule { asked: step, step, steps: steps as u64, end })
-}
 
-fn follow<G: Restore, C: Chart<G>>(
-    group: G,
-    subject: &Subject<'_>,
-    model: &ModelFile,
-    sink: &mut dyn Sink,
-) -> Result<Outcome, RunError> {
-    let map = Generating::<G, C, _>::new(group.clone(), &model.model);
-    let step = |_, phase: &mut _| {
-        let report = advance(&map, phase)?;
-        Ok(Some((report.iterations, report.residual)))
-    };
-    let steps = Steps {
-        group: &group,
-        schedule: &subject.setup.schedule,
-        step: &step,
-        // Times between steps are refused: a learned map has one step.
-        side: &|_, part, _| Err(StepError::InvalidStep { step: part }),
-        ratio: &|_| 0.0,
-    };
-    let start = subject.setup.start(subject.file, &group)?;
-    subject.run(&mut OneByOne::new(steps, start), sink)
+    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)> {
+        one_by_one(count, || {
+            let mut phase = self.elements.phase(state);
+            let report = advance(&self.map, &mut phase)?;
+            *state = self.elements.state(&phase);
+            Ok(Some((report.iterations, report.residual)))
+        })
+    }
+
+    /// A learned map has one step.
+    fn beside(&self, _: &Numbers, size: f64) -> Result<Numbers, StepError> {
+        Err(StepError::InvalidStep { step: size })
+    }
+
+    fn ratio(&self, _: &[f64]) -> f64 {
+        0.0
+    }
 }

@@ -1,15 +1,12 @@
-//! The steps of a run: they are made one after the other, measured, and passed to the outlet.
+//! The steps of a run: they are made one after the other, measured, and passed to the sink.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::motion::Motion;
 use super::recorder::{Outcome, Recorder, Watched};
 use super::setup::Setup;
-use super::sink::{Record, Resume, Sink, Standing};
-use super::tally::Moment;
-use super::warning::Warning;
-use crate::engine::Numbers;
+use super::sink::{Record, Resume, Sink};
+use super::tally::{Moment, Warning};
+use crate::engine::{Motion, Numbers};
 use crate::error::RunError;
 
 /// The number of moments at which the drift is measured in a run of which no records are kept.
@@ -28,11 +25,8 @@ impl Pace {
     }
 }
 
-/// A run as its driver knows it: of a system, or of a learned map.
-#[derive(Clone)]
+/// A run of a system, or of a learned map.
 pub(crate) struct Subject<'a> {
-    /// The name of the system in messages.
-    pub file: &'a Path,
     /// From where, how far, in which steps.
     pub setup: &'a Setup,
     /// The quantities that are watched.
@@ -44,7 +38,8 @@ pub(crate) struct Subject<'a> {
 /// A run that is going on.
 struct March<'a> {
     setup: &'a Setup,
-    motion: &'a mut dyn Motion,
+    motion: &'a dyn Motion,
+    state: Numbers,
     sink: &'a mut dyn Sink,
     recorder: Recorder<'a>,
     /// Steps made.
@@ -62,14 +57,15 @@ impl Subject<'_> {
     /// # Errors
     /// Why the run stopped.
     pub(crate) fn run(
-        &self,
-        motion: &mut dyn Motion,
+        self,
+        motion: &dyn Motion,
+        state: Numbers,
         sink: &mut dyn Sink,
     ) -> Result<Outcome, RunError> {
-        let setup = self.setup;
-        self.warnings.iter().for_each(|warning| sink.warn(&warning.text()));
-        let mut recorder = Recorder::new(self.watched, &*motion, motion.state());
-        let moment = recorder.visit(0.0, &*motion, motion.state());
+        let Self { setup, watched, warnings } = self;
+        warnings.iter().for_each(|warning| sink.warn(&warning.text()));
+        let mut recorder = Recorder::new(watched, motion.space(), &state);
+        let moment = recorder.visit(0.0, motion.space(), &state);
         let moment = moment.map_err(|what| RunError::Run { time: 0.0, step: 0, what })?;
         let found = sink.begin(&recorder.begun());
         let found = found.map_err(|_| RunError::Halted { time: 0.0, step: 0 })?;
@@ -79,7 +75,8 @@ impl Subject<'_> {
             Some(_) if setup.recording => every,
             _ => every * steps.div_ceil(every.saturating_mul(LOOKS)).max(1),
         };
-        let mut march = March { setup, motion, sink, recorder, n: 0, moment, times: 0, interval };
+        let (n, times) = (0, 0);
+        let mut march = March { setup, motion, state, sink, recorder, n, moment, times, interval };
         match found {
             None => march.record()?,
             Some(resume) => march.resume(resume)?,
@@ -90,10 +87,10 @@ impl Subject<'_> {
             march.record()?;
             march.pause()?;
         }
-        let March { recorder, motion, moment, .. } = march;
+        let March { recorder, state, moment, .. } = march;
         let end = (steps, setup.schedule.end);
-        let mut outcome = recorder.finish(end, &*motion, motion.state(), &moment);
-        outcome.warnings.splice(0..0, self.warnings.iter().cloned());
+        let mut outcome = recorder.finish(end, motion.space(), &state, &moment);
+        outcome.warnings.splice(0..0, warnings);
         Ok(outcome)
     }
 }
@@ -102,19 +99,19 @@ impl March<'_> {
     /// Puts the state of an earlier run in place.
     fn resume(&mut self, resume: Resume) -> Result<(), RunError> {
         let Resume { step, momentum, element, times, tally } = resume;
-        let Numbers { g, mu } = self.motion.state();
+        let Numbers { g, mu } = &self.state;
         let fits = (g.len(), mu.len()) == (element.len(), momentum.len());
         if !fits || step > self.setup.schedule.steps {
             return Err(RunError::Option("the state is none of this system".into()));
         }
-        self.motion.place(Numbers { g: element, mu: momentum });
+        self.state = Numbers { g: element, mu: momentum };
         (self.n, self.times, self.recorder.tally) = (step, times, tally);
         self.moment = self.measure()?;
         Ok(())
     }
 
     fn measure(&self) -> Result<Moment, RunError> {
-        let measured = self.recorder.measure(&*self.motion, self.motion.state());
+        let measured = self.recorder.measure(self.motion.space(), &self.state);
         measured.map_err(|what| self.stuck(what))
     }
 
@@ -123,10 +120,10 @@ impl March<'_> {
         let schedule = &self.setup.schedule;
         let (first, next) = (self.n, self.next_look());
         let count = (next - first).min(pace.0);
-        let ratio = if self.watched() { self.motion.ratio() } else { 0.0 };
+        let ratio = if self.watched() { self.motion.ratio(&self.state.mu) } else { 0.0 };
         // Where records come more often than the driver must, none of its time goes into clocks.
         let begun = (count == pace.0).then(Instant::now);
-        let made = self.motion.advance(first, count);
+        let made = self.motion.advance(&mut self.state, count);
         let made = made.map_err(|(done, source)| RunError::Run {
             time: schedule.time(first + done),
             step: first + done + 1,
@@ -146,7 +143,7 @@ impl March<'_> {
         // Times of `--at` change no report of the drift.
         if self.watched() {
             let time = schedule.time(self.n);
-            let seen = self.recorder.visit(time, &*self.motion, self.motion.state());
+            let seen = self.recorder.visit(time, self.motion.space(), &self.state);
             self.moment = seen.map_err(|what| self.stuck(what))?;
         } else if self.n == next {
             self.moment = self.measure()?;
@@ -184,7 +181,7 @@ impl March<'_> {
         let here = schedule.time(n);
         // Pictures show moments at which the drift is measured.
         if self.watched() {
-            self.sink.look(here, &self.motion.state().mu, &self.moment);
+            self.sink.look(here, &self.state.mu, &self.moment);
         }
         if !setup.recording {
             return Ok(());
@@ -204,10 +201,10 @@ impl March<'_> {
                     self.write(time, None)?;
                 }
                 let failed = |time, what| RunError::Run { time, step: n, what };
-                let state = self.motion.beside(here, part);
+                let state = self.motion.beside(&self.state, part);
                 let state = state
                     .map_err(|source| failed(here, format!("the record at {time}: {source}")))?;
-                let moment = self.recorder.measure(&*self.motion, &state);
+                let moment = self.recorder.measure(self.motion.space(), &state);
                 let moment = moment.map_err(|what| failed(time, what))?;
                 self.write(time, Some((&state, moment)))?;
             }
@@ -218,26 +215,26 @@ impl March<'_> {
 
     /// Hands out a record: of the state of the grid, or of one beside it.
     fn write(&mut self, time: f64, beside: Option<(&Numbers, Moment)>) -> Result<(), RunError> {
-        let motion = &*self.motion;
-        let (state, moment) = beside.unwrap_or((motion.state(), self.moment));
+        let space = self.motion.space();
+        let (state, moment) = beside.unwrap_or((&self.state, self.moment));
         let record = Record {
             time,
             momentum: &state.mu,
-            element: &|| self.recorder.entries(motion, state),
+            element: &|| self.recorder.entries(space, state),
             moment,
-            spatial_momentum: &|| motion.spatial_momentum(state),
+            spatial_momentum: &|| space.spatial_momentum(state),
         };
         let taken = self.sink.record(&record);
         taken.map_err(|_| self.halted())
     }
 
     fn pause(&mut self) -> Result<(), RunError> {
-        let Self { motion, recorder, n, times, .. } = self;
-        let state = || {
-            let Numbers { g, mu } = motion.state().clone();
+        let Self { state, recorder, n, times, .. } = self;
+        let resume = || {
+            let Numbers { g, mu } = state.clone();
             Resume { step: *n, momentum: mu, element: g, times: *times, tally: recorder.tally }
         };
-        let paused = self.sink.pause(&Standing { step: *n, state: &state });
+        let paused = self.sink.pause(*n, &resume);
         paused.map_err(|_| self.halted())
     }
 

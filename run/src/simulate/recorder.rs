@@ -5,12 +5,10 @@ pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, nudge};
 
 use super::blocks::{Block, blocks};
-use super::motion::Space;
 use super::sink::Begun;
-use super::tally::{Moment, Solver, Tally};
-use super::warning::{Steep, Warning};
+use super::tally::{Moment, Solver, Steep, Tally, Warning};
 use crate::backend::Used;
-use crate::engine::{Numbers, STEEP};
+use crate::engine::{Numbers, STEEP, Space};
 use crate::number::maximum;
 
 /// The outcome of a run.
@@ -38,8 +36,8 @@ pub struct Outcome {
     pub scales: Scales,
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
     pub unmeasured: [Option<f64>; 3],
-    /// The reasons for drifts that are `None`.
-    pub unknown: Unknown,
+    /// The reasons for drifts that there are not: of the spatial momentum, the Casimirs, the energy.
+    pub unknown: [Option<&'static str>; 3],
     /// How many Casimirs were watched.
     pub casimirs: usize,
     /// Whether a potential breaks the symmetry.
@@ -48,17 +46,6 @@ pub struct Outcome {
     pub momenta: usize,
     /// How the solves went, where they are ours and one a step.
     pub solver: Option<Solver>,
-}
-
-/// The reasons for drifts that are `None`: of the spatial momentum, the Casimirs, the energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Unknown(pub [Option<&'static str>; 3]);
-
-impl Unknown {
-    /// Of these a drift is known at the start.
-    pub fn known(&self) -> [bool; 3] {
-        self.0.map(|why| why.is_none())
-    }
 }
 
 /// The quantities that are watched in a run.
@@ -75,24 +62,17 @@ pub struct Watched<'a> {
 }
 
 impl Watched<'_> {
-    /// Whether a potential breaks the symmetry.
-    fn potential(&self) -> bool {
-        self.invariants.potential.is_some()
-    }
-
     /// The reasons for drifts that there are not.
-    fn unknown(&self) -> Unknown {
-        let Invariants { directions, casimirs, hamiltonian, .. } = self.invariants;
+    fn unknown(&self) -> [Option<&'static str>; 3] {
+        let Invariants { directions, casimirs, hamiltonian, potential } = self.invariants;
         let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
             Some([]) => Some("not conserved: the potential breaks the symmetry"),
             _ => None,
         };
-        let none = if self.potential() { "none that the kicks keep" } else { "none known" };
+        let none = if potential.is_some() { "none that the kicks keep" } else { "none known" };
         let energy = "not known: a learned map has no Hamiltonian";
-        let (casimirs, energy) =
-            (casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy));
-        Unknown([spatial, casimirs, energy])
+        [spatial, casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy)]
     }
 }
 
@@ -101,7 +81,7 @@ pub struct Recorder<'a> {
     watched: Watched<'a>,
     blocks: Vec<Block>,
     start: Start,
-    unknown: Unknown,
+    unknown: [Option<&'static str>; 3],
     /// The maxima so far.
     pub tally: Tally,
 }
@@ -109,19 +89,14 @@ pub struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// Measures drifts against a state, which is the start.
     pub fn new(watched: Watched<'a>, space: &dyn Space, start: &Numbers) -> Self {
-        let matrix = || space.matrix(&start.g);
-        let mut recorder = Self {
-            watched,
-            blocks: blocks(watched.algebra, space.size()),
-            start: watched.invariants.start(&start.mu, &space.spatial_momentum(start), matrix),
-            unknown: watched.unknown(),
-            tally: Tally::default(),
-        };
+        let spatial = space.spatial_momentum(start);
+        let mut start = watched.invariants.start(&start.mu, &spatial, || space.matrix(&start.g));
+        let mut blocks = blocks(watched.algebra, space.size());
         if !watched.attitude {
-            recorder.blocks.clear();
-            recorder.start.conserved.momenta.clear();
+            blocks.clear();
+            start.conserved.momenta.clear();
         }
-        recorder
+        Self { watched, blocks, start, unknown: watched.unknown(), tally: Tally::default() }
     }
 
     /// The facts before the first step.
@@ -129,7 +104,7 @@ impl<'a> Recorder<'a> {
         Begun {
             coordinates: self.watched.coordinates,
             blocks: &self.blocks,
-            known: self.unknown.known(),
+            known: self.unknown.map(|why| why.is_none()),
             energy: self.watched.invariants.hamiltonian.is_some(),
             scales: &self.start.scales,
         }
@@ -167,9 +142,9 @@ impl<'a> Recorder<'a> {
         state: &Numbers,
     ) -> Result<Moment, String> {
         let moment = self.measure(space, state)?;
-        let drifts = moment.drift.numbers().into_iter().zip(self.unknown.known());
-        for (since, (drift, known)) in self.tally.unmeasured.iter_mut().zip(drifts) {
-            if known && drift.is_nan() {
+        let drifts = moment.drift.numbers().into_iter().zip(self.unknown);
+        for (since, (drift, unknown)) in self.tally.unmeasured.iter_mut().zip(drifts) {
+            if unknown.is_none() && drift.is_nan() {
                 since.get_or_insert(time);
             }
         }
@@ -223,6 +198,7 @@ impl<'a> Recorder<'a> {
         moment: &Moment,
     ) -> Outcome {
         let Tally { drift, unmeasured, solver, steep } = self.tally;
+        let invariants = self.watched.invariants;
         Outcome {
             steps,
             time,
@@ -234,8 +210,8 @@ impl<'a> Recorder<'a> {
             drift,
             unmeasured,
             unknown: self.unknown,
-            casimirs: self.watched.invariants.casimirs.len(),
-            potential: self.watched.potential(),
+            casimirs: invariants.casimirs.len(),
+            potential: invariants.potential.is_some(),
             momenta: self.start.conserved.momenta.len(),
             scales: self.start.scales,
             solver,

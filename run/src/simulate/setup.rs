@@ -1,14 +1,187 @@
-//! The settings of a run.
+//! The settings of a run: in which steps it reaches its end, from where, and what is recorded.
 
 use std::path::Path;
 
 use coadjoint::groups::ElementError;
+use coadjoint_codegen::diagnostic::read_text;
+use coadjoint_codegen::system::Run;
+use sha2::{Digest, Sha256};
 
-use super::schedule::Schedule;
-use super::times::Times;
 use crate::backend::Backend;
-use crate::engine::{Numbers, Restore, entries_of};
+use crate::engine::{Numbers, Space};
 use crate::error::RunError;
+use crate::number::shortest;
+
+/// The most steps of a run: beyond, the time is surely a slip.
+const MOST_STEPS: f64 = 1e12;
+/// T/h may be above a whole number by this, relatively, without another step: decimals of h are rounded.
+const SLACK: f64 = 1e-12;
+/// How far, relatively, a time may be from a whole number of steps whose size is fixed.
+const WHOLE: f64 = 1e-9;
+/// How many times are written out in full where a run is described.
+const LISTED: usize = 16;
+
+/// The steps of a run: a whole number of equal ones, the last of which ends at T.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schedule {
+    /// The step size asked for.
+    pub asked: f64,
+    /// The step size used: T/⌈T/h⌉ with the sign of h, or h itself where h divides T.
+    pub step: f64,
+    /// How many steps.
+    pub steps: u64,
+    /// Where the run ends: T with the sign of h.
+    pub end: f64,
+}
+
+impl Schedule {
+    /// The schedule by the options, else by the file.
+    ///
+    /// # Errors
+    /// Where the step or the time is missing or makes no sense.
+    pub fn new(
+        file: &Path,
+        step: Option<f64>,
+        time: Option<f64>,
+        run: &Run,
+    ) -> Result<Self, RunError> {
+        let missing =
+            |key, example, option| RunError::Missing { file: file.into(), key, example, option };
+        let asked = step.or(run.step);
+        let asked =
+            asked.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
+        let time = time.or(run.time);
+        let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
+        Self::of(asked, time)
+    }
+
+    /// Steps of about this size that end at this time.
+    ///
+    /// # Errors
+    /// Where the step or the time makes no sense.
+    pub fn of(asked: f64, time: f64) -> Result<Self, RunError> {
+        let refuse = |what: &str| Err(RunError::Option(what.to_owned()));
+        if asked == 0.0 || !asked.is_finite() {
+            return refuse("--step must be finite and other than zero; try --step 0.1");
+        }
+        if time <= 0.0 || !time.is_finite() {
+            return refuse("--time must be finite and positive; try --time 100");
+        }
+        let steps = (time / asked.abs() * (1.0 - SLACK)).ceil().max(1.0);
+        if steps > MOST_STEPS {
+            return refuse("more than 1e12 steps; take a larger --step or a smaller --time");
+        }
+        let rounding = 4.0 * f64::EPSILON * time;
+        let fits = (steps * asked.abs() - time).abs() <= rounding;
+        let step = if fits { asked } else { (time / steps).copysign(asked) };
+        if step == 0.0 {
+            return refuse("the time is too short to be cut into steps; take a larger --time");
+        }
+        Ok(Self { asked, step, steps: steps as u64, end: time.copysign(asked) })
+    }
+
+    /// Whole steps of the size that a model was learned for, which end at this time.
+    ///
+    /// # Errors
+    /// Where none do.
+    pub fn of_model(step: f64, time: f64) -> Result<Self, RunError> {
+        let steps = (time / step).round();
+        if !(steps.is_finite() && (1.0..MOST_STEPS).contains(&steps)) {
+            return Err(RunError::Option(format!(
+                "the time {time} is no number of steps of {step}, the step the model was learned for"
+            )));
+        }
+        let end = steps * step;
+        if (end - time).abs() > WHOLE * time {
+            return Err(RunError::Option(format!(
+                "the time {time} is no whole number of steps of {step}, the step the model was learned \
+                 for: give --time {end}"
+            )));
+        }
+        Ok(Self { asked: step, step, steps: steps as u64, end })
+    }
+
+    /// The time after `n` steps; the last is the end itself, not what rounding makes of it.
+    pub fn time(&self, n: u64) -> f64 {
+        if n == self.steps { self.end } else { n as f64 * self.step }
+    }
+
+    /// A line about the step, where another is used than was asked for.
+    pub fn announcement(&self) -> Option<String> {
+        let Self { asked, step, steps, end } = *self;
+        (step != asked).then(|| {
+            let plural = if steps == 1 { "step ends" } else { "steps end" };
+            let [step, asked, end] = [step, asked, end].map(shortest);
+            format!("step {step} in place of {asked}, so that {steps} {plural} at {end}")
+        })
+    }
+}
+
+/// The times of `--at`, each once, in the order of the run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Times(pub Vec<f64>);
+
+impl Times {
+    /// Reads `1,2.5,3` or the name of a file with numbers between commas, spaces or line ends; `#`
+    /// begins a comment there.
+    ///
+    /// # Errors
+    /// Where it is neither, or a time is not in the run.
+    pub fn read(argument: &str, schedule: &Schedule) -> Result<Self, RunError> {
+        let refuse = |what: String| RunError::Option(format!("--at {argument}: {what}"));
+        let list = argument.split(',').map(|word| word.trim().parse::<f64>());
+        let times = match list.collect::<Result<Vec<f64>, _>>() {
+            Ok(times) => times,
+            Err(_) => times_in(Path::new(argument)).map_err(refuse)?,
+        };
+        Self::new(times, schedule).map_err(refuse)
+    }
+
+    /// These times, which must be in the run.
+    ///
+    /// # Errors
+    /// Where there are none, or one is not in the run.
+    pub fn new(mut times: Vec<f64>, schedule: &Schedule) -> Result<Self, String> {
+        if times.is_empty() {
+            return Err("no times are given".into());
+        }
+        let end = schedule.end;
+        let within = |t: &f64| (0.0..=end.abs()).contains(&(t * end.signum()));
+        if let Some(outside) = times.iter().find(|time| !within(time)) {
+            let end = shortest(end);
+            return Err(format!("{outside} is not between 0 and the end, {end}"));
+        }
+        times.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        times.dedup();
+        Ok(Self(times))
+    }
+
+    /// The times in words, for the description of a run.
+    pub fn text(&self) -> String {
+        if self.0.len() <= LISTED {
+            return self.0.iter().map(|&t| shortest(t)).collect::<Vec<_>>().join(",");
+        }
+        let mut hash = Sha256::new();
+        self.0.iter().for_each(|time| hash.update(time.to_le_bytes()));
+        format!("{} times, sha256 {:x}", self.0.len(), hash.finalize())
+    }
+}
+
+fn times_in(path: &Path) -> Result<Vec<f64>, String> {
+    let text = read_text(path).map_err(|error| {
+        format!("neither numbers with commas between them nor a file that can be read ({error})")
+    })?;
+    let mut times = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default();
+        let words = line.split([',', ' ', '\t', '\r']).filter(|word| !word.is_empty());
+        for word in words {
+            let time = word.parse();
+            times.push(time.map_err(|_| format!("line {}: `{word}` is no number", number + 1))?);
+        }
+    }
+    Ok(times)
+}
 
 /// The settings of a run.
 #[derive(Clone, Debug)]
@@ -32,41 +205,59 @@ pub struct Setup {
 impl Setup {
     /// A run from this momentum and the identity, of which no records are kept.
     pub fn new(schedule: Schedule, momentum: Vec<f64>) -> Self {
-        Self {
-            schedule,
-            recording: false,
-            every: Some(1),
-            at: None,
-            backend: Backend::Auto,
-            momentum,
-            group_element: None,
-        }
+        let (recording, every, at) = (false, Some(1), None);
+        let backend = Backend::Auto;
+        Self { schedule, recording, every, at, backend, momentum, group_element: None }
     }
 
-    /// The state at the start, with the matrix of g, row by row.
+    /// The state at the start.
     ///
     /// # Errors
     /// Where the matrix given is no element of the group.
-    pub fn start<G: Restore>(&self, file: &Path, group: &G) -> Result<Numbers, RunError> {
-        let element = match &self.group_element {
-            None => group.identity(),
+    pub fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
+        let size = space.size();
+        let matrix = match &self.group_element {
+            None => {
+                (0..size * size).map(|at| if at / size == at % size { 1.0 } else { 0.0 }).collect()
+            }
+            Some(rows) if rows.len() != size || rows.iter().any(|row| row.len() != size) => {
+                return Err(RunError::Option(format!(
+                    "the group element must be a matrix of {size} rows and columns"
+                )));
+            }
             Some(rows) => {
-                let size = group.matrix_size();
-                if rows.len() != size || rows.iter().any(|row| row.len() != size) {
-                    return Err(RunError::Option(format!(
-                        "the group element must be a matrix of {size} rows and columns"
-                    )));
-                }
-                group
-                    .element_from_matrix(|i, j| rows[i][j])
-                    .map_err(|error| not_an_element(file, &error))?
+                space.nearest(&rows.concat()).map_err(|error| not_an_element(file, &error))?
             }
         };
-        Ok(Numbers { g: entries_of(group, &element), mu: self.momentum.clone() })
+        Ok(Numbers { g: space.numbers(&matrix), mu: self.momentum.clone() })
     }
 }
 
 /// The error of a matrix that is no element of the group.
-pub fn not_an_element(file: &Path, why: &ElementError) -> RunError {
+pub(crate) fn not_an_element(file: &Path, why: &ElementError) -> RunError {
     RunError::of(file)(format!("`group_element` in [initial]: {why}"))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_end_at_the_time() {
+        for (time, step, steps, used) in [
+            (50.0, 0.1, 500, 0.1),
+            (1000.0, 0.001, 1_000_000, 0.001),
+            (50.0, 0.8, 63, 50.0 / 63.0),
+            (1.0, 0.333333333333, 3, 1.0 / 3.0),
+            (1.0, 0.34, 3, 1.0 / 3.0),
+            (0.05, 0.1, 1, 0.05),
+            (50.0, -0.8, 63, -50.0 / 63.0),
+        ] {
+            let found = Schedule::of(step, time).unwrap();
+            assert_eq!((found.steps, found.step), (steps, used), "{time} by {step}");
+            assert_eq!(found.time(steps), time.copysign(step));
+            assert_eq!(found.announcement().is_some(), step != used);
+        }
+    }
 }

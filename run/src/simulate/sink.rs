@@ -90,14 +90,6 @@ pub struct Resume {
     pub tally: Tally,
 }
 
-/// The progress of a run between steps.
-pub struct Standing<'a> {
-    /// Steps made.
-    pub step: u64,
-    /// Makes what the run would need to go on from here.
-    pub state: &'a dyn Fn() -> Resume,
-}
-
 /// The receiver of a run's records, asked now and then whether to go on. Methods that it does not need do nothing.
 pub trait Sink {
     /// The first state has been measured. Returns where to go on, if not from the start.
@@ -119,11 +111,12 @@ pub trait Sink {
     /// The drift was measured at this time.
     fn look(&mut self, _time: f64, _momentum: &[f64], _moment: &Moment) {}
 
-    /// Between steps, about every ten milliseconds and at the end.
+    /// Between steps, about every ten milliseconds and at the end: the number of steps made, and a function that makes what
+    /// the run would need to go on from here.
     ///
     /// # Errors
     /// To end the run.
-    fn pause(&mut self, _standing: &Standing<'_>) -> Result<(), Halt> {
+    fn pause(&mut self, _steps: u64, _state: &dyn Fn() -> Resume) -> Result<(), Halt> {
         Ok(())
     }
 

@@ -8,8 +8,7 @@
 use coadjoint_codegen::judge::{Branch, End, Inside, Motion, Setting, Stop};
 use nalgebra::DVector;
 
-use super::columns::State;
-use super::invariants::square;
+use super::states::{State, condition};
 
 /// The unit roundoff of what is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -104,8 +103,7 @@ impl Course {
 
     /// By how much the motion stretches: the product of the norms of its element and the inverse, where there is one.
     pub(crate) fn stretch(&self) -> Option<f64> {
-        let element = square(&element(&self.motion, self.size));
-        Some(element.norm() * element.try_inverse()?.norm())
+        condition(&element(&self.motion, self.size))
     }
 
     /// The deviations of momentum and element over what rounding may have done.

@@ -9,10 +9,9 @@ use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_learn::table::Table;
 
-use super::columns::{Columns, State, next, refused};
 use super::course::{Course, Trouble};
 use super::found::Found;
-use super::invariants::{DRIFT, Invariants};
+use super::states::{Columns, DRIFT, Invariants, State, next, refused};
 use crate::ensemble::Shape;
 use crate::error::RunError;
 use crate::number::maximum;
@@ -135,7 +134,8 @@ impl<'a> Follower<'a> {
                 } else {
                     (steps.floor() as u64, self.step * (steps - steps.floor()))
                 };
-                self.row((number - 1, &place), before, &state, (count, rest), &mut found);
+                let ends = (before, &state);
+                self.row((number - 1, &place), ends, (count, rest), &mut found);
             }
             // A row beside the grid is where a step of its own led: the motion goes on from the grid.
             if grid {
@@ -184,7 +184,7 @@ impl<'a> Follower<'a> {
                 continue;
             }
             let place = format!("row {number}");
-            self.row((number, &place), &start, &end, (steps, 0.0), &mut found);
+            self.row((number, &place), (&start, &end), (steps, 0.0), &mut found);
         }
         let rows = ends.number();
         if next(starts)?.is_some() {
@@ -197,8 +197,7 @@ impl<'a> Follower<'a> {
     fn row(
         &self,
         (number, place): (u64, &str),
-        before: &State,
-        after: &State,
+        (before, after): (&State, &State),
         (steps, rest): (u64, f64),
         found: &mut Found,
     ) {

@@ -2,11 +2,10 @@
 // A comparison with what is not a number must refuse.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
-mod columns;
 mod course;
 mod follow;
 mod found;
-mod invariants;
+mod states;
 
 pub use follow::{Follower, Sample, judge_of};
 pub use found::Found;

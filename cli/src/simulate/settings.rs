@@ -1,0 +1,256 @@
+//! The settings of a run, from the file and the options that replace them, and how files and reports describe them.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use coadjoint_codegen::file;
+use coadjoint_codegen::problem::{Problem, Solver};
+use coadjoint_codegen::system::{Splitting, System};
+use coadjoint_learn::ModelFile;
+use coadjoint_program::quoting::line;
+use coadjoint_run::RunError;
+use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::{Scales, Schedule, Setup, Times};
+use serde_json::{Map, Value, json};
+
+use super::target::{Place, Target, paths};
+use crate::arguments::SimulateOptions;
+use crate::error::{CliError, unwritten};
+use crate::note::Identity;
+
+/// The settings of a run, and what is kept of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings<'a> {
+    /// The system file or the model.
+    pub file: &'a Path,
+    /// The SHA-256 of its text.
+    pub hash: &'a str,
+    /// Everything the run reads.
+    pub inputs: Vec<PathBuf>,
+    pub setup: Setup,
+    /// Where records go.
+    pub out: Option<Target>,
+    /// Whether a picture is asked for.
+    pub sampled: bool,
+    /// Where the state is kept, and how often.
+    pub checkpoint: Option<(PathBuf, Duration)>,
+}
+
+impl<'a> Settings<'a> {
+    pub(crate) fn new(
+        options: &SimulateOptions,
+        (file, hash): (&'a Path, &'a str),
+        out: Option<Target>,
+        setup: Setup,
+    ) -> Result<Self, CliError> {
+        let what = "--checkpoint-interval must be a number of seconds, 0 or more";
+        let checkpoint = match &options.checkpoint {
+            None => None,
+            Some(path) => {
+                let interval = Duration::try_from_secs_f64(options.checkpoint_interval);
+                Some((path.clone(), interval.map_err(|_| CliError::Option(what.to_owned()))?))
+            }
+        };
+        let setup = Setup { recording: out.is_some(), ..setup };
+        let (inputs, sampled) = (inputs(options), options.plot.is_some());
+        Ok(Self { file, hash, inputs, setup, out, sampled, checkpoint })
+    }
+}
+
+/// The run of a system, by the options, else by the file.
+pub(crate) fn setup(
+    options: &SimulateOptions,
+    file: &Path,
+    system: &System,
+) -> Result<Setup, CliError> {
+    let run = &system.run;
+    let schedule = Schedule::new(file, options.accuracy.step, options.time, run)?;
+    let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
+        file: file.into(),
+        key: "[initial] momentum",
+        example: "momentum = [2.0, 0.5, 1.0]",
+        option: "another file",
+    })?;
+    let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
+    // Times alone are recorded alone; a step count in the file is then no request.
+    let every = match (options.every, &at) {
+        (None, Some(_)) => None,
+        (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
+    };
+    let (backend, group_element) = (options.backend, run.group_element.clone());
+    Ok(Setup { every, at, backend, group_element, ..Setup::new(schedule, momentum) })
+}
+
+/// Everything a run reads.
+pub(crate) fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
+    let times = options.at.iter().map(PathBuf::from);
+    let system = options.input.model.clone().unwrap_or_else(|| options.input.source(None).file);
+    std::iter::once(system).chain(times).collect()
+}
+
+/// Every how many steps a record is written.
+pub(crate) fn every(steps: usize) -> Result<u64, CliError> {
+    match steps {
+        0 => Err(CliError::Option("--every counts steps from 1; try --every 1".to_owned())),
+        steps => Ok(steps as u64),
+    }
+}
+
+/// Refuses names of files that cannot be what they are to be, before anything is computed; the target of `--out`.
+pub(crate) fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
+    let refuse = |what: String| Err(CliError::Option(what));
+    let mut used = inputs(options);
+    let out = options.out.as_deref().map(|out| Target::new(out, &used)).transpose()?;
+    used.extend(out.iter().flat_map(Target::names));
+    for path in options.plot.iter().chain(&options.checkpoint) {
+        file::check(path, &paths(&used)).map_err(unwritten(path))?;
+        used.push(path.clone());
+    }
+    if let Some(plot) = &options.plot {
+        let ending = plot.extension().and_then(|ending| ending.to_str());
+        if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+            return refuse(format!(
+                "--plot {}: only SVG is drawn; give a name that ends in .svg and convert the picture",
+                plot.display()
+            ));
+        }
+    }
+    if options.checkpoint.is_none() {
+        return Ok(out);
+    }
+    if options.truncation.len() > 1 {
+        return refuse("--checkpoint is of one run: give one --truncation".to_owned());
+    }
+    if let Some(out) = out.as_ref().filter(|out| out.place != Place::File) {
+        return refuse(format!(
+            "--checkpoint: what was written to {} cannot be continued; write to a file",
+            out.path.display()
+        ));
+    }
+    Ok(out)
+}
+
+/// Everything needed to repeat a run, in order: for the heads of files, for reports, and to tell whether a checkpoint is
+/// of this run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Header(Vec<(&'static str, Value)>);
+
+impl Header {
+    /// The description of a run of this problem.
+    pub(crate) fn new(
+        settings: &Settings<'_>,
+        problem: &Problem,
+        splitting: Option<Splitting>,
+    ) -> Self {
+        let solver = match problem.solver() {
+            Solver::Newton => Solver::NAMES[0],
+            Solver::FixedPoint => Solver::NAMES[1],
+        };
+        let mut own = vec![
+            ("name", json!(problem.name)),
+            ("group", json!(problem.algebra.name())),
+            ("truncation", json!(problem.truncation)),
+            ("chart", json!(problem.chart.name())),
+            ("frame", json!(if problem.comoving.is_some() { "comoving" } else { "fixed" })),
+            ("solver", json!(solver)),
+        ];
+        own.extend(splitting.map(|splitting| ("splitting", json!(splitting.name()))));
+        Self::of(settings, ["system", "system_sha256"], own)
+    }
+
+    /// The description of a run of a learned map.
+    pub(crate) fn of_model(settings: &Settings<'_>, model: &ModelFile) -> Self {
+        let own = vec![
+            ("kind", json!(model.model.name())),
+            ("group", json!(model.group)),
+            ("chart", json!(model.chart)),
+        ];
+        Self::of(settings, ["model", "model_sha256"], own)
+    }
+
+    /// The entries of its own of a run, between those that every run has.
+    fn of(
+        settings: &Settings<'_>,
+        [file, hash]: [&'static str; 2],
+        own: Vec<(&'static str, Value)>,
+    ) -> Self {
+        let Setup { schedule, momentum, group_element, every, at, .. } = &settings.setup;
+        let mut list = vec![
+            ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
+            (file, json!(settings.file.display().to_string())),
+            (hash, json!(settings.hash)),
+        ];
+        list.extend(own);
+        list.extend([
+            ("step", json!(schedule.step)),
+            ("step_asked", json!(schedule.asked)),
+            ("steps", json!(schedule.steps)),
+            ("time", json!(schedule.end)),
+            ("initial_momentum", json!(momentum)),
+        ]);
+        let element = group_element.as_ref();
+        list.extend(element.map(|rows| ("initial_group_element", json!(rows.concat()))));
+        list.extend(every.map(|every| ("every", json!(every))));
+        list.extend(at.as_ref().map(|times| ("at", json!(times.text()))));
+        Self(list)
+    }
+
+    /// Only the entries with these names.
+    pub(crate) fn only(mut self, names: &[&str]) -> Self {
+        self.0.retain(|(name, _)| names.contains(name));
+        self
+    }
+
+    /// With another entry at the end.
+    pub(crate) fn with(mut self, name: &'static str, value: Value) -> Self {
+        self.0.push((name, value));
+        self
+    }
+
+    /// With the scales of the drifts that there are.
+    pub(crate) fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
+        let list = [
+            ("spatial_momentum_scale", json!(scales.spatial_momentum)),
+            ("casimir_scales", json!(scales.casimirs)),
+            ("energy_scale", json!(scales.energy)),
+        ];
+        let list = list.into_iter().zip(known);
+        self.0.extend(list.filter_map(|(scale, known)| known.then_some(scale)));
+        self
+    }
+
+    /// The value of this name in words.
+    pub(crate) fn text(&self, name: &str) -> String {
+        self.get(name).map(text).unwrap_or_default()
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    /// Lines `name: value`.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = String> + '_ {
+        self.0.iter().map(|(name, value)| format!("{name}: {}", text(value)))
+    }
+
+    pub(crate) fn object(&self) -> Map<String, Value> {
+        self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
+    }
+
+    /// By name, to be compared with another run.
+    pub(crate) fn identity(&self) -> Identity {
+        self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
+    }
+}
+
+/// On one line, numbers as short as they can be.
+fn text(value: &Value) -> String {
+    match value {
+        Value::String(text) => line(text),
+        Value::Number(number) if number.is_f64() => {
+            number.as_f64().map_or_else(String::new, shortest)
+        }
+        Value::Array(list) => list.iter().map(text).collect::<Vec<_>>().join(","),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,209 @@
+//! Steps of one size, whatever makes them.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use coadjoint::groups::{
+    Cayley, CayleyMatrixGroup, Chart, DirectProduct, Exponential, MatrixGroup,
+};
+use coadjoint::{Phase, StepError};
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::lie;
+use nalgebra::DVector;
+
+use super::advise::advise;
+use super::compiled::{Compiled, Numbers, Solves};
+use super::group::cayley_group;
+use super::interpreter::Interpreter;
+use super::kick::{Forces, Map, map};
+use super::restore::Restore;
+use super::space::{Elements, Space};
+use super::steep::Steepness;
+use crate::error::RunError;
+use crate::number::maximum;
+
+/// Moves states by steps of one size.
+pub trait Motion: Send + Sync {
+    /// The group that the states belong to.
+    fn space(&self) -> &dyn Space;
+
+    /// Makes `count` steps. The state that comes of them does not depend on how many are made at a time.
+    ///
+    /// # Errors
+    /// How many were made, and why the next one was not; the state is then that before it.
+    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)>;
+
+    /// The state after one step of another size.
+    ///
+    /// # Errors
+    /// Where there is none.
+    fn beside(&self, state: &Numbers, size: f64) -> Result<Numbers, StepError>;
+
+    /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
+    fn ratio(&self, mu: &[f64]) -> f64;
+
+    /// The programs that move many states side by side, where there are any.
+    fn lanes(&self) -> Option<&Compiled> {
+        None
+    }
+}
+
+/// Makes steps one by one with `step`, which leaves a state that it cannot move as it is.
+///
+/// # Errors
+/// As [`Motion::advance`].
+pub fn one_by_one(
+    count: u64,
+    mut step: impl FnMut() -> Result<Solves, StepError>,
+) -> Result<Solves, (u64, StepError)> {
+    let mut total = None;
+    for made in 0..count {
+        let solved = step().map_err(|error| (made, error))?;
+        total = match (total, solved) {
+            (Some((a, b)), Some((c, d))) => Some((u32::max(a, c), maximum(b, d))),
+            (a, b) => a.or(b),
+        };
+    }
+    Ok(total)
+}
+
+/// A group known at run time, with its chart.
+#[derive(Debug)]
+pub enum Charted {
+    /// With the exponential.
+    Exponential(Arc<DirectProduct<MatrixGroup>>),
+    /// With the Cayley map.
+    Cayley(Arc<DirectProduct<CayleyMatrixGroup>>),
+}
+
+impl Charted {
+    /// The group with this chart; `file` is the name of its system in messages.
+    ///
+    /// # Errors
+    /// Where the group does not have the chart.
+    pub fn new(
+        file: &Path,
+        group: DirectProduct<MatrixGroup>,
+        chart: lie::Chart,
+    ) -> Result<Self, RunError> {
+        Ok(match chart {
+            lie::Chart::Exponential => Self::Exponential(Arc::new(group)),
+            lie::Chart::Cayley => Self::Cayley(Arc::new(cayley_group(file, &group)?)),
+        })
+    }
+
+    /// The steps of this size of a flow, with kicks where there are forces: by programs where there are any.
+    pub fn steps<'a>(
+        &self,
+        integrator: &'a Integrator,
+        forces: Option<&'a Forces>,
+        size: f64,
+        compiled: Option<Arc<Compiled>>,
+    ) -> Box<dyn Motion + 'a> {
+        match self {
+            Self::Exponential(group) => {
+                let elements = Elements { group: group.clone(), compiled };
+                Box::new(Steps::<_, Exponential>::new(elements, integrator, forces, size))
+            }
+            Self::Cayley(group) => {
+                let elements = Elements { group: group.clone(), compiled };
+                Box::new(Steps::<_, Cayley>::new(elements, integrator, forces, size))
+            }
+        }
+    }
+}
+
+/// The steps of a system: by programs where there are any, else by the generic solver, which also makes the steps that
+/// programs refuse.
+struct Steps<'a, G: Restore, C> {
+    elements: Elements<G>,
+    integrator: &'a Integrator,
+    forces: Option<&'a Forces>,
+    size: f64,
+    /// The step of the generic solver, once one was needed.
+    generic: OnceLock<Map<'a, G>>,
+    /// Those of half the size, of a quarter, …, as far as they were needed to advise.
+    shorter: Mutex<Vec<Option<Map<'a, G>>>>,
+    /// The longest flow of a step, by whose series ratios are measured, once one was asked for.
+    flow: OnceLock<Option<Interpreter<'a, G, C>>>,
+}
+
+impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
+    fn new(
+        elements: Elements<G>,
+        integrator: &'a Integrator,
+        forces: Option<&'a Forces>,
+        size: f64,
+    ) -> Self {
+        let (generic, flow, shorter) = Default::default();
+        Self { elements, integrator, forces, size, generic, shorter, flow }
+    }
+
+    fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
+        map::<G, C>(self.integrator, self.forces, &self.elements.group, size)
+    }
+
+    /// The error of the next step of a state, with a step size that works there.
+    fn advise(&self, error: StepError, phase: &Phase<G>) -> StepError {
+        // A thread that panicked has left whole steps, if any.
+        let mut shorter = self.shorter.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut place = 0;
+        advise(error, self.size, |size| {
+            if shorter.len() == place {
+                shorter.push(self.map(size).ok());
+            }
+            place += 1;
+            let step = shorter.get(place - 1).and_then(Option::as_ref);
+            step.is_some_and(|step| step(&mut phase.clone()).is_ok())
+        })
+    }
+
+    /// A step by the generic solver. The error of one that cannot be made names a size that works.
+    fn rescue(&self, state: &mut Numbers) -> Result<Solves, StepError> {
+        let step = match self.generic.get() {
+            Some(step) => step,
+            None => {
+                let made = self.map(self.size)?;
+                self.generic.get_or_init(|| made)
+            }
+        };
+        let mut phase = self.elements.phase(state);
+        let solved = step(&mut phase).map_err(|error| self.advise(error, &phase))?;
+        *state = self.elements.state(&phase);
+        Ok(solved)
+    }
+}
+
+impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G, C> {
+    fn space(&self) -> &dyn Space {
+        &self.elements
+    }
+
+    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)> {
+        let Some(compiled) = &self.elements.compiled else {
+            return one_by_one(count, || self.rescue(state));
+        };
+        let made = compiled.advance(state, count, |state| self.rescue(state))?;
+        // A bound, which may be far below what rounding leaves.
+        Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
+    }
+
+    fn beside(&self, state: &Numbers, size: f64) -> Result<Numbers, StepError> {
+        let mut phase = self.elements.phase(state);
+        self.map(size)?(&mut phase)?;
+        Ok(self.elements.state(&phase))
+    }
+
+    fn ratio(&self, mu: &[f64]) -> f64 {
+        let flow = self.flow.get_or_init(|| {
+            let longest = self.size * self.forces.map_or(1.0, Forces::longest_flow);
+            Interpreter::new(self.integrator, (*self.elements.group).clone(), longest).ok()
+        });
+        let ratio = |flow| Steepness::new(flow).ratio(&DVector::from_column_slice(mu));
+        flow.as_ref().map_or(0.0, ratio)
+    }
+
+    fn lanes(&self) -> Option<&Compiled> {
+        self.elements.compiled.as_deref()
+    }
+}
