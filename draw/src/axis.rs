@@ -2,11 +2,11 @@
 
 /// A tick: where it is, and what is written there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tick {
+pub(crate) struct Tick {
     /// The value.
-    pub at: f64,
+    pub(crate) at: f64,
     /// Its label.
-    pub label: String,
+    pub(crate) label: String,
 }
 
 /// A range of values that is drawn from one end of an axis to the other.
@@ -17,7 +17,7 @@ pub struct Axis {
     /// Whether places are those of logarithms.
     logarithmic: bool,
     /// Ticks, ascending.
-    pub ticks: Vec<Tick>,
+    pub(crate) ticks: Vec<Tick>,
 }
 
 impl Default for Axis {
@@ -92,8 +92,7 @@ impl Axis {
 
     /// A logarithmic axis from 10^low to 10^high; the lowest tick is labelled as the floor, where everything below is
     /// drawn.
-    #[must_use]
-    pub fn decades(low: i32, high: i32, count: usize) -> Self {
+    fn decades(low: i32, high: i32, count: usize) -> Self {
         let high = high.max(low + 1);
         let step = ((high - low) as usize).div_ceil(count.max(1)).max(1);
         let label = |decade: i32| match decade {
@@ -116,15 +115,8 @@ impl Axis {
         Self::decades(floor, top.max(least_top), count)
     }
 
-    /// The ends.
-    #[must_use]
-    pub fn range(&self) -> (f64, f64) {
-        (self.low, self.high)
-    }
-
     /// Where a value is between the ends, from 0 to 1.
-    #[must_use]
-    pub fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
             if value <= self.low {
                 return 0.0;

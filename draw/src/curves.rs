@@ -5,7 +5,7 @@
 use crate::run::Series;
 
 /// The most coordinates drawn as lines with a name; the others are drawn as a band.
-pub const NAMED: usize = 8;
+const NAMED: usize = 8;
 /// A line with more turning points than this would be drawn as a solid block.
 const MOST_TURNS: usize = 80;
 /// How many turning points are shown then.
@@ -26,8 +26,7 @@ pub fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> Option<(f64, f64)
 }
 
 /// The coordinates that vary most, in the order of the file, and all the others.
-#[must_use]
-pub fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) {
+pub(crate) fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) {
     let variation =
         |series: &Series| range(&series.values).map_or(0.0, |(low, high)| high / 2.0 - low / 2.0);
     let mut order: Vec<usize> = (0..series.len()).collect();
@@ -41,17 +40,16 @@ pub fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) 
 
 /// How many records are shown, and whether they are dense enough to follow the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub(crate) struct Window {
     /// This number of records from the start on.
-    pub records: usize,
+    pub(crate) records: usize,
     /// Whether there are at least some records from one turning point to the next.
-    pub resolved: bool,
+    pub(crate) resolved: bool,
 }
 
 /// All records, or the first ones: where all together have too many turning points to be told apart, or
 /// where later records are too far apart to follow what the first ones show.
-#[must_use]
-pub fn window(series: &[&Series], times: &[f64]) -> Window {
+pub(crate) fn window(series: &[&Series], times: &[f64]) -> Window {
     let all = series.iter().flat_map(|series| &series.values);
     let (low, high) = range(all).unwrap_or_default();
     let wiggle = WIGGLE * (high / 2.0 - low / 2.0) * 2.0;

@@ -32,9 +32,9 @@ mod sheet;
 mod style;
 mod svg;
 
-pub use axis::{Axis, Tick};
-pub use panel::{Curve, FONT, LINE, Mark, Panel, Place, RIGHT, Sample, WIDTH, legend, paragraph};
+pub use axis::Axis;
+pub use panel::{Curve, Panel, Sample};
 pub use points::unbeaten;
 pub use sheet::sheet;
-pub use style::{BAND, STYLE_SHEET, Style};
-pub use svg::{Anchor, Svg, cut, escaped, width, wrapped};
+pub use style::{STYLE_SHEET, Style};
+pub use svg::escaped;

@@ -5,15 +5,15 @@ use crate::style::{BAND, Style};
 use crate::svg::{Anchor, Svg, cut, width, wrapped};
 
 /// The width of a picture with panels one below the other.
-pub const WIDTH: f64 = 900.0;
+pub(crate) const WIDTH: f64 = 900.0;
 /// Free space at the right.
-pub const RIGHT: f64 = 30.0;
+pub(crate) const RIGHT: f64 = 30.0;
 /// The height between the axes' ends, in such a picture.
 const HEIGHT: f64 = 190.0;
 /// The height of a line of text.
-pub const LINE: f64 = 20.0;
+pub(crate) const LINE: f64 = 20.0;
 /// The size of most texts.
-pub const FONT: f64 = 13.0;
+pub(crate) const FONT: f64 = 13.0;
 /// The length of a stroke in a legend: the longest pattern of dashes shows twice.
 const STROKE: f64 = 44.0;
 /// The size of a heading.
@@ -64,23 +64,13 @@ impl Curve {
     }
 
     /// Its sample in a legend.
-    #[must_use]
-    pub fn sample(&self) -> Sample {
+    fn sample(&self) -> Sample {
         match (self.joined, self.marked) {
             (true, false) => Sample::Stroke(self.style),
             (true, true) => Sample::Both(self.style),
             (false, _) => Sample::Marker(self.style),
         }
     }
-}
-
-/// A horizontal line at a value, with its name.
-#[derive(Clone, Debug)]
-pub struct Mark {
-    /// The value.
-    pub at: f64,
-    /// Its description.
-    pub label: String,
 }
 
 /// A panel, ready to be placed.
@@ -100,31 +90,28 @@ pub struct Panel {
     pub y: Axis,
     /// A band behind the curves, as its outline.
     pub band: Vec<(f64, f64)>,
-    /// Lines across the panel.
-    pub marks: Vec<Mark>,
     /// The curves.
     pub curves: Vec<Curve>,
 }
 
 /// Where a panel is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub(crate) struct Place {
     /// The upper edge.
-    pub top: f64,
+    pub(crate) top: f64,
     /// Where texts begin.
-    pub edge: f64,
+    pub(crate) edge: f64,
     /// The vertical axis.
-    pub left: f64,
+    pub(crate) left: f64,
     /// The right end of the horizontal axis.
-    pub right: f64,
+    pub(crate) right: f64,
     /// The height between the axes' ends.
-    pub height: f64,
+    pub(crate) height: f64,
 }
 
 impl Place {
     /// In a picture with panels one below the other.
-    #[must_use]
-    pub fn below(top: f64, left: f64) -> Self {
+    pub(crate) fn below(top: f64, left: f64) -> Self {
         Self { top, edge: left, left, right: WIDTH - RIGHT, height: HEIGHT }
     }
 }
@@ -142,8 +129,7 @@ impl Panel {
     }
 
     /// The room that the labels of the vertical axis need.
-    #[must_use]
-    pub fn left(&self) -> f64 {
+    pub(crate) fn left(&self) -> f64 {
         let widest = self.y.ticks.iter().map(|tick| width(&tick.label, FONT)).fold(0.0, f64::max);
         widest + 22.0
     }
@@ -158,7 +144,7 @@ impl Panel {
     }
 
     /// Draws the panel; returns where it ends.
-    pub fn draw(&self, svg: &mut Svg, place: Place) -> f64 {
+    pub(crate) fn draw(&self, svg: &mut Svg, place: Place) -> f64 {
         let Place { top, edge, left, right, height } = place;
         svg.open(&self.heading);
         let mut y = top + 18.0;
@@ -180,14 +166,6 @@ impl Panel {
         self.axes(svg, (left, right), (above, below));
         let outline: Vec<(f64, f64)> = self.band.iter().map(|&point| at(point)).collect();
         svg.polygon(&outline, BAND);
-        for mark in &self.marks {
-            let (_, height) = at((0.0, mark.at));
-            let look = r##"class="bound" stroke="#555555" stroke-dasharray="2 4""##;
-            svg.line((left, height), (right, height), look);
-            let label = cut(&mark.label, 12.0, right - left);
-            let look = r##"class="note" font-size="12" fill="#555555""##;
-            svg.text((right, height - 4.0), Anchor::End, look, &label);
-        }
         for curve in &self.curves {
             svg.open(&curve.name);
             let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
@@ -236,7 +214,7 @@ impl Panel {
 }
 
 /// Writes a text in lines from one place to the other; returns the baseline of the last.
-pub fn paragraph(svg: &mut Svg, text: &str, (left, right): (f64, f64), mut y: f64) -> f64 {
+pub(crate) fn paragraph(svg: &mut Svg, text: &str, (left, right): (f64, f64), mut y: f64) -> f64 {
     for line in wrapped(text, 12.0, right - left) {
         y += 17.0;
         let look = r##"class="note" font-size="12" fill="#555555""##;
@@ -246,7 +224,7 @@ pub fn paragraph(svg: &mut Svg, text: &str, (left, right): (f64, f64), mut y: f6
 }
 
 /// Draws samples with their names, in as many rows as they need; returns the last row's baseline.
-pub fn legend(
+pub(crate) fn legend(
     svg: &mut Svg,
     items: &[(Sample, String)],
     (left, right): (f64, f64),

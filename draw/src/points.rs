@@ -18,7 +18,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_another_point_beats_is_left_out() {
+    fn beaten_points_are_left_out() {
         let points = vec![(1e-2, 1.0), (1e-6, 9.0), (1e-4, 3.0), (1e-3, 4.0), (1e-5, 9.0)];
         assert_eq!(unbeaten(points), [(1e-6, 9.0), (1e-4, 3.0), (1e-2, 1.0)]);
     }

@@ -15,7 +15,7 @@ const STYLES: [(&str, &str, &str); 8] = [
 ];
 
 /// The attributes of a band.
-pub const BAND: &str =
+pub(crate) const BAND: &str =
     r##"class="band" fill="#bdbdbd" fill-opacity="0.55" stroke="#8a8a8a" stroke-width="0.6""##;
 
 /// The rules for a page that holds pictures: what is drawn follows the reader's choice of light or dark, and is light
@@ -32,7 +32,6 @@ svg.plot{fill:var(--ink);max-width:100%;height:auto}
 .plot .frame{stroke:var(--frame)}
 .plot .note{fill:var(--faint)}
 .plot .band{fill:var(--band);stroke:var(--faint)}
-.plot .bound{stroke:var(--faint)}
 .plot .s0{stroke:var(--s0)}.plot .s1{stroke:var(--s1)}.plot .s2{stroke:var(--s2)}.plot .s3{stroke:var(--s3)}
 .plot .s4{stroke:var(--s4)}.plot .s5{stroke:var(--s5)}.plot .s6{stroke:var(--s6)}.plot .s7{stroke:var(--s7)}
 .plot .m0{fill:var(--s0)}.plot .m1{fill:var(--s1)}.plot .m2{fill:var(--s2)}.plot .m3{fill:var(--s3)}
@@ -64,8 +63,7 @@ impl Style {
     }
 
     /// The attributes of its line.
-    #[must_use]
-    pub fn line(self) -> String {
+    pub(crate) fn line(self) -> String {
         let kind = self.kind();
         let (colour, _, dashes) = STYLES[kind];
         let thickness = 1.5 + (self.number / STYLES.len()) as f64;
@@ -83,16 +81,14 @@ impl Style {
     }
 
     /// The attributes of its markers.
-    #[must_use]
-    pub fn fill(self) -> String {
+    pub(crate) fn fill(self) -> String {
         let kind = self.kind();
         let opacity = if self.faint { r#" fill-opacity="0.4""# } else { "" };
         format!(r#"class="m{kind}" fill="{}"{opacity}"#, STYLES[kind].0)
     }
 
     /// The outline of a marker around a point, as the data of a path.
-    #[must_use]
-    pub fn marker(self, (x, y): (f64, f64)) -> String {
+    pub(crate) fn marker(self, (x, y): (f64, f64)) -> String {
         match self.kind() {
             0 => format!("M{:.1} {y:.1}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0z", x - 3.0),
             1 => format!("M{:.1} {:.1}h5.4v5.4h-5.4z", x - 2.7, y - 2.7),

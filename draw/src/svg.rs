@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 /// A document that grows downwards. Writing into a string cannot fail, so results are dropped.
 #[derive(Debug, Default)]
-pub struct Svg {
+pub(crate) struct Svg {
     body: String,
 }
 
 /// Where a text stands relative to its place.
 #[derive(Clone, Copy, Debug)]
-pub enum Anchor {
+pub(crate) enum Anchor {
     /// It begins there.
     Start,
     /// Its middle is there.
@@ -31,17 +31,17 @@ impl Anchor {
 
 impl Svg {
     /// Opens a group with a name that pointers and screen readers show.
-    pub fn open(&mut self, title: &str) {
+    pub(crate) fn open(&mut self, title: &str) {
         let _ = writeln!(self.body, "<g><title>{}</title>", escaped(title));
     }
 
     /// Closes the group opened last.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.body.push_str("</g>\n");
     }
 
     /// A text with its baseline at (x, y); `style` is further attributes.
-    pub fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
+    pub(crate) fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
         let (anchor, text) = (anchor.name(), escaped(text));
         let _ = writeln!(
             self.body,
@@ -50,7 +50,7 @@ impl Svg {
     }
 
     /// A straight line.
-    pub fn line(&mut self, (x1, y1): (f64, f64), (x2, y2): (f64, f64), style: &str) {
+    pub(crate) fn line(&mut self, (x1, y1): (f64, f64), (x2, y2): (f64, f64), style: &str) {
         let _ = writeln!(
             self.body,
             r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" {style}/>"#
@@ -58,7 +58,7 @@ impl Svg {
     }
 
     /// A line through points; nothing if there are fewer than two.
-    pub fn polyline(&mut self, points: &[(f64, f64)], style: &str) {
+    pub(crate) fn polyline(&mut self, points: &[(f64, f64)], style: &str) {
         if points.len() > 1 {
             let points = coordinates(points);
             let _ = writeln!(self.body, r#"<polyline points="{points}" fill="none" {style}/>"#);
@@ -66,7 +66,7 @@ impl Svg {
     }
 
     /// A filled area.
-    pub fn polygon(&mut self, points: &[(f64, f64)], style: &str) {
+    pub(crate) fn polygon(&mut self, points: &[(f64, f64)], style: &str) {
         if points.len() > 2 {
             let points = coordinates(points);
             let _ = writeln!(self.body, r#"<polygon points="{points}" {style}/>"#);
@@ -74,15 +74,19 @@ impl Svg {
     }
 
     /// Filled outlines.
-    pub fn path(&mut self, data: &str, style: &str) {
+    pub(crate) fn path(&mut self, data: &str, style: &str) {
         if !data.is_empty() {
             let _ = writeln!(self.body, r#"<path d="{data}" {style}/>"#);
         }
     }
 
     /// The whole document, with a title and a description for those who cannot see it.
-    #[must_use]
-    pub fn finish(&self, (width, height): (f64, f64), title: &str, description: &str) -> String {
+    pub(crate) fn finish(
+        &self,
+        (width, height): (f64, f64),
+        title: &str,
+        description: &str,
+    ) -> String {
         let (title, description, body) = (escaped(title), escaped(description), &self.body);
         format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" role="img" aria-labelledby="title description" {FONTS} font-size="13" fill="#222222">
@@ -95,8 +99,7 @@ impl Svg {
     }
 
     /// The picture as an element of a page that holds [`STYLE_SHEET`](crate::STYLE_SHEET).
-    #[must_use]
-    pub fn element(&self, (width, height): (f64, f64), label: &str) -> String {
+    pub(crate) fn element(&self, (width, height): (f64, f64), label: &str) -> String {
         let (label, body) = (escaped(label), &self.body);
         format!(
             "<svg class=\"plot\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" \
@@ -152,16 +155,14 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// About how wide a text is at this size of font, in pixels; rather too wide than too narrow.
-#[must_use]
-pub fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     // Ideographs and the like take twice the room.
     let units = text.chars().map(|c| if c >= '\u{2e80}' { 1.1 } else { 0.62 });
     units.sum::<f64>() * size
 }
 
 /// The text, cut with an ellipsis where it is wider than `room` pixels.
-#[must_use]
-pub fn cut(text: &str, size: f64, room: f64) -> String {
+pub(crate) fn cut(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();
     }
@@ -178,8 +179,7 @@ pub fn cut(text: &str, size: f64, room: f64) -> String {
 }
 
 /// The text in lines no wider than `room` pixels; a word wider than that is cut.
-#[must_use]
-pub fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
+pub(crate) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
     for word in text.split_whitespace() {

@@ -36,19 +36,13 @@ pub fn brief(value: f64) -> String {
         value => {
             let text = format!("{value:.2e}");
             let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-            let raised = |c: char| {
-                if c == '-' {
-                    Some('⁻')
-                } else {
-                    "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c as usize - 48)
-                }
-            };
+            let raised =
+                |c: char| "-0123456789".find(c).and_then(|at| "⁻⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(at));
             let power: String = exponent.chars().filter_map(raised).collect();
-            format!("{}·10{power}", trimmed(digits)).replacen(
-                "1·10",
-                "10",
-                usize::from(trimmed(digits).len() == 1),
-            )
+            match trimmed(digits).as_str() {
+                "1" => format!("10{power}"),
+                digits => format!("{digits}·10{power}"),
+            }
         }
     };
     text.replace('-', "−")

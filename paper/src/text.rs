@@ -61,11 +61,6 @@ pub fn figure(id: &str) -> &'static Figure {
     figures().iter().find(|figure| figure.id == id).expect(id)
 }
 
-/// Notes on the numbers of an experiment.
-pub fn notes(experiment: &str) -> &'static [String] {
-    TEXTS.notes.get(experiment).map_or(&[], Vec::as_slice)
-}
-
 /// Fills in the numbers of a report: `{row|column}` is a cell of the first table, `{title|row|column}` of the table whose
 /// title begins so (of the first if there is none), `{max curve column}` the largest size in a column of a curve,
 /// `{last curve column}` its last value.
@@ -127,7 +122,7 @@ impl Report {
                 text += &(cells.collect::<String>().trim_end().to_owned() + "\n");
             }
         }
-        for note in notes(&self.name) {
+        for note in TEXTS.notes.get(&self.name).into_iter().flatten() {
             text += &format!("\nnote: {note}\n");
         }
         for judgement in &self.judgements {

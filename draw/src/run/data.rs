@@ -28,7 +28,6 @@ pub struct Series {
 }
 
 /// The label of an axis of time.
-#[must_use]
-pub fn time_label(unit: Option<&str>) -> String {
+pub(crate) fn time_label(unit: Option<&str>) -> String {
     unit.map_or("time".to_owned(), |unit| format!("time ({unit})"))
 }

@@ -12,7 +12,7 @@ const STRETCHES: usize = 260;
 const LOWEST_TOP: i32 = -14;
 
 /// The note about all panels of drifts.
-pub const NOTE: &str = "Below: largest differences from the start in successive stretches of time, relative to the \
+pub(crate) const NOTE: &str = "Below: largest differences from the start in successive stretches of time, relative to the \
      start, on logarithmic axes. Zero and everything below 1e-17 is drawn at 1e-17.";
 
 /// A panel for each quantity that one of the runs conserves, with a curve for each run that does.

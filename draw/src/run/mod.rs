@@ -11,7 +11,8 @@ use crate::sheet::heading;
 use crate::style::Style;
 use crate::svg::Svg;
 
-pub use data::{FLOOR, Run, Series, time_label};
+pub(crate) use data::time_label;
+pub use data::{FLOOR, Run, Series};
 
 /// Stretches of time with two points of a curve each.
 const COLUMNS: usize = 400;

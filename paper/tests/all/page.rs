@@ -61,7 +61,7 @@ fn whole() -> &'static [Report] {
 
 /// Tables, notes and judgements have what they must have; sharper than what judges.
 #[test]
-fn the_numbers_of_what_is_cheap() {
+fn cheap_experiments_hold_their_numbers() {
     for section in sections(whole()).iter().filter(|s| CHEAP.contains(&&*s.figure.experiment)) {
         for judgement in &section.judgements {
             assert!(judgement.holds(), "{judgement:?}");
