@@ -11,7 +11,7 @@ use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_learn::catalogue::{Visitor, visit};
 use coadjoint_learn::data::MomentumPairs;
 use coadjoint_learn::truth::{MomentumBox, OneStep, momentum_pairs};
-use coadjoint_learn::{DataGroup, Kind, Request, learn, learn_momenta};
+use coadjoint_learn::{DataGroup, Kind, Request, Source, learn};
 
 use crate::error::CliError;
 use crate::learn::Fit;
@@ -62,22 +62,21 @@ pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
     let named = [&options.data, &options.system, &options.test];
     let inputs: Vec<&Path> = named.into_iter().flatten().map(PathBuf::as_path).collect();
     options.fit.check(&inputs)?;
-    let (data, group) = (options.data.clone().unwrap_or_default(), options.group.clone());
+    let data = options.data.as_deref().unwrap_or(Path::new(""));
     let request = Request {
         kind: Kind::Polynomial,
         momenta_only: true,
-        test: options.test.clone(),
-        ..options.fit.request(data, group)
+        ..options.fit.request(options.group.clone())
     };
     let (file, summary) = match &options.system {
-        None => learn(&request, &mut |_, _, _| {})?,
+        None => learn(&request, Source::Files(data, options.test.as_deref()), &mut |_| {})?,
         Some(path) => {
             let problem = problem(path)?;
             let group = problem.algebra.name().to_owned();
             let chart = request.chart.clone();
             let request = Request { group: group.clone(), ..request };
             let pairs = visit(&group, &chart, Pairs { options, problem: &problem })??;
-            learn_momenta(&request, &pairs)?
+            learn(&request, Source::Momenta(&pairs), &mut |_| {})?
         }
     };
     options.fit.finish(&inputs, &file, &summary)

@@ -6,8 +6,9 @@ use clap::Args;
 use coadjoint_codegen::file;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_learn::data::{RowPolicy, Tolerances};
+use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::{
-    Errors, Figures, Kind, ModelFile, NetworkSettings, Request, Summary, learn, remove_checkpoints,
+    Errors, Figures, Kind, ModelFile, Request, Source, Summary, learn, remove_checkpoints,
 };
 
 use crate::error::{CliError, unwritten};
@@ -100,25 +101,18 @@ pub struct LearnOptions {
 }
 
 impl Fit {
-    /// The request for data in a file.
-    pub fn request(&self, data: PathBuf, group: String) -> Request {
+    /// The request of a map on this group.
+    pub fn request(&self, group: String) -> Request {
         Request {
-            data,
-            test: None,
             group,
             chart: self.chart.name().into(),
             step: self.dt,
-            kind: Kind::Auto,
             degree: self.degree,
-            ridge: 0.0,
-            group_loss: false,
-            tolerances: Tolerances::default(),
             policy: if self.drop_bad_rows { RowPolicy::Drop } else { RowPolicy::Refuse },
-            momenta_only: false,
             start: self.start.clone(),
             seed: self.seed,
-            network: NetworkSettings::default(),
             drift_steps: self.steps,
+            ..Request::default()
         }
     }
 
@@ -173,27 +167,28 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         name.push(".checkpoint");
         PathBuf::from(name)
     });
-    let network = NetworkSettings {
+    let network = TrainingOptions {
         widths: options.widths.clone(),
         activation: options.activation.parse()?,
-        evaluations: options.evaluations,
         checkpoint: checkpoint.clone(),
+        ..TrainingOptions::budget(options.evaluations)
     };
     let request = Request {
         kind: options.model,
-        test: options.test.clone(),
         ridge: options.ridge,
         group_loss: options.loss,
         tolerances,
         network,
-        ..options.fit.request(options.data.clone(), options.group.clone())
+        ..options.fit.request(options.group.clone())
     };
     let bar = progress::bar(1, "learning");
-    let (file, summary) = learn(&request, &mut |step, total, loss| {
-        bar.set_length(total as u64);
-        bar.set_position(step as u64);
-        bar.set_message(format!("loss {loss:.2e}"));
-    })?;
+    let source = Source::Files(&options.data, options.test.as_deref());
+    let (file, summary) =
+        learn(&request, source, &mut |Progress { step, total, loss, .. }| {
+            bar.set_length(total as u64);
+            bar.set_position(step as u64);
+            bar.set_message(format!("loss {loss:.2e}"));
+        })?;
     bar.finish_and_clear();
     options.fit.finish(&inputs, &file, &summary)?;
     checkpoint.map_or(Ok(()), |base| Ok(remove_checkpoints(&base)?))

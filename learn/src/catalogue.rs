@@ -1,10 +1,10 @@
 //! Groups and charts by name.
 
-use coadjoint::groups::{Cayley, Chart, Exponential, MatrixGroup};
+use coadjoint::groups::{Cayley, Chart, Exponential, MatrixGroup, TableError};
 use coadjoint::{SE3, SO3};
-use coadjoint_codegen::lie::{LieAlgebra, catalogue, watched_casimirs};
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, catalogue, watched_casimirs};
+use coadjoint_codegen::number::Rational;
 use nalgebra::DMatrix;
-use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::error::LearnError;
@@ -41,7 +41,7 @@ pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Outp
         ("SE3", "exp") => Ok(visitor.visit::<SE3, Exponential>(SE3::new())),
         ("SE3", _) => Ok(visitor.visit::<SE3, Cayley>(SE3::new())),
         _ => {
-            let made = run_time_group(&algebra).map_err(|e| unknown(e.to_string()))?;
+            let made = with_casimirs(&algebra).map_err(|e| unknown(e.to_string()))?;
             if chart == "exp" {
                 return Ok(visitor.visit::<_, Exponential>(made));
             }
@@ -51,27 +51,28 @@ pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Outp
     }
 }
 
-/// The run-time group of an algebra, with its Casimirs up to degree 3.
-fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::groups::TableError> {
-    let float = |value: &BigRational| value.to_f64().unwrap_or(f64::NAN);
+/// The group of an algebra by its tables: matrices of the basis's size, or adjoint matrices where only brackets are known.
+///
+/// # Errors
+/// [`TableError`] where the algebra is none in double precision.
+pub fn matrix_group(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
-    let group = match algebra.basis() {
-        Some(basis) => {
-            let basis: Vec<DMatrix<f64>> = basis
-                .iter()
-                .map(|exact| {
-                    let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
-                    for (i, j, value) in exact.entries() {
-                        matrix[(i, j)] = float(value);
-                    }
-                    matrix
-                })
-                .collect();
-            MatrixGroup::from_structure_and_basis(&structure, &basis)
-        }
-        None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
-    }?;
+    let Some(basis) = algebra.basis() else {
+        return MatrixGroup::from_structure_constants(algebra.dim(), &structure);
+    };
+    let matrix =
+        |e: &RationalMatrix| DMatrix::from_fn(e.rows(), e.columns(), |i, j| float(&e.get(i, j)));
+    let basis: Vec<_> = basis.iter().map(matrix).collect();
+    MatrixGroup::from_structure_and_basis(&structure, &basis)
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+/// The same with its Casimirs up to degree 3.
+fn with_casimirs(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     let terms = watched_casimirs(algebra).into_iter().map(|polynomial| {
         let terms = polynomial.terms().map(|(exponents, value)| {
             let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
@@ -79,5 +80,5 @@ fn run_time_group(algebra: &LieAlgebra) -> Result<MatrixGroup, coadjoint::groups
         });
         terms.collect()
     });
-    group.with_casimirs(terms.collect())
+    matrix_group(algebra)?.with_casimirs(terms.collect())
 }

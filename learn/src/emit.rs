@@ -19,8 +19,8 @@ use crate::save::ModelFile;
 pub fn exact_polynomial(model: &PolynomialModel) -> Result<Polynomial, LearnError> {
     let dim = model.basis().dim();
     let exact = |value: f64| {
-        Rational::from_f64(value).ok_or_else(|| LearnError::NotConverged {
-            reason: format!("the coefficient {value} is not a number"),
+        Rational::from_f64(value).ok_or_else(|| {
+            LearnError::NotConverged(format!("the coefficient {value} is not a number"))
         })
     };
     // T_k(u_i) with u_i = (p_i − centre)/half_width, for every coordinate and degree.

@@ -26,14 +26,8 @@ pub enum LearnError {
         reason: String,
     },
     /// The ending of a file name names no format this build reads.
-    #[error(
-        "{}: the ending must be .csv, .npy, .npz or .parquet",
-        path.display()
-    )]
-    UnknownFormat {
-        /// The file concerned.
-        path: PathBuf,
-    },
+    #[error("{}: the ending must be .csv, .npy, .npz or .parquet", .0.display())]
+    UnknownFormat(PathBuf),
     /// A cell is not a number.
     #[error("row {row}, column {column}: `{text}` is not a number")]
     NotANumber {
@@ -79,12 +73,9 @@ pub enum LearnError {
          or ask for the Poisson map of momenta alone"
     )]
     NoAttitude,
-    /// Attitudes are given in a form the group does not have.
-    #[error("attitudes of this group cannot be given as {form}; give g_11 … and g_next_11 …")]
-    AttitudeForm {
-        /// The form given.
-        form: &'static str,
-    },
+    /// Attitudes are given as quaternions, which the group does not have.
+    #[error("attitudes of this group cannot be given as quaternions; give g_11 … and g_next_11 …")]
+    NoQuaternions,
     /// Rows that cannot be used.
     #[error("{0}")]
     BadRows(BadRows),
@@ -104,17 +95,11 @@ pub enum LearnError {
         ridge: f64,
     },
     /// A sample is outside the chart, or the model sends it there.
-    #[error("a sample is out of reach of the {chart} chart; use data with a smaller step")]
-    OutOfChart {
-        /// The chart's name.
-        chart: &'static str,
-    },
+    #[error("a sample is out of reach of the {0} chart; use data with a smaller step")]
+    OutOfChart(&'static str),
     /// The iteration of a fit could not begin or did not end.
-    #[error("the fit did not converge: {reason}")]
-    NotConverged {
-        /// The reason.
-        reason: String,
-    },
+    #[error("the fit did not converge: {0}")]
+    NotConverged(String),
     /// The catalogue has no such group.
     #[error("group {name}: {reason}")]
     UnknownGroup {
@@ -144,24 +129,11 @@ pub enum LearnError {
         requirement: String,
     },
     /// Training cannot resume from a checkpoint.
-    #[error(
-        "cannot resume from the checkpoint {}: {reason}; delete it to start again",
-        path.display()
-    )]
-    Checkpoint {
-        /// The file concerned.
-        path: PathBuf,
-        /// The defect.
-        reason: String,
-    },
+    #[error("cannot resume from the checkpoint {path}: {1}; delete it to start again", path = .0.display())]
+    Checkpoint(PathBuf, String),
     /// A model file is damaged or not one of ours.
-    #[error("{} is not a usable model file: {reason}", path.display())]
-    Model {
-        /// The file concerned.
-        path: PathBuf,
-        /// The defect.
-        reason: String,
-    },
+    #[error("{path} is not a usable model file: {1}", path = .0.display())]
+    Model(PathBuf, String),
 }
 
 impl LearnError {
@@ -187,71 +159,38 @@ impl LearnError {
     /// Whether the mistake is in what was given (a file, an option), not in a computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::NotConverged { .. } | Self::OutOfChart { .. })
+        !matches!(self, Self::NotConverged(_) | Self::OutOfChart(_))
     }
 }
 
 /// A defect of one row of data.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
     /// A coordinate is NaN or infinite.
+    #[error("a coordinate is NaN or infinite")]
     NonFinite,
-    /// The attitude is not in the group: its distance from the nearest element of it.
-    OffGroup {
-        /// The largest difference of an entry.
-        distance: f64,
-    },
-    /// J_L(α′) ≠ J_L(α″): the spatial momentum is not conserved by the pair.
-    MomentumMismatch {
-        /// The largest difference of a coordinate, relative to the largest coordinate.
-        relative: f64,
-    },
-    /// A Casimir differs between the momenta before and after: no motion on the dual of this group's algebra leads from one
-    /// to the other.
-    CasimirMismatch {
-        /// The largest difference, relative to the size of the Casimir.
-        relative: f64,
-    },
+    /// The attitude is not in the group: the largest difference of an entry from the nearest element of it.
+    #[error("an attitude is {0:.1e} away from the group")]
+    OffGroup(f64),
+    /// J_L(α′) ≠ J_L(α″): the largest difference of a coordinate of the spatial momentum across the pair, relative to the
+    /// largest coordinate.
+    #[error("the spatial momentum differs by {0:.1e} across the pair")]
+    MomentumMismatch(f64),
+    /// A Casimir differs between the momenta before and after, by this relative to its size: no motion on the dual of this
+    /// group's algebra leads from one to the other.
+    #[error("a Casimir of the group differs by {0:.1e} across the pair")]
+    CasimirMismatch(f64),
     /// The increment g′⁻¹g″ has no coordinate in the chart.
+    #[error("the increment g'^-1 g'' has no coordinate in the chart")]
     OutOfChart,
-    /// By the samples around it, the increment lies beyond the fold of the canonical momentum.
-    Folded {
-        /// det ∂p/∂μ′, which is positive short of the fold.
-        determinant: f64,
-    },
-    /// The increment lies beyond the fold of the canonical momentum in the chart.
-    BeyondFold {
-        /// How far: the fold is at 1.
-        measure: f64,
-    },
-}
-
-impl fmt::Display for RowProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NonFinite => write!(f, "a coordinate is NaN or infinite"),
-            Self::OffGroup { distance } => {
-                write!(f, "an attitude is {distance:.1e} away from the group")
-            }
-            Self::MomentumMismatch { relative } => {
-                write!(f, "the spatial momentum differs by {relative:.1e} across the pair")
-            }
-            Self::CasimirMismatch { relative } => {
-                write!(f, "a Casimir of the group differs by {relative:.1e} across the pair")
-            }
-            Self::OutOfChart => write!(f, "the increment g'^-1 g'' has no coordinate in the chart"),
-            Self::Folded { determinant } => write!(
-                f,
-                "the chart has folded here (det dp/dmu' is about {determinant:.1e}): two increments \
-                 share one p"
-            ),
-            Self::BeyondFold { measure } => write!(
-                f,
-                "the increment lies beyond the fold of the chart ({measure:.3}, the fold is at 1)"
-            ),
-        }
-    }
+    /// By the samples around it, the increment lies beyond the fold of the canonical momentum: det ∂p/∂μ′, which is
+    /// positive short of the fold.
+    #[error("the chart has folded here (det dp/dmu' is about {0:.1e}): two increments share one p")]
+    Folded(f64),
+    /// The increment lies beyond the fold of the canonical momentum in the chart, by a measure that is 1 at the fold.
+    #[error("the increment lies beyond the fold of the chart ({0:.3}, the fold is at 1)")]
+    BeyondFold(f64),
 }
 
 /// A row that cannot be used, by its number.
@@ -287,26 +226,23 @@ impl fmt::Display for BadRows {
             write!(f, "\n  and {} more", self.rows.len() - LISTED)?;
         }
         let has = |test: fn(&RowProblem) -> bool| self.rows.iter().any(|b| test(&b.problem));
-        if has(|p| {
-            matches!(
-                p,
-                RowProblem::BeyondFold { .. } | RowProblem::Folded { .. } | RowProblem::OutOfChart
-            )
-        }) {
-            if self.chart == "cayley" {
-                write!(f, "\nuse the exponential chart, which reaches further, or a smaller step")?;
-            } else {
-                write!(f, "\nuse data with a smaller step")?;
-            }
+        use RowProblem::{
+            BeyondFold, CasimirMismatch, Folded, MomentumMismatch, OffGroup, OutOfChart,
+        };
+        if has(|p| matches!(p, BeyondFold(_) | Folded(_) | OutOfChart)) {
+            f.write_str(match self.chart {
+                "cayley" => "\nuse the exponential chart, which reaches further, or a smaller step",
+                _ => "\nuse data with a smaller step",
+            })?;
         }
-        if has(|p| matches!(p, RowProblem::OffGroup { .. } | RowProblem::MomentumMismatch { .. })) {
+        if has(|p| matches!(p, OffGroup(_) | MomentumMismatch(_))) {
             write!(
                 f,
                 "\nnoisy data can be used by raising the tolerances (--tolerance inf); they are then \
                  projected onto the group, and p is taken from the momentum after the step"
             )?;
         }
-        if has(|p| matches!(p, RowProblem::CasimirMismatch { .. })) {
+        if has(|p| matches!(p, CasimirMismatch(_))) {
             write!(
                 f,
                 "\neither the group is not that of the data, or they are noisy (--tolerance inf), or made by a method that \

@@ -1,7 +1,7 @@
 //! How good a map is: errors of x, μ″ and g″ on pairs, and drifts over many steps.
 
-use coadjoint::groups::{Chart, Coordinates};
-use coadjoint::steps::{advance, poisson_map};
+use coadjoint::groups::Chart;
+use coadjoint::steps::{Monitor, advance, poisson_map};
 use coadjoint::{LieGroup, Phase};
 use serde::{Deserialize, Serialize};
 
@@ -146,7 +146,7 @@ pub struct Drifts {
     pub steps: usize,
     /// The drift of the spatial momentum J_L, relative to its largest coordinate.
     pub momentum: f64,
-    /// The largest drift of a Casimir, relative to its size at the start (absolute where that is 0).
+    /// The largest drift of a Casimir, relative to its scale, as in [`Monitor`].
     pub casimir: f64,
     /// The relative drift of the energy; `None` where no Hamiltonian is known.
     pub energy: Option<f64>,
@@ -168,32 +168,21 @@ where
     C: Chart<G>,
     M: MomentumFunction,
 {
-    let relative = |now: f64, first: f64| {
-        let size = first.abs();
-        if size > 0.0 { ((now - first) / size).abs() } else { now.abs() }
+    let energy = |phase: &Phase<G>| {
+        hamiltonian.map_or(0.0, |hamiltonian| hamiltonian.value(&entries(&phase.momentum)))
     };
-    let spatial = start.spatial_momentum(group);
-    let scale = spatial.largest_entry().max(f64::MIN_POSITIVE);
-    let casimirs: Vec<f64> =
-        (0..group.casimir_count()).map(|c| group.casimir(c, &start.momentum)).collect();
-    let energy = |mu: &G::Vector| hamiltonian.map(|h| h.value(&entries(mu)));
-    let first_energy = energy(&start.momentum);
-    let mut drifts = Drifts { steps, energy: first_energy.map(|_| 0.0), ..Drifts::default() };
     let mut phase = start.clone();
+    let mut monitor = Monitor::new(group.clone(), start, energy(start));
     for step in 1..=steps {
         advance(map, &mut phase)
-            .map_err(|e| LearnError::NotConverged { reason: format!("step {step}: {e}") })?;
-        let now = phase.spatial_momentum(group);
-        for i in 0..group.dim() {
-            drifts.momentum = drifts.momentum.max((now[i] - spatial[i]).abs() / scale);
-        }
-        for (c, first) in casimirs.iter().enumerate() {
-            let value = relative(group.casimir(c, &phase.momentum), *first);
-            drifts.casimir = drifts.casimir.max(value);
-        }
-        if let (Some(now), Some(first)) = (energy(&phase.momentum), first_energy) {
-            drifts.energy = drifts.energy.map(|d| d.max(relative(now, first)));
-        }
+            .map_err(|error| LearnError::NotConverged(format!("step {step}: {error}")))?;
+        monitor.observe(&phase, energy(&phase));
     }
-    Ok(drifts)
+    let drift = monitor.drift();
+    Ok(Drifts {
+        steps,
+        momentum: drift.spatial_momentum,
+        casimir: drift.casimirs,
+        energy: hamiltonian.map(|_| drift.energy),
+    })
 }

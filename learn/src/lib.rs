@@ -63,16 +63,11 @@ pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
 pub use function::{Generating, MomentumFunction, Scaled};
-pub use gaussian_process::{
-    GaussianProcess, GaussianProcessOptions, Uncertainty, fit_gaussian_process,
-};
+pub use gaussian_process::{GaussianProcess, GaussianProcessOptions, fit_gaussian_process};
 pub use group::{DataGroup, matrix_of};
 pub use hybrid::fit_hybrid;
 pub use least_squares::{Descent, GaussNewton};
 pub use model::Model;
-pub use npy::{NpyError, NpyHeader, npy_header};
+pub use npy::npy_header;
 pub use save::{ModelFile, TrainingRecord};
-pub use session::{
-    Kind, NetworkSettings, Request, Summary, learn, learn_columns, learn_momenta,
-    remove_checkpoints,
-};
+pub use session::{Kind, Request, Source, Summary, learn, remove_checkpoints};

@@ -38,53 +38,46 @@ impl Model {
             Self::Hybrid { .. } => "hybrid",
         }
     }
+
+    /// The function itself, or the two of which it is the sum.
+    fn parts(&self) -> (&dyn MomentumFunction, Option<&dyn MomentumFunction>) {
+        match self {
+            Self::Polynomial(polynomial) => (polynomial, None),
+            Self::GaussianProcess(process) => (process, None),
+            Self::Network(network) => (network, None),
+            Self::Hybrid { polynomial, network } => (polynomial, Some(network)),
+        }
+    }
 }
 
 impl MomentumFunction for Model {
     fn dim(&self) -> usize {
-        match self {
-            Self::Polynomial(m) => m.dim(),
-            Self::GaussianProcess(m) => m.dim(),
-            Self::Network(m) => m.dim(),
-            Self::Hybrid { polynomial, .. } => polynomial.dim(),
-        }
+        self.parts().0.dim()
     }
 
     fn value(&self, p: &[f64]) -> f64 {
-        match self {
-            Self::Polynomial(m) => m.value(p),
-            Self::GaussianProcess(m) => m.value(p),
-            Self::Network(m) => m.value(p),
-            Self::Hybrid { polynomial, network } => polynomial.value(p) + network.value(p),
-        }
+        let (first, second) = self.parts();
+        first.value(p) + second.map_or(0.0, |second| second.value(p))
     }
 
     fn gradient(&self, p: &[f64], gradient: &mut [f64]) {
-        match self {
-            Self::Polynomial(m) => m.gradient(p, gradient),
-            Self::GaussianProcess(m) => m.gradient(p, gradient),
-            Self::Network(m) => m.gradient(p, gradient),
-            Self::Hybrid { polynomial, network } => {
-                let mut rest = vec![0.0; gradient.len()];
-                polynomial.gradient(p, gradient);
-                network.gradient(p, &mut rest);
-                gradient.iter_mut().zip(&rest).for_each(|(a, b)| *a += b);
-            }
+        let (first, second) = self.parts();
+        first.gradient(p, gradient);
+        if let Some(second) = second {
+            let mut rest = vec![0.0; gradient.len()];
+            second.gradient(p, &mut rest);
+            gradient.iter_mut().zip(&rest).for_each(|(a, b)| *a += b);
         }
     }
 
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
-        match self {
-            Self::Polynomial(m) => m.gradient_and_hessian(p, gradient, hessian),
-            Self::GaussianProcess(m) => m.gradient_and_hessian(p, gradient, hessian),
-            Self::Network(m) => m.gradient_and_hessian(p, gradient, hessian),
-            Self::Hybrid { polynomial, network } => {
-                let mut rest = (vec![0.0; gradient.len()], vec![0.0; hessian.len()]);
-                polynomial.gradient_and_hessian(p, gradient, hessian);
-                network.gradient_and_hessian(p, &mut rest.0, &mut rest.1);
-                gradient.iter_mut().zip(&rest.0).for_each(|(a, b)| *a += b);
-                hessian.iter_mut().zip(&rest.1).for_each(|(a, b)| *a += b);
-            }
+        let (first, second) = self.parts();
+        first.gradient_and_hessian(p, gradient, hessian);
+        if let Some(second) = second {
+            let mut rest = (vec![0.0; gradient.len()], vec![0.0; hessian.len()]);
+            second.gradient_and_hessian(p, &mut rest.0, &mut rest.1);
+            gradient.iter_mut().zip(&rest.0).for_each(|(a, b)| *a += b);
+            hessian.iter_mut().zip(&rest.1).for_each(|(a, b)| *a += b);
         }
     }
 }

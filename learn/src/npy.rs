@@ -11,15 +11,15 @@ const LONGEST: u64 = 1 << 16;
 
 /// The header of an array of 64- or 32-bit floats.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NpyHeader {
+pub(crate) struct NpyHeader {
     /// The lengths along each axis.
-    pub shape: Vec<usize>,
+    pub(crate) shape: Vec<usize>,
     /// Whether the first index runs quickest.
-    pub fortran: bool,
+    pub(crate) fortran: bool,
     /// Bytes before the first number.
-    pub length: u64,
+    pub(crate) length: u64,
     /// Bytes of a number: 8 or 4.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Whether the first byte of a number is its highest.
     big_endian: bool,
     count: usize,
@@ -27,8 +27,7 @@ pub struct NpyHeader {
 
 /// Why an array cannot be read.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum NpyError {
+pub(crate) enum NpyError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] std::io::Error),
@@ -42,12 +41,7 @@ pub enum NpyError {
     #[error(
         "its header claims {claimed} bytes; the file has {rest} left, and no header has more than {LONGEST}"
     )]
-    HeaderLength {
-        /// The length that the file gives.
-        claimed: u64,
-        /// Bytes after the length.
-        rest: u64,
-    },
+    HeaderLength { claimed: u64, rest: u64 },
     /// A header that is not the dictionary it must be.
     #[error("its header cannot be read: {0}")]
     Header(&'static str),
@@ -56,12 +50,7 @@ pub enum NpyError {
     Type(String),
     /// A shape with more numbers than the file has.
     #[error("its shape {shape:?} needs more than the {rest} bytes that the file has left")]
-    Shape {
-        /// The shape.
-        shape: Vec<u64>,
-        /// Bytes after the header.
-        rest: u64,
-    },
+    Shape { shape: Vec<u64>, rest: u64 },
 }
 
 impl NpyHeader {
@@ -70,7 +59,7 @@ impl NpyHeader {
     ///
     /// # Errors
     /// [`NpyError`] naming what is wrong.
-    pub fn read(reader: &mut impl Read, total: u64) -> Result<Self, NpyError> {
+    pub(crate) fn read(reader: &mut impl Read, total: u64) -> Result<Self, NpyError> {
         let mut start = [0; 8];
         reader.read_exact(&mut start).map_err(|_| NpyError::Signature)?;
         if start[..6] != *b"\x93NUMPY" {
@@ -118,13 +107,12 @@ impl NpyHeader {
     }
 
     /// How many numbers the array has; all of them are in the file.
-    #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// Adds the numbers of `bytes`; what is not a whole number at the end is left.
-    pub fn decode(&self, bytes: &[u8], values: &mut Vec<f64>) {
+    pub(crate) fn decode(&self, bytes: &[u8], values: &mut Vec<f64>) {
         let wide = |b: &[u8; 8]| {
             if self.big_endian { f64::from_be_bytes(*b) } else { f64::from_le_bytes(*b) }
         };
@@ -302,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read() {
+    fn written_headers_are_read() {
         for shape in [vec![], vec![0], vec![3], vec![2, 5], vec![1, 2, 3]] {
             let mut bytes = npy_header(&shape);
             assert_eq!(bytes.len() % 64, 0);

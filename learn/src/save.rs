@@ -94,10 +94,9 @@ impl ModelFile {
     /// of another version, or something else altogether.
     pub fn load(path: &Path) -> Result<Self, LearnError> {
         let text = read_text(path).map_err(|source| match source.kind() {
-            std::io::ErrorKind::InvalidData => LearnError::Model {
-                path: path.into(),
-                reason: "it is not a text file; models are JSON".into(),
-            },
+            std::io::ErrorKind::InvalidData => {
+                LearnError::Model(path.into(), "it is not a text file; models are JSON".into())
+            }
             _ => LearnError::file(path)(source),
         })?;
         Self::of_text(path, &text)
@@ -108,7 +107,7 @@ impl ModelFile {
     /// # Errors
     /// [`LearnError::Model`] when it is damaged, of another version, or something else altogether.
     pub fn of_text(path: &Path, text: &str) -> Result<Self, LearnError> {
-        let fail = |reason: String| LearnError::Model { path: path.into(), reason };
+        let fail = |reason: String| LearnError::Model(path.into(), reason);
         // The kind of file is checked first, so that the message is about that.
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|e| fail(format!("it is not whole JSON: {e}")))?;

@@ -1,11 +1,12 @@
 //! Learned maps.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
-use coadjoint_learn::{Kind, ModelFile, NetworkSettings, Request, learn_columns};
+use coadjoint_learn::network::{Progress, TrainingOptions};
+use coadjoint_learn::{Kind, ModelFile, Request, Source};
 use coadjoint_run::simulate::{Schedule, Setup, algebra_of, run_model};
 use coadjoint_run::{RunError, emit};
 use numpy::PyReadonlyArray1;
@@ -63,8 +64,6 @@ impl Settings {
         let activation = self.activation.parse();
         let activation = activation.map_err(|error| raised(py, &RunError::Learn(error)))?;
         Ok(Request {
-            data: PathBuf::from("the data"),
-            test: None,
             group: self.group,
             chart: self.chart,
             step: self.step,
@@ -77,11 +76,10 @@ impl Settings {
             momenta_only: self.momenta_only,
             start: self.start,
             seed: self.seed,
-            network: NetworkSettings {
+            network: TrainingOptions {
                 widths: self.widths,
                 activation,
-                evaluations: self.evaluations,
-                checkpoint: None,
+                ..TrainingOptions::budget(self.evaluations)
             },
             drift_steps: self.drift_steps,
         })
@@ -106,11 +104,12 @@ pub fn learn<'py>(
     let data = columns(data).map_err(|error| raised(py, &error))?;
     let test = test.map(columns).transpose().map_err(|error| raised(py, &error))?;
     let made = work(py, progress.as_ref(), move |control| -> Result<_, RunError> {
-        let mut told = |step: usize, total: usize, _: f64| {
+        let mut told = |Progress { step, total, .. }: Progress| {
             control.total.store(total as u64, Ordering::Relaxed);
             control.done.store(step as u64, Ordering::Relaxed);
         };
-        let (file, summary) = learn_columns(&request, &data, test.as_ref(), &mut told)?;
+        let source = Source::Columns(&data, test.as_ref());
+        let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
         let text = file.text().map_err(|error| unwritten(&error))?;
         let summary = serde_json::to_string(&summary).map_err(|error| unwritten(&error))?;

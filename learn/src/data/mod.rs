@@ -14,4 +14,4 @@ pub use read::read_columns;
 pub use recording::{Attitudes, Recording};
 pub use reduce::{PairRows, PhasePair, Reduction, RowPolicy, Tolerances, reduce};
 pub use samples::{MomentumPairs, ReducedData};
-pub use write::{write_columns, write_pairs};
+pub use write::write_pairs;

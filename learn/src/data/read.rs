@@ -31,7 +31,7 @@ pub fn read_columns(path: &Path, dim: usize, matrix_size: usize) -> Result<Colum
             let names = table.names().to_vec();
             all_of(path, table, names)?
         }
-        _ => return Err(LearnError::UnknownFormat { path: path.into() }),
+        _ => return Err(LearnError::UnknownFormat(path.into())),
     };
     if columns.rows() == 0 {
         return Err(LearnError::NoSamples);

@@ -88,7 +88,7 @@ impl Recording {
     /// than `tolerance` (in a matrix entry; a quaternion's length likewise) come back as bad.
     ///
     /// # Errors
-    /// [`LearnError::NoAttitude`] for momenta only, [`LearnError::AttitudeForm`] for quaternions
+    /// [`LearnError::NoAttitude`] for momenta only, [`LearnError::NoQuaternions`] for quaternions
     /// of a group that has none.
     pub fn phase_pairs<G: DataGroup>(
         &self,
@@ -99,7 +99,7 @@ impl Recording {
             return Err(LearnError::NoAttitude);
         };
         if *quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
-            return Err(LearnError::AttitudeForm { form: "quaternions" });
+            return Err(LearnError::NoQuaternions);
         }
         let size = group.matrix_size();
         let element = |column: &[f64]| -> Result<G::Element, RowProblem> {
@@ -118,7 +118,7 @@ impl Recording {
             };
             match found {
                 Some(g) if distance <= tolerance => Ok(g),
-                _ => Err(RowProblem::OffGroup { distance }),
+                _ => Err(RowProblem::OffGroup(distance)),
             }
         };
         let (mut pairs, mut bad) = (Vec::new(), Vec::new());

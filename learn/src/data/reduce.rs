@@ -128,7 +128,7 @@ where
     let folded = fold::beyond::<G, C>(group, &data);
     if !folded.is_empty() {
         for &(i, determinant) in &folded {
-            bad.push(BadRow { row: rows[i], problem: RowProblem::Folded { determinant } });
+            bad.push(BadRow { row: rows[i], problem: RowProblem::Folded(determinant) });
         }
         let kept: Vec<usize> =
             (0..rows.len()).filter(|i| folded.iter().all(|(f, _)| f != i)).collect();
@@ -171,13 +171,13 @@ where
         return Err(RowProblem::NonFinite);
     }
     if relative > tolerance {
-        return Err(RowProblem::MomentumMismatch { relative });
+        return Err(RowProblem::MomentumMismatch(relative));
     }
     let x = chart.coordinate(group, &increment).filter(&finite).ok_or(RowProblem::OutOfChart)?;
     if let Some(measure) = group.fold_measure(C::NAME, &x)
         && measure >= 1.0
     {
-        return Err(RowProblem::BeyondFold { measure });
+        return Err(RowProblem::BeyondFold(measure));
     }
     // d^Lτ_x = d^Rτ_{−x}.
     let minus: Vec<f64> = entries(&x).iter().map(|v| -v).collect();

@@ -42,23 +42,16 @@ pub fn write_pairs<G: LieGroup<Scalar = f64>>(
         }
         values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
     }
-    write_columns(path, &Columns::new(names.into_iter().zip(values))?)
-}
-
-/// Writes named columns, in the format of the ending, as [`write_pairs`].
-///
-/// # Errors
-/// As [`write_pairs`].
-pub fn write_columns(path: &Path, columns: &Columns) -> Result<(), LearnError> {
+    let columns = Columns::new(names.into_iter().zip(values))?;
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let bytes = match ending.as_deref() {
-        Some("csv") => csv(columns),
-        Some("npz") => npz(columns).map_err(|error| LearnError::format(path, "NumPy", error))?,
+        Some("csv") => csv(&columns),
+        Some("npz") => npz(&columns).map_err(|error| LearnError::format(path, "NumPy", error))?,
         #[cfg(feature = "parquet")]
         Some("parquet") => {
-            parquet(columns).map_err(|error| LearnError::format(path, "Parquet", error))?
+            parquet(&columns).map_err(|error| LearnError::format(path, "Parquet", error))?
         }
-        _ => return Err(LearnError::UnknownFormat { path: path.into() }),
+        _ => return Err(LearnError::UnknownFormat(path.into())),
     };
     file::write(path, &[], &bytes).map_err(LearnError::file(path))
 }

@@ -86,8 +86,9 @@ pub fn fit_gaussian_process(
             }
         }
     }
-    let failed = || LearnError::NotConverged {
-        reason: "no covariance of the Gaussian process is positive definite".into(),
+    let failed = || {
+        let reason = "no covariance of the Gaussian process is positive definite";
+        LearnError::NotConverged(reason.into())
     };
     let (_, length, mut noise) = best.ok_or_else(failed)?;
     let (points, targets) = thinned(options.largest);

@@ -1,10 +1,8 @@
-//! A Gaussian process on S, conditioned on its gradients, with predictive variance.
+//! A Gaussian process on S, conditioned on its gradients.
 
 mod fit;
 mod kernel;
 mod model;
-mod uncertainty;
 
 pub use fit::{GaussianProcessOptions, fit_gaussian_process};
 pub use model::GaussianProcess;
-pub use uncertainty::Uncertainty;

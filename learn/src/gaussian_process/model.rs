@@ -59,27 +59,11 @@ impl TryFrom<Stored> for GaussianProcess {
 }
 
 impl GaussianProcess {
-    /// The length ℓ of the kernel, in normalised momenta.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        self.stored.length
-    }
-
-    /// The standard deviation of the noise the fit assumes, in units of x for the first momentum.
-    #[must_use]
-    pub fn noise(&self) -> f64 {
-        let Stored { noise, length, deviation, scaling, .. } = &self.stored;
-        noise.sqrt() / length * deviation / scaling.half_width[0]
-    }
-
-    fn normalise(&self, p: &[f64]) -> Vec<f64> {
-        p.iter().enumerate().map(|(i, &v)| self.stored.scaling.normalise(i, v)).collect()
-    }
-
     /// Calls `visit` with every point's difference, kernel and weights.
-    pub(super) fn visit(&self, p: &[f64], mut visit: impl FnMut(&[f64], &Kernel, &[f64])) {
+    fn visit(&self, p: &[f64], mut visit: impl FnMut(&[f64], &Kernel, &[f64])) {
         let dim = self.dim();
-        let u = self.normalise(p);
+        let scaling = &self.stored.scaling;
+        let u: Vec<f64> = p.iter().enumerate().map(|(i, &v)| scaling.normalise(i, v)).collect();
         let mut d = vec![0.0; dim];
         let points = self.stored.points.chunks_exact(dim);
         for (point, weights) in points.zip(self.stored.weights.chunks_exact(dim)) {

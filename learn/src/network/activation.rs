@@ -66,14 +66,3 @@ impl FromStr for Activation {
         Err(LearnError::option("activation", name, requirement))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn relu_is_refused_with_the_reason() {
-        let message = "ReLU".parse::<Activation>().unwrap_err().to_string();
-        assert!(message.contains("piecewise constant"), "{message}");
-    }
-}

@@ -31,23 +31,29 @@ pub struct TrainingOptions {
 }
 
 impl Default for TrainingOptions {
-    /// The paper's net and budget of 1000 evaluations, spent as 50 of Adam, enough to come near,
-    /// and 950 of L-BFGS.
+    /// The paper's net and budget.
     fn default() -> Self {
-        Self {
-            widths: vec![500, 500],
-            activation: Activation::Tanh,
-            adam_steps: 50,
-            rate: 1e-3,
-            final_fraction: 0.01,
-            lbfgs_steps: 950,
-            seed: 0,
-            checkpoint: None,
-        }
+        Self::budget(1000)
     }
 }
 
 impl TrainingOptions {
+    /// The paper's net with this many evaluations of the loss: a twentieth by Adam, enough to come near, the others by
+    /// L-BFGS.
+    #[must_use]
+    pub fn budget(evaluations: usize) -> Self {
+        Self {
+            widths: vec![500, 500],
+            activation: Activation::Tanh,
+            adam_steps: evaluations / 20,
+            rate: 1e-3,
+            final_fraction: 0.01,
+            lbfgs_steps: evaluations - evaluations / 20,
+            seed: 0,
+            checkpoint: None,
+        }
+    }
+
     /// Adam's step size at a step.
     #[must_use]
     pub fn rate(&self, step: usize) -> f64 {

@@ -49,15 +49,14 @@ pub fn fit_network(
     };
     let train = fit(points, gradients);
     let watched = validation.map(|(points, gradients)| fit(points, gradients));
-    let watch = watched.as_ref().map(|fit| move |unknowns: &[f64]| fit.value(unknowns));
+    let watch =
+        watched.as_ref().map(|fit| move |unknowns: &[f64]| fit.value_and_gradient(unknowns).0);
     let watch = watch.as_ref().map(|watch| watch as &Watch<'_>);
     let words = format!("gradients {}", serde_json::to_string(options).unwrap_or_default());
     let task = super::checkpoint::task(&words, &[points.as_slice(), gradients.as_slice()]);
-    let mut evaluate = |unknowns: &[f64]| Ok(train.value_and_gradient(unknowns));
+    let mut evaluate = |unknowns: &[f64]| train.value_and_gradient(unknowns);
     let start = train.draw(options.seed);
     let (flat, history) = minimise(start, task, options, &mut evaluate, watch, progress)?;
-    let (hidden, output) = train.layers(&flat);
-    let network = DenseNetwork::new(options.activation, scaling, mean, scale, hidden, output)
-        .map_err(|reason| LearnError::NotConverged { reason })?;
-    Ok((network, history))
+    let network = DenseNetwork::new(train.layers(&flat), scaling, mean, scale);
+    Ok((network.map_err(LearnError::NotConverged)?, history))
 }

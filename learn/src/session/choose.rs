@@ -2,13 +2,14 @@
 
 use coadjoint::groups::Chart;
 
-use super::neural::{self, Trained};
+use super::neural::train;
 use super::request::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::gaussian_process::{GaussianProcessOptions, fit_gaussian_process};
 use crate::group::DataGroup;
 use crate::model::Model;
+use crate::network::Progress;
 use crate::polynomial::{
     Candidate, Selection, SelectionOptions, fit_group_loss, fit_polynomial, folds, gradient_error,
     select_polynomial, split,
@@ -24,7 +25,7 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
     request: &Request,
     group: &G,
     data: &ReducedData,
-    progress: &mut dyn FnMut(usize, usize, f64),
+    progress: &mut dyn FnMut(Progress),
 ) -> Result<(Model, TrainingRecord), LearnError> {
     let mut record =
         TrainingRecord { samples: data.len(), seed: request.seed, ..TrainingRecord::default() };
@@ -51,10 +52,10 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
         }
         Kind::Auto => automatic(request, data, selection()?, &mut record, progress)?,
         Kind::Network | Kind::Hybrid => {
-            let trained = neural::train(request, request.kind, data, "", progress)?;
-            record.choice = format!("{}, as asked", trained.name);
-            record.history = trained.history;
-            trained.model
+            let (model, name, history) = train(request, request.kind, data, "", progress)?;
+            record.choice = format!("{name}, as asked");
+            record.history = history;
+            model
         }
     };
     if request.group_loss {
@@ -82,7 +83,7 @@ fn automatic(
     data: &ReducedData,
     selection: Selection,
     record: &mut TrainingRecord,
-    progress: &mut dyn FnMut(usize, usize, f64),
+    progress: &mut dyn FnMut(Progress),
 ) -> Result<Model, LearnError> {
     let Selection { model: polynomial, best, candidates } = selection;
     record.candidates = candidates;
@@ -105,11 +106,11 @@ fn automatic(
         remark = "; networks not tried: they come nowhere near";
     } else {
         for kind in [Kind::Network, Kind::Hybrid] {
-            match neural::train(request, kind, &rest, ".held-out", progress) {
-                Ok(Trained { model, name, .. }) => {
+            match train(request, kind, &rest, ".held-out", progress) {
+                Ok((model, name, _)) => {
                     rivals.push((kind, name, gradient_error(&model, &p, &x)));
                 }
-                Err(error @ (LearnError::Checkpoint { .. } | LearnError::File { .. })) => {
+                Err(error @ (LearnError::Checkpoint(..) | LearnError::File { .. })) => {
                     return Err(error);
                 }
                 Err(_) => {}
@@ -135,9 +136,9 @@ fn automatic(
             Ok(Model::GaussianProcess(fit_gaussian_process(data, &process_options())?))
         }
         Kind::Network | Kind::Hybrid => {
-            let trained = neural::train(request, kind, data, "", progress)?;
-            record.history = trained.history;
-            Ok(trained.model)
+            let (model, _, history) = train(request, kind, data, "", progress)?;
+            record.history = history;
+            Ok(model)
         }
         Kind::Polynomial | Kind::Auto => Ok(Model::Polynomial(polynomial)),
     }

@@ -5,13 +5,13 @@ mod momenta;
 mod neural;
 mod request;
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use coadjoint::Phase;
 use coadjoint::groups::Chart;
 
 pub use neural::remove_checkpoints;
-pub use request::{Kind, NetworkSettings, Request, Summary};
+pub use request::{Kind, Request, Summary};
 
 use crate::catalogue::{Visitor, visit};
 use crate::data::{Columns, MomentumPairs, PairRows, Recording, Reduction, read_columns, reduce};
@@ -19,50 +19,29 @@ use crate::error::LearnError;
 use crate::evaluate::{drifts, evaluate};
 use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
+use crate::network::Progress;
 use crate::save::{ModelFile, TrainingRecord};
 use request::{few_rows, named};
 
-/// Learns, and reports the errors. Iterative fits call `progress` with (step, of, loss).
+/// The training data, and test data where there are any.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// Files: CSV, NPY, NPZ, or Parquet where the feature is built in.
+    Files(&'a Path, Option<&'a Path>),
+    /// Columns that are named as those of files.
+    Columns(&'a Columns, Option<&'a Columns>),
+    /// Pairs of momenta made by any method, to find the Poisson map nearest to it.
+    Momenta(&'a MomentumPairs),
+}
+
+/// Learns, and reports the errors. The training of networks calls `progress`.
 ///
 /// # Errors
 /// [`LearnError`] naming what is wrong with the data or the request.
 pub fn learn(
     request: &Request,
-    progress: &mut dyn FnMut(usize, usize, f64),
-) -> Result<(ModelFile, Summary), LearnError> {
-    run(request, Source::Files, progress)
-}
-
-/// As [`learn`], from columns in memory that are named as those of files; `request.data` and `request.test` are not read.
-///
-/// # Errors
-/// As [`learn`].
-pub fn learn_columns(
-    request: &Request,
-    data: &Columns,
-    test: Option<&Columns>,
-    progress: &mut dyn FnMut(usize, usize, f64),
-) -> Result<(ModelFile, Summary), LearnError> {
-    run(request, Source::Columns(data, test), progress)
-}
-
-/// Learns the Poisson map nearest to pairs of momenta made by any method; `request.data` and
-/// `request.test` are not read.
-///
-/// # Errors
-/// As [`learn`].
-pub fn learn_momenta(
-    request: &Request,
-    pairs: &MomentumPairs,
-) -> Result<(ModelFile, Summary), LearnError> {
-    run(request, Source::Momenta(pairs), &mut |_, _, _| {})
-}
-
-/// Refuses numbers that make no sense, whatever the data, and learns.
-fn run(
-    request: &Request,
     source: Source<'_>,
-    progress: &mut dyn FnMut(usize, usize, f64),
+    progress: &mut dyn FnMut(Progress),
 ) -> Result<(ModelFile, Summary), LearnError> {
     if !(request.step.is_finite() && request.step != 0.0) {
         let requirement = "give the time between the two states of a pair";
@@ -79,17 +58,10 @@ fn run(
     visit(&request.group, &request.chart, Learner { request, source, progress })?
 }
 
-/// The training and test data of a request.
-enum Source<'a> {
-    Files,
-    Columns(&'a Columns, Option<&'a Columns>),
-    Momenta(&'a MomentumPairs),
-}
-
 struct Learner<'a> {
     request: &'a Request,
     source: Source<'a>,
-    progress: &'a mut dyn FnMut(usize, usize, f64),
+    progress: &'a mut dyn FnMut(Progress),
 }
 
 impl Visitor for Learner<'_> {
@@ -105,9 +77,9 @@ impl Visitor for Learner<'_> {
             return Err(LearnError::Shape { what, expected: dim, found: start.len() });
         }
         let of = |columns: &Columns| Recording::from_columns(columns, dim, size);
-        let read = |path: &PathBuf| of(&read_columns(path, dim, size)?);
+        let read = |path: &Path| of(&read_columns(path, dim, size)?);
         let (recording, test) = match source {
-            Source::Files => (read(&request.data)?, request.test.as_ref().map(read).transpose()?),
+            Source::Files(data, test) => (read(data)?, test.map(read).transpose()?),
             Source::Columns(data, test) => (of(data)?, test.map(of).transpose()?),
             Source::Momenta(pairs) => {
                 return momenta::learn::<G, C>(request, &group, pairs, None);

@@ -44,7 +44,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
             changes.iter().enumerate().filter(|(_, change)| **change > request.tolerances.momentum);
         bad.extend(off.map(|(i, &relative)| BadRow {
             row: i + 1,
-            problem: RowProblem::CasimirMismatch { relative },
+            problem: RowProblem::CasimirMismatch(relative),
         }));
         bad.sort_by_key(|bad| bad.row);
     }
@@ -97,7 +97,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
                 fit(2, &pairs)?;
                 fit(2, &outside)?;
                 let reason = "no degree from 2 to 6 could be fitted".into();
-                return Err(LearnError::NotConverged { reason });
+                return Err(LearnError::NotConverged(reason));
             }
         };
         let mse = best.mse;

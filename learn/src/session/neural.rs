@@ -34,48 +34,26 @@ pub fn remove_checkpoints(base: &Path) -> Result<(), LearnError> {
     Ok(())
 }
 
-/// A trained model.
-pub(super) struct Trained {
-    pub(super) model: Model,
-    pub(super) name: String,
-    pub(super) history: Vec<f64>,
-}
-
-/// Trains a network or a hybrid; `purpose` tells checkpoints apart.
+/// Trains a network or a hybrid; `purpose` tells checkpoints apart. Returns the model, its name and the losses.
 pub(super) fn train(
     request: &Request,
     kind: Kind,
     data: &ReducedData,
     purpose: &str,
-    progress: &mut dyn FnMut(usize, usize, f64),
-) -> Result<Trained, LearnError> {
-    let settings = &request.network;
-    if settings.evaluations == 0 {
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Model, String, Vec<f64>), LearnError> {
+    let TrainingOptions { widths, adam_steps, lbfgs_steps, checkpoint, .. } = &request.network;
+    if adam_steps + lbfgs_steps == 0 {
         return Err(LearnError::option("evaluations", 0, "a network is trained by at least one"));
     }
-    let name = if kind == Kind::Network { "network" } else { "hybrid" };
-    let adam_steps = settings.evaluations / 20;
-    let options = TrainingOptions {
-        widths: settings.widths.clone(),
-        activation: settings.activation,
-        adam_steps,
-        lbfgs_steps: settings.evaluations - adam_steps,
-        seed: request.seed,
-        checkpoint: settings
-            .checkpoint
-            .as_ref()
-            .map(|base| ending(base, &format!(".{name}{purpose}"))),
-        ..TrainingOptions::default()
-    };
-    let mut tell = |p: Progress| progress(p.step, p.total, p.loss);
-    let widths = &settings.widths;
+    let checkpoint = checkpoint.as_deref();
+    let checkpoint = checkpoint.map(|base| ending(base, &format!(".{}{purpose}", kind.name())));
+    let options = TrainingOptions { seed: request.seed, checkpoint, ..request.network.clone() };
     if kind == Kind::Network {
-        let (network, history) = fit_network(&data.p, &data.x, None, &options, &mut tell)?;
-        Ok(Trained { model: Model::Network(network), name: format!("network {widths:?}"), history })
-    } else {
-        let degree = request.degree.unwrap_or(2);
-        let (model, history) = fit_hybrid(&data.p, &data.x, degree, &options, &mut tell)?;
-        let name = format!("hybrid of degree {degree} and network {widths:?}");
-        Ok(Trained { model, name, history })
+        let (network, history) = fit_network(&data.p, &data.x, None, &options, progress)?;
+        return Ok((Model::Network(network), format!("network {widths:?}"), history));
     }
+    let degree = request.degree.unwrap_or(2);
+    let (model, history) = fit_hybrid(&data.p, &data.x, degree, &options, progress)?;
+    Ok((model, format!("hybrid of degree {degree} and network {widths:?}"), history))
 }

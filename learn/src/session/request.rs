@@ -1,14 +1,12 @@
 //! Requests to learn, and their results.
 
-use std::path::PathBuf;
-
 use serde::{Deserialize, Serialize};
 
 use crate::data::{RowPolicy, Tolerances};
 use crate::error::BadRow;
 use crate::evaluate::{Drifts, Figures};
 use crate::model::Model;
-use crate::network::Activation;
+use crate::network::TrainingOptions;
 
 /// The kind of model asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,13 +38,9 @@ impl Kind {
     }
 }
 
-/// A request: the data and the model to fit to them.
-#[derive(Clone, Debug, PartialEq)]
+/// A request: the model to fit to some data.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// The file of training data: CSV, NPY, NPZ, or Parquet where the feature is built in.
-    pub data: PathBuf,
-    /// The file of test data, in the same formats, if there is one.
-    pub test: Option<PathBuf>,
     /// The group's name in the catalogue.
     pub group: String,
     /// The chart's name: `exp` or `cayley`.
@@ -71,35 +65,11 @@ pub struct Request {
     pub start: Option<Vec<f64>>,
     /// The seed of folds and weights.
     pub seed: u64,
-    /// The networks, where one is trained.
-    pub network: NetworkSettings,
+    /// How networks are trained. Their seed is that of the request, and the names of their checkpoints begin with the one
+    /// here.
+    pub network: TrainingOptions,
     /// Steps over which drifts are measured.
     pub drift_steps: usize,
-}
-
-/// The network to train, and where its training keeps its state.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NetworkSettings {
-    /// Widths of the hidden layers.
-    pub widths: Vec<usize>,
-    /// The activation.
-    pub activation: Activation,
-    /// Evaluations of the loss: the first twentieth by Adam, the others by L-BFGS.
-    pub evaluations: usize,
-    /// Checkpoints are written to files whose names begin with this; training goes on from them.
-    pub checkpoint: Option<PathBuf>,
-}
-
-impl Default for NetworkSettings {
-    /// The paper's net and budget, without checkpoints.
-    fn default() -> Self {
-        Self {
-            widths: vec![500, 500],
-            activation: Activation::default(),
-            evaluations: 1000,
-            checkpoint: None,
-        }
-    }
 }
 
 /// The results.

@@ -1,55 +1,48 @@
 //! `auto` compares every kind of model the build has, on the same held-out samples, and says so.
 #![allow(clippy::unwrap_used)]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use coadjoint::SO3;
-use coadjoint_learn::data::{RowPolicy, Tolerances, write_pairs};
-use coadjoint_learn::truth::{Bump, MomentumBox, Quadratic, phase_pairs};
+use coadjoint_learn::data::write_pairs;
+use coadjoint_learn::network::{Progress, TrainingOptions};
+use coadjoint_learn::truth::{Quadratic, phase_pairs};
 use coadjoint_learn::{
-    Kind, LearnError, MomentumFunction, NetworkSettings, Request, learn, remove_checkpoints,
+    Kind, LearnError, ModelFile, MomentumFunction, Request, Source, Summary, learn,
+    remove_checkpoints,
 };
 
-fn request(name: &str, truth: &impl MomentumFunction, count: usize) -> Request {
+use crate::support::{WIDE, bump};
+
+/// A file of pairs of this truth.
+fn pairs(name: &str, truth: &impl MomentumFunction, count: usize) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("coadjoint-choice-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let data = folder.join(format!("{name}.csv"));
-    let wide = MomentumBox { low: -2.0, high: 2.0 };
-    let pairs = phase_pairs(&SO3::new(), truth, 0.1, wide, count, 1);
+    let pairs = phase_pairs(&SO3::new(), truth, 0.1, WIDE, count, 1);
     write_pairs(&data, &SO3::new(), &pairs).unwrap();
-    Request {
-        data,
-        test: None,
-        group: "SO3".into(),
-        chart: "exp".into(),
-        step: 0.1,
-        kind: Kind::Auto,
-        degree: None,
-        ridge: 0.0,
-        group_loss: false,
-        tolerances: Tolerances::default(),
-        policy: RowPolicy::Refuse,
-        momenta_only: false,
-        start: None,
-        seed: 0,
-        network: NetworkSettings { widths: vec![24, 24], evaluations: 300, ..Default::default() },
-        drift_steps: 10,
-    }
+    data
 }
 
-fn bump() -> Bump {
-    Bump {
-        weights: vec![1.0 / 1.5, 0.5, 0.4],
-        height: 1.5,
-        sharpness: vec![1.2, 0.7, 0.9],
-        centre: vec![0.5, -0.3, 0.8],
-    }
+fn request(kind: Kind) -> Request {
+    let network = TrainingOptions { widths: vec![24, 24], ..TrainingOptions::budget(300) };
+    let (group, chart) = ("SO3".into(), "exp".into());
+    Request { group, chart, step: 0.1, kind, network, drift_steps: 10, ..Request::default() }
+}
+
+fn learnt(
+    request: &Request,
+    data: &Path,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(ModelFile, Summary), LearnError> {
+    learn(request, Source::Files(data, None), progress)
 }
 
 /// On a bump no polynomial is exact; the choice names every kind with its figure.
 #[test]
 fn auto_names_every_kind_it_compared() {
-    let (file, summary) = learn(&request("bump", &bump(), 100), &mut |_, _, _| {}).unwrap();
+    let data = pairs("bump", &bump(), 100);
+    let (file, summary) = learnt(&request(Kind::Auto), &data, &mut |_| {}).unwrap();
     println!("{}", summary.choice);
     for kind in ["polynomial degree", "Gaussian process"] {
         assert!(summary.choice.contains(kind), "{}", summary.choice);
@@ -71,8 +64,8 @@ fn auto_names_every_kind_it_compared() {
 /// Exact data of a free body: the polynomial wins by so much that networks are not tried.
 #[test]
 fn a_polynomial_wins_on_the_free_body() {
-    let request = request("body", &Quadratic::paper(), 150);
-    let (_, summary) = learn(&request, &mut |_, _, _| {}).unwrap();
+    let data = pairs("body", &Quadratic::paper(), 150);
+    let (_, summary) = learnt(&request(Kind::Auto), &data, &mut |_| {}).unwrap();
     assert_eq!(summary.model, "polynomial");
     assert!(summary.choice.contains("networks not tried"), "{}", summary.choice);
 }
@@ -81,18 +74,18 @@ fn a_polynomial_wins_on_the_free_body() {
 #[test]
 fn checkpoints_of_a_session_belong_to_it() {
     let base: PathBuf = std::env::temp_dir().join(format!("coadjoint-base-{}", std::process::id()));
-    let mut request = request("checkpoint", &bump(), 60);
-    request.kind = Kind::Network;
+    let data = pairs("checkpoint", &bump(), 60);
+    let mut request = request(Kind::Network);
     request.network.checkpoint = Some(base.clone());
-    let once = learn(&request, &mut |_, _, _| {}).unwrap();
+    let once = learnt(&request, &data, &mut |_| {}).unwrap();
     // Finished already: the same bits without training.
     let mut evaluations = 0;
-    let again = learn(&request, &mut |_, _, _| evaluations += 1).unwrap();
+    let again = learnt(&request, &data, &mut |_| evaluations += 1).unwrap();
     assert_eq!((once.0, evaluations), (again.0, 0));
     let other = Request { seed: 1, ..request };
-    let error = learn(&other, &mut |_, _, _| {}).unwrap_err();
-    assert!(matches!(error, LearnError::Checkpoint { .. }), "{error}");
+    let error = learnt(&other, &data, &mut |_| {}).unwrap_err();
+    assert!(matches!(error, LearnError::Checkpoint(..)), "{error}");
     remove_checkpoints(&base).unwrap();
-    learn(&other, &mut |_, _, _| {}).unwrap();
+    learnt(&other, &data, &mut |_| {}).unwrap();
     remove_checkpoints(&base).unwrap();
 }

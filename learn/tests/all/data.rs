@@ -42,7 +42,7 @@ fn files_read_back_what_was_written() {
     #[cfg(feature = "parquet")]
     reads_back("pairs.parquet");
     let error = write_pairs(&path("pairs.xlsx"), &SO3::new(), &pairs(0.1, 2)).unwrap_err();
-    assert!(matches!(error, LearnError::UnknownFormat { .. }), "{error}");
+    assert!(matches!(error, LearnError::UnknownFormat(_)), "{error}");
 }
 
 fn reads_back(name: &str) {
@@ -123,7 +123,7 @@ fn npz_and_npy_hold_the_same_data() {
 /// The same five arrays as NumPy 2 writes them with `savez` (stored) and `savez_compressed`, and a
 /// matrix with the first index quickest in version 2 of the format; see `numpy/write.py`.
 #[test]
-fn what_numpy_writes_is_read() {
+fn files_of_numpy_are_read() {
     let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/numpy");
     let file = |name: &str| read_columns(&directory.join(name), 3, 3).unwrap();
     let [stored, deflated] = [file("stored.npz"), file("deflated.npz")];
@@ -191,10 +191,10 @@ fn bad_rows_are_named_by_number() {
     assert_eq!(bad.rows.iter().map(|b| b.row).collect::<Vec<_>>(), [2, 3, 4]);
     assert_eq!(bad.rows[0].problem, RowProblem::NonFinite);
     assert!(
-        matches!(bad.rows[1].problem, RowProblem::OffGroup { distance } if (distance - 0.1).abs() < 1e-12)
+        matches!(bad.rows[1].problem, RowProblem::OffGroup(distance) if (distance - 0.1).abs() < 1e-12)
     );
     assert!(
-        matches!(bad.rows[2].problem, RowProblem::MomentumMismatch { relative } if (relative - 1.0 / 3.0).abs() < 1e-12)
+        matches!(bad.rows[2].problem, RowProblem::MomentumMismatch(relative) if (relative - 1.0 / 3.0).abs() < 1e-12)
     );
     let message = bad.to_string();
     assert!(message.starts_with("3 of 4 rows cannot be used:\n  row 2:"), "{message}");

@@ -114,7 +114,7 @@ fn data_beyond_the_fold_of_the_exponential_chart_are_found() {
     let found = bad::<Exponential>(&rows);
     let folded: Vec<usize> = found
         .iter()
-        .filter(|(_, problem)| matches!(problem, RowProblem::Folded { .. }))
+        .filter(|(_, problem)| matches!(problem, RowProblem::Folded(_)))
         .map(|(row, _)| *row)
         .collect();
     let (mut wrong, mut beyond) = (0, 0);

@@ -1,5 +1,5 @@
 //! Tests of learning, each in a module of its own: one program, which is linked once.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod choice;
 mod data;
@@ -10,3 +10,4 @@ mod networks;
 mod poisson;
 mod polynomial;
 mod session;
+mod support;

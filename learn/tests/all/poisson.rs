@@ -1,4 +1,4 @@
-//! Poisson maps from momenta alone: the boxes and bars of the Table 2.
+//! Poisson maps from momenta alone, in the boxes of the paper's Table 2.
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::groups::Exponential;
@@ -28,7 +28,7 @@ fn error(map: &impl Integrator<Group = SO3>, test: &MomentumPairs) -> f64 {
     sum / (3 * test.len()) as f64
 }
 
-/// [−1, 1]³, Δt = 1, 200 samples: degree 4 ≤ 1e-11, degree 6 ≤ 1e-15 (the bars).
+/// [−1, 1]³, Δt = 1, 200 samples: degree 4 ≤ 1e-11, degree 6 ≤ 1e-15.
 #[test]
 fn table_two_bars() {
     let (train, test) = (pairs(1.0, 200, 1), pairs(1.0, 100, 2));

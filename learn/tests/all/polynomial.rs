@@ -1,4 +1,4 @@
-//! Polynomial models against the bars: the paper's body and box, exact flow as data.
+//! Polynomial models of the paper's body in the paper's box, with exact flow as data.
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::SO3;
@@ -29,7 +29,7 @@ fn error(model: &impl MomentumFunction, data: &ReducedData) -> f64 {
     sum / (3 * data.len()) as f64
 }
 
-/// The bars for 500 samples at Δt = 0.1: degree 6 ≤ 5e-12, degree 8 ≤ 1e-14. The Cayley
+/// Bounds for 500 samples at Δt = 0.1: degree 6 ≤ 5e-12, degree 8 ≤ 1e-14. The Cayley
 /// chart (the paper's) measures 1.6e-12 and 2.4e-15, the exponential chart 1.3e-21 and 1.5e-27.
 #[test]
 fn degrees_six_and_eight_reach_their_bars_in_both_charts() {

@@ -5,10 +5,8 @@ use std::path::Path;
 use coadjoint::{
     groups::CayleyMatrixGroup, groups::DirectProduct, groups::MatrixGroup, groups::TableError,
 };
-use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
-use coadjoint_codegen::number::Rational;
-use nalgebra::DMatrix;
-use num_traits::ToPrimitive;
+use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_learn::catalogue;
 
 use crate::error::RunError;
 
@@ -48,28 +46,7 @@ pub fn whole_group(
     Ok(DirectProduct::new(vec![matrix_group(path, algebra)?]))
 }
 
-/// The group whose Lie algebra this is: matrices of the basis's size, or adjoint matrices where only brackets are known.
+/// The group whose Lie algebra this is.
 fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, RunError> {
-    let structure: Vec<_> =
-        algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
-    let group = match algebra.basis() {
-        Some(basis) => {
-            let basis: Vec<DMatrix<f64>> = basis.iter().map(matrix).collect();
-            MatrixGroup::from_structure_and_basis(&structure, &basis)
-        }
-        None => MatrixGroup::from_structure_constants(algebra.dim(), &structure),
-    };
-    group.map_err(RunError::of(path))
-}
-
-fn float(value: &Rational) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
-}
-
-fn matrix(exact: &RationalMatrix) -> DMatrix<f64> {
-    let mut result = DMatrix::zeros(exact.rows(), exact.columns());
-    for (i, j, value) in exact.entries() {
-        result[(i, j)] = float(value);
-    }
-    result
+    catalogue::matrix_group(algebra).map_err(RunError::of(path))
 }

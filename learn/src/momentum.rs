@@ -1,4 +1,5 @@
-//! Poisson-only data, the canonical momenta p eliminated by Newton's method.
+//! Poisson maps from momenta alone, (μ′, μ″): the canonical momenta are eliminated by Newton's method (section 5.3 of the
+//! paper).
 
 use coadjoint::LieGroup;
 use coadjoint::groups::{Chart, Coordinates};
@@ -112,8 +113,9 @@ where
     let descent = options
         .iteration
         .minimise(DVector::zeros(terms), residual, linearise)
-        .ok_or_else(|| LearnError::NotConverged {
-            reason: "no canonical momentum p solves J_L(dS/dp, p) = mu for some sample".into(),
+        .ok_or_else(|| {
+            let reason = "no canonical momentum p solves J_L(dS/dp, p) = mu for some sample";
+            LearnError::NotConverged(reason.into())
         })?;
     let count = (dim * samples) as f64;
     Ok(PoissonFit {
