@@ -1,5 +1,5 @@
-//! Integrators from a build script: those of system files as users write them (`tests/all/front_ends.rs`, and
-//! `tests/all/parts.rs` for a large one), and those of `src/emitted.rs`.
+//! Integrators from a build script: those of system files as users write them (`tests/all/front_ends.rs`,
+//! `tests/all/emitted_steps.rs` with a potential, `tests/all/parts.rs` for a large one), and those of `src/emitted.rs`.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -14,6 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=src/emitted.rs");
     Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
     Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
+    Build::new("systems/weighted_body.toml").write("weighted_body.rs")?;
     Build::new("systems/ring_20.toml").write("ring_20.rs")?;
     let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
     std::fs::create_dir_all(&folder)?;

@@ -57,12 +57,14 @@ fn unwrapped<E: 'static>(g: &Element) -> &E {
     g.0.downcast_ref().expect("an element of this group")
 }
 
-/// Declares the methods of [`Erased`] once, and implements them by those of the group and for
-/// [`AnyGroup`] by those of `Erased`.
+/// Declares the methods of [`Erased`] once, implements them by those of a group, and implements the traits of groups for
+/// [`AnyGroup`] by them.
 macro_rules! erased {
-    ($($name:ident($($x:ident: $kind:ident),*) -> $result:ident;)*) => {
+    ($($group:ident {
+        $($name:ident($($x:ident: $kind:ident),*) -> $result:ident;)*
+    } with { $($own:tt)* })*) => {
         trait Erased: Debug {
-            $(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result);)*
+            $($(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result);)*)*
             fn with_entries(&self, entry: &dyn Fn(usize, usize) -> f64) -> Result<Element, ElementError>;
         }
 
@@ -70,14 +72,22 @@ macro_rules! erased {
         where
             G::Element: 'static,
         {
-            $(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result) {
+            $($(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result) {
                 erased!(@out $result G::$name(self, $(erased!(@in $kind $x)),*))
-            })*
+            })*)*
 
             fn with_entries(&self, entry: &dyn Fn(usize, usize) -> f64) -> Result<Element, ElementError> {
                 self.element_from_matrix(entry).map(wrapped)
             }
         }
+
+        $(impl $group for AnyGroup {
+            $($own)*
+
+            $(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result) {
+                self.0.$name($($x),*)
+            })*
+        })*
     };
     (@type vector) => { &Vector };
     (@type element) => { &Element };
@@ -105,49 +115,7 @@ macro_rules! erased {
 }
 
 erased! {
-    dim() -> index;
-    identity() -> element;
-    compose(g: element, h: element) -> element;
-    inverse(g: element) -> element;
-    exp(x: vector) -> element;
-    log(g: element) -> maybe;
-    bracket(x: vector, y: vector) -> vector;
-    ad_star(x: vector, mu: vector) -> vector;
-    adjoint(g: element, x: vector) -> vector;
-    coadjoint(g: element, mu: vector) -> vector;
-    exp_transport(x: vector, mu: vector) -> moved;
-    dexp_transpose(x: vector, mu: vector) -> vector;
-    dexp_transpose_with_derivative(x: vector, mu: vector) -> slope;
-    dexp_inverse_transpose(x: vector, p: vector) -> vector;
-    exp_extent(x: vector) -> number;
-    element_defect(g: element) -> number;
-    casimir_count() -> index;
-    casimir(i: index, mu: vector) -> number;
-    matrix_size() -> index;
-    matrix_entry(g: element, i: index, j: index) -> number;
-    cayley_extent(x: vector) -> number;
-    cayley_transport(x: vector, mu: vector) -> moved;
-    cayley_inverse(g: element) -> maybe;
-    dcay_transpose(x: vector, mu: vector) -> vector;
-    dcay_transpose_with_derivative(x: vector, mu: vector) -> slope;
-    dcay_inverse_transpose(x: vector, p: vector) -> vector;
-}
-
-/// Methods of a group that pass on to what is inside.
-macro_rules! pass_on {
-    ($($name:ident($($x:ident: $kind:ident),*) -> $result:ident;)*) => {
-        $(fn $name(&self, $($x: erased!(@type $kind)),*) -> erased!(@result $result) {
-            self.0.$name($($x),*)
-        })*
-    };
-}
-
-impl LieGroup for AnyGroup {
-    type Scalar = f64;
-    type Vector = Vector;
-    type Element = Element;
-
-    pass_on! {
+    LieGroup {
         dim() -> index;
         identity() -> element;
         compose(g: element, h: element) -> element;
@@ -168,23 +136,24 @@ impl LieGroup for AnyGroup {
         casimir(i: index, mu: vector) -> number;
         matrix_size() -> index;
         matrix_entry(g: element, i: index, j: index) -> number;
-    }
+    } with {
+        type Scalar = f64;
+        type Vector = Vector;
+        type Element = Element;
 
-    fn element_from_matrix(
-        &self,
-        entry: impl Fn(usize, usize) -> f64,
-    ) -> Result<Element, ElementError> {
-        self.0.with_entries(&entry)
+        fn element_from_matrix(
+            &self,
+            entry: impl Fn(usize, usize) -> f64,
+        ) -> Result<Element, ElementError> {
+            self.0.with_entries(&entry)
+        }
     }
-}
-
-impl CayleyGroup for AnyGroup {
-    pass_on! {
+    CayleyGroup {
         cayley_transport(x: vector, mu: vector) -> moved;
         cayley_extent(x: vector) -> number;
         cayley_inverse(g: element) -> maybe;
         dcay_transpose(x: vector, mu: vector) -> vector;
         dcay_transpose_with_derivative(x: vector, mu: vector) -> slope;
         dcay_inverse_transpose(x: vector, p: vector) -> vector;
-    }
+    } with {}
 }

@@ -12,7 +12,7 @@ pub mod matrix_free;
 pub mod moments;
 pub mod reference;
 pub mod run;
-pub mod series;
+pub mod sources;
 pub mod stress;
 pub mod toutatis;
 pub mod toutatis_figure;

@@ -5,7 +5,8 @@
 
 use std::str::FromStr;
 
-use coadjoint_codegen::lie::{LieAlgebra, catalogue};
+use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
+use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use serde::Deserialize;
@@ -90,6 +91,14 @@ impl EndState {
             self.momentum0.len(),
             terms.map(|term| (term.exponents.clone(), fraction(&term.coefficient))),
         )
+    }
+
+    /// S₁ … S_K in the exponential chart.
+    #[must_use]
+    pub fn series(&self, truncation: usize) -> GeneratingSeries {
+        let (algebra, limit) = (self.algebra(), TermLimit::default());
+        derive(&algebra, Chart::Exponential, &self.polynomial(), truncation, limit)
+            .expect("a derivation")
     }
 }
 

@@ -1,14 +1,14 @@
 //! A run of a reference system, and what it kept.
 
-use coadjoint::groups::MatrixGroup;
+use coadjoint::groups::{Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{LieGroup, Phase};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
 use nalgebra::DVector;
 
+use crate::bridge::{matrix_group, series_function};
 use crate::moments::casimirs;
 use crate::reference::{EndState, numbers};
-use crate::series::{Series, group};
 
 /// Errors and drifts of a run, all relative.
 #[derive(Clone, Debug)]
@@ -33,14 +33,15 @@ pub type Watched<'a> = &'a dyn Fn(&[f64]) -> f64;
 #[must_use]
 pub fn run(
     entry: &EndState,
-    orders: &[Polynomial],
+    series: &GeneratingSeries,
     (steps, steps_to_end): (usize, usize),
     start: Option<&[f64]>,
     watched: &[Watched<'_>],
 ) -> (Phase<MatrixGroup>, Outcome) {
     let time: f64 = entry.time.parse().expect("a time");
-    let group = group(&entry.algebra());
-    let series = Series::new(group.clone(), orders, time / steps_to_end as f64);
+    let group = matrix_group(&entry.algebra()).expect("a matrix group");
+    let h = time / steps_to_end as f64;
+    let map = series_function(group.clone(), Exponential, series, h).expect("no symbols");
     let given = numbers(&entry.momentum0);
     let start = DVector::from_column_slice(start.unwrap_or(&given));
     let mut phase = Phase::<MatrixGroup>::new(group.identity(), start.clone());
@@ -56,7 +57,7 @@ pub fn run(
         watched: vec![(0.0, 0.0); watched.len()],
     };
     for step in 0..steps {
-        advance(&series, &mut phase).expect("a step");
+        advance(&map, &mut phase).expect("a step");
         let spatial = phase.spatial_momentum(&group);
         let drift = (spatial - &start).amax() / start.amax();
         outcome.spatial_momentum = outcome.spatial_momentum.max(drift);

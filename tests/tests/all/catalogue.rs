@@ -5,19 +5,8 @@ use coadjoint::groups::{Coordinates, Heisenberg, MatrixGroup, SE2, SU2};
 use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::stress::Random;
 use nalgebra::DVector;
-
-/// Numbers in (−1, 1) from a fixed seed.
-fn numbers(mut seed: u64, count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|_| {
-            seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        })
-        .collect()
-}
 
 fn gap(a: &impl Coordinates<f64>, b: &DVector<f64>) -> f64 {
     (0..b.len()).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
@@ -28,10 +17,11 @@ fn agree<G: LieGroup<Scalar = f64>>(closed: &G, name: &str) {
     let table: MatrixGroup = matrix_group(&lookup(name).unwrap()).unwrap();
     let n = table.dim();
     let fixed = |v: &[f64]| G::Vector::from_entries(n, |i| v[i]);
-    for seed in 0..4 {
-        let direction = numbers(seed, n);
+    let mut random = Random::new(7);
+    let mut numbers = || -> Vec<f64> { (0..n).map(|_| random.between(-1.0, 1.0)).collect() };
+    for _ in 0..4 {
+        let (direction, mu) = (numbers(), numbers());
         let turning: f64 = direction.iter().take(3.min(n)).map(|v| v * v).sum::<f64>().sqrt();
-        let mu = numbers(seed + 10, n);
         for angle in [0.0, 1e-10, 1e-5, 0.01, 0.5, 1.4999, 1.5001, 3.1, 3.2, 5.0, 6.25, 6.3, 20.0] {
             let x: Vec<f64> = direction.iter().map(|v| v * angle / turning).collect();
             let what = format!("{name} at {angle}");

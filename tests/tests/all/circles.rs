@@ -5,9 +5,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use coadjoint_tests::sources;
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree};
@@ -202,29 +202,20 @@ impl<'ast> Visit<'ast> for Module {
 struct Sources(BTreeMap<Names, Module>);
 
 impl Sources {
-    fn read(src: &Path) -> Self {
-        let mut modules = BTreeMap::new();
-        let mut folders = vec![src.to_owned()];
-        while let Some(folder) = folders.pop() {
-            for entry in fs::read_dir(&folder).unwrap() {
-                let path = entry.unwrap().path();
-                let stem = path.file_stem().unwrap().to_str().unwrap();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|end| end == "rs")
-                    && stem != "tests"
-                    && !(stem == "main" && path.with_file_name("lib.rs").exists())
-                {
-                    let text = fs::read_to_string(&path).unwrap();
-                    let mut module = Module::default();
-                    let parsed = syn::parse_file(&text)
-                        .unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-                    module.visit_file(&parsed);
-                    modules.insert(module_of(src, &path), module);
-                }
+    /// The files of `src` but for tests, and for the program beside a library.
+    fn read(src: &str) -> Self {
+        let files = sources::rust(src);
+        let library = files.iter().any(|(path, _)| *path == format!("{src}/lib.rs"));
+        let modules = files.into_iter().filter_map(|(path, text)| {
+            let inside = &path[src.len() + 1..];
+            if inside.ends_with("tests.rs") || (library && inside == "main.rs") {
+                return None;
             }
-        }
-        Self(modules)
+            let mut module = Module::default();
+            module.visit_file(&syn::parse_file(&text).unwrap_or_else(|e| panic!("{path}: {e}")));
+            Some((module_of(inside), module))
+        });
+        Self(modules.collect())
     }
 
     /// A path in the module `from`, from the root of the crate; `None` where it leads out of the crate.
@@ -299,9 +290,9 @@ impl Sources {
     }
 }
 
-/// The module that a file is.
-fn module_of(src: &Path, file: &Path) -> Names {
-    let inside = file.strip_prefix(src).unwrap().with_extension("");
+/// The module that a file of a crate is.
+fn module_of(file: &str) -> Names {
+    let inside = Path::new(file).with_extension("");
     let mut names: Names = inside.iter().map(|name| name.to_str().unwrap().to_owned()).collect();
     if names.last().is_some_and(|name| ["lib", "main", "mod"].contains(&name.as_str())) {
         names.pop();
@@ -331,11 +322,10 @@ fn circles(graph: &BTreeMap<&Names, BTreeSet<Names>>) -> BTreeSet<Vec<String>> {
 
 #[test]
 fn files_of_a_crate_form_no_circle() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut found = BTreeSet::new();
     let mut files = 0;
     for name in CRATES {
-        let sources = Sources::read(&root.join(name).join("src"));
+        let sources = Sources::read(&format!("{name}/src"));
         files += sources.0.len();
         found.extend(circles(&sources.dependencies()).into_iter().map(|circle| (name, circle)));
     }

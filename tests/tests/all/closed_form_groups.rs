@@ -1,10 +1,11 @@
 //! The attribute on the runtime's closed-form groups.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::groups::{Heisenberg, Product, SE2, SU2};
-use coadjoint::steps::Monitor;
-use coadjoint::{Phase, SO3, lie_poisson};
-use nalgebra::Vector3;
+use coadjoint::groups::{Heisenberg, Product, SE2};
+use coadjoint::solve::Integrator;
+use coadjoint::steps::{Drift, Monitor, advance};
+use coadjoint::{LieGroup, Phase, SO3, lie_poisson};
+use nalgebra::{SVector, Vector3};
 
 /// A planar body in an ideal fluid.
 #[lie_poisson(group = SE2, truncation = 7)]
@@ -24,18 +25,32 @@ fn spins(mu: [f64; 6], coupling: f64) -> f64 {
     coupling * (mu[0] * mu[3] + mu[1] * mu[4] + mu[2] * mu[5]) + mu[2] * mu[2] / 3.0
 }
 
-#[test]
-fn coupled_spins_conserve() {
-    let step = Spins::new(0.05, 0.8).unwrap();
-    let start = nalgebra::Vector6::new(0.4, 0.8, -0.3, 0.1, 0.2, 0.9);
-    let mut state = Phase::<SpinsGroup>::at_identity(start);
-    let energy = |state: &Phase<SpinsGroup>| spins(state.momentum.into(), 0.8);
-    let mut monitor = Monitor::new(SpinsGroup::new(), &state, energy(&state));
-    for _ in 0..1000 {
-        step.advance(&mut state).unwrap();
+/// The state after this many steps, and the drift on the way.
+fn drift<S: Integrator, const N: usize>(
+    step: &S,
+    energy: impl Fn([f64; N]) -> f64,
+    start: [f64; N],
+    steps: u32,
+) -> (Phase<S::Group>, Drift<f64>)
+where
+    S::Group: LieGroup<Scalar = f64, Vector = SVector<f64, N>>,
+{
+    let mut state = Phase::<S::Group>::new(step.group().identity(), start);
+    let energy = |state: &Phase<S::Group>| energy(state.momentum.into());
+    let mut monitor = Monitor::new(step.group().clone(), &state, energy(&state));
+    for _ in 0..steps {
+        advance(step, &mut state).unwrap();
         monitor.observe(&state, energy(&state));
     }
     let drift = monitor.drift();
+    (state, drift)
+}
+
+#[test]
+fn coupled_spins_conserve() {
+    let step = Spins::new(0.05, 0.8).unwrap();
+    let start = [0.4, 0.8, -0.3, 0.1, 0.2, 0.9];
+    let (state, drift) = drift(&step, |mu| spins(mu, 0.8), start, 1000);
     assert!(drift.spatial_momentum < 1e-13 && drift.casimirs < 1e-13, "{drift:?}");
     assert!(drift.energy < 1e-6, "{drift:?}");
     // The total spin along the third axis commutes with both terms.
@@ -52,14 +67,8 @@ fn charge(mu: [f64; 3]) -> f64 {
 #[test]
 fn planar_body_conserves() {
     let step = PlanarBody::new(0.05, 1.0, [1.0, 2.0]).unwrap();
-    let mut state = Phase::<SE2>::at_identity(Vector3::new(0.4, 0.8, -0.3));
-    let energy = |state: &Phase<SE2>| planar_body(state.momentum.into(), 1.0, [1.0, 2.0]);
-    let mut monitor = Monitor::new(SE2::new(), &state, energy(&state));
-    for _ in 0..2000 {
-        step.advance(&mut state).unwrap();
-        monitor.observe(&state, energy(&state));
-    }
-    let drift = monitor.drift();
+    let energy = |mu| planar_body(mu, 1.0, [1.0, 2.0]);
+    let (state, drift) = drift(&step, energy, [0.4, 0.8, -0.3], 2000);
     // The body drifts away, and the spatial angular momentum is a difference of products with the
     // distance.
     let distance = state.group_element.translation.vector.norm().max(1.0);
@@ -70,14 +79,7 @@ fn planar_body_conserves() {
 #[test]
 fn spin_conserves() {
     let step = Spin::new(0.05, 0.7).unwrap();
-    let mut state = Phase::<SU2>::at_identity(Vector3::new(0.4, 0.8, -0.3));
-    let energy = |state: &Phase<SU2>| spin(state.momentum.into(), 0.7);
-    let mut monitor = Monitor::new(SU2::new(), &state, energy(&state));
-    for _ in 0..2000 {
-        step.advance(&mut state).unwrap();
-        monitor.observe(&state, energy(&state));
-    }
-    let drift = monitor.drift();
+    let (_, drift) = drift(&step, |mu| spin(mu, 0.7), [0.4, 0.8, -0.3], 2000);
     assert!(drift.spatial_momentum < 1e-13 && drift.casimirs < 1e-13, "{drift:?}");
     assert!(drift.energy < 1e-9, "{drift:?}");
 }

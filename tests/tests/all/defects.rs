@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use coadjoint::generating::PolynomialFunction;
@@ -11,6 +11,8 @@ use coadjoint::solve::Integrator;
 use coadjoint::steps::{advance, advance_by};
 use coadjoint::{GeneratingFunction, LieGroup, Phase};
 use coadjoint::{SE3, SO3, StepError, lie_poisson};
+use coadjoint_tests::sources::{self, root};
+use coadjoint_tests::stress::Random;
 use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 const INERTIA: [f64; 3] = [1.3, 2.1, 3.0];
@@ -35,18 +37,6 @@ fn top(mu: [f64; 6], inertia: [f64; 3], height: f64) -> f64 {
         + height * mu[5]
 }
 
-/// Numbers between −1 and 1 (Marsaglia's xorshift).
-struct Random(u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0
-    }
-}
-
 /// Steps from random momenta of this size: how many were accepted. A refused one leaves the state; of an accepted one
 /// the spatial momentum is kept, and `right` says so too.
 fn accepted<S>(step: &S, size: f64, right: impl Fn(&Phase<S::Group>, &Phase<S::Group>)) -> usize
@@ -55,11 +45,12 @@ where
     S::Group: LieGroup<Scalar = f64>,
 {
     let group = step.group();
-    let mut random = Random(0x1234_5678_9abc_def1);
+    let mut random = Random::new(1);
     let mut count = 0;
     for _ in 0..500 {
-        let mu =
-            <S::Group as LieGroup>::Vector::from_entries(group.dim(), |_| size * random.number());
+        let mu = <S::Group as LieGroup>::Vector::from_entries(group.dim(), |_| {
+            random.between(-size, size)
+        });
         let start = Phase::<S::Group>::new(group.identity(), mu);
         let mut state = start.clone();
         if advance(step, &mut state).is_err() {
@@ -150,14 +141,10 @@ fn repeated_factors_are_powers_in_every_term() -> Result<(), Box<dyn std::error:
     Ok(())
 }
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
 #[test]
 fn the_feature_of_build_scripts_is_named() {
     for page in ["codegen/src/build_script.rs", "codegen/src/lib.rs"] {
-        let text = std::fs::read_to_string(root().join(page)).unwrap();
+        let text = sources::read(page);
         assert!(text.contains("features = [\"system\"]"), "{page}");
     }
 }
@@ -191,22 +178,12 @@ fn without_std_or_libm_one_sentence_says_what_is_missing() {
 /// Numbers of steps are of 64 bits; addresses may have 32.
 #[test]
 fn no_number_of_steps_is_cut_to_the_width_of_an_address() {
-    let mut folders = vec![root().join("runtime/src")];
-    let mut files = 0;
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            files += 1;
-            let text = std::fs::read_to_string(&path).unwrap();
-            // A number of substeps is one of few.
-            let before = text.match_indices("steps as usize").map(|(at, _)| &text[..at]);
-            let mut whole = before.filter(|text| !text.ends_with(|c: char| c.is_alphanumeric()));
-            assert!(whole.next().is_none(), "{}", path.display());
-        }
+    let files = sources::rust("runtime/src");
+    for (file, text) in &files {
+        // A number of substeps is one of few.
+        let before = text.match_indices("steps as usize").map(|(at, _)| &text[..at]);
+        let mut whole = before.filter(|text| !text.ends_with(|c: char| c.is_alphanumeric()));
+        assert!(whole.next().is_none(), "{file}");
     }
-    assert!(files > 50);
+    assert!(files.len() > 50);
 }

@@ -213,7 +213,7 @@ fn a_device_says_why_a_step_is_refused() {
 }
 
 #[test]
-fn what_a_device_refuses_is_made_by_others_and_goes_on() {
+fn refused_rows_are_moved_by_the_caller_and_go_on() {
     let ready = ready(RIGID_BODY, 7, 0.1, Precision::Double);
     let Some(mut card) = card(&ready) else { return };
     let mut rows = ready.rows(20);

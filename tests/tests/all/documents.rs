@@ -2,18 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+
+use coadjoint_tests::sources::{self, read, root};
 
 /// Folders of crates that are published.
 const PUBLISHED: [&str; 7] = ["draw", "codegen", "macros", "runtime", "learn", "run", "cli"];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn read(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap()
-}
 
 /// The names in a folder that end in `ending`, sorted.
 fn files(folder: &str, ending: &str) -> Vec<String> {
@@ -148,35 +141,16 @@ fn the_map_of_the_code_is_true() {
     }
 }
 
-/// Every file of Rust, outside folders of builds.
-fn sources() -> Vec<PathBuf> {
-    let (mut folders, mut sources) = (vec![root()], Vec::new());
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.file_name().unwrap().to_string_lossy();
-            if path.is_dir() {
-                let skipped = name.starts_with('.') || name == "target" || name == "node_modules";
-                folders.extend((!skipped).then_some(path));
-            } else if name.ends_with(".rs") {
-                sources.push(path);
-            }
-        }
-    }
-    sources
-}
-
 /// A comment begins with its subject: no more than 20 begin with "What".
 #[test]
 fn comments_begin_with_their_subject() {
-    let sources = sources();
+    let sources = sources::rust("");
     assert!(sources.len() > 300, "{}", sources.len());
     let (mut what, mut many) = (Vec::new(), Vec::new());
-    for path in sources {
-        let text = fs::read_to_string(&path).unwrap();
+    for (path, text) in sources {
         for (number, line) in text.lines().enumerate() {
             let Some(comment) = line.trim_start().strip_prefix("//") else { continue };
-            let place = || format!("{}:{}: {line}", path.display(), number + 1);
+            let place = || format!("{path}:{}: {line}", number + 1);
             if comment.trim_start_matches(['/', '!', ' ']).starts_with("What ") {
                 what.push(place());
             }
@@ -218,7 +192,7 @@ fn readme_and_manual_name_the_version() {
 }
 
 #[test]
-fn what_is_banned_stays_out_of_the_lock_file() {
+fn banned_crates_stay_out_of_the_lock_file() {
     let banned = read("deny.toml");
     let banned =
         banned.split("\n    { crate = \"").skip(1).map(|rest| rest.split('"').next().unwrap());

@@ -23,18 +23,20 @@ mod comoving_body {
     include!(concat!(env!("OUT_DIR"), "/emitted/comoving_body.rs"));
 }
 mod weighted_body {
-    include!("../../golden/weighted_body.rs");
+    include!(concat!(env!("OUT_DIR"), "/weighted_body.rs"));
 }
 mod three_wave {
     include!(concat!(env!("OUT_DIR"), "/emitted/three_wave.rs"));
 }
+
+/// The step size of comparisons.
+const H: f64 = 0.3;
 
 /// Compares every function of a compiled step with the interpreter's, at a few points.
 fn against_interpreter<const N: usize, S>(
     integrator: &Integrator,
     compiled: &S,
     energy: impl Fn(&SVector<f64, N>) -> f64,
-    step: f64,
     parameters: &[f64],
 ) where
     S: GeneratingFunction,
@@ -42,7 +44,7 @@ fn against_interpreter<const N: usize, S>(
 {
     let symbols: Vec<f64> =
         integrator.problem.symbols.iter().map(|s| s.expr.evaluate(parameters)).collect();
-    let slots = FoldTable::new(integrator).fold(step, &symbols).unwrap();
+    let slots = FoldTable::new(integrator).fold(H, &symbols).unwrap();
     let mut scratch = Vec::new();
     let mut run = |program: &coadjoint_codegen::graph::Program, p: &SVector<f64, N>| {
         let mut outputs = vec![f64::NAN; program.outputs().len()];
@@ -80,49 +82,24 @@ fn against_interpreter<const N: usize, S>(
 
 #[test]
 fn emitted_steps_equal_the_interpreter() -> Result<(), StepError> {
-    let h = 0.3;
-    let step = rigid_body::RigidBody::new(h)?;
-    against_interpreter(
-        &from_function(emitted::RIGID_BODY).unwrap(),
-        &step,
-        |mu| step.energy(mu),
-        h,
-        &[],
-    );
+    let of = |source| from_function(source).unwrap();
+    let step = rigid_body::RigidBody::new(H)?;
+    against_interpreter(&of(emitted::RIGID_BODY), &step, |mu| step.energy(mu), &[]);
 
-    let step = cayley_body::CayleyBody::new(h)?;
-    against_interpreter(
-        &from_function(emitted::CAYLEY_BODY).unwrap(),
-        &step,
-        |mu| step.energy(mu),
-        h,
-        &[],
-    );
+    let step = cayley_body::CayleyBody::new(H)?;
+    against_interpreter(&of(emitted::CAYLEY_BODY), &step, |mu| step.energy(mu), &[]);
 
-    let step = heavy_top::HeavyTop::new(h, [1.5, 2.0, 2.5], 0.3, 9.81, 0.7)?;
+    let step = heavy_top::HeavyTop::new(H, [1.5, 2.0, 2.5], 0.3, 9.81, 0.7)?;
     let parameters = [1.5, 2.0, 2.5, 0.3, 9.81, 0.7];
-    against_interpreter(
-        &from_function(emitted::HEAVY_TOP).unwrap(),
-        &step,
-        |mu| step.energy(mu),
-        h,
-        &parameters,
-    );
+    against_interpreter(&of(emitted::HEAVY_TOP), &step, |mu| step.energy(mu), &parameters);
 
-    let step = comoving_body::ComovingBody::new(h, [1.5, 0.8], [0.9, 1.4])?;
-    let (integrator, parameters) =
-        (from_function(emitted::COMOVING_BODY).unwrap(), [1.5, 0.8, 0.9, 1.4]);
+    let step = comoving_body::ComovingBody::new(H, [1.5, 0.8], [0.9, 1.4])?;
+    let (integrator, parameters) = (of(emitted::COMOVING_BODY), [1.5, 0.8, 0.9, 1.4]);
     assert_eq!(integrator.frame.len(), 2);
-    against_interpreter(&integrator, &step, |mu| step.energy(mu), h, &parameters);
+    against_interpreter(&integrator, &step, |mu| step.energy(mu), &parameters);
 
-    let step = three_wave::ThreeWave::new(h, 0.7)?;
-    against_interpreter(
-        &from_function(emitted::THREE_WAVE).unwrap(),
-        &step,
-        |mu| step.energy(mu),
-        h,
-        &[0.7],
-    );
+    let step = three_wave::ThreeWave::new(H, 0.7)?;
+    against_interpreter(&of(emitted::THREE_WAVE), &step, |mu| step.energy(mu), &[0.7]);
     Ok(())
 }
 
@@ -165,7 +142,7 @@ fn many_steps_are_as_many_single_ones() -> Result<(), StepError> {
     Ok(())
 }
 
-/// The committed module of a potential in a comoving frame.
+/// The module of a potential in a comoving frame.
 #[test]
 fn a_kicked_body_follows_the_interpreter_and_keeps_its_integrals() -> Result<(), StepError> {
     let text = include_str!("../../systems/weighted_body.toml");
@@ -174,9 +151,9 @@ fn a_kicked_body_follows_the_interpreter_and_keeps_its_integrals() -> Result<(),
     let integrator = Integrator::build(system.problem, TermLimit::default()).unwrap();
     let parameters = [1.5, 2.0, 2.5, 0.8];
     let [i1, i2, i3, m] = parameters;
-    let step = weighted_body::WeightedBody::new(0.3, i1, i2, i3, m)?;
+    let step = weighted_body::WeightedBody::new(H, i1, i2, i3, m)?;
     assert_eq!(integrator.frame.len(), 1);
-    against_interpreter(&integrator, &step, |mu| step.energy(mu), 0.3, &parameters);
+    against_interpreter(&integrator, &step, |mu| step.energy(mu), &parameters);
 
     let weight = weighted_body::WeightedBodyPotential::new(i1, i2, i3, m)?;
     let kick = Kick::build(system.potential.unwrap().0);

@@ -1,9 +1,8 @@
 //! Each part of a step is written once: each has a mark that any other implementation would have, too.
 //!
 //! The judge has its own acceptance and its own domain of a chart, on purpose.
-#![allow(clippy::unwrap_used)]
 
-use std::path::{Path, PathBuf};
+use coadjoint_tests::sources;
 
 /// A part of a step, words of which one is in every implementation of it, and the files that may implement it.
 struct Part {
@@ -66,39 +65,20 @@ const PARTS: &[Part] = &[
     },
 ];
 
-/// The Rust files below a folder's sources.
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
-}
-
 #[test]
 fn each_part_of_a_step_is_implemented_where_it_is_said_to_be() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut files = Vec::new();
-    for name in
-        ["program", "native", "symbolic", "codegen", "macros", "runtime", "run", "cli", "page"]
-    {
-        sources(&root.join(name).join("src"), &mut files);
-    }
+    let crates =
+        ["program", "native", "symbolic", "codegen", "macros", "runtime", "run", "cli", "page"];
+    let files: Vec<_> =
+        crates.iter().flat_map(|name| sources::rust(&format!("{name}/src"))).collect();
     assert!(files.len() > 200, "{} files", files.len());
     for Part { name, words, files: known } in PARTS {
-        let mut found: Vec<String> = Vec::new();
-        for path in &files {
-            let text = std::fs::read_to_string(path).unwrap();
-            let file = path.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
-            if !file.contains("/judge/") && words.iter().any(|word| text.contains(word)) {
-                found.push(file);
-            }
-        }
+        let implements = |(file, text): &&(String, String)| {
+            !file.contains("/judge/") && words.iter().any(|word| text.contains(word))
+        };
+        let found: Vec<&str> = files.iter().filter(implements).map(|file| &*file.0).collect();
         assert!(!found.is_empty(), "{name} is nowhere: its words have changed");
-        let other: Vec<_> = found.iter().filter(|file| !known.contains(&file.as_str())).collect();
+        let other: Vec<_> = found.iter().filter(|file| !known.contains(file)).collect();
         assert!(other.is_empty(), "{name} is implemented again, in {other:?}");
     }
 }

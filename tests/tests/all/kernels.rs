@@ -210,7 +210,7 @@ fn many_dimensions_have_a_kernel_by_the_fixed_point() {
 }
 
 #[test]
-fn what_is_driven_too_hard_is_refused_and_stays() {
+fn steps_driven_too_hard_are_refused_and_leave_the_state() {
     let integrator = integrator("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", 5);
     let step = Step::build(&integrator).unwrap();
     let slots = unlimited(&step, 0.5);

@@ -15,17 +15,7 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use coadjoint_tests::erased::AnyGroup;
-
-/// Numbers in (−1, 1) from a fixed seed.
-struct Random(u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+use coadjoint_tests::stress::Random;
 
 /// The Hamiltonians tried; on larger groups fewer terms, since the series of a dense one has
 /// hundreds of thousands.
@@ -62,7 +52,8 @@ fn hamiltonian(dim: usize, energy: Energy) -> Polynomial {
 }
 
 fn random_phase<G: LieGroup<Scalar = f64>>(group: &G, random: &mut Random) -> Phase<G> {
-    let mut vector = |size: f64| G::Vector::from_entries(group.dim(), |_| size * random.number());
+    let mut vector =
+        |size: f64| G::Vector::from_entries(group.dim(), |_| random.between(-size, size));
     let x = vector(0.4);
     let mu = vector(1.0);
     Phase::new(group.exp(&x), mu)
@@ -85,7 +76,7 @@ fn laws_hold<G, C>(
     let series = derive(algebra, kind, &h, truncation, TermLimit::new(2_000_000)).unwrap();
     let what = format!("{name}, {}, K = {truncation}", C::NAME);
 
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     let count = if algebra.dim() > 4 { 1 } else { 2 };
     let points: Vec<_> = (0..count).map(|_| random_phase(group, &mut random)).collect();
     let map = series_function(group.clone(), chart, &series, 0.3).unwrap();

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+
+use coadjoint_tests::sources;
 
 /// Folders and files of `src`, the lowest first: each may use those before it, and itself.
 const LAYERS: [&str; 16] = [
@@ -31,21 +31,9 @@ const CRATES: [&str; 11] = [
     "paper",
 ];
 
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
-}
-
 /// The layer of a file of `src`.
-fn layer(src: &Path, file: &Path) -> usize {
-    let inside = file.strip_prefix(src).unwrap();
-    let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+fn layer(file: &str) -> usize {
+    let first = file.split('/').next().unwrap();
     let name = first.strip_suffix(".rs").unwrap_or(first);
     LAYERS.iter().position(|layer| *layer == name).unwrap_or_else(|| panic!("{name} has no layer"))
 }
@@ -61,18 +49,15 @@ fn used(text: &str) -> BTreeSet<&str> {
 
 #[test]
 fn folders_of_the_runtime_use_only_what_is_below() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src");
-    let mut files = Vec::new();
-    sources(&src, &mut files);
+    let files = sources::rust("runtime/src");
     assert!(files.len() > 60, "{} files", files.len());
     let mut uses = 0;
-    for file in files {
-        let own = layer(&src, &file);
-        let text = fs::read_to_string(&file).unwrap();
+    for (file, text) in files {
+        let own = layer(file.trim_start_matches("runtime/src/"));
         for name in used(&text) {
             let Some(other) = LAYERS.iter().position(|layer| *layer == name) else { continue };
             uses += 1;
-            assert!(other <= own, "{} is below {name}", file.display());
+            assert!(other <= own, "{file} is below {name}");
         }
     }
     assert!(uses > 100, "{uses} uses");
@@ -80,7 +65,6 @@ fn folders_of_the_runtime_use_only_what_is_below() {
 
 #[test]
 fn crates_depend_only_on_what_is_below() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let names: Vec<String> = CRATES
         .iter()
         .map(|krate| match *krate {
@@ -89,7 +73,7 @@ fn crates_depend_only_on_what_is_below() {
         })
         .collect();
     for (own, krate) in CRATES.iter().enumerate() {
-        let manifest = fs::read_to_string(root.join(krate).join("Cargo.toml")).unwrap();
+        let manifest = sources::read(&format!("{krate}/Cargo.toml"));
         let dependencies = manifest.split("[dependencies]").nth(1).unwrap_or_default();
         let dependencies = dependencies.split("\n[").next().unwrap_or_default();
         for line in dependencies.lines() {

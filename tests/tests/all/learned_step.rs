@@ -1,8 +1,8 @@
 //! The emitted code of a learned model, which `golden_files` compares with what is emitted now: it
 //! compiles, and its steps are the model's own.
 //!
-//! The model, `reference/learned_body.json`, is a polynomial of degree 3 learned from 60 pairs of
-//! the free body, Δt = 0.1 (`coadjoint learn pairs.csv --dt 0.1 --degree 3 --out …`).
+//! The model, `reference/learned_body.json`, is a polynomial of degree 2 learned from 60 pairs of
+//! the free body, Δt = 0.1 (`coadjoint learn pairs.csv --dt 0.1 --degree 2 --out …`).
 
 #![allow(clippy::unwrap_used)]
 

@@ -25,7 +25,7 @@ fn integrator() -> Integrator {
 }
 
 #[test]
-fn parts_compute_what_the_interpreter_does() {
+fn parts_compute_as_the_interpreter() {
     let integrator = integrator();
     let code = emit::file(&integrator, &emit::Options::for_problem("ring"));
     assert!(code.contains("fn part3<"), "the ring is too short to be cut");

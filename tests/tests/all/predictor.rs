@@ -64,26 +64,12 @@ where
 }
 
 #[test]
-fn of_the_free_body() {
+fn guesses_along_the_flow_have_their_order() {
     has_order::<SO3, 3>("free_body_full_inertia", 4.0);
-}
-
-#[test]
-fn of_terms_linear_in_the_momentum() {
+    // Terms linear in the momentum.
     has_order::<SO3, 3>("gyrostat", 0.6);
-}
-
-#[test]
-fn of_a_body_in_a_fluid() {
     has_order::<SE3, 6>("kirchhoff_body", 0.2);
-}
-
-#[test]
-fn of_a_top() {
     has_order::<SE3, 6>("kovalevskaya_top", 0.2);
-}
-
-#[test]
-fn of_structure_constants_other_than_one() {
+    // Structure constants other than one.
     has_order::<SU3, 8>("su3_quadratic", 0.2);
 }

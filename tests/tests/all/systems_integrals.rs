@@ -7,9 +7,8 @@
 
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
-use coadjoint_tests::reference::end_state;
-use coadjoint_tests::run::{Watched, run};
-use coadjoint_tests::series::orders;
+use coadjoint_tests::reference::{EndState, end_state, numbers};
+use coadjoint_tests::run::run;
 
 /// c·∏ μᵢ, indices repeated for powers.
 type Monomials = &'static [(i64, i64, &'static [usize])];
@@ -147,19 +146,25 @@ fn every_integral_commutes_with_its_hamiltonian() {
     }
 }
 
-/// Drift over `spans` times the reference's span, n and 2n steps to each: order K + 1, and not
-/// notably more in the second half than in the first.
-fn shrinks(name: &str, truncation: usize, spans: usize, n: usize) {
-    let (system, terms) = integral(name);
+/// The drift of a function over both halves of `spans` times the reference's span, in steps of `span`/n.
+fn drift(
+    entry: &EndState,
+    terms: Monomials,
+    truncation: usize,
+    (spans, n): (usize, usize),
+    start: Option<&[f64]>,
+) -> (f64, f64) {
     let watched = |mu: &[f64]| value(terms, mu);
+    let series = entry.series(truncation);
+    run(entry, &series, (spans * n, n), start, &[&watched]).1.watched[0]
+}
+
+/// n and 2n steps to the span show the order K + 1, and the drift is not notably larger in the second half of the run
+/// than in the first.
+fn shrinks(system: &str, terms: Monomials, truncation: usize, (spans, n): (usize, usize)) {
     let entry = end_state(system);
-    let series = orders(&entry.algebra(), &entry.polynomial(), truncation);
-    let drift = |n: usize| {
-        let list: [Watched<'_>; 1] = [&watched];
-        run(&entry, &series, (spans * n, n), None, &list).1.watched[0]
-    };
-    let (coarse, fine) = (drift(n), drift(2 * n));
-    let note = format!("{name}, K = {truncation}: {coarse:?}, {fine:?}");
+    let [coarse, fine] = [n, 2 * n].map(|n| drift(&entry, terms, truncation, (spans, n), None));
+    let note = format!("{system}, K = {truncation}: {coarse:?}, {fine:?}");
     let order = (coarse.0.max(coarse.1) / fine.0.max(fine.1)).log2();
     assert!((order - (truncation + 1) as f64).abs() < 0.5, "order {order}: {note}");
     for (first, second) in [coarse, fine] {
@@ -167,61 +172,40 @@ fn shrinks(name: &str, truncation: usize, spans: usize, n: usize) {
     }
 }
 
+/// Of Toda's lattice, which scatters, the drift ends with the collision.
 #[test]
-fn kovalevskayas_integral() {
-    shrinks("Kovalevskaya's", 3, 4, 100);
-    shrinks("Kovalevskaya's", 5, 4, 100);
-}
-
-#[test]
-fn clebschs_integral() {
-    shrinks("Clebsch's", 3, 4, 60);
-    shrinks("Clebsch's", 5, 4, 60);
-}
-
-#[test]
-fn manakovs_integral() {
-    shrinks("Manakov\'s", 3, 16, 20);
-    shrinks("Manakov\'s", 5, 16, 20);
-}
-
-#[test]
-fn manley_and_rowes_relations() {
-    shrinks("Manley and Rowe's first", 3, 2, 60);
-    shrinks("Manley and Rowe's second", 3, 2, 60);
-    shrinks("Manley and Rowe's first", 5, 1, 40);
-}
-
-/// Scattering: the drift ends with the collision.
-#[test]
-fn todas_integral() {
-    shrinks("Flaschka's tr L³", 3, 4, 50);
-    shrinks("Flaschka's tr L³", 5, 4, 50);
+fn integrals_drift_at_the_order_of_the_method() {
+    for (name, truncation, runs) in [
+        ("Kovalevskaya's", 3, (4, 100)),
+        ("Kovalevskaya's", 5, (4, 100)),
+        ("Clebsch's", 3, (4, 60)),
+        ("Clebsch's", 5, (4, 60)),
+        ("Manakov's", 3, (16, 20)),
+        ("Manakov's", 5, (16, 20)),
+        ("Manley and Rowe's first", 3, (2, 60)),
+        ("Manley and Rowe's second", 3, (2, 60)),
+        ("Manley and Rowe's first", 5, (1, 40)),
+        ("Flaschka's tr L³", 3, (4, 50)),
+        ("Flaschka's tr L³", 5, (4, 50)),
+    ] {
+        let (system, terms) = integral(name);
+        shrinks(system, terms, truncation, runs);
+    }
 }
 
 /// Where Π·Γ = 0 it is an integral (Ḟ = −Π₂ Π·Γ); the integrator keeps Π·Γ = 0 exactly, so F
 /// stays near.
 #[test]
 fn goryachev_and_chaplygins_integral() {
+    let system = "goryachev-chaplygin-top";
     let terms: Monomials = &[(1, 1, &[0, 0, 2]), (1, 1, &[1, 1, 2]), (-4, 1, &[0, 5])];
-    let f = polynomial(terms, 6);
     let level = polynomial(&[(-1, 1, &[0, 1, 3]), (-1, 1, &[1, 1, 4]), (-1, 1, &[1, 2, 5])], 6);
-    assert_eq!(rate("goryachev-chaplygin-top", &f), level);
-
-    let entry = end_state("goryachev-chaplygin-top");
-    let watched = |mu: &[f64]| value(terms, mu);
-    let list: [Watched<'_>; 1] = [&watched];
-    for (truncation, n) in [(3, 60), (5, 60)] {
-        let series = orders(&entry.algebra(), &entry.polynomial(), truncation);
-        let coarse = run(&entry, &series, (4 * n, n), None, &list).1.watched[0];
-        let fine = run(&entry, &series, (8 * n, 2 * n), None, &list).1.watched[0];
-        let order = (coarse.0.max(coarse.1) / fine.0.max(fine.1)).log2();
-        let note = format!("K = {truncation}: {coarse:?}, {fine:?}");
-        assert!((order - (truncation + 1) as f64).abs() < 0.5, "order {order}: {note}");
-        assert!(fine.1 < 1.5 * fine.0, "{note}");
+    assert_eq!(rate(system, &polynomial(terms, 6)), level);
+    for truncation in [3, 5] {
+        shrinks(system, terms, truncation, (4, 60));
         // Off the level it is none: the same top with Π·Γ = 0.48 drifts by order one.
         let start = [1.2, -0.9, 0.7, 0.8, 0.6, 0.0];
-        let off = run(&entry, &series, (4 * n, n), Some(&start), &list).1.watched[0];
+        let off = drift(&end_state(system), terms, truncation, (4, 60), Some(&start));
         assert!(off.0 > 0.1, "{off:?}");
     }
 }
@@ -229,21 +213,17 @@ fn goryachev_and_chaplygins_integral() {
 /// A rotation that leaves H alone leaves S alone, so its momentum is exact at any truncation.
 #[test]
 fn linear_symmetries_are_exact() {
-    for (name, truncation, n) in [
-        ("Π₃", 3, 100),
-        ("Π₂", 3, 300),
-        ("the first diagonal entry", 3, 100),
-        ("the second diagonal entry", 3, 100),
-        ("the magnetisation", 3, 50),
+    for (name, n) in [
+        ("Π₃", 100),
+        ("Π₂", 300),
+        ("the first diagonal entry", 100),
+        ("the second diagonal entry", 100),
+        ("the magnetisation", 50),
     ] {
         let (system, terms) = integral(name);
         let entry = end_state(system);
-        let watched = |mu: &[f64]| value(terms, mu);
-        let list: [Watched<'_>; 1] = [&watched];
-        let series = orders(&entry.algebra(), &entry.polynomial(), truncation);
-        let drift = run(&entry, &series, (n, n), None, &list).1.watched[0];
-        let start = coadjoint_tests::reference::numbers(&entry.momentum0);
-        let size = start.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let drift = drift(&entry, terms, 3, (1, n), None);
+        let size = numbers(&entry.momentum0).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         assert!(drift.0.max(drift.1) < 2e-13 * size, "{name}: {drift:?}");
     }
 }

@@ -5,7 +5,6 @@ use coadjoint::systems::{Gyrostat, LagrangeTop};
 use coadjoint::{Phase, SE3, SO3, StepError};
 use coadjoint_tests::reference::{end_state, numbers};
 use coadjoint_tests::run::run;
-use coadjoint_tests::series::orders;
 
 /// Steady precession of Lagrange's top: I₃ω₃ Ω_p − I₁Ω_p² cos θ = m g l (Goldstein, *Classical
 /// Mechanics*, § 5.7, with Π₃ = I₃ω₃). The axis keeps its tilt, and turns by Ω_p T.
@@ -103,7 +102,7 @@ fn toda_sorts_its_eigenvalues() {
         values
     };
     let before = eigenvalues(&numbers(&entry.momentum0));
-    let series = orders(&entry.algebra(), &entry.polynomial(), 5);
+    let series = entry.series(5);
     // Ten times the reference's span, T = 50.
     let (phase, outcome) = run(&entry, &series, (1000, 100), None, &[]);
     assert!(outcome.casimirs < 1e-13, "{outcome:?}");

@@ -3,14 +3,12 @@
 
 use coadjoint_tests::reference::end_state;
 use coadjoint_tests::run::run;
-use coadjoint_tests::series::orders;
 
 /// Runs with n and 2n steps at each truncation; the finer run must end within `bound`.
 fn reaches(system: &str, runs: &[(usize, usize, f64)]) {
     let entry = end_state(system);
-    let (algebra, hamiltonian) = (entry.algebra(), entry.polynomial());
     for &(truncation, n, bound) in runs {
-        let series = orders(&algebra, &hamiltonian, truncation);
+        let series = entry.series(truncation);
         let (_, coarse) = run(&entry, &series, (n, n), None, &[]);
         let (_, fine) = run(&entry, &series, (2 * n, 2 * n), None, &[]);
         let note = format!("{system}, K = {truncation}, n = {n}: {coarse:?} {fine:?}");

@@ -1,0 +1,43 @@
+//! The files of the repository.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The root of the repository.
+#[must_use]
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The text of a file, by its path from the root.
+///
+/// # Panics
+/// Where it cannot be read.
+#[must_use]
+pub fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The paths from the root of all Rust files below a folder, with their texts; folders of builds are left out.
+///
+/// # Panics
+/// Where one cannot be read.
+#[must_use]
+pub fn rust(folder: &str) -> Vec<(String, String)> {
+    let root = root();
+    let (mut folders, mut files) = (vec![root.join(folder)], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy();
+            if path.is_dir() {
+                let skipped = name.starts_with('.') || name == "target" || name == "node_modules";
+                folders.extend((!skipped).then_some(path));
+            } else if name.ends_with(".rs") {
+                let inside = path.strip_prefix(&root).unwrap().to_string_lossy();
+                files.push((inside.into_owned(), fs::read_to_string(&path).unwrap()));
+            }
+        }
+    }
+    files
+}
