@@ -1,6 +1,6 @@
 //! Axes: their ranges, and the positions and labels of their ticks.
 
-/// A tick: where it is, and what is written there.
+/// A tick: its place and its label.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     /// The value.
@@ -50,7 +50,7 @@ impl Axis {
         Self::linear(low - margin, high + margin, count)
     }
 
-    /// A logarithmic axis with about `count` ticks; what is not positive is drawn at its low end. Ticks are powers of
+    /// A logarithmic axis with about `count` ticks; values that are not positive are drawn at its low end. Ticks are powers of
     /// ten, or 1, 2 and 5 times these where there would be few.
     #[must_use]
     pub fn logarithmic(low: f64, high: f64, count: usize) -> Self {

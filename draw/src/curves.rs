@@ -1,6 +1,6 @@
 //! Which curves of a motion are shown, over which time, and with how many points.
 //!
-//! Curves of many records are thinned before they are drawn: [`thinned`] and [`peaks`] keep what is seen.
+//! Curves of many records are thinned before they are drawn: [`thinned`] and [`peaks`] keep every visible extreme.
 
 use crate::run::Series;
 

@@ -1,8 +1,8 @@
 //! Plots as SVG: labelled axes with units, curves that differ in grey print too, in light and dark schemes.
 //!
 //! Data are plain numbers, so that this crate knows neither groups nor integrators. [`Panel`] is a
-//! pair of axes with what is between them, alone or in a picture of several; [`run`] draws what
-//! `coadjoint simulate --plot` draws.
+//! pair of axes with its curves, alone or in a picture of several; [`run`] draws the plots of
+//! `coadjoint simulate --plot`.
 //!
 //! ```
 //! use coadjoint_draw::{Axis, Curve, Panel, Style};

@@ -1,4 +1,4 @@
-//! A panel: two axes, curves, and what is written around them.
+//! A panel: two axes, curves, and the texts around them.
 
 use crate::axis::Axis;
 use crate::style::{BAND, Style};
@@ -43,7 +43,7 @@ pub struct Curve {
     pub joined: bool,
     /// Whether its points are marked.
     pub marked: bool,
-    /// Its points; what is not finite breaks the line.
+    /// Its points; one that is not finite breaks the line.
     pub points: Vec<(f64, f64)>,
 }
 

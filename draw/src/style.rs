@@ -18,7 +18,7 @@ const STYLES: [(&str, &str, &str); 8] = [
 pub(crate) const BAND: &str =
     r##"class="band" fill="#bdbdbd" fill-opacity="0.55" stroke="#8a8a8a" stroke-width="0.6""##;
 
-/// The rules for a page that holds pictures: what is drawn follows the reader's choice of light or dark, and is light
+/// The rules for a page that holds pictures: pictures follow the reader's choice of light or dark, and is light
 /// in print. The variables `--ink`, `--paper`, `--faint`, `--grid`, `--frame` and `--s0` to `--s7` serve the page too.
 pub const STYLE_SHEET: &str = "\
 :root{color-scheme:light;--paper:#ffffff;--ink:#1f2328;--faint:#555555;--grid:#dddddd;--frame:#444444;--band:#bdbdbd;\

@@ -54,7 +54,7 @@ pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Outp
 /// The group of an algebra by its tables: matrices of the basis's size, or adjoint matrices where only brackets are known.
 ///
 /// # Errors
-/// [`TableError`] where the algebra is none in double precision.
+/// [`TableError`] where rounding to double precision breaks the algebra.
 pub fn matrix_group(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     let structure: Vec<_> =
         algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();

@@ -156,7 +156,7 @@ impl LearnError {
         Self::Format { path: path.into(), format, reason: reason.to_string() }
     }
 
-    /// Whether the mistake is in what was given (a file, an option), not in a computation.
+    /// Whether the cause is the input (a file, an option), not a computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         !matches!(self, Self::NotConverged(_) | Self::OutOfChart(_))

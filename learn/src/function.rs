@@ -1,4 +1,4 @@
-//! Functions on 𝔤\*, and the step from one to a map that conserves what it must.
+//! Functions on 𝔤\*, and the maps with exact geometry that they generate.
 
 use core::marker::PhantomData;
 

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3}
 /// A group whose elements can be read from data.
 pub trait DataGroup: LieGroup<Scalar = f64> {
     /// The element nearest to `matrix` (in the representation of [`LieGroup::matrix_entry`]);
-    /// `None` where there is none, or none can be found.
+    /// `None` where none exists or none is found.
     ///
     /// By default a matrix must be an element to 8 digits; SO(3) projects any matrix.
     fn element_near(&self, matrix: &DMatrix<f64>) -> Option<Self::Element> {
@@ -33,7 +33,7 @@ pub trait DataGroup: LieGroup<Scalar = f64> {
 /// The fold of rotations. Cayley: along a fixed axis p = μ cos²(θ/2), which grows with the angle
 /// θ = t|Ω| only up to θ tan(θ/2) = 1 (θ ≈ 1.3065 rad); beyond it two increments share one p.
 /// Exponential: along an axis p = μ, so the limit is the half turn, where the coordinate jumps. These
-/// are limits of a single increment; what the flow folds earlier is found from all samples
+/// are limits of a single increment; folds that the flow causes earlier are found from all samples
 /// (`data::fold`).
 fn rotation_fold(chart: &str, norm: f64) -> Option<f64> {
     match chart {

@@ -1,4 +1,4 @@
-//! Hybrid models: a polynomial by least squares, a network for what it leaves.
+//! Hybrid models: a polynomial by least squares and a network fitted to its residual.
 
 use nalgebra::DMatrix;
 

@@ -18,7 +18,7 @@ pub enum Model {
     GaussianProcess(GaussianProcess),
     /// A dense network.
     Network(DenseNetwork),
-    /// A polynomial and a network for what it leaves.
+    /// A polynomial and a network fitted to its residual.
     Hybrid {
         /// The polynomial.
         polynomial: PolynomialModel,

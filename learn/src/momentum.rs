@@ -18,7 +18,7 @@ use crate::trivialisation::{ad_star_matrix, left_derivative};
 pub struct PoissonOptions {
     /// The total degree of S.
     pub degree: usize,
-    /// The iteration; its ridge fixes what the momenta leave open (a rotation about μ).
+    /// The iteration; its ridge fixes the rotation about μ that momenta do not determine.
     pub iteration: GaussNewton,
 }
 
@@ -30,7 +30,7 @@ impl PoissonOptions {
         Self { degree, iteration }
     }
 
-    /// Refuses a degree that makes no sense for this number of samples.
+    /// Refuses a degree that this number of samples does not support.
     pub(crate) fn check(&self, dim: usize, samples: usize) -> Result<(), LearnError> {
         Basis::check_fit(dim, self.degree, samples)?;
         if self.degree == 0 {

@@ -34,7 +34,7 @@ pub(crate) enum NpyError {
     /// The file does not begin as an array does.
     #[error("it does not begin with the signature of an array (\\x93NUMPY)")]
     Signature,
-    /// A version of the format nobody knows.
+    /// An unknown version of the format.
     #[error("it is of version {0} of the format; versions 1 to 3 are known")]
     Version(u8),
     /// A header longer than its file, or than any header is.
@@ -80,7 +80,7 @@ impl NpyHeader {
         }
         let mut text = vec![0; claimed as usize];
         reader.read_exact(&mut text)?;
-        let text = String::from_utf8(text).map_err(|_| NpyError::Header("it is no text"))?;
+        let text = String::from_utf8(text).map_err(|_| NpyError::Header("it is not text"))?;
         let dictionary = Dictionary::parse(&text)?;
         let (big_endian, width) = match dictionary.descr.as_str() {
             "<f8" => (false, 8),
@@ -111,7 +111,7 @@ impl NpyHeader {
         self.count
     }
 
-    /// Adds the numbers of `bytes`; what is not a whole number at the end is left.
+    /// Adds the numbers of `bytes`; an incomplete one at the end is left.
     pub(crate) fn decode(&self, bytes: &[u8], values: &mut Vec<f64>) {
         let wide = |b: &[u8; 8]| {
             if self.big_endian { f64::from_be_bytes(*b) } else { f64::from_le_bytes(*b) }
@@ -175,7 +175,7 @@ impl Dictionary {
             if rest.starts_with('}') {
                 break;
             }
-            let (key, after) = quoted(rest).ok_or(NpyError::Header("a key is no text"))?;
+            let (key, after) = quoted(rest).ok_or(NpyError::Header("a key is not a string"))?;
             let value = after.trim_start().strip_prefix(':');
             let value = value.ok_or(NpyError::Header("a key has no value"))?.trim_start();
             let end = end_of(value).ok_or(NpyError::Header("a value does not end"))?;
@@ -187,11 +187,18 @@ impl Dictionary {
                     fortran = Some(match value {
                         "True" => true,
                         "False" => false,
-                        _ => return Err(NpyError::Header("`fortran_order` is no truth value")),
+                        _ => {
+                            return Err(NpyError::Header(
+                                "`fortran_order` is neither True nor False",
+                            ));
+                        }
                     });
                 }
                 "shape" => {
-                    shape = Some(tuple(value).ok_or(NpyError::Header("`shape` is no tuple"))?)
+                    shape = Some(
+                        tuple(value)
+                            .ok_or(NpyError::Header("`shape` is not a tuple of whole numbers"))?,
+                    )
                 }
                 _ => {}
             }

@@ -1,4 +1,4 @@
-//! The gallery: every system of a folder, run as its file says, with its orbit, its momentum and what it conserves.
+//! The gallery: every system of a folder, run as its file says, with its orbit, its momentum and the drift of its conserved quantities.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// Whatever stops the program, with a sentence for the user.
@@ -76,12 +76,14 @@ impl Table {
     }
 }
 
-/// Columns of numbers, the abscissa first: one CSV file.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Columns of numbers, the abscissa first: one CSV file, of which JSON has the name.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// The file's name without ending.
     pub name: String,
+    #[serde(skip)]
     pub columns: Vec<String>,
+    #[serde(skip)]
     pub rows: Vec<Vec<f64>>,
 }
 
@@ -157,18 +159,7 @@ pub struct Report {
     pub seed: u64,
     pub tables: Vec<Table>,
     pub judgements: Vec<Judgement>,
-    /// Written as CSV files, of which the JSON has the names.
-    #[serde(serialize_with = "names", deserialize_with = "of_names")]
     pub curves: Vec<Curve>,
-}
-
-fn names<S: Serializer>(curves: &[Curve], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(curves.iter().map(|curve| &curve.name))
-}
-
-fn of_names<'a, D: Deserializer<'a>>(deserializer: D) -> Result<Vec<Curve>, D::Error> {
-    let names = Vec::<String>::deserialize(deserializer)?;
-    Ok(names.into_iter().map(|name| Curve { name, ..Curve::default() }).collect())
 }
 
 impl Report {
@@ -196,7 +187,7 @@ impl Report {
         write(&folder.join(format!("{}.json", self.name)), &text)
     }
 
-    /// Reads back what [`Self::write`] wrote; `None` if there is none of these settings, or not all of it.
+    /// Reads back what [`Self::write`] wrote; `None` if it is incomplete or of other settings.
     pub fn read(folder: &Path, name: &str, quick: bool, seed: u64) -> Option<Self> {
         let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).ok()?;
         let mut report: Self = serde_json::from_str(&text).ok()?;

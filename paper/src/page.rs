@@ -24,7 +24,7 @@ pub struct Section {
     pub judgements: Vec<Judgement>,
 }
 
-/// The sections of a page, in its order; what was not run is not shown.
+/// The sections of a page, in its order, of the experiments that were run.
 pub fn sections(reports: &[Report]) -> Vec<Section> {
     let section = |figure: &'static Figure| {
         let report = reports.iter().find(|report| report.name == figure.experiment)?;

@@ -148,7 +148,7 @@ impl Group {
             Draw::Cost => {
                 let own = curve.rows.iter().filter(|row| row[0].to_string() == column);
                 let own = own.filter(|row| row[2] < 1.0);
-                // Rounding gathers where steps are too small; nobody goes there.
+                // Steps so small that rounding accumulates are of no use.
                 unbeaten(own.map(|row| (row[2].max(ROUNDING), row[3])).collect())
             }
         }]

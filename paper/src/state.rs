@@ -175,7 +175,7 @@ impl Steps {
     /// Makes `steps` steps of size `h` from the identity and this momentum; returns the states, the start first, and how many
     /// corrections were made. `None` where a step is refused.
     pub fn walk(&self, h: f64, steps: usize, start: &[f64]) -> Option<(Vec<State>, u64)> {
-        // However large the momentum, the step is to be made: how far the series converges is what is looked at.
+        // Steps are made at any momentum, since the convergence of the series is the question here.
         let mut slots = self.step.fold(h, &[]).ok()?;
         slots[self.step.radius_at()] = 1e200;
         let kernel = self.kernel();

@@ -1,4 +1,4 @@
-//! The words of the page, from `figures.toml`: what the paper shows, what came out, and what must hold.
+//! The words of the page, from `figures.toml`: claims of the paper, results, and the numbers that judge them.
 
 use std::sync::LazyLock;
 
@@ -30,7 +30,7 @@ pub struct Figure {
     pub group: Vec<Group>,
 }
 
-/// A number that judges: what it is, and its bounds.
+/// A number that judges: its meaning and its bounds.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Judged {
@@ -53,12 +53,6 @@ static TEXTS: LazyLock<Texts> =
 /// All figures, in the order of the page.
 pub fn figures() -> &'static [Figure] {
     &TEXTS.figure
-}
-
-/// The figure of this identifier.
-#[expect(clippy::expect_used, reason = "identifiers are constants of this program")]
-pub fn figure(id: &str) -> &'static Figure {
-    figures().iter().find(|figure| figure.id == id).expect(id)
 }
 
 /// Fills in the numbers of a report: `{row|column}` is a cell of the first table, `{title|row|column}` of the table whose
@@ -94,8 +88,9 @@ fn value(key: &str, report: &Report) -> Option<String> {
 
 impl Report {
     /// Enters the numbers that judge a figure, in the order of its text; `of` says of which part they are.
+    #[expect(clippy::expect_used, reason = "identifiers are constants of this program")]
     pub fn judge(&mut self, figure: &str, of: &str, values: &[f64]) {
-        let judged = &self::figure(figure).judged;
+        let judged = &figures().iter().find(|own| own.id == figure).expect(figure).judged;
         assert_eq!(judged.len(), values.len(), "{figure}");
         self.judgements.extend(judged.iter().zip(values).map(|(judged, &value)| Judgement {
             figure: figure.into(),

@@ -23,9 +23,9 @@
 // and everything used is known to hold there. For other steps the library follows the solution from
 // the identity, or says why there is none.
 //
-// Cost of a step with one correction, as most have: 420 multiplications, 364 additions, 4 divisions
+// Cost of a step with one correction, as most have: 287 multiplications, 228 additions, 4 divisions
 // and roots.
-// Cost at most (12 corrections, and a check of the state): 2415 multiplications, 2035 additions, 38
+// Cost at most (12 corrections, and a check of the state): 2007 multiplications, 1591 additions, 38
 // divisions and roots.
 //
 // Programs have one operation a line: `c.at(i)` is a coefficient, folded once for the step size and
@@ -35,8 +35,8 @@
 /// Hamiltonian: `learned from 60 samples, dt = 0.1`
 ///
 /// Group: SO3. Chart exp, truncation K = 1, order of accuracy 2.
-/// Terms: S1: 20.
-/// A step takes 513 operations, and 335 more for each further correction.
+/// Terms: S1: 10.
+/// A step takes 382 operations, and 282 more for each further correction.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 #[allow(clippy::trailing_empty_array)]
 pub struct Learned<T = f64> {
@@ -47,7 +47,7 @@ pub struct Learned<T = f64> {
     /// The coefficients of the programs below, folded for h and the parameters; after them those of the bound on
     /// what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the
     /// coefficients of its last two terms.
-    coefficients: [T; 218],
+    coefficients: [T; 81],
 }
 
 #[allow(
@@ -192,179 +192,71 @@ const _: () = {
         T: ::coadjoint::plumbing::Number,
         C: ::coadjoint::plumbing::Coefficients<T>,
     >(c: C, mu: &[T; 3]) -> ([T; 3], [T; 2]) {
-        let t7 = mu[2].times_plus(c.at(77), c.at(76));
-        let t8 = mu[1].times_plus(c.at(78), t7);
-        let t9 = mu[0].times_plus(c.at(79), t8);
-        let t13 = mu[2].times_plus(c.at(74), c.at(73));
-        let t14 = mu[1].times_plus(c.at(75), t13);
-        let t17 = mu[2].times_plus(c.at(72), c.at(71));
-        let t19 = mu[2].times_plus(t17, c.at(70));
+        let t7 = mu[2].times_plus(c.at(25), c.at(24));
+        let t8 = mu[1].times_plus(c.at(26), t7);
+        let t9 = mu[0].times_plus(c.at(27), t8);
+        let t13 = mu[2].times_plus(c.at(22), c.at(21));
+        let t14 = mu[1].times_plus(c.at(23), t13);
+        let t17 = mu[2].times_plus(c.at(20), c.at(19));
+        let t19 = mu[2].times_plus(t17, c.at(18));
         let t20 = mu[1].times_plus(t14, t19);
         let t21 = mu[0].times_plus(t9, t20);
-        let t25 = mu[2].times_plus(c.at(68), c.at(67));
-        let t26 = mu[1].times_plus(c.at(69), t25);
-        let t29 = mu[2].times_plus(c.at(66), c.at(65));
-        let t31 = mu[2].times_plus(t29, c.at(64));
+        let t25 = mu[2].times_plus(c.at(16), c.at(15));
+        let t26 = mu[1].times_plus(c.at(17), t25);
+        let t29 = mu[2].times_plus(c.at(14), c.at(13));
+        let t31 = mu[2].times_plus(t29, c.at(12));
         let t32 = mu[1].times_plus(t26, t31);
-        let t35 = mu[2].times_plus(c.at(63), c.at(62));
-        let t37 = mu[2].times_plus(t35, c.at(61));
-        let t39 = mu[2].times_plus(t37, c.at(60));
-        let t40 = mu[1].times_plus(t32, t39);
-        let t41 = mu[0].times_plus(t21, t40);
-        let t45 = mu[2].times_plus(c.at(58), c.at(57));
-        let t46 = mu[1].times_plus(c.at(59), t45);
-        let t49 = mu[2].times_plus(c.at(56), c.at(55));
-        let t51 = mu[2].times_plus(t49, c.at(54));
-        let t52 = mu[1].times_plus(t46, t51);
-        let t55 = mu[2].times_plus(c.at(53), c.at(52));
-        let t57 = mu[2].times_plus(t55, c.at(51));
-        let t59 = mu[2].times_plus(t57, c.at(50));
-        let t60 = mu[1].times_plus(t52, t59);
-        let t63 = mu[2].times_plus(c.at(49), c.at(48));
-        let t65 = mu[2].times_plus(t63, c.at(47));
-        let t67 = mu[2].times_plus(t65, c.at(46));
-        let t69 = mu[2].times_plus(t67, c.at(45));
-        let t70 = mu[1].times_plus(t60, t69);
-        let t71 = mu[0].times_plus(t41, t70);
-        let t75 = mu[2].times_plus(c.at(43), c.at(42));
-        let t76 = mu[1].times_plus(c.at(44), t75);
-        let t79 = mu[2].times_plus(c.at(41), c.at(40));
-        let t81 = mu[2].times_plus(t79, c.at(39));
-        let t82 = mu[1].times_plus(t76, t81);
-        let t85 = mu[2].times_plus(c.at(38), c.at(37));
-        let t87 = mu[2].times_plus(t85, c.at(36));
-        let t89 = mu[2].times_plus(t87, c.at(35));
-        let t90 = mu[1].times_plus(t82, t89);
-        let t93 = mu[2].times_plus(c.at(34), c.at(33));
-        let t95 = mu[2].times_plus(t93, c.at(32));
-        let t97 = mu[2].times_plus(t95, c.at(31));
-        let t99 = mu[2].times_plus(t97, c.at(30));
-        let t100 = mu[1].times_plus(t90, t99);
-        let t103 = mu[2].times_plus(c.at(29), c.at(28));
-        let t105 = mu[2].times_plus(t103, c.at(27));
-        let t107 = mu[2].times_plus(t105, c.at(26));
-        let t109 = mu[2].times_plus(t107, c.at(25));
-        let t110 = mu[2] * t109;
-        let t111 = mu[1].times_plus(t100, t110);
-        let t112 = mu[0].times_plus(t71, t111);
-        let t117 = mu[2].times_plus(c.at(132), c.at(131));
-        let t118 = mu[1].times_plus(c.at(133), t117);
-        let t119 = mu[0].times_plus(c.at(134), t118);
-        let t123 = mu[2].times_plus(c.at(129), c.at(128));
-        let t124 = mu[1].times_plus(c.at(130), t123);
-        let t127 = mu[2].times_plus(c.at(127), c.at(126));
-        let t129 = mu[2].times_plus(t127, c.at(125));
-        let t130 = mu[1].times_plus(t124, t129);
-        let t131 = mu[0].times_plus(t119, t130);
-        let t135 = mu[2].times_plus(c.at(123), c.at(122));
-        let t136 = mu[1].times_plus(c.at(124), t135);
-        let t139 = mu[2].times_plus(c.at(121), c.at(120));
-        let t141 = mu[2].times_plus(t139, c.at(119));
-        let t142 = mu[1].times_plus(t136, t141);
-        let t145 = mu[2].times_plus(c.at(118), c.at(117));
-        let t147 = mu[2].times_plus(t145, c.at(116));
-        let t149 = mu[2].times_plus(t147, c.at(115));
-        let t150 = mu[1].times_plus(t142, t149);
-        let t151 = mu[0].times_plus(t131, t150);
-        let t155 = mu[2].times_plus(c.at(113), c.at(112));
-        let t156 = mu[1].times_plus(c.at(114), t155);
-        let t159 = mu[2].times_plus(c.at(111), c.at(110));
-        let t161 = mu[2].times_plus(t159, c.at(109));
-        let t162 = mu[1].times_plus(t156, t161);
-        let t165 = mu[2].times_plus(c.at(108), c.at(107));
-        let t167 = mu[2].times_plus(t165, c.at(106));
-        let t169 = mu[2].times_plus(t167, c.at(105));
-        let t170 = mu[1].times_plus(t162, t169);
-        let t173 = mu[2].times_plus(c.at(104), c.at(103));
-        let t175 = mu[2].times_plus(t173, c.at(102));
-        let t177 = mu[2].times_plus(t175, c.at(101));
-        let t179 = mu[2].times_plus(t177, c.at(100));
-        let t180 = mu[1].times_plus(t170, t179);
-        let t181 = mu[0].times_plus(t151, t180);
-        let t185 = mu[2].times_plus(c.at(98), c.at(97));
-        let t186 = mu[1].times_plus(c.at(99), t185);
-        let t189 = mu[2].times_plus(c.at(96), c.at(95));
-        let t191 = mu[2].times_plus(t189, c.at(94));
-        let t192 = mu[1].times_plus(t186, t191);
-        let t195 = mu[2].times_plus(c.at(93), c.at(92));
-        let t197 = mu[2].times_plus(t195, c.at(91));
-        let t199 = mu[2].times_plus(t197, c.at(90));
-        let t200 = mu[1].times_plus(t192, t199);
-        let t203 = mu[2].times_plus(c.at(89), c.at(88));
-        let t205 = mu[2].times_plus(t203, c.at(87));
-        let t207 = mu[2].times_plus(t205, c.at(86));
-        let t209 = mu[2].times_plus(t207, c.at(85));
-        let t210 = mu[1].times_plus(t200, t209);
-        let t213 = mu[2].times_plus(c.at(84), c.at(83));
-        let t215 = mu[2].times_plus(t213, c.at(82));
-        let t217 = mu[2].times_plus(t215, c.at(81));
-        let t219 = mu[2].times_plus(t217, c.at(80));
-        let t220 = mu[2] * t219;
-        let t221 = mu[1].times_plus(t210, t220);
-        let t222 = mu[0].times_plus(t181, t221);
-        let t227 = mu[2].times_plus(c.at(187), c.at(186));
-        let t228 = mu[1].times_plus(c.at(188), t227);
-        let t229 = mu[0].times_plus(c.at(189), t228);
-        let t233 = mu[2].times_plus(c.at(184), c.at(183));
-        let t234 = mu[1].times_plus(c.at(185), t233);
-        let t237 = mu[2].times_plus(c.at(182), c.at(181));
-        let t239 = mu[2].times_plus(t237, c.at(180));
-        let t240 = mu[1].times_plus(t234, t239);
-        let t241 = mu[0].times_plus(t229, t240);
-        let t245 = mu[2].times_plus(c.at(178), c.at(177));
-        let t246 = mu[1].times_plus(c.at(179), t245);
-        let t249 = mu[2].times_plus(c.at(176), c.at(175));
-        let t251 = mu[2].times_plus(t249, c.at(174));
-        let t252 = mu[1].times_plus(t246, t251);
-        let t255 = mu[2].times_plus(c.at(173), c.at(172));
-        let t257 = mu[2].times_plus(t255, c.at(171));
-        let t259 = mu[2].times_plus(t257, c.at(170));
-        let t260 = mu[1].times_plus(t252, t259);
-        let t261 = mu[0].times_plus(t241, t260);
-        let t265 = mu[2].times_plus(c.at(168), c.at(167));
-        let t266 = mu[1].times_plus(c.at(169), t265);
-        let t269 = mu[2].times_plus(c.at(166), c.at(165));
-        let t271 = mu[2].times_plus(t269, c.at(164));
-        let t272 = mu[1].times_plus(t266, t271);
-        let t275 = mu[2].times_plus(c.at(163), c.at(162));
-        let t277 = mu[2].times_plus(t275, c.at(161));
-        let t279 = mu[2].times_plus(t277, c.at(160));
-        let t280 = mu[1].times_plus(t272, t279);
-        let t283 = mu[2].times_plus(c.at(159), c.at(158));
-        let t285 = mu[2].times_plus(t283, c.at(157));
-        let t287 = mu[2].times_plus(t285, c.at(156));
-        let t289 = mu[2].times_plus(t287, c.at(155));
-        let t290 = mu[1].times_plus(t280, t289);
-        let t291 = mu[0].times_plus(t261, t290);
-        let t295 = mu[2].times_plus(c.at(153), c.at(152));
-        let t296 = mu[1].times_plus(c.at(154), t295);
-        let t299 = mu[2].times_plus(c.at(151), c.at(150));
-        let t301 = mu[2].times_plus(t299, c.at(149));
-        let t302 = mu[1].times_plus(t296, t301);
-        let t305 = mu[2].times_plus(c.at(148), c.at(147));
-        let t307 = mu[2].times_plus(t305, c.at(146));
-        let t309 = mu[2].times_plus(t307, c.at(145));
-        let t310 = mu[1].times_plus(t302, t309);
-        let t313 = mu[2].times_plus(c.at(144), c.at(143));
-        let t315 = mu[2].times_plus(t313, c.at(142));
-        let t317 = mu[2].times_plus(t315, c.at(141));
-        let t319 = mu[2].times_plus(t317, c.at(140));
-        let t320 = mu[1].times_plus(t310, t319);
-        let t323 = mu[2].times_plus(c.at(139), c.at(138));
-        let t325 = mu[2].times_plus(t323, c.at(137));
-        let t327 = mu[2].times_plus(t325, c.at(136));
-        let t329 = mu[2].times_plus(t327, c.at(135));
-        let t330 = mu[2] * t329;
-        let t331 = mu[1].times_plus(t320, t330);
-        let t332 = mu[0].times_plus(t291, t331);
-        let t335 = mu[0].simd_abs();
-        let t336 = mu[1].simd_abs();
-        let t337 = T::select(t335, T::simd_le(t336, t335), t336);
-        let t338 = mu[2].simd_abs();
-        let t339 = T::select(t337, T::simd_le(t338, t337), t338);
-        let t340 = c.of(0.000000000000000000000000000000000000011754943508222875) + t339;
-        let t342 = c.of(1.0) / t340;
-        ([t112, t222, t332], [t342, c.of(0.0)])
+        let t35 = mu[2].times_plus(c.at(11), c.at(10));
+        let t37 = mu[2].times_plus(t35, c.at(9));
+        let t38 = mu[2] * t37;
+        let t39 = mu[1].times_plus(t32, t38);
+        let t40 = mu[0].times_plus(t21, t39);
+        let t45 = mu[2].times_plus(c.at(44), c.at(43));
+        let t46 = mu[1].times_plus(c.at(45), t45);
+        let t47 = mu[0].times_plus(c.at(46), t46);
+        let t51 = mu[2].times_plus(c.at(41), c.at(40));
+        let t52 = mu[1].times_plus(c.at(42), t51);
+        let t55 = mu[2].times_plus(c.at(39), c.at(38));
+        let t57 = mu[2].times_plus(t55, c.at(37));
+        let t58 = mu[1].times_plus(t52, t57);
+        let t59 = mu[0].times_plus(t47, t58);
+        let t63 = mu[2].times_plus(c.at(35), c.at(34));
+        let t64 = mu[1].times_plus(c.at(36), t63);
+        let t67 = mu[2].times_plus(c.at(33), c.at(32));
+        let t69 = mu[2].times_plus(t67, c.at(31));
+        let t70 = mu[1].times_plus(t64, t69);
+        let t73 = mu[2].times_plus(c.at(30), c.at(29));
+        let t75 = mu[2].times_plus(t73, c.at(28));
+        let t76 = mu[2] * t75;
+        let t77 = mu[1].times_plus(t70, t76);
+        let t78 = mu[0].times_plus(t59, t77);
+        let t83 = mu[2].times_plus(c.at(63), c.at(62));
+        let t84 = mu[1].times_plus(c.at(64), t83);
+        let t85 = mu[0].times_plus(c.at(65), t84);
+        let t89 = mu[2].times_plus(c.at(60), c.at(59));
+        let t90 = mu[1].times_plus(c.at(61), t89);
+        let t93 = mu[2].times_plus(c.at(58), c.at(57));
+        let t95 = mu[2].times_plus(t93, c.at(56));
+        let t96 = mu[1].times_plus(t90, t95);
+        let t97 = mu[0].times_plus(t85, t96);
+        let t101 = mu[2].times_plus(c.at(54), c.at(53));
+        let t102 = mu[1].times_plus(c.at(55), t101);
+        let t105 = mu[2].times_plus(c.at(52), c.at(51));
+        let t107 = mu[2].times_plus(t105, c.at(50));
+        let t108 = mu[1].times_plus(t102, t107);
+        let t111 = mu[2].times_plus(c.at(49), c.at(48));
+        let t113 = mu[2].times_plus(t111, c.at(47));
+        let t114 = mu[2] * t113;
+        let t115 = mu[1].times_plus(t108, t114);
+        let t116 = mu[0].times_plus(t97, t115);
+        let t119 = mu[0].simd_abs();
+        let t120 = mu[1].simd_abs();
+        let t121 = T::select(t119, T::simd_le(t120, t119), t120);
+        let t122 = mu[2].simd_abs();
+        let t123 = T::select(t121, T::simd_le(t122, t121), t122);
+        let t124 = c.of(0.000000000000000000000000000000000000011754943508222875) + t123;
+        let t126 = c.of(1.0) / t124;
+        ([t40, t78, t116], [t126, c.of(0.0)])
     }
 
     #[inline(always)]
@@ -372,278 +264,254 @@ const _: () = {
         T: ::coadjoint::plumbing::Number,
         C: ::coadjoint::plumbing::Coefficients<T>,
     >(c: C, p: &[T; 3], mu: &[T; 3], k: &[T; 2]) -> ([T; 3], [T; 3], T, T) {
-        let t12 = p[2].times_plus(c.at(1), c.at(0));
-        let t13 = p[1].times_plus(c.at(2), t12);
-        let t14 = p[0].times_plus(c.at(3), t13);
-        let t18 = p[2].times_plus(c.at(8), c.at(7));
-        let t19 = p[1].times_plus(c.at(9), t18);
-        let t22 = p[2].times_plus(c.at(6), c.at(5));
-        let t24 = p[2].times_plus(t22, c.at(4));
-        let t25 = p[1].times_plus(t19, t24);
-        let t26 = p[0].times_plus(t14, t25);
-        let t31 = p[2].times_plus(c.at(11), c.at(10));
-        let t32 = p[1].times_plus(c.at(12), t31);
-        let t33 = p[0].times_plus(c.at(13), t32);
-        let t35 = p[0].times_plus(c.at(17), t18);
-        let t38 = p[2].times_plus(c.at(16), c.at(15));
-        let t40 = p[2].times_plus(t38, c.at(14));
-        let t41 = p[0].times_plus(t35, t40);
-        let t42 = p[1].times_plus(t33, t41);
-        let t47 = p[2].times_plus(c.at(19), c.at(18));
-        let t48 = p[1].times_plus(c.at(20), t47);
-        let t49 = p[0].times_plus(c.at(21), t48);
-        let t51 = p[1].times_plus(c.at(8), c.at(5));
-        let t52 = p[0].times_plus(c.at(24), t51);
-        let t54 = p[1].times_plus(c.at(23), c.at(15));
-        let t56 = p[1].times_plus(t54, c.at(22));
-        let t57 = p[0].times_plus(t52, t56);
-        let t58 = p[2].times_plus(t49, t57);
-        let t59 = p[0] * c.at(3);
-        let t60 = t14 + t59;
-        let t61 = p[1].times_plus(c.at(13), t18);
-        let t62 = p[0].times_plus(c.at(2), t61);
-        let t63 = p[2].times_plus(c.at(21), c.at(5));
-        let t64 = p[1].times_plus(c.at(8), t63);
-        let t65 = p[0].times_plus(c.at(1), t64);
-        let t66 = p[1] * c.at(12);
-        let t67 = t33 + t66;
-        let t68 = p[2].times_plus(c.at(20), c.at(15));
-        let t69 = p[1].times_plus(c.at(11), t68);
-        let t70 = p[0].times_plus(c.at(8), t69);
-        let t71 = p[2] * c.at(19);
-        let t72 = t49 + t71;
-        let t75 = t26 * t26;
-        let t76 = t42.times_plus(t42, t75);
-        let t77 = t58.times_plus(t58, t76);
-        let t88 = t77.times_plus(c.of(-0.041666666666666664), c.of(0.5));
-        let t89 = t77
+        let t12 = p[2].times_plus(c.at(2), c.at(1));
+        let t13 = p[1].times_plus(c.at(3), t12);
+        let t14 = p[0].times_plus(c.at(0), t13);
+        let t18 = p[2].times_plus(c.at(6), c.at(5));
+        let t19 = p[0].times_plus(c.at(3), t18);
+        let t20 = p[1].times_plus(c.at(4), t19);
+        let t23 = p[1].times_plus(c.at(6), c.at(8));
+        let t24 = p[0].times_plus(c.at(2), t23);
+        let t25 = p[2].times_plus(c.at(7), t24);
+        let t29 = t14 * t14;
+        let t30 = t20.times_plus(t20, t29);
+        let t31 = t25.times_plus(t25, t30);
+        let t42 = t31.times_plus(c.of(-0.041666666666666664), c.of(0.5));
+        let t43 = t31
             .times_plus(c.of(-0.0000248015873015873), c.of(0.001388888888888889));
-        let t90 = t77
+        let t44 = t31
             .times_plus(
                 c.of(-0.00000000208767569878681),
                 c.of(0.0000002755731922398589),
             );
-        let t91 = t77
+        let t45 = t31
             .times_plus(
                 c.of(-0.00000000000004779477332387385),
                 c.of(0.000000000011470745597729725),
             );
-        let t92 = t77
+        let t46 = t31
             .times_plus(
                 c.of(-0.0000000000000000004110317623312165),
                 c.of(0.00000000000000015619206968586225),
             );
-        let t93 = t77 * t77;
-        let t94 = t89.times_plus(t93, t88);
-        let t95 = t91.times_plus(t93, t90);
-        let t96 = c.of(0.0000000000000000000008896791392450574).times_plus(t93, t92);
-        let t97 = t93 * t93;
-        let t98 = t95.times_plus(t97, t94);
-        let t99 = t97 * t97;
-        let t100 = t96.times_plus(t99, t98);
-        let t111 = t77
-            .times_plus(c.of(-0.008333333333333333), c.of(0.16666666666666666));
-        let t112 = t77
+        let t47 = t31 * t31;
+        let t48 = t43.times_plus(t47, t42);
+        let t49 = t45.times_plus(t47, t44);
+        let t50 = c.of(0.0000000000000000000008896791392450574).times_plus(t47, t46);
+        let t51 = t47 * t47;
+        let t52 = t49.times_plus(t51, t48);
+        let t53 = t51 * t51;
+        let t54 = t50.times_plus(t53, t52);
+        let t65 = t31.times_plus(c.of(-0.008333333333333333), c.of(0.16666666666666666));
+        let t66 = t31
             .times_plus(c.of(-0.0000027557319223985893), c.of(0.0001984126984126984));
-        let t113 = t77
+        let t67 = t31
             .times_plus(
                 c.of(-0.00000000016059043836821613),
                 c.of(0.00000002505210838544172),
             );
-        let t114 = t77
+        let t68 = t31
             .times_plus(
                 c.of(-0.0000000000000028114572543455206),
                 c.of(0.0000000000007647163731819816),
             );
-        let t115 = t77
+        let t69 = t31
             .times_plus(
                 c.of(-0.000000000000000000019572941063391263),
                 c.of(0.00000000000000000822063524662433),
             );
-        let t116 = t93.times_plus(t112, t111);
-        let t117 = t93.times_plus(t114, t113);
-        let t118 = t97.times_plus(t117, t116);
-        let t119 = t99.times_plus(t115, t118);
-        let t126 = t77
+        let t70 = t47.times_plus(t66, t65);
+        let t71 = t47.times_plus(t68, t67);
+        let t72 = t51.times_plus(t71, t70);
+        let t73 = t53.times_plus(t69, t72);
+        let t80 = t31
             .times_plus(c.of(0.002777777777777778), c.of(-0.041666666666666664));
-        let t127 = t77
+        let t81 = t31
             .times_plus(c.of(0.0000011022927689594355), c.of(-0.00007440476190476191));
-        let t128 = t77
+        let t82 = t31
             .times_plus(
                 c.of(0.00000000006882447358637835),
                 c.of(-0.00000001043837849393405),
             );
-        let t129 = t93.times_plus(t127, t126);
-        let t130 = t93.times_plus(c.of(-0.00000000000033456341326711696), t128);
-        let t131 = t97.times_plus(t130, t129);
-        let t138 = t77
+        let t83 = t47.times_plus(t81, t80);
+        let t84 = t47.times_plus(c.of(-0.00000000000033456341326711696), t82);
+        let t85 = t51.times_plus(t84, t83);
+        let t92 = t31
             .times_plus(c.of(0.0003968253968253968), c.of(-0.008333333333333333));
-        let t139 = t77
+        let t93 = t31
             .times_plus(c.of(0.00000010020843354176688), c.of(-0.000008267195767195768));
-        let t140 = t77
+        let t94 = t31
             .times_plus(
                 c.of(0.00000000000458829823909189),
                 c.of(-0.0000000008029521918410806),
             );
-        let t141 = t93.times_plus(t139, t138);
-        let t142 = t93.times_plus(c.of(-0.000000000000019680200780418645), t140);
-        let t143 = t97.times_plus(t142, t141);
-        let t144 = mu[1] * t58;
-        let t145 = -mu[2];
-        let t146 = t42.times_plus(t145, t144);
-        let t147 = mu[2] * t26;
-        let t148 = -mu[0];
-        let t149 = t58.times_plus(t148, t147);
-        let t150 = mu[0] * t42;
-        let t151 = -mu[1];
-        let t152 = t26.times_plus(t151, t150);
-        let t153 = t58 * t149;
-        let t154 = -t152;
-        let t155 = t42.times_plus(t154, t153);
-        let t156 = t26 * t152;
-        let t157 = -t146;
-        let t158 = t58.times_plus(t157, t156);
-        let t159 = t42 * t146;
-        let t160 = -t149;
-        let t161 = t26.times_plus(t160, t159);
-        let t162 = t100.times_plus(t146, mu[0]);
-        let t163 = t100.times_plus(t149, mu[1]);
-        let t164 = t100.times_plus(t152, mu[2]);
-        let t165 = t119.times_plus(t155, t162);
-        let t166 = t119.times_plus(t158, t163);
-        let t167 = t119.times_plus(t161, t164);
-        let t169 = t131 * t146;
-        let t170 = t131 * t149;
-        let t171 = t131 * t152;
-        let t172 = t143.times_plus(t155, t169);
-        let t173 = t143.times_plus(t158, t170);
-        let t174 = t143.times_plus(t161, t171);
-        let t175 = c.of(2.0) * t172;
-        let t176 = c.of(2.0) * t173;
-        let t177 = c.of(2.0) * t174;
-        let t178 = -t119;
-        let t179 = mu[0].times_plus(t178, t175);
-        let t180 = mu[1].times_plus(t178, t176);
-        let t181 = mu[2].times_plus(t178, t177);
-        let t182 = mu[0] * t100;
-        let t183 = mu[1] * t100;
-        let t184 = mu[2] * t100;
-        let t185 = t119.times_plus(t146, t182);
-        let t186 = t119.times_plus(t149, t183);
-        let t187 = t119.times_plus(t152, t184);
-        let t188 = mu[0] * t26;
-        let t189 = mu[1].times_plus(t42, t188);
-        let t190 = mu[2].times_plus(t58, t189);
-        let t191 = t119 * t190;
-        let t192 = -t185;
-        let t193 = -t186;
-        let t194 = -t187;
-        let t195 = t26.times_plus(t179, t191);
-        let t196 = t42.times_plus(t179, t194);
-        let t197 = t58.times_plus(t179, t186);
-        let t198 = t26.times_plus(t180, t187);
-        let t199 = t42.times_plus(t180, t191);
-        let t200 = t58.times_plus(t180, t192);
-        let t201 = t26.times_plus(t181, t193);
-        let t202 = t42.times_plus(t181, t185);
-        let t203 = t58.times_plus(t181, t191);
-        let t204 = t60 * t195;
-        let t205 = t62.times_plus(t196, t204);
-        let t206 = t65.times_plus(t197, t205);
-        let t207 = t62 * t195;
-        let t208 = t67.times_plus(t196, t207);
-        let t209 = t70.times_plus(t197, t208);
-        let t210 = t65 * t195;
-        let t211 = t70.times_plus(t196, t210);
-        let t212 = t72.times_plus(t197, t211);
-        let t213 = t60 * t198;
-        let t214 = t62.times_plus(t199, t213);
-        let t215 = t65.times_plus(t200, t214);
-        let t216 = t62 * t198;
-        let t217 = t67.times_plus(t199, t216);
-        let t218 = t70.times_plus(t200, t217);
-        let t219 = t65 * t198;
-        let t220 = t70.times_plus(t199, t219);
-        let t221 = t72.times_plus(t200, t220);
-        let t222 = t60 * t201;
-        let t223 = t62.times_plus(t202, t222);
-        let t224 = t65.times_plus(t203, t223);
-        let t225 = t62 * t201;
-        let t226 = t67.times_plus(t202, t225);
-        let t227 = t70.times_plus(t203, t226);
-        let t228 = t65 * t201;
-        let t229 = t70.times_plus(t202, t228);
-        let t230 = t72.times_plus(t203, t229);
-        let t231 = c.of(1.0) - t206;
-        let t232 = -t209;
-        let t233 = -t212;
-        let t234 = -t215;
-        let t235 = c.of(1.0) - t218;
-        let t236 = -t221;
-        let t237 = -t224;
-        let t238 = -t227;
-        let t239 = c.of(1.0) - t230;
-        let t240 = p[0] - t165;
-        let t241 = p[1] - t166;
-        let t242 = p[2] - t167;
-        let t243 = c.of(1.0) / t231;
-        let t244 = t234 * t243;
-        let t245 = -t244;
-        let t246 = t232.times_plus(t245, t235);
-        let t247 = t233.times_plus(t245, t236);
-        let t248 = t237 * t243;
-        let t249 = -t248;
-        let t250 = t232.times_plus(t249, t238);
-        let t251 = t233.times_plus(t249, t239);
-        let t252 = c.of(1.0) / t246;
-        let t253 = t250 * t252;
-        let t254 = -t253;
-        let t255 = t247.times_plus(t254, t251);
-        let t256 = c.of(1.0) / t255;
-        let t257 = t240.times_plus(t245, t241);
-        let t258 = t240.times_plus(t249, t242);
-        let t259 = t254.times_plus(t257, t258);
-        let t260 = t256 * t259;
-        let t261 = -t247;
-        let t262 = t260.times_plus(t261, t257);
-        let t263 = t252 * t262;
-        let t264 = t209.times_plus(t263, t240);
-        let t265 = t212.times_plus(t260, t264);
-        let t266 = t243 * t265;
-        let t267 = t60 * t266;
-        let t268 = t62.times_plus(t263, t267);
-        let t269 = t65.times_plus(t260, t268);
-        let t270 = t62 * t266;
-        let t271 = t67.times_plus(t263, t270);
-        let t272 = t70.times_plus(t260, t271);
-        let t273 = t65 * t266;
-        let t274 = t70.times_plus(t263, t273);
-        let t275 = t72.times_plus(t260, t274);
-        let t276 = p[0] - t266;
-        let t277 = p[1] - t263;
-        let t278 = p[2] - t260;
-        let t279 = t26 - t269;
-        let t280 = t42 - t272;
-        let t281 = t58 - t275;
-        let t282 = t266.simd_abs();
-        let t283 = t263.simd_abs();
-        let t284 = T::select(t282, T::simd_le(t283, t282), t283);
-        let t285 = t260.simd_abs();
-        let t286 = T::select(t284, T::simd_le(t285, t284), t285);
-        let t287 = k[0] * t286;
-        let t288 = t269.simd_abs();
-        let t289 = t272.simd_abs();
-        let t290 = T::select(t288, T::simd_le(t289, t288), t289);
-        let t291 = t275.simd_abs();
-        let t292 = T::select(t290, T::simd_le(t291, t290), t291);
-        let t293 = c.of(0.5).times_plus(t292, t287);
-        let t294 = k[1] * t287;
-        let t295 = t292.times_plus(t293, t294);
-        let t299 = c.epsilon() * c.of(4.0);
-        let t300 = T::select(t295, T::simd_le(t287, c.of(0.001)), t287);
-        let t301 = T::select(t300, T::simd_le(t300, t287), t287);
-        let t302 = T::select(t301, T::simd_le(t287, t299), t300);
-        ([t276, t277, t278], [t279, t280, t281], t302, t287)
+        let t95 = t47.times_plus(t93, t92);
+        let t96 = t47.times_plus(c.of(-0.000000000000019680200780418645), t94);
+        let t97 = t51.times_plus(t96, t95);
+        let t98 = mu[1] * t25;
+        let t99 = -mu[2];
+        let t100 = t20.times_plus(t99, t98);
+        let t101 = mu[2] * t14;
+        let t102 = -mu[0];
+        let t103 = t25.times_plus(t102, t101);
+        let t104 = mu[0] * t20;
+        let t105 = -mu[1];
+        let t106 = t14.times_plus(t105, t104);
+        let t107 = t25 * t103;
+        let t108 = -t106;
+        let t109 = t20.times_plus(t108, t107);
+        let t110 = t14 * t106;
+        let t111 = -t100;
+        let t112 = t25.times_plus(t111, t110);
+        let t113 = t20 * t100;
+        let t114 = -t103;
+        let t115 = t14.times_plus(t114, t113);
+        let t116 = t54.times_plus(t100, mu[0]);
+        let t117 = t54.times_plus(t103, mu[1]);
+        let t118 = t54.times_plus(t106, mu[2]);
+        let t119 = t73.times_plus(t109, t116);
+        let t120 = t73.times_plus(t112, t117);
+        let t121 = t73.times_plus(t115, t118);
+        let t123 = t85 * t100;
+        let t124 = t85 * t103;
+        let t125 = t85 * t106;
+        let t126 = t97.times_plus(t109, t123);
+        let t127 = t97.times_plus(t112, t124);
+        let t128 = t97.times_plus(t115, t125);
+        let t129 = c.of(2.0) * t126;
+        let t130 = c.of(2.0) * t127;
+        let t131 = c.of(2.0) * t128;
+        let t132 = -t73;
+        let t133 = mu[0].times_plus(t132, t129);
+        let t134 = mu[1].times_plus(t132, t130);
+        let t135 = mu[2].times_plus(t132, t131);
+        let t136 = mu[0] * t54;
+        let t137 = mu[1] * t54;
+        let t138 = mu[2] * t54;
+        let t139 = t73.times_plus(t100, t136);
+        let t140 = t73.times_plus(t103, t137);
+        let t141 = t73.times_plus(t106, t138);
+        let t142 = mu[0] * t14;
+        let t143 = mu[1].times_plus(t20, t142);
+        let t144 = mu[2].times_plus(t25, t143);
+        let t145 = t73 * t144;
+        let t146 = -t139;
+        let t147 = -t140;
+        let t148 = -t141;
+        let t149 = t14.times_plus(t133, t145);
+        let t150 = t20.times_plus(t133, t148);
+        let t151 = t25.times_plus(t133, t140);
+        let t152 = t14.times_plus(t134, t141);
+        let t153 = t20.times_plus(t134, t145);
+        let t154 = t25.times_plus(t134, t146);
+        let t155 = t14.times_plus(t135, t147);
+        let t156 = t20.times_plus(t135, t139);
+        let t157 = t25.times_plus(t135, t145);
+        let t158 = c.at(0) * t149;
+        let t159 = c.at(3).times_plus(t150, t158);
+        let t160 = c.at(2).times_plus(t151, t159);
+        let t161 = c.at(3) * t149;
+        let t162 = c.at(4).times_plus(t150, t161);
+        let t163 = c.at(6).times_plus(t151, t162);
+        let t164 = c.at(2) * t149;
+        let t165 = c.at(6).times_plus(t150, t164);
+        let t166 = c.at(7).times_plus(t151, t165);
+        let t167 = c.at(0) * t152;
+        let t168 = c.at(3).times_plus(t153, t167);
+        let t169 = c.at(2).times_plus(t154, t168);
+        let t170 = c.at(3) * t152;
+        let t171 = c.at(4).times_plus(t153, t170);
+        let t172 = c.at(6).times_plus(t154, t171);
+        let t173 = c.at(2) * t152;
+        let t174 = c.at(6).times_plus(t153, t173);
+        let t175 = c.at(7).times_plus(t154, t174);
+        let t176 = c.at(0) * t155;
+        let t177 = c.at(3).times_plus(t156, t176);
+        let t178 = c.at(2).times_plus(t157, t177);
+        let t179 = c.at(3) * t155;
+        let t180 = c.at(4).times_plus(t156, t179);
+        let t181 = c.at(6).times_plus(t157, t180);
+        let t182 = c.at(2) * t155;
+        let t183 = c.at(6).times_plus(t156, t182);
+        let t184 = c.at(7).times_plus(t157, t183);
+        let t185 = c.of(1.0) - t160;
+        let t186 = -t163;
+        let t187 = -t166;
+        let t188 = -t169;
+        let t189 = c.of(1.0) - t172;
+        let t190 = -t175;
+        let t191 = -t178;
+        let t192 = -t181;
+        let t193 = c.of(1.0) - t184;
+        let t194 = p[0] - t119;
+        let t195 = p[1] - t120;
+        let t196 = p[2] - t121;
+        let t197 = c.of(1.0) / t185;
+        let t198 = t188 * t197;
+        let t199 = -t198;
+        let t200 = t186.times_plus(t199, t189);
+        let t201 = t187.times_plus(t199, t190);
+        let t202 = t191 * t197;
+        let t203 = -t202;
+        let t204 = t186.times_plus(t203, t192);
+        let t205 = t187.times_plus(t203, t193);
+        let t206 = c.of(1.0) / t200;
+        let t207 = t204 * t206;
+        let t208 = -t207;
+        let t209 = t201.times_plus(t208, t205);
+        let t210 = c.of(1.0) / t209;
+        let t211 = t194.times_plus(t199, t195);
+        let t212 = t194.times_plus(t203, t196);
+        let t213 = t208.times_plus(t211, t212);
+        let t214 = t210 * t213;
+        let t215 = -t201;
+        let t216 = t214.times_plus(t215, t211);
+        let t217 = t206 * t216;
+        let t218 = t163.times_plus(t217, t194);
+        let t219 = t166.times_plus(t214, t218);
+        let t220 = t197 * t219;
+        let t221 = c.at(0) * t220;
+        let t222 = c.at(3).times_plus(t217, t221);
+        let t223 = c.at(2).times_plus(t214, t222);
+        let t224 = c.at(3) * t220;
+        let t225 = c.at(4).times_plus(t217, t224);
+        let t226 = c.at(6).times_plus(t214, t225);
+        let t227 = c.at(2) * t220;
+        let t228 = c.at(6).times_plus(t217, t227);
+        let t229 = c.at(7).times_plus(t214, t228);
+        let t230 = p[0] - t220;
+        let t231 = p[1] - t217;
+        let t232 = p[2] - t214;
+        let t233 = t14 - t223;
+        let t234 = t20 - t226;
+        let t235 = t25 - t229;
+        let t236 = t220.simd_abs();
+        let t237 = t217.simd_abs();
+        let t238 = T::select(t236, T::simd_le(t237, t236), t237);
+        let t239 = t214.simd_abs();
+        let t240 = T::select(t238, T::simd_le(t239, t238), t239);
+        let t241 = k[0] * t240;
+        let t242 = t223.simd_abs();
+        let t243 = t226.simd_abs();
+        let t244 = T::select(t242, T::simd_le(t243, t242), t243);
+        let t245 = t229.simd_abs();
+        let t246 = T::select(t244, T::simd_le(t245, t244), t245);
+        let t247 = t14.simd_abs();
+        let t248 = t20.simd_abs();
+        let t249 = T::select(t247, T::simd_le(t248, t247), t248);
+        let t250 = t25.simd_abs();
+        let t251 = T::select(t249, T::simd_le(t250, t249), t250);
+        let t252 = t251 * t251;
+        let t253 = c.of(0.25) * t252;
+        let t254 = t241 * t253;
+        let t255 = c.of(0.5).times_plus(t246, t254);
+        let t256 = k[1] * t241;
+        let t257 = t246.times_plus(t255, t256);
+        let t261 = c.epsilon() * c.of(4.0);
+        let t262 = T::select(t257, T::simd_le(t241, c.of(0.001)), t241);
+        let t263 = T::select(t262, T::simd_le(t262, t241), t241);
+        let t264 = T::select(t263, T::simd_le(t241, t261), t262);
+        ([t230, t231, t232], [t233, t234, t235], t264, t241)
     }
 
     #[inline(always)]
@@ -672,7 +540,7 @@ const _: () = {
         let t20 = t15 + t19;
         let t24 = T::select(
             c.of(4.0),
-            T::simd_le(c.at(217), c.of(340282346638528860000000000000000000000.0)),
+            T::simd_le(c.at(80), c.of(340282346638528860000000000000000000000.0)),
             c.of(9.0),
         );
         let t25 = t20 * t24;
@@ -947,105 +815,49 @@ const _: () = {
 
         fn value(&self, p: &Vector<T>) -> T {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[24], c[195]);
-            let t8 = p[1].times_plus(c[17], t7);
-            let t9 = p[0].times_plus(c[196], t8);
-            let t13 = p[2].times_plus(c[8], c[7]);
-            let t14 = p[1].times_plus(c[9], t13);
-            let t17 = p[2].times_plus(c[6], c[5]);
-            let t19 = p[2].times_plus(t17, c[4]);
+            let t7 = p[2].times_plus(c[2], c[1]);
+            let t8 = p[1].times_plus(c[3], t7);
+            let t9 = p[0].times_plus(c[69], t8);
+            let t13 = p[2].times_plus(c[6], c[5]);
+            let t14 = p[1].times_plus(c[68], t13);
+            let t17 = p[2].times_plus(c[67], c[8]);
+            let t19 = p[2].times_plus(t17, c[66]);
             let t20 = p[1].times_plus(t14, t19);
             let t21 = p[0].times_plus(t9, t20);
-            let t25 = p[2].times_plus(c[23], c[193]);
-            let t26 = p[1].times_plus(c[194], t25);
-            let t29 = p[2].times_plus(c[16], c[15]);
-            let t31 = p[2].times_plus(t29, c[14]);
-            let t32 = p[1].times_plus(t26, t31);
-            let t35 = p[2].times_plus(c[192], c[191]);
-            let t37 = p[2].times_plus(t35, c[22]);
-            let t39 = p[2].times_plus(t37, c[190]);
-            let t40 = p[1].times_plus(t32, t39);
-            let t41 = p[0].times_plus(t21, t40);
-            t41
+            t21
         }
 
         fn gradient(&self, p: &Vector<T>) -> Vector<T> {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[1], c[0]);
-            let t8 = p[1].times_plus(c[2], t7);
-            let t9 = p[0].times_plus(c[3], t8);
-            let t13 = p[2].times_plus(c[8], c[7]);
-            let t14 = p[1].times_plus(c[9], t13);
-            let t17 = p[2].times_plus(c[6], c[5]);
-            let t19 = p[2].times_plus(t17, c[4]);
-            let t20 = p[1].times_plus(t14, t19);
-            let t21 = p[0].times_plus(t9, t20);
-            let t26 = p[2].times_plus(c[11], c[10]);
-            let t27 = p[1].times_plus(c[12], t26);
-            let t28 = p[0].times_plus(c[13], t27);
-            let t30 = p[0].times_plus(c[17], t13);
-            let t33 = p[2].times_plus(c[16], c[15]);
-            let t35 = p[2].times_plus(t33, c[14]);
-            let t36 = p[0].times_plus(t30, t35);
-            let t37 = p[1].times_plus(t28, t36);
-            let t42 = p[2].times_plus(c[19], c[18]);
-            let t43 = p[1].times_plus(c[20], t42);
-            let t44 = p[0].times_plus(c[21], t43);
-            let t46 = p[1].times_plus(c[8], c[5]);
-            let t47 = p[0].times_plus(c[24], t46);
-            let t49 = p[1].times_plus(c[23], c[15]);
-            let t51 = p[1].times_plus(t49, c[22]);
-            let t52 = p[0].times_plus(t47, t51);
-            let t53 = p[2].times_plus(t44, t52);
-            <Vector<T> as From<_>>::from([t21, t37, t53])
+            let t6 = p[2].times_plus(c[2], c[1]);
+            let t7 = p[1].times_plus(c[3], t6);
+            let t9 = c[0].times_plus(p[0], t7);
+            let t13 = p[2].times_plus(c[6], c[5]);
+            let t14 = c[3].times_plus(p[0], t13);
+            let t15 = p[1].times_plus(c[4], t14);
+            let t18 = p[1].times_plus(c[6], c[8]);
+            let t19 = c[2].times_plus(p[0], t18);
+            let t20 = p[2].times_plus(c[7], t19);
+            <Vector<T> as From<_>>::from([t9, t15, t20])
         }
 
         #[inline(never)]
         fn gradient_and_hessian(&self, p: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[1], c[0]);
-            let t8 = p[1].times_plus(c[2], t7);
-            let t9 = p[0].times_plus(c[3], t8);
-            let t13 = p[2].times_plus(c[8], c[7]);
-            let t14 = p[1].times_plus(c[9], t13);
-            let t17 = p[2].times_plus(c[6], c[5]);
-            let t19 = p[2].times_plus(t17, c[4]);
-            let t20 = p[1].times_plus(t14, t19);
-            let t21 = p[0].times_plus(t9, t20);
-            let t26 = p[2].times_plus(c[11], c[10]);
-            let t27 = p[1].times_plus(c[12], t26);
-            let t28 = p[0].times_plus(c[13], t27);
-            let t30 = p[0].times_plus(c[17], t13);
-            let t33 = p[2].times_plus(c[16], c[15]);
-            let t35 = p[2].times_plus(t33, c[14]);
-            let t36 = p[0].times_plus(t30, t35);
-            let t37 = p[1].times_plus(t28, t36);
-            let t42 = p[2].times_plus(c[19], c[18]);
-            let t43 = p[1].times_plus(c[20], t42);
-            let t44 = p[0].times_plus(c[21], t43);
-            let t46 = p[1].times_plus(c[8], c[5]);
-            let t47 = p[0].times_plus(c[24], t46);
-            let t49 = p[1].times_plus(c[23], c[15]);
-            let t51 = p[1].times_plus(t49, c[22]);
-            let t52 = p[0].times_plus(t47, t51);
-            let t53 = p[2].times_plus(t44, t52);
-            let t54 = p[0] * c[3];
-            let t55 = t9 + t54;
-            let t56 = p[1].times_plus(c[13], t13);
-            let t57 = p[0].times_plus(c[2], t56);
-            let t58 = p[2].times_plus(c[21], c[5]);
-            let t59 = p[1].times_plus(c[8], t58);
-            let t60 = p[0].times_plus(c[1], t59);
-            let t61 = p[1] * c[12];
-            let t62 = t28 + t61;
-            let t63 = p[2].times_plus(c[20], c[15]);
-            let t64 = p[1].times_plus(c[11], t63);
-            let t65 = p[0].times_plus(c[8], t64);
-            let t66 = p[2] * c[19];
-            let t67 = t44 + t66;
+            let t6 = p[2].times_plus(c[2], c[1]);
+            let t7 = p[1].times_plus(c[3], t6);
+            let t9 = c[0].times_plus(p[0], t7);
+            let t13 = p[2].times_plus(c[6], c[5]);
+            let t14 = c[3].times_plus(p[0], t13);
+            let t15 = p[1].times_plus(c[4], t14);
+            let t18 = p[1].times_plus(c[6], c[8]);
+            let t19 = c[2].times_plus(p[0], t18);
+            let t20 = p[2].times_plus(c[7], t19);
             (
-                <Vector<T>>::from([t21, t37, t53]),
-                <Matrix<T>>::from([[t55, t57, t60], [t57, t62, t65], [t60, t65, t67]]),
+                <Vector<T>>::from([t9, t15, t20]),
+                <Matrix<
+                    T,
+                >>::from([[c[0], c[3], c[2]], [c[3], c[4], c[6]], [c[2], c[6], c[7]]]),
             )
         }
     }
@@ -1055,26 +867,16 @@ const _: () = {
         #[inline]
         pub fn energy(&self, mu: &Vector<T>) -> T {
             let (mu, c): (&[T; 3], _) = (&mu.data.0[0], &self.coefficients);
-            let t7 = mu[2].times_plus(c[214], c[213]);
-            let t8 = mu[1].times_plus(c[215], t7);
-            let t9 = mu[0].times_plus(c[216], t8);
-            let t13 = mu[2].times_plus(c[211], c[210]);
-            let t14 = mu[1].times_plus(c[212], t13);
-            let t17 = mu[2].times_plus(c[209], c[208]);
-            let t19 = mu[2].times_plus(t17, c[207]);
+            let t7 = mu[2].times_plus(c[77], c[76]);
+            let t8 = mu[1].times_plus(c[78], t7);
+            let t9 = mu[0].times_plus(c[79], t8);
+            let t13 = mu[2].times_plus(c[74], c[73]);
+            let t14 = mu[1].times_plus(c[75], t13);
+            let t17 = mu[2].times_plus(c[72], c[71]);
+            let t19 = mu[2].times_plus(t17, c[70]);
             let t20 = mu[1].times_plus(t14, t19);
             let t21 = mu[0].times_plus(t9, t20);
-            let t25 = mu[2].times_plus(c[205], c[204]);
-            let t26 = mu[1].times_plus(c[206], t25);
-            let t29 = mu[2].times_plus(c[203], c[202]);
-            let t31 = mu[2].times_plus(t29, c[201]);
-            let t32 = mu[1].times_plus(t26, t31);
-            let t35 = mu[2].times_plus(c[200], c[199]);
-            let t37 = mu[2].times_plus(t35, c[198]);
-            let t39 = mu[2].times_plus(t37, c[197]);
-            let t40 = mu[1].times_plus(t32, t39);
-            let t41 = mu[0].times_plus(t21, t40);
-            t41
+            t21
         }
 
         fn table() -> &'static ::coadjoint::plumbing::Fold<'static> {
@@ -1089,221 +891,90 @@ const _: () = {
         products: &[],
         /// Factor, and the number of its product.
         terms: &[
-            (-2.1629886604468367, 0), (-0.0000014279757868174477, 0), (0.2000315871051396, 0),
-            (-0.0000003859381198847092, 0), (0.000004938806980598461, 0),
-            (0.000003457582072178737, 0), (-0.0000009242309605244715, 0), (0.2500142979021968, 0),
-            (-0.00000017469013268723297, 0), (0.00000021580682056934736, 0),
-            (0.000044812017562570305, 0), (0.00000715465117686677, 0),
-            (-0.000009631284024899921, 0), (-0.0000024089811287610242, 0),
-            (0.000003916763889364044, 0), (-0.0000014643217329213658, 0), (0.33336872314996685, 0),
-            (0.0000009658105470626713, 0), (-0.000002678410796873091, 0),
-            (-0.000006978929089919007, 0), (-2.1629886604468367, 0), (-0.0000014279757868174477, 0),
-            (0.2000315871051396, 0), (-0.0000003859381198847092, 0), (0.000004938806980598461, 0),
-            (0.000003457582072178737, 0), (-0.0000009242309605244715, 0), (0.2500142979021968, 0),
-            (-0.00000017469013268723297, 0), (0.00000021580682056934736, 0),
-            (0.000044812017562570305, 0), (0.00000715465117686677, 0),
-            (-0.000009631284024899921, 0), (-0.0000024089811287610242, 0),
-            (0.000003916763889364044, 0), (-0.0000014643217329213658, 0), (0.33336872314996685, 0),
-            (0.0000009658105470626713, 0), (-0.000002678410796873091, 0),
-            (-0.000006978929089919007, 0), (-0.0000024694034902992307, 0),
-            (-0.000000000010665079339631436, 0), (-0.0000017287910360893685, 0),
-            (-0.0000026138875665866653, 0), (0.00000046211548026223576, 0),
-            (-0.00000041733015595710427, 0), (0.0000005617955334480196, 0),
-            (0.00000000000011229606929003431, 0), (-0.0000007139878934087239, 0),
-            (0.000000000036886317525453845, 0), (-0.049982710797057184, 0),
-            (0.00000000012588640646051587, 0), (-0.0000004042170471398309, 0),
-            (0.00000008026255814214786, 0), (-0.00000013060386215973403, 0),
-            (0.000000000013073868924279007, 0), (0.0000017287910360893685, 0),
-            (-0.0000007473656647991518, 0), (-0.0000012479411913784924, 0),
-            (-0.0000002981136065731595, 0), (0.0000006542562944045859, 0),
-            (-0.0000000000029449352655947136, 0), (-0.00000008734506634361648, 0),
-            (0.000000040205375274135575, 0), (-0.00000016322742167357794, 0),
-            (0.000000000007826504332956945, 0), (0.000000024423210154643434, 0),
-            (0.0000000000000380252447138212, 0), (-0.0000000000010057460504879566, 0), (1.0, 0),
-            (-0.0000000000044051548732241665, 0), (0.0000012044905643805121, 0),
-            (-0.00000014671768693859277, 0), (-0.000001958381944682022, 0),
-            (-0.015555097933554767, 0), (-0.00000020840892929024026, 0),
-            (0.000000000028046102576102544, 0), (0.000003577325588433385, 0),
-            (0.0000002195766067833369, 0), (-0.000008166962291978555, 0),
-            (0.000000883846329195578, 0), (-0.0000003390707356211478, 0),
-            (-0.000000000013805212743139811, 0), (0.000001958381944682022, 0),
-            (-0.0027803190435860574, 0), (-0.00000005536315418360751, 0),
-            (0.00000000003870367503774172, 0), (0.00000019517060575324998, 0),
-            (-0.000000000022340980785827438, 0), (-0.0000000000060288779793470305, 0),
-            (0.000000000007371387152848538, 0), (0.0000013392053984365454, 0),
-            (0.0000007353216819554887, 0), (-0.0000005632356675586091, 0),
-            (-0.000000000012976307628904907, 0), (0.0000004829052735313356, 0),
-            (-0.00000010717669778333666, 0), (0.0000010010435376388952, 0),
-            (0.0000000000023834722730489635, 0), (0.0000010217724609274178, 0),
-            (-0.00000000001759057681136292, 0), (-0.000000000032016495303455714, 0),
-            (-0.000000000004629601251439461, 0), (0.00000009928846235885274, 0),
-            (-0.0000000000001195725508675139, 0), (-0.00000011908948680032615, 0),
-            (-0.00000000003614346176023255, 0), (-0.0000000000795089259640692, 0),
-            (-0.000000000004454092877303111, 0), (0.000000000008243616683116224, 0),
-            (0.000000000017423120052602513, 0), (-0.0000000000013511124016039737, 0),
-            (0.000022406008781285153, 0), (-0.0000000000011754161306765985, 0),
-            (0.000003577325588433385, 0), (-0.0000004939438996415177, 0),
-            (-0.0000048156420124499605, 0), (-0.00000034574653119432905, 0),
-            (0.00000009244018824861229, 0), (-0.000000000008806202384813975, 0), (1.0, 0),
-            (-0.00000000033502600547930776, 0), (-0.0000012044905643805121, 0),
-            (-0.00000016678335728603118, 0), (0.000001958381944682022, 0),
-            (-0.00999725818604968, 0), (-0.00000014834553785423192, 0),
-            (-0.00000000005245357953770666, 0), (0.00000000003762954937664826, 0),
-            (-0.0000007321608664606829, 0), (0.00000040329782846711016, 0),
-            (-0.0000001465662765499709, 0), (0.00000000003573914126207071, 0),
-            (0.00000000001883024200032102, 0), (-0.000000020371272057012816, 0),
-            (-0.00000000001464076034467464, 0), (-0.0000000000009745059833587697, 0),
-            (0.0000000000034531117383883336, 0), (-0.00000000000036245912999401914, 0),
-            (0.0000007139878934087239, 0), (0.000000000036886317525453845, 0),
-            (0.13333713604482728, 0), (0.00000000001624776804127444, 0),
-            (0.000001544717726889735, 0), (0.00000008026109340059898, 0),
-            (-0.00000013059686520809747, 0), (0.000000000012502492064000227, 0),
-            (-0.0000017287910360893685, 0), (-0.0000017428215408895899, 0),
-            (-0.0000017541798363486195, 0), (0.00000043702064531424937, 0),
-            (-0.000000407220710046311, 0), (0.000000000009956148506740708, 0),
-            (0.00000008734506634361648, 0), (0.00000009374167815572995, 0),
-            (0.00000023930520967446367, 0), (-0.0000000000204603981324231, 0),
-            (0.00000005693966853186082, 0), (0.000000000013798517855733637, 0),
-            (-0.0000000000016968946588402118, 0), (-0.000003577325588433385, 0),
-            (0.00000005483666674791277, 0), (-0.0000008371096099785897, 0),
-            (-0.00000019212356824080655, 0), (0.000000023721692266145405, 0),
-            (-0.000000000010564921553847908, 0), (-0.000001958381944682022, 0),
-            (-0.0018516541777752024, 0), (-0.0000000716938665837529, 0),
-            (-0.00000000005762247369276527, 0), (0.00000013845928723456806, 0),
-            (0.00000000005415131078268632, 0), (-0.000000000011275201388323844, 0),
-            (-0.0000004829052735313356, 0), (-0.00000002676549665960999, 0),
-            (-0.00000021762906038192234, 0), (0.000000000014869750941168854, 0),
-            (-0.000000021066238683219228, 0), (0.000000000027054352563051227, 0),
-            (-0.000000000003750781729791457, 0), (-0.000000029744768623531275, 0),
-            (0.000000000002249999718835836, 0), (0.000000000028164595297680886, 0),
-            (-0.0000000000026063350788207517, 0), (1.0, 0), (-0.0000000003387514554032863, 0),
-            (-0.00000000011256356155529549, 0), (0.00000000013486330452306506, 0),
-            (0.00000000002403469399438343, 0), (-0.0000000000156026391394474, 0),
-            (-0.000022406008781285153, 0), (-0.0000000000011754161306765985, 0),
-            (-0.000003577325588433385, 0), (0.0000003294082636327476, 0),
-            (0.0000048156420124499605, 0), (0.00000023047999614944742, 0),
-            (-0.00000006166114900491267, 0), (0.00000000002162975081695185, 0),
-            (0.0000012044905643805121, 0), (0.00000011909944409299415, 0),
-            (-0.000001958381944682022, 0), (0.008331744089366221, 0), (0.0000001214327179244938, 0),
-            (0.000000000030395364454145355, 0), (0.0000007321608664606829, 0),
-            (-0.0000002881391817842394, 0), (0.00000006338144468193155, 0),
-            (-0.000000000021871619402587662, 0), (0.00000001455979508277112, 0),
-            (0.00000000000594013462522722, 0), (-0.0000000000016866462512877198, 0),
-            (0.0000024694034902992307, 0), (-0.000000000010665079339631436, 0),
-            (0.0000017287910360893685, 0), (-0.0000013695159279276949, 0),
-            (-0.00000046211548026223576, 0), (-0.00000021870221075377604, 0),
-            (0.0000002943303944880977, 0), (0.000000000011012778858563348, 0),
-            (-0.08335442524777008, 0), (-0.000000000012989750207570778, 0),
-            (-0.0000011405006797499043, 0), (0.00000013390257955710565, 0),
-            (-0.00000021751358081192098, 0), (-0.000000000033929425477532425, 0),
-            (0.000003002121027727112, 0), (-0.0000002981215485840997, 0),
-            (-0.00000012592500586099264, 0), (-0.000000000003112501983160242, 0),
-            (-0.00000016317937145047354, 0), (-0.00000000002387152264411983, 0),
-            (-0.0000000000024913672927236724, 0), (-0.0000012044905643805121, 0),
-            (0.000000019884065109433823, 0), (0.000001958381944682022, 0),
-            (0.003702570078035669, 0), (-0.00000006622706703903797, 0),
-            (-0.0000000000385361951891262, 0), (0.000009004071901957145, 0),
-            (-0.0000001921287893225913, 0), (0.0000006651666308160873, 0),
-            (-0.00000000001658392246142211, 0), (0.000000017008525987973712, 0),
-            (-0.00000000006759751593714196, 0), (0.00000000001493165998675336, 0),
-            (-0.0000013392053984365454, 0), (-0.00000009932299848243335, 0),
-            (0.0000007120616623727925, 0), (0.000000000016303338850311558, 0),
-            (-0.0000002176418985875004, 0), (0.000000000019052061006247022, 0),
-            (-0.000000000010300352745766434, 0), (-0.000000013433948227057743, 0),
-            (-0.000000000003930636688098098, 0), (0.000000000004168170178067628, 0),
-            (-0.000000000005285708646667686, 0),
+            (-1.4698507307789626, 0), (-0.000010169473507846358, 0), (0.2000261112702988, 0),
+            (-0.0000003429437535988086, 0), (0.0000002128349085783648, 0), (0.2500115959675877, 0),
+            (0.000007439022132372016, 0), (-0.0000023397590260108508, 0),
+            (-0.000006118225955805309, 0), (0.33335405660953354, 0), (-1.4698507307789626, 0),
+            (-0.000010169473507846358, 0), (0.2000261112702988, 0), (-0.0000003429437535988086, 0),
+            (0.0000002128349085783648, 0), (0.2500115959675877, 0), (0.000007439022132372016, 0),
+            (-0.0000023397590260108508, 0), (-0.000006118225955805309, 0), (0.33335405660953354, 0),
+            (0.0000001714718767994043, 0), (-0.000000000012608489749906656, 0),
+            (-0.0000001064174542891824, 0), (-0.00000043391685137416555, 0),
+            (0.00000013647881883241106, 0), (-0.000005084736753923179, 0),
+            (-0.000000000000425194362196712, 0), (-0.049985484697288904, 0),
+            (-0.000000000003932392213409884, 0), (0.00000020396720047905812, 0),
+            (0.0000001064174542891824, 0), (-0.00000012404577091459855, 0),
+            (0.00000009749372177838742, 0), (0.00000010202653651037023, 0), (1.0, 0),
+            (-0.000000000017255966974153558, 0), (0.0000030591129779026547, 0),
+            (-0.0000010451509321128816, 0), (-0.015554152104512277, 0),
+            (-0.0000011698795130054254, 0), (-0.0000000152524627745103, 0),
+            (0.000000054390758224266335, 0), (-0.002779613900345337, 0),
+            (-0.000000000008630774934803758, 0), (-0.0000002404634726173757, 0),
+            (-0.00000027199570582298265, 0), (-0.0000000000071511935243481736, 0),
+            (0.000003719511066186008, 0), (0.0000000000005812595694840788, 0),
+            (-0.0000011698795130054254, 0), (0.00000003428320477886043, 0),
+            (-0.000000021280264919257783, 0), (1.0, 0), (-0.0000000000264595402854516, 0),
+            (-0.0000030591129779026547, 0), (-0.0000011863960903124651, 0),
+            (-0.009997262672377175, 0), (0.000000000015892679086807072, 0),
+            (0.000000024821711883054273, 0), (-0.0000000000062463312574332255, 0),
+            (0.000005084736753923179, 0), (-0.000000000000425194362196712, 0),
+            (0.13332794533923475, 0), (-0.000000000004648196911588946, 0),
+            (0.00000020396720047905812, 0), (-0.0000001064174542891824, 0),
+            (-0.00000028928573390993906, 0), (-0.00000014295722203087817, 0),
+            (0.00000023791230009725298, 0), (0.0000011698795130054254, 0),
+            (-0.000000003816504483073543, 0), (-0.000000011816546175384278, 0),
+            (-0.0018510299186665917, 0), (-0.00000006794279879637497, 0), (1.0, 0),
+            (-0.000000000009242776784008856, 0), (0.000000000005826169860452211, 0),
+            (-0.0000000000009199618330181344, 0), (-0.000003719511066186008, 0),
+            (0.0000000000005812595694840788, 0), (0.0000011698795130054254, 0),
+            (-0.000000022840615214053804, 0), (0.000000014183055817261537, 0),
+            (0.0000030591129779026547, 0), (0.000000847517826218098, 0), (0.008331563544959146, 0),
+            (-0.000000017734046230660207, 0), (-0.0000001714718767994043, 0),
+            (-0.000000000012608489749906656, 0), (0.0000001064174542891824, 0),
+            (-0.00000022729560748398529, 0), (0.00000007149179090958018, 0),
+            (-0.08334246064194586, 0), (0.00000000005165047319895399, 0),
+            (0.0000003397670915242585, 0), (0.00000009749372177838742, 0),
+            (-0.0000030591129779026547, 0), (0.00000014122848261466592, 0),
+            (0.003703258094502788, 0), (-0.000000011816546175384278, 0),
+            (0.00000003249373099009243, 0),
         ],
         /// The power of h, and where its terms end.
         parts: &[
             (1, 1), (1, 2), (1, 3), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (1, 9), (1, 10),
-            (1, 11), (1, 12), (1, 13), (1, 14), (1, 15), (1, 16), (1, 17), (1, 18), (1, 19),
-            (1, 20), (0, 21), (0, 22), (0, 23), (0, 24), (0, 25), (0, 26), (0, 27), (0, 28),
-            (0, 29), (0, 30), (0, 31), (0, 32), (0, 33), (0, 34), (0, 35), (0, 36), (0, 37),
-            (0, 38), (0, 39), (0, 40), (1, 41), (2, 42), (1, 43), (2, 44), (1, 45), (2, 46),
-            (2, 47), (2, 48), (1, 49), (2, 50), (1, 51), (2, 52), (1, 53), (2, 54), (2, 55),
-            (2, 56), (1, 57), (2, 58), (1, 59), (2, 60), (2, 61), (2, 62), (1, 63), (2, 64),
-            (2, 65), (2, 66), (2, 67), (2, 68), (2, 69), (0, 70), (2, 71), (1, 72), (2, 73),
-            (1, 74), (2, 75), (2, 76), (2, 77), (1, 78), (2, 79), (1, 80), (2, 81), (2, 82),
-            (2, 83), (1, 84), (2, 85), (2, 86), (2, 87), (2, 88), (2, 89), (2, 90), (2, 91),
-            (1, 92), (2, 93), (2, 94), (2, 95), (1, 96), (2, 97), (2, 98), (2, 99), (2, 100),
-            (2, 101), (2, 102), (2, 103), (2, 104), (2, 105), (2, 106), (2, 107), (2, 108),
-            (2, 109), (2, 110), (2, 111), (2, 112), (1, 113), (2, 114), (1, 115), (2, 116),
-            (1, 117), (2, 118), (2, 119), (2, 120), (0, 121), (2, 122), (1, 123), (2, 124),
-            (1, 125), (2, 126), (2, 127), (2, 128), (2, 129), (1, 130), (2, 131), (2, 132),
-            (2, 133), (2, 134), (2, 135), (2, 136), (2, 137), (2, 138), (2, 139), (1, 140),
-            (2, 141), (1, 142), (2, 143), (1, 144), (2, 145), (2, 146), (2, 147), (1, 148),
-            (2, 149), (1, 150), (2, 151), (2, 152), (2, 153), (1, 154), (2, 155), (2, 156),
-            (2, 157), (2, 158), (2, 159), (2, 160), (1, 161), (2, 162), (1, 163), (2, 164),
-            (2, 165), (2, 166), (1, 167), (2, 168), (2, 169), (2, 170), (2, 171), (2, 172),
-            (2, 173), (1, 174), (2, 175), (2, 176), (2, 177), (2, 178), (2, 179), (2, 180),
-            (2, 181), (2, 182), (2, 183), (2, 184), (0, 185), (2, 186), (2, 187), (2, 188),
-            (2, 189), (2, 190), (1, 191), (2, 192), (1, 193), (2, 194), (1, 195), (2, 196),
-            (2, 197), (2, 198), (1, 199), (2, 200), (1, 201), (2, 202), (2, 203), (2, 204),
-            (1, 205), (2, 206), (2, 207), (2, 208), (2, 209), (2, 210), (2, 211), (1, 212),
-            (2, 213), (1, 214), (2, 215), (1, 216), (2, 217), (2, 218), (2, 219), (1, 220),
-            (2, 221), (1, 222), (2, 223), (2, 224), (2, 225), (1, 226), (2, 227), (2, 228),
-            (2, 229), (2, 230), (2, 231), (2, 232), (1, 233), (2, 234), (1, 235), (2, 236),
-            (2, 237), (2, 238), (1, 239), (2, 240), (2, 241), (2, 242), (2, 243), (2, 244),
-            (2, 245), (1, 246), (2, 247), (2, 248), (2, 249), (2, 250), (2, 251), (2, 252),
-            (2, 253), (2, 254), (2, 255), (2, 256),
+            (0, 11), (0, 12), (0, 13), (0, 14), (0, 15), (0, 16), (0, 17), (0, 18), (0, 19),
+            (0, 20), (1, 21), (2, 22), (1, 23), (2, 24), (2, 25), (1, 26), (2, 27), (1, 28),
+            (2, 29), (2, 30), (1, 31), (2, 32), (2, 33), (2, 34), (0, 35), (2, 36), (1, 37),
+            (2, 38), (2, 39), (1, 40), (2, 41), (2, 42), (2, 43), (2, 44), (2, 45), (2, 46),
+            (2, 47), (1, 48), (2, 49), (1, 50), (2, 51), (2, 52), (0, 53), (2, 54), (1, 55),
+            (2, 56), (2, 57), (2, 58), (2, 59), (2, 60), (1, 61), (2, 62), (1, 63), (2, 64),
+            (2, 65), (1, 66), (2, 67), (2, 68), (2, 69), (1, 70), (2, 71), (2, 72), (2, 73),
+            (2, 74), (0, 75), (2, 76), (2, 77), (2, 78), (1, 79), (2, 80), (1, 81), (2, 82),
+            (2, 83), (1, 84), (2, 85), (2, 86), (2, 87), (1, 88), (2, 89), (1, 90), (2, 91),
+            (2, 92), (1, 93), (2, 94), (2, 95), (2, 96), (1, 97), (2, 98), (2, 99), (2, 100),
+            (2, 101),
         ],
         /// Where the parts of each base end.
         bases: &[
-            1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
-            22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40,
-            42, 44, 46, 47, 48, 50, 52, 54, 55, 56, 58, 60, 61, 62, 64, 65, 66, 67, 68,
-            69, 71, 73, 75, 76, 77, 79, 81, 82, 83, 85, 86, 87, 88, 89, 90, 91, 93, 94,
-            95, 97, 98, 99, 100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 110, 111,
-            112, 114, 116, 118, 119, 120, 122, 124, 126, 127, 128, 129, 131, 132, 133,
-            134, 135, 136, 137, 138, 139, 141, 143, 145, 146, 147, 149, 151, 152, 153,
-            155, 156, 157, 158, 159, 160, 162, 164, 165, 166, 168, 169, 170, 171, 172,
-            173, 175, 176, 177, 178, 179, 180, 181, 182, 183, 184, 186, 187, 188, 189,
-            190, 192, 194, 196, 197, 198, 200, 202, 203, 204, 206, 207, 208, 209, 210,
-            211, 213, 215, 217, 218, 219, 221, 223, 224, 225, 227, 228, 229, 230, 231,
-            232, 234, 236, 237, 238, 240, 241, 242, 243, 244, 245, 247, 248, 249, 250,
-            251, 252, 253, 254, 255, 256,
+            1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22,
+            24, 25, 27, 29, 30, 32, 33, 34, 36, 38, 39, 41, 42, 43, 44, 45, 46, 47, 49,
+            51, 52, 54, 56, 57, 58, 59, 60, 62, 64, 65, 67, 68, 69, 71, 72, 73, 74, 76,
+            77, 78, 80, 82, 83, 85, 86, 87, 89, 91, 92, 94, 95, 96, 98, 99, 100, 101,
         ],
         /// Base, integer, and the place of their product.
         slots: &[
-            (0, 1, 190), (1, 1, 22), (2, 1, 191), (2, 2, 18), (3, 1, 192), (3, 3, 19), (4, 1, 14),
-            (5, 1, 15), (6, 1, 16), (6, 2, 20), (7, 1, 193), (7, 2, 10), (8, 1, 23), (8, 2, 11),
-            (9, 1, 194), (9, 3, 12), (10, 1, 4), (11, 1, 5), (12, 1, 6), (12, 2, 21), (13, 1, 7),
-            (14, 1, 8), (15, 1, 9), (15, 2, 13), (16, 1, 195), (16, 2, 0), (17, 1, 24), (17, 2, 1),
-            (18, 1, 17), (18, 2, 2), (19, 1, 196), (19, 3, 3), (20, 1, 197), (21, 1, 198),
-            (22, 1, 199), (23, 1, 200), (24, 1, 201), (25, 1, 202), (26, 1, 203), (27, 1, 204),
-            (28, 1, 205), (29, 1, 206), (30, 1, 207), (31, 1, 208), (32, 1, 209), (33, 1, 210),
-            (34, 1, 211), (35, 1, 212), (36, 1, 213), (37, 1, 214), (38, 1, 215), (39, 1, 216),
-            (40, 1, 25), (41, 1, 26), (42, 1, 27), (43, 1, 28), (44, 1, 29), (45, 1, 30),
-            (46, 1, 31), (47, 1, 32), (48, 1, 33), (49, 1, 34), (50, 1, 35), (51, 1, 36),
-            (52, 1, 37), (53, 1, 38), (54, 1, 39), (55, 1, 40), (56, 1, 41), (57, 1, 42),
-            (58, 1, 43), (59, 1, 44), (60, 1, 45), (61, 1, 46), (62, 1, 47), (63, 1, 48),
-            (64, 1, 49), (65, 1, 50), (66, 1, 51), (67, 1, 52), (68, 1, 53), (69, 1, 54),
-            (70, 1, 55), (71, 1, 56), (72, 1, 57), (73, 1, 58), (74, 1, 59), (75, 1, 60),
-            (76, 1, 61), (77, 1, 62), (78, 1, 63), (79, 1, 64), (80, 1, 65), (81, 1, 66),
-            (82, 1, 67), (83, 1, 68), (84, 1, 69), (85, 1, 70), (86, 1, 71), (87, 1, 72),
-            (88, 1, 73), (89, 1, 74), (90, 1, 75), (91, 1, 76), (92, 1, 77), (93, 1, 78),
-            (94, 1, 79), (95, 1, 80), (96, 1, 81), (97, 1, 82), (98, 1, 83), (99, 1, 84),
-            (100, 1, 85), (101, 1, 86), (102, 1, 87), (103, 1, 88), (104, 1, 89), (105, 1, 90),
-            (106, 1, 91), (107, 1, 92), (108, 1, 93), (109, 1, 94), (110, 1, 95), (111, 1, 96),
-            (112, 1, 97), (113, 1, 98), (114, 1, 99), (115, 1, 100), (116, 1, 101), (117, 1, 102),
-            (118, 1, 103), (119, 1, 104), (120, 1, 105), (121, 1, 106), (122, 1, 107),
-            (123, 1, 108), (124, 1, 109), (125, 1, 110), (126, 1, 111), (127, 1, 112),
-            (128, 1, 113), (129, 1, 114), (130, 1, 115), (131, 1, 116), (132, 1, 117),
-            (133, 1, 118), (134, 1, 119), (135, 1, 120), (136, 1, 121), (137, 1, 122),
-            (138, 1, 123), (139, 1, 124), (140, 1, 125), (141, 1, 126), (142, 1, 127),
-            (143, 1, 128), (144, 1, 129), (145, 1, 130), (146, 1, 131), (147, 1, 132),
-            (148, 1, 133), (149, 1, 134), (150, 1, 135), (151, 1, 136), (152, 1, 137),
-            (153, 1, 138), (154, 1, 139), (155, 1, 140), (156, 1, 141), (157, 1, 142),
-            (158, 1, 143), (159, 1, 144), (160, 1, 145), (161, 1, 146), (162, 1, 147),
-            (163, 1, 148), (164, 1, 149), (165, 1, 150), (166, 1, 151), (167, 1, 152),
-            (168, 1, 153), (169, 1, 154), (170, 1, 155), (171, 1, 156), (172, 1, 157),
-            (173, 1, 158), (174, 1, 159), (175, 1, 160), (176, 1, 161), (177, 1, 162),
-            (178, 1, 163), (179, 1, 164), (180, 1, 165), (181, 1, 166), (182, 1, 167),
-            (183, 1, 168), (184, 1, 169), (185, 1, 170), (186, 1, 171), (187, 1, 172),
-            (188, 1, 173), (189, 1, 174), (190, 1, 175), (191, 1, 176), (192, 1, 177),
-            (193, 1, 178), (194, 1, 179), (195, 1, 180), (196, 1, 181), (197, 1, 182),
-            (198, 1, 183), (199, 1, 184), (200, 1, 185), (201, 1, 186), (202, 1, 187),
-            (203, 1, 188), (204, 1, 189),
+            (0, 1, 66), (1, 1, 8), (2, 1, 67), (2, 2, 7), (3, 1, 5), (4, 1, 6), (5, 1, 68),
+            (5, 2, 4), (6, 1, 1), (7, 1, 2), (8, 1, 3), (9, 1, 69), (9, 2, 0), (10, 1, 70),
+            (11, 1, 71), (12, 1, 72), (13, 1, 73), (14, 1, 74), (15, 1, 75), (16, 1, 76),
+            (17, 1, 77), (18, 1, 78), (19, 1, 79), (20, 1, 9), (21, 1, 10), (22, 1, 11),
+            (23, 1, 12), (24, 1, 13), (25, 1, 14), (26, 1, 15), (27, 1, 16), (28, 1, 17),
+            (29, 1, 18), (30, 1, 19), (31, 1, 20), (32, 1, 21), (33, 1, 22), (34, 1, 23),
+            (35, 1, 24), (36, 1, 25), (37, 1, 26), (38, 1, 27), (39, 1, 28), (40, 1, 29),
+            (41, 1, 30), (42, 1, 31), (43, 1, 32), (44, 1, 33), (45, 1, 34), (46, 1, 35),
+            (47, 1, 36), (48, 1, 37), (49, 1, 38), (50, 1, 39), (51, 1, 40), (52, 1, 41),
+            (53, 1, 42), (54, 1, 43), (55, 1, 44), (56, 1, 45), (57, 1, 46), (58, 1, 47),
+            (59, 1, 48), (60, 1, 49), (61, 1, 50), (62, 1, 51), (63, 1, 52), (64, 1, 53),
+            (65, 1, 54), (66, 1, 55), (67, 1, 56), (68, 1, 57), (69, 1, 58), (70, 1, 59),
+            (71, 1, 60), (72, 1, 61), (73, 1, 62), (74, 1, 63), (75, 1, 64), (76, 1, 65),
         ],
         /// Base, weight and place: a bound on what is left out of the Hessian, by degrees.
         bound: &[],
@@ -1312,7 +983,7 @@ const _: () = {
         /// How far the series can be trusted: part, factor of the group, whether it belongs to the last term, degree and
         /// bound of the gradient.
         last: &[],
-        radius: ::core::option::Option::Some(217),
+        radius: ::core::option::Option::Some(80),
     };
 
     static LAST: ::coadjoint::plumbing::LastTerms = ::coadjoint::plumbing::LastTerms {
@@ -1325,34 +996,15 @@ const _: () = {
 
 // The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:
 // c[0] = 2 C(p₁²), of S₁
-// c[1] = 2 C(p₁² p₃), of S₁
-// c[2] = 2 C(p₁² p₂), of S₁
-// c[3] = 3 C(p₁³), of S₁
-// c[4] = C(p₁), of S₁
-// c[5] = C(p₁ p₃), of S₁
-// c[6] = C(p₁ p₃²), of S₁
-// c[7] = C(p₁ p₂), of S₁
-// c[8] = C(p₁ p₂ p₃), of S₁
-// c[9] = C(p₁ p₂²), of S₁
-// c[10] = 2 C(p₂²), of S₁
-// c[11] = 2 C(p₂² p₃), of S₁
-// c[12] = 3 C(p₂³), of S₁
-// c[13] = 2 C(p₁ p₂²), of S₁
-// c[14] = C(p₂), of S₁
-// c[15] = C(p₂ p₃), of S₁
-// c[16] = C(p₂ p₃²), of S₁
-// c[17] = C(p₁² p₂), of S₁
-// c[18] = 2 C(p₃²), of S₁
-// c[19] = 3 C(p₃³), of S₁
-// c[20] = 2 C(p₂ p₃²), of S₁
-// c[21] = 2 C(p₁ p₃²), of S₁
-// c[22] = C(p₃), of S₁
-// c[23] = C(p₂² p₃), of S₁
-// c[24] = C(p₁² p₃), of S₁
-// c[190] = C(), of S₁
-// c[191] = C(p₃²), of S₁
-// c[192] = C(p₃³), of S₁
-// c[193] = C(p₂²), of S₁
-// c[194] = C(p₂³), of S₁
-// c[195] = C(p₁²), of S₁
-// c[196] = C(p₁³), of S₁
+// c[1] = C(p₁), of S₁
+// c[2] = C(p₁ p₃), of S₁
+// c[3] = C(p₁ p₂), of S₁
+// c[4] = 2 C(p₂²), of S₁
+// c[5] = C(p₂), of S₁
+// c[6] = C(p₂ p₃), of S₁
+// c[7] = 2 C(p₃²), of S₁
+// c[8] = C(p₃), of S₁
+// c[66] = C(), of S₁
+// c[67] = C(p₃²), of S₁
+// c[68] = C(p₂²), of S₁
+// c[69] = C(p₁²), of S₁

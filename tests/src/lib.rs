@@ -10,6 +10,7 @@ pub mod golden;
 pub mod kernels;
 pub mod matrix_free;
 pub mod moments;
+pub mod order;
 pub mod reference;
 pub mod run;
 pub mod sources;

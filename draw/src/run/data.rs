@@ -12,7 +12,7 @@ pub struct Run {
     pub times: Vec<f64>,
     /// The coordinates of the momentum.
     pub momentum: Vec<Series>,
-    /// Relative differences from the start, of what the run conserves; the names are those of panels.
+    /// Relative differences of conserved quantities from the start; the names are those of panels.
     pub drifts: Vec<Series>,
 }
 

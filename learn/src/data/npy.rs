@@ -85,7 +85,7 @@ pub(super) fn names(
 const PIECE: usize = 1 << 16;
 
 /// Reads an array of 64- or 32-bit floats that has `total` bytes with its header. Memory grows with
-/// what is there, not with what is claimed.
+/// the bytes that are present, not with those that are claimed.
 fn read_array(path: &Path, mut reader: impl Read, total: u64) -> Result<Array, LearnError> {
     let header =
         NpyHeader::read(&mut reader, total).map_err(|e| LearnError::format(path, "NumPy", e))?;

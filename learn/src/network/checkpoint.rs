@@ -15,13 +15,13 @@ use crate::error::LearnError;
 /// The first field of every checkpoint.
 const FORMAT: &str = "coadjoint-checkpoint-4";
 
-/// The state between two evaluations of the loss: what is being done, and all losses so far.
+/// The state between two evaluations of the loss: the stage of the method, and all losses so far.
 pub(super) struct State {
     pub(super) stage: Stage,
     pub(super) history: Vec<f64>,
 }
 
-/// The unknowns, with what the method at work remembers.
+/// The unknowns, with the memory of the current method.
 pub(super) enum Stage {
     /// Steps of Adam, with its two running means.
     Adam { weights: Vec<f64>, moments: [Vec<f64>; 2] },
@@ -43,7 +43,7 @@ pub(super) struct Descent {
 #[derive(Serialize, Deserialize)]
 struct Header {
     format: String,
-    task: u64,
+    task: u32,
     lengths: Vec<usize>,
     /// Whether L-BFGS is at work, and whether it is stuck.
     descent: Option<bool>,
@@ -56,7 +56,7 @@ impl State {
     }
 
     /// Writes the state of the task with this fingerprint.
-    pub(super) fn save(&self, path: &Path, task: u64) -> Result<(), LearnError> {
+    pub(super) fn save(&self, path: &Path, task: u32) -> Result<(), LearnError> {
         let fail = LearnError::file(path);
         let mut lists = vec![self.history.as_slice()];
         let descent = match &self.stage {
@@ -81,7 +81,7 @@ impl State {
     }
 
     /// Reads the state of the task with this fingerprint; `None` if there is no file.
-    pub(super) fn load(path: &Path, task: u64) -> Result<Option<Self>, LearnError> {
+    pub(super) fn load(path: &Path, task: u32) -> Result<Option<Self>, LearnError> {
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -90,12 +90,12 @@ impl State {
         let fail = |reason: &str| LearnError::Checkpoint(path.into(), reason.into());
         let (bytes, sum) = bytes.split_last_chunk::<4>().unwrap_or((&[], &[0; 4]));
         if file::crc32(bytes) != u32::from_le_bytes(*sum) {
-            return Err(fail("it is damaged, or no checkpoint of this version"));
+            return Err(fail("it is damaged, or not a checkpoint of this version"));
         }
         let end = bytes.iter().position(|&b| b == b'\n').unwrap_or(0);
         let header = serde_json::from_slice(&bytes[..end]).ok();
         let header = header.filter(|header: &Header| header.format == FORMAT);
-        let header = header.ok_or_else(|| fail("it is no checkpoint of this version"))?;
+        let header = header.ok_or_else(|| fail("it is not a checkpoint of this version"))?;
         if header.task != task {
             return Err(fail("it belongs to other data or other options"));
         }
@@ -118,12 +118,4 @@ impl State {
         };
         Some(Self { stage, history })
     }
-}
-
-/// A number that tells tasks apart: the FNV-1a hash (Fowler, Noll and Vo) of words and numbers,
-/// the same in every build.
-pub(super) fn task(words: &str, data: &[&[f64]]) -> u64 {
-    let numbers = data.iter().flat_map(|part| part.iter()).flat_map(|v| v.to_le_bytes());
-    let mix = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    words.bytes().chain(numbers).fold(0xcbf2_9ce4_8422_2325, mix)
 }

@@ -168,7 +168,7 @@ fn adam(
 /// the fingerprint of everything the outcome depends on; `watch` is the loss on other data.
 pub(super) fn minimise(
     start: Vec<f64>,
-    task: u64,
+    task: u32,
     options: &TrainingOptions,
     evaluate: &mut Evaluate<'_>,
     watch: Option<&Watch<'_>>,
@@ -217,19 +217,12 @@ pub(super) fn minimise(
             saved = state.history.len();
         }
     }
-    if let Stage::Descent(descent) = &mut state.stage {
-        // Nothing follows, so nothing need be remembered.
-        descent.pairs.clear();
-    }
     save(&state)?;
-    let (weights, loss) = match state.stage {
-        Stage::Descent(descent) => (descent.weights.as_slice().to_vec(), descent.loss),
-        Stage::Adam { weights, .. } => {
-            let loss = evaluate(&weights).0;
-            (weights, loss)
-        }
+    let weights = match state.stage {
+        Stage::Descent(descent) => descent.weights.as_slice().to_vec(),
+        Stage::Adam { weights, .. } => weights,
     };
-    state.history.push(loss);
+    state.history.push(evaluate(&weights).0);
     Ok((weights, state.history))
 }
 

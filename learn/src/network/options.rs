@@ -38,7 +38,7 @@ impl Default for TrainingOptions {
 }
 
 impl TrainingOptions {
-    /// The paper's net with this many evaluations of the loss: a twentieth by Adam, enough to come near, the others by
+    /// The paper's net with this many evaluations of the loss: a twentieth by Adam to approach the minimum, the others by
     /// L-BFGS.
     #[must_use]
     pub fn budget(evaluations: usize) -> Self {

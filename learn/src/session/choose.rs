@@ -17,7 +17,7 @@ use crate::polynomial::{
 use crate::save::TrainingRecord;
 
 /// Networks are not tried where a polynomial leaves less than this part of the mean square of x:
-/// no training here has come near it.
+/// no training so far has reached it.
 const BEYOND_NETWORKS: f64 = 1e-16;
 
 /// Fits the kind of model asked for.
@@ -103,7 +103,7 @@ fn automatic(
     let least = rivals.iter().map(|r| r.2).fold(f64::INFINITY, f64::min);
     let mut remark = "";
     if least <= BEYOND_NETWORKS * square {
-        remark = "; networks not tried: they come nowhere near";
+        remark = "; networks not tried: they cannot reach this";
     } else {
         for kind in [Kind::Network, Kind::Hybrid] {
             match train(request, kind, &rest, ".held-out", progress) {

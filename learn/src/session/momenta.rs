@@ -38,7 +38,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         .map(|i| BadRow { row: i + 1, problem: RowProblem::NonFinite })
         .collect();
     let changes: Vec<f64> = (0..pairs.len()).map(|i| casimir_change(group, pairs, i)).collect();
-    // A method that is none of Poisson's changes them: what is learned of it is the nearest that does not.
+    // A method that is not a Poisson map changes them; the learned map is the nearest that does not.
     if !request.momenta_only {
         let off =
             changes.iter().enumerate().filter(|(_, change)| **change > request.tolerances.momentum);
@@ -112,7 +112,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
     let largest = changes.iter().copied().fold(0.0, f64::max);
     if largest > request.tolerances.momentum {
         warnings.push(format!(
-            "Casimirs differ by up to {largest:.1e} between before and after; what is learned keeps them"
+            "Casimirs differ by up to {largest:.1e} between before and after; the learned map keeps them"
         ));
     }
     let start: Option<Vec<f64>> = request.start.clone().or(first);

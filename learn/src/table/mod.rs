@@ -65,7 +65,7 @@ impl Row {
     /// The number in a column.
     ///
     /// # Errors
-    /// The text of a cell that is none.
+    /// The text of a cell that is not a number.
     pub fn number(&self, column: usize) -> Result<f64, String> {
         if let Some(number) = self.numbers.get(column) {
             return Ok(*number);
@@ -75,7 +75,7 @@ impl Row {
         number.ok_or_else(|| String::from_utf8_lossy(cell).into_owned())
     }
 
-    /// The numbers in all columns; NaN for what is none.
+    /// The numbers in all columns; NaN for other cells.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         (0..self.len()).map(|column| self.number(column).unwrap_or(f64::NAN)).collect()
@@ -104,7 +104,7 @@ impl Table {
     /// Opens a file by the ending of its name; `.partial` behind it is not looked at.
     ///
     /// # Errors
-    /// Where it cannot be read, or is not what its name says.
+    /// Where it cannot be read, or is not in the format of its name.
     pub fn open(path: &Path) -> Result<Self, LearnError> {
         let name = path.to_string_lossy().to_ascii_lowercase();
         match name.trim_end_matches(".partial").rsplit_once('.').map_or("", |(_, ending)| ending) {

@@ -21,7 +21,7 @@ pub struct Source {
     reader: SerializedFileReader<File>,
     /// The columns that hold floats.
     columns: Vec<usize>,
-    /// The readers of the row group at hand, and how many of its rows they have not read.
+    /// The readers of the current row group, and how many of its rows are unread.
     open: Vec<ColumnReader>,
     left: usize,
     /// The row group after it.

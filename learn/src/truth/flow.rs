@@ -24,7 +24,7 @@ where
     let dim = group.dim();
     let mut now = phase.clone();
     let mut left = time;
-    // Steps of a size set by the velocity at hand; the count is bounded for absurd input.
+    // The current velocity sets the size of a step; the count is bounded for absurd input.
     for _ in 0..1_000_000 {
         let mut velocity = vec![0.0; dim];
         hamiltonian.gradient(&entries(&now.momentum), &mut velocity);

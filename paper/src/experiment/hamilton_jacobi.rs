@@ -76,7 +76,7 @@ fn solve(
             let x = increment(&made, i);
             let mut row = rows.row(4 * i).into_owned();
             for j in 0..3 {
-                // By differences: what they miss does not move the minimum by anything that is seen.
+                // By differences, whose error moves the minimum by less than is visible.
                 let at = |change: f64| energy(&(x + Vector3::ith(j, change)), p);
                 row -= rows.row(4 * i + 1 + j) * ((at(1e-5) - at(-1e-5)) / 2e-5);
             }

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::groups::MatrixGroup;
-use coadjoint::laws::{OrderError, measured_order, symplectic_defect_of};
+use coadjoint::laws::symplectic_defect_of;
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
@@ -15,6 +15,7 @@ use coadjoint_program::{Kernel, Stepper, WIDTH};
 use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::kernels::{SYSTEMS, integrator_by, unlimited};
+use coadjoint_tests::order;
 use coadjoint_tests::stress::Random;
 use nalgebra::{DMatrix, DVector};
 
@@ -194,30 +195,15 @@ fn laws_hold(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
     holds("symmetric", difference(&back.group_element, &point.group_element), ROUNDING);
 }
 
-/// The order of the steps from a state, where it shows between rounding and refusal.
-fn order_from(subject: &Subject, stepper: &dyn Stepper, start: &Phase<MatrixGroup>) -> Option<f64> {
-    let mut order = None;
-    // The finest halving still well above rounding shows the order best. Coarse steps may be refused.
-    for steps in [1, 2, 4, 8, 16, 32, 64] {
-        let measured = measured_order(&subject.group, start, 4.0, steps, |h, steps, state| {
-            subject.advance(stepper, &subject.slots(h), state, u64::from(steps))
-        });
-        match measured {
-            Ok(value) => order = Some(value),
-            Err(OrderError::OutOfRange { fine, .. }) if fine < 1e-12 => break,
-            Err(_) => {}
-        }
-    }
-    order
-}
-
 /// The order of the kernel's steps is K + 1.
 fn order_holds(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
     let name = &subject.name;
     // Some motions are slow.
     let order = (0..5).find_map(|_| {
         let start = subject.draw(random, 0.9);
-        order_from(subject, stepper, &start)
+        order::seen(&subject.group, &start, 64, |h, steps, state| {
+            subject.advance(stepper, &subject.slots(h), state, u64::from(steps))
+        })
     });
     let order = order.unwrap_or_else(|| panic!("{name}: no order seen"));
     let expected = TRUNCATION as f64 + 1.0;

@@ -5,7 +5,7 @@ use coadjoint::groups::{
     Aff1, Cayley, CayleyMatrixGroup, Chart, Coordinates, Exponential, Heisenberg, MatrixGroup,
     Power, Product, SE2, SL2, SO4, SO5, SU2, U2, U3,
 };
-use coadjoint::laws::{OrderError, check, measured_order};
+use coadjoint::laws::check;
 use coadjoint::steps::advance;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
@@ -15,6 +15,7 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use coadjoint_tests::erased::AnyGroup;
+use coadjoint_tests::order;
 use coadjoint_tests::stress::Random;
 
 /// The Hamiltonians tried; on larger groups fewer terms, since the series of a dense one has
@@ -59,7 +60,7 @@ fn random_phase<G: LieGroup<Scalar = f64>>(group: &G, random: &mut Random) -> Ph
     Phase::new(group.exp(&x), mu)
 }
 
-/// Runs every law for one group, chart and truncation, and returns the measured order.
+/// Runs every law for one group, chart and truncation, and measures the order.
 fn laws_hold<G, C>(
     name: &str,
     group: &G,
@@ -85,19 +86,10 @@ fn laws_hold<G, C>(
         assert!(law.pass(), "{what}: {} {:e} exceeds {:e}", law.name, law.value, law.bound);
     }
 
-    // The finest halving still well above rounding shows the order best. Coarse steps may fail.
-    let mut order = None;
-    for steps in [1, 2, 4, 8, 16, 32] {
-        let measured = measured_order(group, &points[0], 4.0, steps, |h, steps, state| {
-            let map = series_function(group.clone(), chart, &series, h).unwrap();
-            (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
-        });
-        match measured {
-            Ok(value) => order = Some(value),
-            Err(OrderError::OutOfRange { fine, .. }) if fine < 1e-12 => break,
-            Err(_) => {}
-        }
-    }
+    let order = order::seen(group, &points[0], 32, |h, steps, state| {
+        let map = series_function(group.clone(), chart, &series, h).unwrap();
+        (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
+    });
     let order = order.unwrap_or_else(|| panic!("{what}: no order seen"));
     let expected = truncation as f64 + 1.0;
     assert!((order - expected).abs() < 0.3, "{what}: order {order:.2}, not {expected}");
