@@ -94,15 +94,6 @@ fn back_substitute(triangle: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVec
     solution.iter().all(|v| v.is_finite()).then_some(solution)
 }
 
-/// The outcome of a damped Gauss–Newton iteration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Descent {
-    /// The unknowns at the end.
-    pub unknowns: DVector<f64>,
-    /// The sum of squared residuals after each accepted step, the starting one first.
-    pub history: Vec<f64>,
-}
-
 /// When a damped Gauss–Newton iteration stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussNewton {
@@ -119,13 +110,14 @@ impl GaussNewton {
     /// Minimises |r(c)|² from `start` by Levenberg–Marquardt steps.
     ///
     /// `linearise` gives r and ∂r/∂c, `residual` r alone; `None` marks unknowns where r does not
-    /// exist, which are then not stepped to. Returns `None` if r does not exist at the start.
+    /// exist, which are then not stepped to. Returns the unknowns at the end, and |r|² at the start and after each accepted
+    /// step; `None` if r does not exist at the start.
     pub fn minimise(
         &self,
         start: DVector<f64>,
         mut residual: impl FnMut(&DVector<f64>) -> Option<DVector<f64>>,
         mut linearise: impl FnMut(&DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)>,
-    ) -> Option<Descent> {
+    ) -> Option<(DVector<f64>, Vec<f64>)> {
         let mut unknowns = start;
         let mut damping = 1e-6;
         let mut history = Vec::new();
@@ -162,7 +154,7 @@ impl GaussNewton {
                 break;
             }
         }
-        Some(Descent { unknowns, history })
+        Some((unknowns, history))
     }
 }
 
@@ -201,7 +193,7 @@ mod tests {
         };
         let options = GaussNewton { iterations: 200, relative_decrease: 0.0, ridge: 0.0 };
         let start = DVector::from_row_slice(&[-1.2, 1.0]);
-        let descent = options.minimise(start, residual, linearise).unwrap();
-        assert!((descent.unknowns - DVector::from_element(2, 1.0)).norm() < 1e-10);
+        let (unknowns, _) = options.minimise(start, residual, linearise).unwrap();
+        assert!((unknowns - DVector::from_element(2, 1.0)).norm() < 1e-10);
     }
 }

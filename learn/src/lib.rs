@@ -66,7 +66,7 @@ pub use function::{Generating, MomentumFunction, Scaled};
 pub use gaussian_process::{GaussianProcess, GaussianProcessOptions, fit_gaussian_process};
 pub use group::{DataGroup, matrix_of};
 pub use hybrid::fit_hybrid;
-pub use least_squares::{Descent, GaussNewton};
+pub use least_squares::GaussNewton;
 pub use model::Model;
 pub use npy::npy_header;
 pub use save::{ModelFile, TrainingRecord};

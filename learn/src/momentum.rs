@@ -110,7 +110,7 @@ where
         }
         Some((all, jacobian))
     };
-    let descent = options
+    let (unknowns, history) = options
         .iteration
         .minimise(DVector::zeros(terms), residual, linearise)
         .ok_or_else(|| {
@@ -119,8 +119,8 @@ where
         })?;
     let count = (dim * samples) as f64;
     Ok(PoissonFit {
-        model: start.clone().with_coefficients(descent.unknowns.as_slice()),
-        history: descent.history.iter().map(|sum| sum / count).collect(),
+        model: start.clone().with_coefficients(unknowns.as_slice()),
+        history: history.iter().map(|sum| sum / count).collect(),
     })
 }
 

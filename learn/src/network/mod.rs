@@ -63,7 +63,7 @@ pub fn fit_network(
     let watch =
         watched.as_ref().map(|fit| move |unknowns: &[f64]| fit.value_and_gradient(unknowns).0);
     let watch = watch.as_ref().map(|watch| watch as &Watch<'_>);
-    // What the outcome depends on: checkpoints of other tasks are refused.
+    // The fingerprint of the task: checkpoints of other tasks are refused.
     let words = serde_json::to_vec(options).unwrap_or_default();
     let numbers = points.iter().chain(gradients).flat_map(|v| v.to_le_bytes());
     let task = file::crc32(&words.into_iter().chain(numbers).collect::<Vec<u8>>());

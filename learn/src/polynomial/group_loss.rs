@@ -71,9 +71,9 @@ where
         Some((all, jacobian))
     };
     let first = DVector::from_column_slice(start.coefficients());
-    let descent =
+    let (unknowns, history) =
         options.minimise(first, residual, linearise).ok_or(LearnError::OutOfChart(C::NAME))?;
     let count = (dim * samples) as f64;
-    let history = descent.history.iter().map(|sum| sum / count).collect();
-    Ok((start.clone().with_coefficients(descent.unknowns.as_slice()), history))
+    let history = history.iter().map(|sum| sum / count).collect();
+    Ok((start.clone().with_coefficients(unknowns.as_slice()), history))
 }

@@ -86,11 +86,11 @@ fn solve(
     };
     let iteration = GaussNewton { iterations: 20, relative_decrease: 1e-3, ridge: 1e-18 };
     let descent = iteration.minimise(DVector::zeros(unknowns), residual, linearise);
-    let descent = descent.ok_or("the equation has no finite residual at S = 0")?;
-    let blocks = descent.unknowns.as_slice().chunks_exact(terms + 1);
+    let (unknowns, history) = descent.ok_or("the equation has no finite residual at S = 0")?;
+    let blocks = unknowns.as_slice().chunks_exact(terms + 1);
     let sum = blocks
         .fold(vec![0.0; terms], |sum, block| sum.iter().zip(block).map(|(s, c)| s + c).collect());
-    let history = descent.history.iter().map(|sum| sum / samples as f64).collect();
+    let history = history.iter().map(|sum| sum / samples as f64).collect();
     Ok((model.with_coefficients(&sum), history))
 }
 
