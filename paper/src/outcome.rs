@@ -78,6 +78,7 @@ impl Table {
 
 /// Columns of numbers, the abscissa first: one CSV file, of which JSON has the name.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Curve {
     /// The file's name without ending.
     pub name: String,
