@@ -47,7 +47,7 @@ pub mod expr;
 #[cfg(feature = "system")]
 pub mod file;
 pub mod parse;
-pub mod pass;
+mod pass;
 #[cfg(feature = "system")]
 pub mod system;
 

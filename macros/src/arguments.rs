@@ -1,21 +1,15 @@
 //! `crate = path`, the argument of both attributes that says where the runtime is.
 
 use proc_macro2::{Span, TokenStream, TokenTree};
-use quote::{ToTokens, quote};
+use quote::ToTokens;
 
 /// The path of the runtime crate, as far as the user says, and the other arguments.
+#[derive(Default)]
 pub(crate) struct Arguments {
     /// The path after `crate =`.
     pub krate: Option<TokenStream>,
     /// The other arguments as they are.
     pub others: TokenStream,
-}
-
-impl Arguments {
-    /// The path of the runtime crate.
-    pub(crate) fn krate(&self) -> TokenStream {
-        self.krate.clone().unwrap_or_else(|| quote!(::coadjoint))
-    }
 }
 
 /// Takes `crate = path` out of the arguments of an attribute.

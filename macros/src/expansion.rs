@@ -9,58 +9,53 @@ use syn::{FnArg, ItemFn, Pat};
 use coadjoint_codegen::emit;
 
 use crate::arguments::{self, Arguments};
-use crate::dependency;
+use crate::generate::Generate;
+use crate::{dependency, fallback};
 
-/// An attribute: how it reads a function, and what stands in where that fails.
-pub(crate) struct Attribute {
-    /// Generates the items for the function, given the arguments but `crate`; programs bind names with an underscore at their
-    /// ends.
-    pub generate: fn(TokenStream, &ItemFn, &emit::Options) -> syn::Result<emit::Items>,
-    /// Generates its stand-in, given the same.
-    pub stand_in: fn(TokenStream, &ItemFn, &emit::Options) -> TokenStream,
-}
-
-impl Attribute {
-    /// The function itself, followed by what is generated for it, or by the errors and a stand-in.
-    pub(crate) fn expand(&self, arguments: TokenStream, item: TokenStream) -> TokenStream {
-        let function: ItemFn = match syn::parse2(item.clone()) {
-            Ok(function) => function,
-            Err(error) => {
-                // Not a function: say so, and leave the item in place.
-                let error = error.into_compile_error();
-                return quote!(#error #item);
-            }
-        };
-        let (arguments, mut errors) = match arguments::split(arguments) {
-            Ok(arguments) => (arguments, None),
-            Err(error) => (Arguments { krate: None, others: TokenStream::new() }, Some(error)),
-        };
-        if arguments.krate.is_none()
-            && errors.is_none()
-            && let Some(help) = dependency::help()
-        {
-            // Without the runtime not even a stand-in compiles.
-            let error = syn::Error::new(proc_macro2::Span::call_site(), help).into_compile_error();
-            return quote!(#[allow(dead_code)] #function #error);
+/// The function itself, followed by what is generated for it, or by the errors and a stand-in, whose `new` takes the
+/// argument `first` before the parameters.
+pub(crate) fn expand(
+    arguments: TokenStream,
+    item: TokenStream,
+    generate: Generate,
+    first: TokenStream,
+) -> TokenStream {
+    let function: ItemFn = match syn::parse2(item.clone()) {
+        Ok(function) => function,
+        Err(error) => {
+            // Not a function: say so, and leave the item in place.
+            let error = error.into_compile_error();
+            return quote!(#error #item);
         }
-        let options = options(&function, arguments.krate());
-        let generated = match errors.take() {
-            Some(error) => Err(error),
-            None => (self.generate)(arguments.others.clone(), &function, &options),
-        };
-        let generated = generated.unwrap_or_else(|errors| {
-            let errors = errors.into_compile_error();
-            let stand_in = (self.stand_in)(arguments.others, &function, &options);
-            let struct_and_methods = quote!(#errors #stand_in);
-            emit::Items { struct_and_methods, ..emit::Items::default() }
-        });
-        let kept = parameters(&function);
-        let taken = emit::identifiers(function.to_token_stream());
-        let emit::Items { struct_and_methods, programs, .. } = generated;
-        let items = emit::hygienic(struct_and_methods, &kept, &taken);
-        // Many users only want what is generated; then the function is not dead code either.
-        quote!(#[allow(dead_code)] #function #items #programs)
+    };
+    let (Arguments { krate, others }, error) = match arguments::split(arguments) {
+        Ok(arguments) => (arguments, None),
+        Err(error) => (Arguments::default(), Some(error)),
+    };
+    if krate.is_none()
+        && error.is_none()
+        && let Some(help) = dependency::help()
+    {
+        // Without the runtime not even a stand-in compiles.
+        let error = syn::Error::new(proc_macro2::Span::call_site(), help).into_compile_error();
+        return quote!(#[allow(dead_code)] #function #error);
     }
+    let options = options(&function, krate.unwrap_or_else(|| quote!(::coadjoint)));
+    let generated = match error {
+        Some(error) => Err(error),
+        None => generate(others.clone(), &function, &options),
+    };
+    let emit::Items { struct_and_methods, programs, .. } = generated.unwrap_or_else(|errors| {
+        let errors = errors.into_compile_error();
+        let items = fallback::items(others, &function, &options, generate, &first);
+        let own = items.struct_and_methods;
+        emit::Items { struct_and_methods: quote!(#errors #own), ..items }
+    });
+    let kept = parameters(&function);
+    let taken = emit::identifiers(function.to_token_stream());
+    let items = emit::hygienic(struct_and_methods, &kept, &taken);
+    // Many users only want what is generated; then the function is not dead code either.
+    quote!(#[allow(dead_code)] #function #items #programs)
 }
 
 /// Named after the function, as visible as it, with its doc comments.

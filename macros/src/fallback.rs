@@ -6,31 +6,40 @@
 //! Neither ever runs: the crate does not compile.
 
 use coadjoint_codegen::diagnostic::nearest;
-use coadjoint_codegen::emit::Options;
+use coadjoint_codegen::emit::{Items, Options};
 use coadjoint_codegen::lie::catalogue;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
-use syn::{Block, FnArg, ItemFn, Type, parse_quote};
+use syn::{Block, FnArg, ItemFn, parse_quote};
+
+use crate::generate::Generate;
 
 /// The expansion that succeeds for the function with its first coordinate for its body, which is at
-/// fault nowhere; `None` if not even the signature or the group can be read.
-pub(crate) fn expansion(
-    arguments: &TokenStream,
+/// fault nowhere; the stand-in if not even the signature or the group can be read.
+pub(crate) fn items(
+    arguments: TokenStream,
     function: &ItemFn,
-    generate: impl Fn(TokenStream, &ItemFn) -> syn::Result<TokenStream>,
-) -> Option<TokenStream> {
+    options: &Options,
+    generate: Generate,
+    first: &TokenStream,
+) -> Items {
     // Of an array or a vector, of an array of arrays, of a matrix.
     let bodies: [Block; 3] = [
         parse_quote!({ coordinates[0] }),
         parse_quote!({ coordinates[0][0] }),
         parse_quote!({ coordinates[(0, 0)] }),
     ];
-    bodies.into_iter().find_map(|body| {
+    let found = bodies.into_iter().find_map(|body| {
         let mut function = ItemFn { block: Box::new(body), ..function.clone() };
         if let Some(FnArg::Typed(first)) = function.sig.inputs.first_mut() {
             *first.pat = parse_quote!(coordinates);
         }
-        attempts(arguments.clone()).find_map(|arguments| generate(arguments, &function).ok())
+        attempts(arguments.clone())
+            .find_map(|arguments| generate(arguments, &function, options).ok())
+    });
+    found.unwrap_or_else(|| Items {
+        struct_and_methods: stand_in(function, options, first),
+        ..Items::default()
     })
 }
 
@@ -56,50 +65,15 @@ fn only(arguments: &TokenStream, keys: &[&str]) -> TokenStream {
     tokens.split_inclusive(comma).filter(kept).flatten().cloned().collect()
 }
 
-/// The types of the parameters.
-fn types(function: &ItemFn) -> Vec<&Type> {
-    let inputs = function.sig.inputs.iter().skip(1);
-    inputs
-        .filter_map(|argument| match argument {
-            FnArg::Typed(typed) => Some(&*typed.ty),
-            FnArg::Receiver(_) => None,
-        })
-        .collect()
-}
-
-/// In place of a potential.
-pub(crate) fn potential(function: &ItemFn, options: &Options) -> TokenStream {
+/// A struct with the methods of an integrator and of a potential, which take whatever they are given.
+fn stand_in(function: &ItemFn, options: &Options, first: &TokenStream) -> TokenStream {
     let Options { krate, visibility, name, .. } = options;
-    let types = types(function);
-    quote! {
-        #[allow(dead_code)]
-        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
-        #visibility struct #name<T = f64>(::core::marker::PhantomData<T>);
-
-        const _: () = {
-            #[allow(dead_code, unused_variables, clippy::all)]
-            impl<T> #name<T> {
-                pub fn new(#(_: #types),*) -> ::core::result::Result<Self, #krate::StepError> {
-                    loop {}
-                }
-
-                pub fn energy<E>(&self, g: &E) -> T {
-                    loop {}
-                }
-
-                pub fn torque<E, V>(&self, g: &E) -> V {
-                    loop {}
-                }
-            }
-        };
-    }
-}
-
-/// In place of an integrator.
-pub(crate) fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
-    let Options { krate, visibility, name, .. } = options;
-    let types = types(function);
+    let types = function.sig.inputs.iter().skip(1).filter_map(|argument| match argument {
+        FnArg::Typed(typed) => Some(&*typed.ty),
+        FnArg::Receiver(_) => None,
+    });
     let result = quote!(::core::result::Result);
+    let report = quote!(#result<#krate::StepReport<T>, #krate::StepError>);
     quote! {
         #[allow(dead_code)]
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
@@ -111,7 +85,7 @@ pub(crate) fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
                 pub const TRUNCATION: usize = 1;
                 pub const ORDER: usize = 2;
 
-                pub fn new(step: T, #(_: #types),*) -> #result<Self, #krate::StepError> {
+                pub fn new(#first #(_: #types),*) -> #result<Self, #krate::StepError> {
                     loop {}
                 }
 
@@ -119,22 +93,19 @@ pub(crate) fn lie_poisson(function: &ItemFn, options: &Options) -> TokenStream {
                     loop {}
                 }
 
-                pub fn energy<V>(&self, mu: &V) -> T {
+                pub fn energy<V>(&self, at: &V) -> T {
                     loop {}
                 }
 
-                pub fn advance<P>(
-                    &self,
-                    phase: &mut P,
-                ) -> #result<#krate::StepReport<T>, #krate::StepError> {
+                pub fn torque<E, V>(&self, g: &E) -> V {
                     loop {}
                 }
 
-                pub fn advance_by<P>(
-                    &self,
-                    phase: &mut P,
-                    steps: u64,
-                ) -> #result<#krate::StepReport<T>, #krate::StepError> {
+                pub fn advance<P>(&self, phase: &mut P) -> #report {
+                    loop {}
+                }
+
+                pub fn advance_by<P>(&self, phase: &mut P, steps: u64) -> #report {
                     loop {}
                 }
 

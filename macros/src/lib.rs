@@ -8,8 +8,9 @@ mod arguments;
 mod dependency;
 mod expansion;
 mod fallback;
-mod lie_poisson;
-mod potential;
+mod generate;
+
+use quote::quote;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator. See
 /// `coadjoint::lie_poisson`.
@@ -18,7 +19,7 @@ pub fn lie_poisson(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    lie_poisson::ATTRIBUTE.expand(arguments.into(), item.into()).into()
+    expansion::expand(arguments.into(), item.into(), generate::lie_poisson, quote!(step: T,)).into()
 }
 
 /// Turns a function computing a potential into its torque. See `coadjoint::potential`.
@@ -27,5 +28,5 @@ pub fn potential(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    potential::ATTRIBUTE.expand(arguments.into(), item.into()).into()
+    expansion::expand(arguments.into(), item.into(), generate::potential, quote!()).into()
 }

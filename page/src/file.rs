@@ -2,7 +2,11 @@
 
 use std::ops::Range;
 
+use coadjoint_codegen::diagnostic::{Diagnostics, Span};
+use toml::de::DeValue;
+
 use crate::fields::Fields;
+use crate::mistakes::Mistake;
 
 /// The text of a system file, and which of its bytes are from which field.
 #[derive(Clone, Debug, Default)]
@@ -10,8 +14,8 @@ pub struct File {
     /// The text.
     pub text: String,
     pieces: Vec<Piece>,
-    /// The fields that could not even be written as a file.
-    pub unwritten: Vec<Unwritten>,
+    /// Mistakes in fields that could not even be written as a file.
+    pub unwritten: Vec<Mistake>,
 }
 
 /// Bytes of a field that stand in the text as they are.
@@ -20,19 +24,6 @@ struct Piece {
     text: Range<usize>,
     field: &'static str,
     offset: usize,
-}
-
-/// A mistake found while writing the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unwritten {
-    /// The field.
-    pub field: &'static str,
-    /// The bytes of the field.
-    pub range: Range<usize>,
-    /// The message.
-    pub message: String,
-    /// The correction.
-    pub help: String,
 }
 
 impl File {
@@ -70,9 +61,27 @@ impl File {
         file
     }
 
-    /// The field that these bytes of the text are from, and which of its bytes they are.
+    /// All mistakes in the order of the fields, then of their places.
     #[must_use]
-    pub fn place(&self, start: usize, end: usize) -> Option<(&'static str, Range<usize>)> {
+    pub fn mistakes(self, diagnostics: &Diagnostics) -> Vec<Mistake> {
+        let found = diagnostics.list().into_iter().map(|diagnostic| {
+            let mistake = Mistake::of_all(diagnostic.message(), diagnostic.help().as_deref());
+            let place = match diagnostic.span {
+                Span::Text { start, end } => self.place(start, end),
+                _ => None,
+            };
+            match place {
+                Some((field, range)) => Mistake { field: Some(field), ..mistake }.at(range),
+                None => mistake,
+            }
+        });
+        let mut list: Vec<Mistake> = self.unwritten.iter().cloned().chain(found).collect();
+        list.sort_by_key(|mistake| (mistake.field, mistake.start));
+        list
+    }
+
+    /// The field that these bytes of the text are from, and which of its bytes they are.
+    fn place(&self, start: usize, end: usize) -> Option<(&'static str, Range<usize>)> {
         let piece = self
             .pieces
             .iter()
@@ -166,12 +175,9 @@ impl File {
         self.text.push_str("\n[parameters]\n");
         for (offset, entry) in entries {
             let Some((name, value)) = entry.split_once('=') else {
-                self.unwritten.push(Unwritten {
-                    field: "parameters",
-                    range: offset..offset + entry.len(),
-                    message: format!("`{entry}` is no parameter of the form name = value"),
-                    help: "write for example I1 = 1.5".to_owned(),
-                });
+                let message = format!("`{entry}` is no parameter of the form name = value");
+                let mistake = Mistake::of("parameters", message, "write for example I1 = 1.5");
+                self.unwritten.push(mistake.at(offset..offset + entry.len()));
                 continue;
             };
             let at = |part: &str| offset + (part.as_ptr() as usize - entry.as_ptr() as usize);
@@ -236,19 +242,9 @@ fn parts(content: &str, separates: impl Fn(char) -> bool) -> Vec<(usize, &str)> 
     result
 }
 
-/// Whether TOML reads it as a number.
+/// Whether TOML reads it as a number with digits.
 fn is_number(text: &str) -> bool {
-    let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
-    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => {
-            (mantissa, exponent.strip_prefix(['-', '+']).unwrap_or(exponent))
-        }
-        None => (unsigned, "0"),
-    };
-    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, "0"));
-    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
-    digits(whole)
-        && digits(decimals)
-        && digits(exponent)
-        && (whole == "0" || !whole.starts_with('0'))
+    let number = DeValue::parse(text)
+        .is_ok_and(|value| matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_)));
+    number && !text.contains(['x', 'o', 'b', 'n'])
 }

@@ -122,10 +122,9 @@ fn expression(
     momenta: &[String],
     scalars: &[String],
 ) -> Result<String, String> {
-    let (mut known, mut arena, mut diagnostics) =
-        (Names::default(), Arena::new(), Diagnostics::new());
+    let (mut known, mut arena, diagnostics) = (Names::default(), Arena::new(), Diagnostics::new());
     for (i, name) in problem.coordinates.iter().enumerate() {
-        known.add(name, Name::Coordinate(i), Default::default(), &mut diagnostics);
+        known.add(name, Name::Coordinate(i), Default::default(), &diagnostics);
     }
     for i in 0..problem.coordinates.len() {
         known.alias(format!("mu[{i}]"), Name::Coordinate(i));
@@ -133,17 +132,17 @@ fn expression(
     let mut place = 0;
     for parameter in &problem.parameters {
         for name in parameter.scalar_names() {
-            known.add(&name, Name::Parameter(place), Default::default(), &mut diagnostics);
+            known.add(&name, Name::Parameter(place), Default::default(), &diagnostics);
             place += 1;
         }
     }
     for parameter in numbers {
         let values = parameter.default.iter().flatten().cloned();
         for (name, value) in parameter.scalar_names().iter().zip(values) {
-            known.add(name, Name::Number(value), Default::default(), &mut diagnostics);
+            known.add(name, Name::Number(value), Default::default(), &diagnostics);
         }
     }
-    let root = text::parse(&problem.source, 0, &known, &mut arena, &mut diagnostics);
+    let root = text::parse(&problem.source, 0, &[], &known, &mut arena, &diagnostics);
     if !diagnostics.is_empty() || arena.len() > MOST_OPERATIONS {
         return Err("this Hamiltonian cannot be written as a function: use the system file, in a build script by coadjoint_codegen::Build".to_owned());
     }
@@ -222,7 +221,7 @@ fn literal(number: &Rational) -> (String, u8) {
 /// A number with at most 15 decimals, with all of them.
 fn decimal(number: &Rational) -> Option<String> {
     let text = number.to_f64()?.to_string();
-    let back = coadjoint_codegen::parse::rational(&text).ok()?;
+    let back = coadjoint_codegen::parse::rational(&text)?;
     let text = if text.contains(['.', 'e']) { text } else { format!("{text}.0") };
     (back == *number).then_some(text)
 }
@@ -233,19 +232,15 @@ fn float(value: f64) -> String {
 
 /// A parameter's value as an argument.
 fn value(parameter: &Parameter) -> String {
-    let values: Vec<String> = parameter
-        .default
-        .iter()
-        .flatten()
-        .map(|x| {
-            let (text, strength) = literal(x);
-            if strength < ATOM && x.is_negative() && text.contains('/') {
-                format!("({text})")
-            } else {
-                text
-            }
-        })
-        .collect();
+    listed(parameter, |x| {
+        let (text, _) = literal(x);
+        if x.is_negative() && text.contains('/') { format!("({text})") } else { text }
+    })
+}
+
+/// A parameter's value as a number or as lists, which Python and Rust write alike.
+pub(crate) fn listed(parameter: &Parameter, one: impl Fn(&Rational) -> String) -> String {
+    let values: Vec<String> = parameter.default.iter().flatten().map(one).collect();
     match parameter.shape {
         Shape::Array(_) => format!("[{}]", values.join(", ")),
         Shape::Grid(_, columns) => {

@@ -10,7 +10,7 @@ use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
 use crate::fields::Fields;
 use crate::file::File;
-use crate::mistakes::{Mistake, of_file};
+use crate::mistakes::Mistake;
 use crate::rival::Rival;
 
 /// Steps of more operations than this are too slow for a page.
@@ -89,8 +89,8 @@ impl System {
         let file = File::of(fields);
         let read = match system::read(&file.text, Options::default()) {
             Ok(read) if file.unwritten.is_empty() => read,
-            Ok(_) => return Err(of_file(&file, &Default::default())),
-            Err(diagnostics) => return Err(of_file(&file, &diagnostics)),
+            Ok(_) => return Err(file.unwritten),
+            Err(diagnostics) => return Err(file.mistakes(&diagnostics)),
         };
         let problem = read.problem;
         let h = read.run.step.unwrap_or(0.1);

@@ -3,10 +3,10 @@
 use coadjoint_codegen::emit::c::{self, HeaderOptions};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse;
-use coadjoint_codegen::problem::{Parameter, Shape};
+use coadjoint_codegen::problem::Parameter;
 use num_traits::ToPrimitive;
 
-use crate::rust;
+use crate::rust::{self, listed};
 use crate::system::{LIMIT, System};
 
 /// A language.
@@ -127,18 +127,9 @@ fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
 
 /// A parameter's value: a number, a fraction as a text, or lists of these.
 fn value(parameter: &Parameter) -> String {
-    let one = |x: &coadjoint_codegen::number::Rational| {
+    listed(parameter, |x| {
         let number = x.to_f64().unwrap_or(f64::NAN);
-        let exact = parse::rational(&number.to_string()).is_ok_and(|back| back == *x);
+        let exact = parse::rational(&number.to_string()).is_some_and(|back| back == *x);
         if exact { format!("{number:?}") } else { format!("\"{x}\"") }
-    };
-    let values: Vec<String> = parameter.default.iter().flatten().map(one).collect();
-    match parameter.shape {
-        Shape::Array(_) => format!("[{}]", values.join(", ")),
-        Shape::Grid(_, columns) => {
-            let rows = values.chunks(columns.max(1)).map(|row| format!("[{}]", row.join(", ")));
-            format!("[{}]", rows.collect::<Vec<_>>().join(", "))
-        }
-        _ => values.concat(),
-    }
+    })
 }

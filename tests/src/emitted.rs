@@ -1,6 +1,7 @@
 //! Systems whose Rust the build script emits, for `tests/all/emitted_steps.rs` to compile and compare: arguments of the
 //! attribute, and the function.
 
+use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse::rust;
@@ -15,7 +16,8 @@ pub const SYSTEMS: [(&str, &str); 5] =
 /// The messages of the attribute.
 pub fn from_function((arguments, function): (&str, &str)) -> syn::Result<Integrator> {
     let function: syn::ItemFn = syn::parse_str(function)?;
-    let problem = rust::lie_poisson(arguments.parse()?, &function)?;
+    let problem =
+        rust::lie_poisson(arguments.parse()?, &function).map_err(Diagnostics::into_syn_error)?;
     Integrator::build(problem, TermLimit::default())
         .map_err(|error| syn::Error::new_spanned(&function.sig.ident, error))
 }

@@ -1,189 +1,135 @@
 //! The catalogue of mistakes: one place for every message and its advice.
 
+use coadjoint_symbolic::nearest::nearest;
 use thiserror::Error;
 
 use crate::lie::{ChartError, LieAlgebraError};
 
 /// A mistake in the input. The message is its `Display`; [`Mistake::help`] says what to
-/// write instead.
+/// write instead. The fields are those of the message, then what only the help needs: all names known, an example.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum Mistake {
+// Some are those of files alone.
+#[cfg_attr(not(feature = "system"), allow(dead_code))]
+pub(crate) enum Mistake {
     // --- expressions in text
-    /// The expression stops after an operator or an opening parenthesis.
     #[error("the expression ends too early")]
     Unfinished,
-    /// A token that cannot stand here.
     #[error("`{0}` cannot stand here")]
     Unexpected(String),
-    /// A number or a closing parenthesis directly before a name: a forgotten `*`.
     #[error("an operator is missing before `{0}`")]
     MissingOperator(String),
-    /// `(` without `)`.
     #[error("this parenthesis is never closed")]
     Unclosed,
-    /// A character that no token begins with.
     #[error("the character `{0}` has no meaning here")]
     Character(char),
-    /// A number that cannot be read.
     #[error("`{0}` is not a number")]
     Number(String),
-    /// A number with too many digits or too large an exponent.
-    #[error("the number `{0}` is too long or too large")]
+    #[error("the number `{}` is too long or too large", .0.chars().take(24).collect::<String>())]
     NumberSize(String),
-    /// A name that is neither a coordinate nor a parameter: name, nearest, all known.
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
-    /// A name that is read as time.
     #[error("unknown variable `{0}`: a system file cannot depend on time")]
     Time(String),
-    /// The inverse of something that has none: the name.
     #[error("`{0}` is not known")]
     Inverse(String),
-    /// An index that is not an integer.
     #[error("the index `{0}` is not an integer known here")]
     Index(String),
-    /// A function that does not exist: name, nearest.
     #[error("unknown function `{0}`{did}", did = did_you_mean(.1))]
     UnknownFunction(String, Option<String>),
-    /// A function's name without an argument.
     #[error("`{0}` is a function and needs an argument")]
     FunctionWithoutArgument(String),
-    /// A function with more or fewer than one argument: name, number of arguments.
     #[error("`{0}` takes one argument, not {1}")]
     ArgumentCount(String, usize),
 
-    /// A sum over an index that cannot be read: the reason.
     #[error("this sum cannot be read: {0}")]
     Sum(String),
 
     // --- polynomials
-    /// A function, other than a polynomial, of the momentum.
     #[error("`{0}` of the momentum is not a polynomial: the Hamiltonian must be one")]
     NotPolynomial(&'static str),
-    /// The momentum in a denominator.
     #[error("division by the momentum: the Hamiltonian must be a polynomial in it")]
     DivisionByMomentum,
-    /// A negative power of the momentum.
     #[error("the momentum has the negative power {0}: the Hamiltonian must be a polynomial in it")]
     NegativePower(String),
-    /// A power of the momentum that is no whole number.
     #[error(
         "the momentum has the fractional power {0}: the Hamiltonian must be a polynomial in it"
     )]
     FractionalPower(String),
-    /// A power of the momentum that is known only at run time.
     #[error("the power of the momentum is not a number known here")]
     UnknownPower,
-    /// The momentum in an exponent.
     #[error("the momentum stands in an exponent: the Hamiltonian must be a polynomial in it")]
     MomentumInExponent,
-    /// A power beyond the limit: power, limit.
     #[error("the power {0} is too large; at most {1} is allowed")]
     LargePower(String, u32),
-    /// Division by a number that is zero.
     #[error("division by zero")]
     DivisionByZero,
-    /// A function of a number that is not real or not finite.
     #[error("`{0}` is not a real number")]
     NotReal(String),
-    /// A polynomial beyond the limit: terms so far, limit.
     #[error("the Hamiltonian is too large: at least {0} terms, more than the limit of {1}")]
     TooManyTerms(usize, usize),
-    /// Exact numbers that grow beyond the limit.
     #[error("the exact coefficients grow beyond {0} bits here")]
     LargeCoefficient(u64),
-    /// H does not depend on the momentum.
     #[error("the Hamiltonian does not depend on the momentum, so nothing would move")]
     NoDependence,
 
     // --- the problem as a whole
-    /// Truncation 0.
     #[error("truncation 0 keeps no term of the generating function")]
     TruncationZero,
-    /// An even truncation.
     #[error(
         "truncation {0} is even: the even terms S₂, S₄, … of the generating function vanish \
          identically, so {0} would give the very integrator of {below}", below = .0.saturating_sub(1)
     )]
     TruncationEven(usize),
-    /// A truncation beyond the limit: truncation, limit.
     #[error("truncation {0} is too large; at most {1} is allowed")]
     TruncationLarge(usize, usize),
-    /// A truncation that is no whole number.
     #[error("the truncation must be a whole number")]
     TruncationNumber,
-    /// A chart nobody knows: name, nearest.
     #[error("unknown chart `{0}`{did}", did = did_you_mean(.1))]
     UnknownChart(String, Option<String>),
-    /// A solver nobody knows: name, nearest.
     #[error("unknown solver `{0}`{did}", did = did_you_mean(.1))]
     UnknownSolver(String, Option<String>),
-    /// A frame nobody knows: name, nearest.
     #[error("unknown frame `{0}`{did}", did = did_you_mean(.1))]
     UnknownFrame(String, Option<String>),
-    /// A comoving frame is asked for where none makes the series shorter.
     #[error(
         "there is no comoving frame: neither a coordinate that is an integral nor a quadratic Casimir takes terms from the series"
     )]
     NoFrame,
-    /// A chart the group does not have.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// The group is not in the catalogue.
     #[error("{0}")]
     Group(String),
-    /// Data that defines no Lie algebra.
     #[error(transparent)]
     Algebra(#[from] LieAlgebraError),
-    /// The momentum has not as many coordinates as the group has dimensions: found, group,
-    /// expected.
     #[error("the momentum has {0} coordinates, but the dual of the Lie algebra of {1} has {2}")]
     Dimension(usize, String, usize),
-    /// A name used twice: name, what has it already.
     #[error("the name `{0}` is already taken by {1}")]
     NameTaken(String, String),
-    /// A name that is not a word.
     #[error("`{0}` is not usable as a name")]
     BadName(String),
 
     // --- the attribute and its function
-    /// Anything the reader of Rust functions does not understand: what, what to write instead.
-    #[error("{0}")]
-    Unsupported(String, String),
-    /// A value known only at run time where one is needed to unroll.
     #[error("{0} must be known when the integrator is generated")]
     NotConstant(&'static str),
-    /// A loop that does not end within the limit.
     #[error("the loops of this function run through more than {0} operations")]
     LongLoop(usize),
-    /// An index beyond an array: index, length.
     #[error("index {0} is out of range: there are {1} entries, counted from 0")]
     IndexRange(String, usize),
 
     // --- files and arguments
-    /// A key nobody knows: key, what it was found in, nearest, all known.
     #[error("unknown key `{0}` in {1}{did}", did = did_you_mean(.2))]
     UnknownKey(String, String, Option<String>, Vec<String>),
-    /// A key that must be given: key, in what, an example.
     #[error("`{0}` is missing in {1}")]
     MissingKey(String, String, String),
-    /// A key given twice.
     #[error("`{0}` is given twice")]
     RepeatedKey(String),
-    /// A value of the wrong kind: key, what was expected, what was found, an example.
     #[error("`{0}` must be {1}, not {2}")]
     WrongKind(String, String, String, String),
-    /// A quote that opens a text which nothing closes.
     #[error("this quote has no partner: the text that it opens is never closed")]
     UnclosedQuote,
-    /// The file is not TOML.
     #[error("not readable as TOML: {0}")]
     Toml(String),
-    /// Input that could not be read although nothing particular was found wrong.
     #[error("the input could not be read")]
     Unreadable,
-    /// Anything else: message, help.
     #[error("{0}")]
     Other(String, Option<String>),
 }
@@ -193,10 +139,21 @@ fn did_you_mean(suggestion: &Option<String>) -> String {
 }
 
 impl Mistake {
+    /// A key of `owner` that is not among `known`.
+    pub(crate) fn unknown_key(key: &str, owner: &str, known: &[&str]) -> Self {
+        let near = nearest(key, known.iter().copied()).map(str::to_owned);
+        let known = known.iter().map(|&key| key.to_owned()).collect();
+        Self::UnknownKey(key.to_owned(), owner.to_owned(), near, known)
+    }
+
+    /// A key that must be given in `owner`.
+    pub(crate) fn missing_key(key: &str, owner: &str, example: &str) -> Self {
+        Self::MissingKey(key.to_owned(), owner.to_owned(), example.to_owned())
+    }
+
     /// The same mistake in a potential, which is a polynomial in the group element's matrix where a
     /// Hamiltonian is one in the momentum.
-    #[must_use]
-    pub fn in_potential(self) -> Self {
+    pub(crate) fn in_potential(self) -> Self {
         let words = |text: &str| {
             text.replace("the momentum's coordinates", "entries of the group element's matrix")
                 .replace("the momentum", "the group element")
@@ -223,8 +180,7 @@ impl Mistake {
     }
 
     /// A correction, where there is more to say than the message does.
-    #[must_use]
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         let text = match self {
             Self::Unfinished => "write a number, a name or a parenthesis here",
             Self::Unexpected(_) => {
@@ -300,8 +256,6 @@ impl Mistake {
             }
             Self::BadName(_) => "names begin with a letter and continue with letters, digits and _",
             Self::NameTaken(..) => "rename one of the two",
-            Self::Unsupported(_, help) if help.is_empty() => return None,
-            Self::Unsupported(_, help) => help,
             Self::NotConstant(_) => "use a literal, a `const` of the body or a loop variable",
             Self::LongLoop(_) => "write the sum with fewer terms",
             Self::UnknownKey(_, _, _, known) => {

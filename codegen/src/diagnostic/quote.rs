@@ -5,16 +5,7 @@
 /// A text in single quotes ends on its line, one in triple quotes anywhere. Where a closing quote
 /// is missing in a list, the next text's opening quote closes it, and what follows is no separator:
 /// that text is taken to be the one left open.
-///
-/// ```
-/// use coadjoint_codegen::diagnostic::unclosed_quote;
-///
-/// assert_eq!(unclosed_quote("a = \"b\nc = \"d\""), Some(4));
-/// assert_eq!(unclosed_quote("a = [\"x, \"y\", \"z\"]"), Some(5));
-/// assert_eq!(unclosed_quote("a = \"b # \\\" c\" # \"\n"), None);
-/// ```
-#[must_use]
-pub fn unclosed_quote(text: &str) -> Option<usize> {
+pub(crate) fn unclosed_quote(text: &str) -> Option<usize> {
     let bytes = text.as_bytes();
     let mut at = 0;
     // The first text on this line that something other than a separator follows.
@@ -65,4 +56,16 @@ fn end(bytes: &[u8], start: usize, quote: u8, long: bool) -> Option<usize> {
         at += 1;
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unclosed_quote;
+
+    #[test]
+    fn the_quote_without_a_partner_is_found() {
+        assert_eq!(unclosed_quote("a = \"b\nc = \"d\""), Some(4));
+        assert_eq!(unclosed_quote("a = [\"x, \"y\", \"z\"]"), Some(5));
+        assert_eq!(unclosed_quote("a = \"b # \\\" c\" # \"\n"), None);
+    }
 }

@@ -12,23 +12,18 @@ impl Diagnostics {
     /// a marker, and `help: …`.
     #[must_use]
     pub fn render(&self, file: &str, text: &str) -> String {
-        render(&self.list, file, text)
+        let mut ordered = self.list();
+        ordered.sort_by_key(|d| match d.span {
+            Span::Text { start, .. } => start,
+            _ => 0,
+        });
+        let mut out = String::new();
+        for diagnostic in &ordered {
+            // Writing into a string cannot fail.
+            let _ = one(&mut out, diagnostic, file, text);
+        }
+        out
     }
-}
-
-/// Renders `list`, ordered by place, against the text it is about.
-fn render(list: &[Diagnostic], file: &str, text: &str) -> String {
-    let mut ordered: Vec<&Diagnostic> = list.iter().collect();
-    ordered.sort_by_key(|d| match d.span {
-        Span::Text { start, .. } => start,
-        _ => 0,
-    });
-    let mut out = String::new();
-    for diagnostic in ordered {
-        // Writing into a string cannot fail.
-        let _ = one(&mut out, diagnostic, file, text);
-    }
-    out
 }
 
 fn one(out: &mut String, diagnostic: &Diagnostic, file: &str, text: &str) -> std::fmt::Result {
@@ -100,7 +95,7 @@ mod tests {
     #[test]
     fn the_order_is_that_of_the_text_and_the_end_is_a_place() {
         let text = "x + y";
-        let mut diagnostics = Diagnostics::new();
+        let diagnostics = Diagnostics::new();
         diagnostics.report(Span::text(5..5), Mistake::Unfinished);
         diagnostics.report(Span::text(0..1), Mistake::NoDependence);
         insta::assert_snapshot!(diagnostics.render("h.toml", text));

@@ -29,20 +29,17 @@ pub enum Span {
 
 impl Span {
     /// A range of bytes.
-    #[must_use]
-    pub fn text(range: Range<usize>) -> Self {
+    pub(crate) fn text(range: Range<usize>) -> Self {
         Self::Text { start: range.start, end: range.end }
     }
 
     /// A single token.
-    #[must_use]
-    pub fn from_tokens(span: proc_macro2::Span) -> Self {
+    pub(crate) fn from_tokens(span: proc_macro2::Span) -> Self {
         Self::Tokens { first: span, last: span }
     }
 
     /// All tokens of a piece of syntax.
-    #[must_use]
-    pub fn of(syntax: &impl ToTokens) -> Self {
+    pub(crate) fn of(syntax: &impl ToTokens) -> Self {
         let mut tokens = syntax.to_token_stream().into_iter();
         let Some(first) = tokens.next().map(|token| token.span()) else {
             return Self::Whole;
@@ -51,8 +48,7 @@ impl Span {
     }
 
     /// From the start of this span to the end of `other`.
-    #[must_use]
-    pub fn to(self, other: Self) -> Self {
+    pub(crate) fn to(self, other: Self) -> Self {
         match (self, other) {
             (Self::Text { start, .. }, Self::Text { end, .. }) => Self::Text { start, end },
             (Self::Tokens { first, .. }, Self::Tokens { last, .. }) => Self::Tokens { first, last },
@@ -61,8 +57,7 @@ impl Span {
     }
 
     /// A span of text, moved `by` bytes to the right.
-    #[must_use]
-    pub fn shifted(self, by: usize) -> Self {
+    pub(crate) fn shifted(self, by: usize) -> Self {
         match self {
             Self::Text { start, end } => Self::Text { start: start + by, end: end + by },
             other => other,
@@ -78,7 +73,7 @@ impl Span {
         }
     }
 
-    pub(super) fn is_text(self) -> bool {
+    pub(crate) fn is_text(self) -> bool {
         matches!(self, Self::Text { .. })
     }
 

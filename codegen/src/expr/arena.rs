@@ -45,8 +45,7 @@ pub enum Node {
 
 impl Node {
     /// The operands of the node: two, one, or none.
-    #[must_use]
-    pub fn operands(&self) -> [Option<ExprId>; 2] {
+    pub(crate) fn operands(&self) -> [Option<ExprId>; 2] {
         match *self {
             Self::Number(_) | Self::Coordinate(_) | Self::Parameter(_) | Self::Wrong => {
                 [None, None]
@@ -78,7 +77,7 @@ impl Arena {
     }
 
     /// Adds a node that was read at `span`.
-    pub fn push(&mut self, node: Node, span: Span) -> ExprId {
+    pub(crate) fn push(&mut self, node: Node, span: Span) -> ExprId {
         // Inputs are far smaller than 2³² operations; the loops of the front ends are limited.
         let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
         self.nodes.push((node, span));
@@ -104,8 +103,7 @@ impl Arena {
     }
 
     /// The place in the input where the node was read.
-    #[must_use]
-    pub fn span(&self, id: ExprId) -> Span {
+    pub(crate) fn span(&self, id: ExprId) -> Span {
         self.nodes[id.index()].1
     }
 

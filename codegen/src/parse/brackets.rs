@@ -10,16 +10,16 @@ use crate::pass::linear;
 use num_traits::Zero;
 
 /// \\[e_i, e_j\\] with its components along the generators: (i, j, [(k, c_ij^k)]).
-pub type Bracket = (usize, usize, Vec<(usize, Rational)>);
+pub(crate) type Bracket = (usize, usize, Vec<(usize, Rational)>);
 
 /// Reads one bracket. The generators are the coordinates among `names`; `line` begins at byte
 /// `offset` of its source, and `whole` is where it stands.
-pub fn bracket(
+pub(crate) fn bracket(
     line: &str,
     offset: usize,
     whole: Span,
     names: &Names,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Bracket> {
     let parts = line.split_once('=').and_then(|(left, right)| {
         let inside = left.trim().strip_prefix('[')?.strip_suffix(']')?;
@@ -27,12 +27,11 @@ pub fn bracket(
         Some((a.trim(), b.trim(), right))
     });
     let Some((a, b, right)) = parts else {
-        let message = format!("`{line}` is no bracket");
-        let help = "write for example \"[a, b] = c\" or \"[a, c] = -1/2*b\"".to_owned();
-        diagnostics.report(whole, Mistake::Other(message, Some(help)));
+        let help = "write for example \"[a, b] = c\" or \"[a, c] = -1/2*b\"";
+        diagnostics.report_other(whole, format!("`{line}` is no bracket"), help);
         return None;
     };
-    let mut generator = |name: &str| match names.get(name) {
+    let generator = |name: &str| match names.get(name) {
         Some(Name::Coordinate(i)) => Some(*i),
         _ => {
             diagnostics.report(whole, names.unknown(name));
@@ -43,7 +42,7 @@ pub fn bracket(
     let mut arena = Arena::new();
     let start = offset + line.len() - right.len();
     let before = diagnostics.len();
-    let root = text::parse(right, start, names, &mut arena, diagnostics);
+    let root = text::parse(right, start, &[], names, &mut arena, diagnostics);
     if diagnostics.len() > before {
         return None;
     }

@@ -8,7 +8,8 @@ mod sum;
 pub mod text;
 mod token;
 
-pub use brackets::{Bracket, bracket};
-pub use decimal::{NumberError, decimal, rational};
+pub(crate) use brackets::bracket;
+pub use decimal::rational;
+pub(crate) use decimal::{decimal, fraction, rows};
 pub use names::{Name, Names};
 pub use token::words;

@@ -35,35 +35,38 @@ pub struct Names {
 }
 
 impl Names {
-    /// No names.
-    #[must_use]
-    pub const fn none() -> Self {
-        Self { known: BTreeMap::new(), order: Vec::new() }
-    }
-
     /// Adds a second name of something, which messages do not list; nothing where the name is known already.
     pub fn alias(&mut self, name: String, meaning: Name) {
         self.known.entry(name).or_insert(meaning);
     }
 
     /// Adds a name, or reports that it is no name or already taken.
-    pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &mut Diagnostics) {
-        if !is_name(name) {
-            diagnostics.report(span, Mistake::BadName(name.to_owned()));
+    pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &Diagnostics) {
+        let taken = if !is_name(name) {
+            return diagnostics.report(span, Mistake::BadName(name.to_owned()));
         } else if Function::lookup(name).is_some() || name == "sum" {
-            let taken = Mistake::NameTaken(name.to_owned(), "a function".to_owned());
-            diagnostics.report(span, taken);
+            "a function"
         } else if let Some(before) = self.known.get(name) {
-            let taken = Mistake::NameTaken(name.to_owned(), before.describe().to_owned());
-            diagnostics.report(span, taken);
+            before.describe()
         } else {
             self.known.insert(name.to_owned(), meaning);
             self.order.push(name.to_owned());
+            return;
+        };
+        diagnostics.report(span, Mistake::NameTaken(name.to_owned(), taken.to_owned()));
+    }
+
+    /// The names of coordinates, which are told apart by their places.
+    pub(crate) fn of_coordinates(names: &[(String, Span)], diagnostics: &Diagnostics) -> Self {
+        let mut known = Self::default();
+        for (i, (name, place)) in names.iter().enumerate() {
+            known.add(name, Name::Coordinate(i), *place, diagnostics);
         }
+        known
     }
 
     /// Adds every name of others that is not known yet.
-    pub fn include(&mut self, others: &Self) {
+    pub(crate) fn include(&mut self, others: &Self) {
         let new = others.order.iter().filter(|name| !self.known.contains_key(*name)).cloned();
         self.order.extend(new.collect::<Vec<_>>());
         for (name, meaning) in &others.known {
@@ -72,14 +75,12 @@ impl Names {
     }
 
     /// The meaning of the name.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<&Name> {
+    pub(crate) fn get(&self, name: &str) -> Option<&Name> {
         self.known.get(name)
     }
 
     /// The mistake of using a name that is not known.
-    #[must_use]
-    pub fn unknown(&self, name: &str) -> Mistake {
+    pub(crate) fn unknown(&self, name: &str) -> Mistake {
         if matches!(name, "t" | "time") {
             return Mistake::Time(name.to_owned());
         }

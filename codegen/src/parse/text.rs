@@ -20,26 +20,15 @@ const MOST_OPERATIONS: usize = 1_000_000;
 /// After this many mistakes in one expression the rest is not read.
 const MOST_MISTAKES: usize = 20;
 
-/// Reads `text` into `arena`. Every mistake goes to `diagnostics`, at its bytes in `text` moved
-/// right by `offset`; where there was one, the result stands for something [`Node::Wrong`].
+/// Reads `text` into `arena`, where `indices` stand for integers. Every mistake goes to `diagnostics`, at its bytes in
+/// `text` moved right by `offset`; where there was one, the result stands for something [`Node::Wrong`].
 pub fn parse(
-    text: &str,
-    offset: usize,
-    names: &Names,
-    arena: &mut Arena,
-    diagnostics: &mut Diagnostics,
-) -> ExprId {
-    parse_with(text, offset, &[], names, arena, diagnostics)
-}
-
-/// As [`parse`], with names that stand for integers.
-pub fn parse_with(
     text: &str,
     offset: usize,
     indices: &[(&str, i64)],
     names: &Names,
     arena: &mut Arena,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> ExprId {
     let indices = indices.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
     parse_in(text, offset, &Scope { names, indices }, arena, diagnostics)
@@ -50,7 +39,7 @@ fn parse_in(
     offset: usize,
     scope: &Scope<'_>,
     arena: &mut Arena,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> ExprId {
     let before = diagnostics.len();
     let mut parser =
@@ -117,7 +106,7 @@ impl Operator {
 struct Parser<'a> {
     scope: &'a Scope<'a>,
     arena: &'a mut Arena,
-    diagnostics: &'a mut Diagnostics,
+    diagnostics: &'a Diagnostics,
     offset: usize,
     operands: Vec<(ExprId, Span)>,
     operators: Vec<(Operator, Span)>,
@@ -149,7 +138,7 @@ impl Parser<'_> {
     ) -> bool {
         cancel::check();
         let span = self.span(range.clone());
-        let shown = &text[range];
+        let shown = &text[range.clone()];
         if expects_operand {
             match token {
                 Token::Number(value) => self.operand(Node::Number(value), span),
@@ -169,41 +158,23 @@ impl Parser<'_> {
                     self.open(span);
                     return true;
                 }
-                Token::Close | Token::Comma => {
-                    self.diagnostics.report(span, Mistake::Unexpected(shown.to_owned()));
-                    self.operand(Node::Wrong, span);
-                    return self.token_after_operand(token, span, shown);
-                }
-                Token::Times | Token::Over | Token::Power => {
+                _ => {
                     self.wrong(span, Mistake::Unexpected(shown.to_owned()));
-                    return self.token_after_operand(token, span, shown);
+                    return self.token(token, range, text, false, before_open);
                 }
             }
             return false;
         }
         match token {
-            Token::Number(_) | Token::Name(_) | Token::Open | Token::Wrong(_) => {
-                if let Token::Wrong(mistake) = token {
-                    self.diagnostics.report(span, mistake);
-                    return false;
-                }
+            Token::Number(_) | Token::Name(_) | Token::Open => {
                 self.diagnostics.report(span, Mistake::MissingOperator(shown.to_owned()));
                 self.binary(Operator::Mul, span);
-                self.token(token, self.unshifted(span), text, true, before_open)
+                return self.token(token, range, text, true, before_open);
             }
-            _ => self.token_after_operand(token, span, shown),
-        }
-    }
-
-    fn unshifted(&self, span: Span) -> Range<usize> {
-        match span {
-            Span::Text { start, end } => start - self.offset..end - self.offset,
-            _ => 0..0,
-        }
-    }
-
-    fn token_after_operand(&mut self, token: Token, span: Span, shown: &str) -> bool {
-        match token {
+            Token::Wrong(mistake) => {
+                self.diagnostics.report(span, mistake);
+                return false;
+            }
             Token::Plus => self.binary(Operator::Add, span),
             Token::Minus => self.binary(Operator::Sub, span),
             Token::Times => self.binary(Operator::Mul, span),
@@ -220,7 +191,6 @@ impl Parser<'_> {
                     _ => self.diagnostics.report(span, Mistake::Unexpected(shown.to_owned())),
                 }
             }
-            Token::Number(_) | Token::Name(_) | Token::Open | Token::Wrong(_) => {}
         }
         true
     }

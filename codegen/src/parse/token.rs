@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::decimal::{NumberError, decimal};
+use super::decimal::decimal;
 use super::names::{begins_name, continues_name, is_word};
 use crate::diagnostic::Mistake;
 use crate::number::Rational;
@@ -114,15 +114,7 @@ impl Iterator for Tokens<'_> {
         let (token, length) = match first {
             '0'..='9' | '.' => {
                 let length = self.number();
-                let text = &rest[..length];
-                let token = match decimal(text) {
-                    Ok(value) => Token::Number(value),
-                    Err(NumberError::Form) => Token::Wrong(Mistake::Number(text.to_owned())),
-                    Err(NumberError::Size) => {
-                        let shown: String = text.chars().take(24).collect();
-                        Token::Wrong(Mistake::NumberSize(shown))
-                    }
-                };
+                let token = decimal(&rest[..length]).map_or_else(Token::Wrong, Token::Number);
                 (token, length)
             }
             c if begins_name(c) => {

@@ -1,186 +1,143 @@
 //! The last step of every front end: checks, and the finished problem.
 
-use num_integer::Integer;
-
+use super::choice::Choice;
 use super::coefficient::{ONE, Table};
 use super::polynomial::{Sum, polynomial};
 use super::sums::name_sums;
 use crate::comoving::comoving;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
-use crate::lie::{Chart, LieAlgebra};
+use crate::lie::LieAlgebra;
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
-use crate::problem::{FrameChoice, Parameter, Problem, Solver, Symbol};
+use crate::problem::{FrameChoice, Parameter, Problem, Symbol};
 
-/// The truncation where none is given: order of accuracy 8.
-pub const DEFAULT_TRUNCATION: usize = 7;
+/// An energy as a front end has read it: a Hamiltonian, or a potential.
+#[derive(Debug, Default)]
+pub(crate) struct Energy {
+    /// The nodes of its expression. Coordinates are those of the momentum, or the entries of the group element's
+    /// matrix, row by row.
+    pub arena: Arena,
+    /// The energy itself, and where it stands; `None` where the input was wrong, which has been reported.
+    pub root: Option<(ExprId, Span)>,
+    pub parameters: Vec<Parameter>,
+    /// The energy as the user wrote it.
+    pub source: String,
+}
 
-/// The largest truncation accepted.
-pub const MAX_TRUNCATION: usize = 63;
+impl Energy {
+    /// It as a polynomial; `None` where something is wrong, which has then been reported.
+    fn polynomial(&self, table: &mut Table, diagnostics: &Diagnostics) -> Option<Sum> {
+        let root = self.root.map(|(root, _)| root);
+        let sum = polynomial(&self.arena, root, table, diagnostics);
+        if let (Some(sum), Some((_, span))) = (&sum, self.root)
+            && sum.terms.keys().all(Vec::is_empty)
+        {
+            diagnostics.report(span, Mistake::NoDependence);
+        }
+        sum
+    }
 
-/// The result of a front end. A field is `None` where the input was wrong, which has then been reported.
-#[derive(Clone, Debug)]
-pub struct Draft {
-    /// The name of the system.
+    fn scalar_names(&self) -> Vec<String> {
+        self.parameters.iter().flat_map(Parameter::scalar_names).collect()
+    }
+}
+
+/// A system as a front end has read it.
+#[derive(Debug)]
+pub(crate) struct Draft {
     pub name: String,
-    /// The Lie algebra 𝔤.
+    /// `None` where the input was wrong, which has been reported.
     pub algebra: Option<LieAlgebra>,
     /// The names of the momentum's coordinates.
     pub coordinates: Vec<String>,
     /// The place where the coordinates are named.
     pub coordinates_span: Span,
-    /// The nodes of the Hamiltonian's expression.
-    pub arena: Arena,
-    /// The Hamiltonian itself, and where it stands.
-    pub hamiltonian: Option<(ExprId, Span)>,
-    /// The parameters.
-    pub parameters: Vec<Parameter>,
-    /// The Hamiltonian as the user wrote it.
-    pub source: String,
-    /// The chart, and where it is given.
-    pub chart: (Chart, Span),
-    /// The truncation K.
-    pub truncation: Option<usize>,
-    /// The solver, if one is asked for.
-    pub solver: Option<Solver>,
-    /// The frame, and where it is given.
-    pub frame: (FrameChoice, Span),
+    pub hamiltonian: Energy,
+    pub choice: Choice,
 }
 
-/// Checks what was read and turns it into a problem.
-///
-/// # Errors
-/// All mistakes: those already in `diagnostics`, and those found here.
-pub fn assemble(draft: Draft, mut diagnostics: Diagnostics) -> Result<Problem, Diagnostics> {
-    let report = &mut diagnostics;
-    let count = draft.coordinates.len();
-    if let Some(algebra) = &draft.algebra {
+/// Checks what was read and turns it into a problem; `None` where something is wrong, which has then been reported.
+pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Problem> {
+    let Draft { name, algebra, coordinates, hamiltonian: energy, choice, .. } = draft;
+    let count = coordinates.len();
+    let (chart, chart_span) = choice.chart;
+    if let Some(algebra) = &algebra {
         if count != algebra.dim() {
             let mistake = Mistake::Dimension(count, algebra.name().to_owned(), algebra.dim());
-            report.report(draft.coordinates_span, mistake);
+            diagnostics.report(draft.coordinates_span, mistake);
         }
-        check_chart(draft.chart.0, algebra, draft.chart.1, report);
+        diagnostics.check(chart_span, chart.check(algebra).map_err(Mistake::Chart));
     }
     let mut table = Table::new();
-    let root = draft.hamiltonian.map(|(root, _)| root);
-    let sum = polynomial(&draft.arena, root, &mut table, report);
-    if let (Some(sum), Some((_, span))) = (&sum, draft.hamiltonian)
-        && sum.terms.keys().all(Vec::is_empty)
-    {
-        report.report(span, Mistake::NoDependence);
-    }
+    let sum = energy.polynomial(&mut table, diagnostics);
     if !diagnostics.is_empty() {
-        return Err(diagnostics);
+        return None;
     }
-    let (Some(algebra), Some(sum), Some(truncation)) = (draft.algebra, sum, draft.truncation)
-    else {
-        diagnostics.report(Span::Whole, Mistake::Unreadable);
-        return Err(diagnostics);
-    };
-
-    let (mut hamiltonian, mut symbols) = exact(sum, count, &mut table, &draft.parameters);
+    let (algebra, truncation) = (algebra?, choice.truncation?);
+    let names = energy.scalar_names();
+    let (mut hamiltonian, mut symbols) = exact(sum?, count, &mut table, &names);
     let mut frame = None;
-    if let (FrameChoice::Comoving, span) = draft.frame {
-        let Some(found) = comoving(&algebra, draft.chart.0, &hamiltonian) else {
-            diagnostics.report(span, Mistake::NoFrame);
-            return Err(diagnostics);
-        };
-        let names: Vec<String> =
-            draft.parameters.iter().flat_map(Parameter::scalar_names).collect();
+    if let (FrameChoice::Comoving, span) = choice.frame {
+        let found = comoving(&algebra, chart, &hamiltonian).ok_or(Mistake::NoFrame);
+        let found = diagnostics.check(span, found)?;
         frame = Some(name_sums(&found, count, &mut symbols, &names));
         hamiltonian = hamiltonian.widened(count + symbols.len()).into_owned();
     }
-    Ok(Problem {
-        name: draft.name,
+    Some(Problem {
+        name,
         algebra,
-        coordinates: draft.coordinates,
+        coordinates,
         hamiltonian,
         symbols,
-        parameters: draft.parameters,
-        source: draft.source,
-        chart: draft.chart.0,
+        parameters: energy.parameters,
+        source: energy.source,
+        chart,
         truncation,
-        solver: draft.solver,
+        solver: choice.solver,
         comoving: frame,
         learned: false,
     })
 }
 
-/// The result of a front end for a potential.
-#[derive(Clone, Debug)]
-pub struct PotentialDraft {
-    /// The name of the potential.
-    pub name: String,
-    /// The Lie algebra 𝔤.
-    pub algebra: Option<LieAlgebra>,
-    /// The numbers of rows and columns that were declared for the matrix, and where; `None` where the group
-    /// determines them.
-    pub declared: Option<((usize, usize), Span)>,
-    /// The nodes of the potential's expression.
-    pub arena: Arena,
-    /// The potential itself, and where it stands.
-    pub energy: Option<(ExprId, Span)>,
-    /// The parameters.
-    pub parameters: Vec<Parameter>,
-    /// The potential as the user wrote it.
-    pub source: String,
-}
-
-/// Checks what was read and turns it into a potential. Coordinates of the arena are the entries of
-/// the group element's matrix, row by row.
-///
-/// # Errors
-/// All mistakes: those already in `diagnostics`, and those found here.
-pub fn assemble_potential(
-    draft: PotentialDraft,
-    mut diagnostics: Diagnostics,
-) -> Result<Potential, Diagnostics> {
-    let size = draft.algebra.as_ref().map(matrix_size);
-    if let (Some(size), Some(((rows, columns), span)), Some(algebra)) =
-        (size, draft.declared, &draft.algebra)
+/// Checks what was read and turns it into a potential; `None` where something is wrong, which has then been reported.
+/// `declared` are the rows and columns of the matrix where the input says them, and where.
+pub(crate) fn assemble_potential(
+    name: String,
+    algebra: Option<LieAlgebra>,
+    declared: Option<((usize, usize), Span)>,
+    energy: Energy,
+    diagnostics: &Diagnostics,
+) -> Option<Potential> {
+    let before = diagnostics.len();
+    let size = algebra.as_ref().map(matrix_size);
+    if let (Some(size), Some(((rows, columns), span)), Some(algebra)) = (size, declared, &algebra)
         && (rows, columns) != (size, size)
     {
         let name = algebra.name();
         let message =
             format!("elements of {name} are {size} × {size} matrices, not {rows} × {columns}");
         let help = format!("write for example g: [[f64; {size}]; {size}]");
-        diagnostics.report(span, Mistake::Other(message, Some(help)));
+        diagnostics.report_other(span, message, &help);
     }
     let mut table = Table::new();
-    let root = draft.energy.map(|(root, _)| root);
-    let mut found = Diagnostics::new();
-    let sum = polynomial(&draft.arena, root, &mut table, &mut found);
-    for mistake in found.iter() {
-        diagnostics.report(mistake.span, mistake.mistake.clone().in_potential());
+    let found = Diagnostics::new();
+    let sum = energy.polynomial(&mut table, &found);
+    for found in found.list() {
+        diagnostics.report(found.span, found.mistake.in_potential());
     }
-    if let (Some(sum), Some((_, span))) = (&sum, draft.energy)
-        && sum.terms.keys().all(Vec::is_empty)
-    {
-        diagnostics.report(span, Mistake::NoDependence.in_potential());
+    if diagnostics.len() > before {
+        return None;
     }
-    let (Some(algebra), Some(size), Some(sum), true) =
-        (draft.algebra, size, sum, diagnostics.is_empty())
-    else {
-        if diagnostics.is_empty() {
-            diagnostics.report(Span::Whole, Mistake::Unreadable);
-        }
-        return Err(diagnostics);
-    };
-    let (energy, symbols) = exact(sum, size * size, &mut table, &draft.parameters);
-    let PotentialDraft { name, parameters, source, .. } = draft;
-    Ok(Potential { name, algebra, energy, symbols, parameters, source })
+    let (algebra, size) = (algebra?, size?);
+    let (polynomial, symbols) = exact(sum?, size * size, &mut table, &energy.scalar_names());
+    let Energy { parameters, source, .. } = energy;
+    Some(Potential { name, algebra, energy: polynomial, symbols, parameters, source })
 }
 
 /// The polynomial in `count` variables and the symbols, and the symbols.
-fn exact(
-    sum: Sum,
-    count: usize,
-    table: &mut Table,
-    parameters: &[Parameter],
-) -> (Polynomial, Vec<Symbol>) {
-    let scalar_names: Vec<String> = parameters.iter().flat_map(Parameter::scalar_names).collect();
+fn exact(sum: Sum, count: usize, table: &mut Table, names: &[String]) -> (Polynomial, Vec<Symbol>) {
     // Symbols are numbered in the order of the terms they first occur in, highest terms first.
     let mut terms: Vec<(Vec<u32>, Rational, usize)> = sum
         .terms
@@ -213,82 +170,26 @@ fn exact(
         .iter()
         .map(|&product| {
             let expr = table.expression(product);
-            let text = expr.text(&scalar_names);
+            let text = expr.text(names);
             Symbol { expr, text }
         })
         .collect();
     (polynomial, symbols)
 }
 
-/// The truncation, if it is usable; otherwise reports why not.
-pub fn check_truncation(k: usize, span: Span, diagnostics: &mut Diagnostics) -> Option<usize> {
-    let mistake = match k {
-        0 => Mistake::TruncationZero,
-        k if k > MAX_TRUNCATION => Mistake::TruncationLarge(k, MAX_TRUNCATION),
-        k if k.is_even() => Mistake::TruncationEven(k),
-        k => return Some(k),
-    };
-    diagnostics.report(span, mistake);
-    None
-}
-
-/// Reports a chart that the group does not have.
-pub fn check_chart(chart: Chart, algebra: &LieAlgebra, span: Span, diagnostics: &mut Diagnostics) {
-    if let Err(error) = chart.check(algebra) {
-        diagnostics.report(span, Mistake::Chart(error));
-    }
-}
-
-/// The chart of this name: `exp` or `cayley`.
-///
-/// # Errors
-/// [`Mistake::UnknownChart`].
-pub fn chart(name: &str) -> Result<Chart, Mistake> {
-    match name {
-        "exp" | "exponential" => Ok(Chart::Exponential),
-        "cayley" => Ok(Chart::Cayley),
-        _ => {
-            let suggestion = crate::diagnostic::nearest(name, ["exp", "cayley"]);
-            Err(Mistake::UnknownChart(name.to_owned(), suggestion.map(str::to_owned)))
-        }
-    }
-}
-
-/// The solver of this name: `newton` or `fixed_point`.
-///
-/// # Errors
-/// [`Mistake::UnknownSolver`].
-pub fn solver(name: &str) -> Result<Solver, Mistake> {
-    Solver::named(name).ok_or_else(|| {
-        let suggestion = crate::diagnostic::nearest(name, Solver::NAMES);
-        Mistake::UnknownSolver(name.to_owned(), suggestion.map(str::to_owned))
-    })
-}
-
-/// The frame of this name: `fixed` or `comoving`.
-///
-/// # Errors
-/// [`Mistake::UnknownFrame`].
-pub fn frame(name: &str) -> Result<FrameChoice, Mistake> {
-    FrameChoice::named(name).ok_or_else(|| {
-        let suggestion = crate::diagnostic::nearest(name, FrameChoice::NAMES);
-        Mistake::UnknownFrame(name.to_owned(), suggestion.map(str::to_owned))
-    })
-}
-
 /// The value of an expression in numbers alone, exact where it is rational; reports one that has none.
-pub fn constant(arena: &Arena, root: ExprId, diagnostics: &mut Diagnostics) -> Option<Rational> {
+#[cfg(feature = "system")]
+pub(crate) fn constant(arena: &Arena, root: ExprId, diagnostics: &Diagnostics) -> Option<Rational> {
     let mut table = Table::new();
     let value = polynomial(arena, Some(root), &mut table, diagnostics)?.as_constant()?;
-    let value = table.value(&value);
-    value.map_err(|mistake| diagnostics.report(arena.span(root), mistake)).ok()
+    diagnostics.check(arena.span(root), table.value(&value))
 }
 
 /// The components of an expression that must be Σ number · coordinate; reports it if it is not.
-pub fn linear(
+pub(crate) fn linear(
     arena: &Arena,
     root: ExprId,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Vec<(usize, Rational)>> {
     let mut table = Table::new();
     let sum = polynomial(arena, Some(root), &mut table, diagnostics)?;
@@ -297,12 +198,10 @@ pub fn linear(
         match (&monomial[..], table.value(&coefficient)) {
             (&[(coordinate, 1)], Ok(number)) => components.push((coordinate, number)),
             _ => {
-                let message =
-                    "a bracket must be linear: a sum of numbers times generators".to_owned();
+                let message = "a bracket must be linear: a sum of numbers times generators";
                 let help = "write for example \"[a, b] = 2*c - 1/2*a\"; Poisson brackets that are not linear in the \
                             coordinates (Lotka-Volterra, [x, y] = x*y) are those of no Lie algebra";
-                diagnostics
-                    .report(arena.span(root), Mistake::Other(message, Some(help.to_owned())));
+                diagnostics.report_other(arena.span(root), message, help);
                 return None;
             }
         }

@@ -323,18 +323,10 @@ impl Table {
             Atom::Sum(terms) => {
                 let positive = terms.iter().filter(|(_, value)| value.is_positive());
                 let negative = terms.iter().filter(|(_, value)| value.is_negative());
-                let plus = positive.map(|(product, value)| self.scaled(value, *product)).collect();
-                let minus =
-                    negative.map(|(product, value)| self.scaled(&-value, *product)).collect();
-                match (balanced(plus, ParameterExpr::Add), balanced(minus, ParameterExpr::Add)) {
-                    (Some(plus), Some(minus)) => {
-                        ParameterExpr::Sub(Box::new(plus), Box::new(minus))
-                    }
-                    (Some(sum), None) => sum,
-                    (None, minus) => ParameterExpr::Neg(Box::new(
-                        minus.unwrap_or_else(|| ParameterExpr::Rational(Rational::zero())),
-                    )),
-                }
+                difference(
+                    positive.map(|(product, value)| self.scaled(value, *product)).collect(),
+                    negative.map(|(product, value)| self.scaled(&-value, *product)).collect(),
+                )
             }
         }
     }
@@ -352,6 +344,17 @@ impl Table {
         }
         let factor = ParameterExpr::Rational(factor.clone());
         ParameterExpr::Mul(Box::new(factor), Box::new(expression))
+    }
+}
+
+/// Σ plus − Σ minus.
+pub(super) fn difference(plus: Vec<ParameterExpr>, minus: Vec<ParameterExpr>) -> ParameterExpr {
+    match (balanced(plus, ParameterExpr::Add), balanced(minus, ParameterExpr::Add)) {
+        (Some(plus), Some(minus)) => ParameterExpr::Sub(Box::new(plus), Box::new(minus)),
+        (Some(plus), None) => plus,
+        (None, minus) => ParameterExpr::Neg(Box::new(
+            minus.unwrap_or_else(|| ParameterExpr::Rational(Rational::zero())),
+        )),
     }
 }
 

@@ -1,11 +1,12 @@
 //! From expressions to the problem: polynomials in the momentum, opaque coefficients, checks.
 
 mod assemble;
+mod choice;
 mod coefficient;
 mod polynomial;
 mod sums;
 
-pub use assemble::{
-    DEFAULT_TRUNCATION, Draft, MAX_TRUNCATION, PotentialDraft, assemble, assemble_potential, chart,
-    check_chart, check_truncation, constant, frame, linear, solver,
-};
+#[cfg(feature = "system")]
+pub(crate) use assemble::constant;
+pub(crate) use assemble::{Draft, Energy, assemble, assemble_potential, linear};
+pub(crate) use choice::Choice;

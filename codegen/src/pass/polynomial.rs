@@ -60,7 +60,7 @@ pub(super) fn polynomial(
     arena: &Arena,
     root: Option<ExprId>,
     table: &mut Table,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Sum> {
     let uses = match root {
         Some(root) => uses(arena, root),
@@ -94,7 +94,7 @@ fn uses(arena: &Arena, root: ExprId) -> Vec<u32> {
 
 struct Pass<'a> {
     table: &'a mut Table,
-    diagnostics: &'a mut Diagnostics,
+    diagnostics: &'a Diagnostics,
     values: Vec<Option<Sum>>,
     /// Uses still to come.
     uses: Vec<u32>,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::coefficient::balanced;
+use super::coefficient::{balanced, difference};
 use crate::comoving::Frame;
 use crate::expr::ParameterExpr;
 use crate::number::Rational;
@@ -65,16 +65,9 @@ pub(crate) fn name_sums(
 fn expression(sum: &Sum, dim: usize, symbols: &[Symbol]) -> ParameterExpr {
     let of_sign = |negative: bool| {
         let terms = sum.iter().filter(|(_, value)| value.is_negative() == negative);
-        let terms = terms.map(|(factors, value)| product(factors, &value.abs(), dim, symbols));
-        balanced(terms.collect(), ParameterExpr::Add)
+        terms.map(|(factors, value)| product(factors, &value.abs(), dim, symbols)).collect()
     };
-    match (of_sign(false), of_sign(true)) {
-        (Some(plus), Some(minus)) => ParameterExpr::Sub(Box::new(plus), Box::new(minus)),
-        (Some(plus), None) => plus,
-        (None, minus) => ParameterExpr::Neg(Box::new(
-            minus.unwrap_or_else(|| ParameterExpr::Rational(Rational::default())),
-        )),
-    }
+    difference(of_sign(false), of_sign(true))
 }
 
 /// value · Π symbolᵢ^powerᵢ.

@@ -1,89 +1,66 @@
 //! The table `[algebra]`: a Lie algebra by a basis of matrices, or by generators and brackets.
 
-use toml::de::DeValue;
-
-use super::table::{Table, matrix, span, wrong_kind};
-use crate::diagnostic::{Diagnostics, Mistake, Span};
+use super::table::{Table, span};
+use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix, catalogue};
 use crate::number::Rational;
-use crate::parse::{Name, Names, bracket};
+use crate::parse::{Names, bracket};
 
 const BASIS: &str = "basis = [[[\"0\", \"-1\"], [\"1\", \"0\"]]]";
 const GENERATORS: &str = "generators = [\"a\", \"b\", \"c\"]";
 const BRACKETS: &str = "brackets = [\"[a, b] = c\", \"[a, c] = -1/2*b\"]";
 
 /// Reads the table; the algebra is called `system` if the table names it not.
-pub(super) fn read(
-    table: &Table<'_>,
-    system: &str,
-    diagnostics: &mut Diagnostics,
-) -> Option<LieAlgebra> {
-    table.check_keys(&["name", "basis", "generators", "brackets"], diagnostics);
-    let name = table.string("name", "name = \"my-algebra\"", diagnostics);
+pub(super) fn read(table: &Table<'_>, system: &str) -> Option<LieAlgebra> {
+    table.check_keys(&["name", "basis", "generators", "brackets"]);
+    let name = table.string("name", "name = \"my-algebra\"");
     if let Some((name, place)) = name
         && catalogue::lookup(name).is_ok()
     {
         let taken = Mistake::NameTaken(name.to_owned(), "a known group".to_owned());
-        diagnostics.report(place, taken);
+        table.diagnostics.report(place, taken);
     }
     let name = name.map_or_else(|| format!("the algebra of {system}"), |(name, _)| name.to_owned());
-    match (table.has("basis"), table.has("brackets")) {
-        (true, false) => by_basis(table, name, diagnostics),
-        (false, true) => by_brackets(table, name, diagnostics),
-        (both, _) => {
-            let message = if both {
-                "[algebra] has both `basis` and `brackets`"
-            } else {
-                "[algebra] has neither `basis` nor `brackets`"
-            };
-            let help = format!("give either {BASIS}, or {GENERATORS} and {BRACKETS}");
-            diagnostics.report(table.span, Mistake::Other(message.to_owned(), Some(help)));
-            None
-        }
-    }
+    let message = match (table.has("basis"), table.has("brackets")) {
+        (true, false) => return by_basis(table, name),
+        (false, true) => return by_brackets(table, name),
+        (true, true) => "[algebra] has both `basis` and `brackets`",
+        (false, false) => "[algebra] has neither `basis` nor `brackets`",
+    };
+    let help = format!("give either {BASIS}, or {GENERATORS} and {BRACKETS}");
+    table.diagnostics.report_other(table.span, message, &help);
+    None
 }
 
 /// The names under `generators`.
-fn generators(table: &Table<'_>, diagnostics: &mut Diagnostics) -> Option<Vec<(String, Span)>> {
-    let (list, _) = table.array("generators", GENERATORS, diagnostics)?;
-    let mut names = Vec::new();
-    for value in list {
-        match value.get_ref() {
-            DeValue::String(name) => names.push((name.to_string(), span(value))),
-            _ => wrong_kind("generators", "a list of names", value, GENERATORS, diagnostics),
-        }
-    }
-    Some(names)
+fn generators(table: &Table<'_>) -> Option<Vec<(String, Span)>> {
+    table.strings("generators", "a list of names", GENERATORS).map(|(names, _)| names)
 }
 
-fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
-    let (list, whole) = table.array("basis", BASIS, diagnostics)?;
-    let mut matrices = Vec::new();
-    let mut places = Vec::new();
-    for value in list {
-        places.push(span(value));
-        if let Some(rows) = matrix("basis", value, BASIS, table.constants, diagnostics) {
-            matrices.push(RationalMatrix::from_rows(rows));
-        }
-    }
+fn by_basis(table: &Table<'_>, name: String) -> Option<LieAlgebra> {
+    let (list, whole) = table.array("basis", BASIS)?;
+    let places: Vec<Span> = list.iter().map(|value| span(value)).collect();
+    let matrices: Vec<RationalMatrix> = list
+        .into_iter()
+        .filter_map(|value| table.matrix("basis", value, BASIS).map(RationalMatrix::from_rows))
+        .collect();
     if matrices.len() < places.len() {
         return None;
     }
-    let names: Vec<String> = match generators(table, diagnostics) {
+    let names: Vec<String> = match generators(table) {
         Some(names) if names.len() == matrices.len() => {
             names.into_iter().map(|(name, _)| name).collect()
         }
         Some(names) => {
             let message = format!("{} generators for {} matrices", names.len(), matrices.len());
-            diagnostics.report(whole, Mistake::Other(message, Some("give one name each".into())));
+            table.diagnostics.report_other(whole, message, "give one name each");
             return None;
         }
         None => (1..=matrices.len()).map(|i| format!("e{i}")).collect(),
     };
     let rounded = matrices.iter().flat_map(RationalMatrix::entries).any(|(_, _, v)| rounded(v));
-    match LieAlgebra::from_named_basis(name, names.clone(), matrices) {
-        Ok(algebra) => Some(algebra),
-        Err(error) => {
+    LieAlgebra::from_named_basis(name, names.clone(), matrices)
+        .map_err(|error| {
             let generator = match &error {
                 LieAlgebraError::NotSquare { generator, .. }
                 | LieAlgebraError::DifferentSizes { generator, .. }
@@ -92,55 +69,34 @@ fn by_basis(table: &Table<'_>, name: String, diagnostics: &mut Diagnostics) -> O
             };
             let at = generator.and_then(|g| names.iter().position(|name| name == g));
             let place = at.and_then(|at| places.get(at).copied()).unwrap_or(whole);
-            diagnostics.report(place, not_exact(error, rounded));
-            None
-        }
-    }
+            table.diagnostics.report(place, not_exact(error, rounded));
+        })
+        .ok()
 }
 
-fn by_brackets(
-    table: &Table<'_>,
-    name: String,
-    diagnostics: &mut Diagnostics,
-) -> Option<LieAlgebra> {
-    let before = diagnostics.len();
-    let (list, whole) = table.array("brackets", BRACKETS, diagnostics)?;
-    let Some(named) = generators(table, diagnostics) else {
+fn by_brackets(table: &Table<'_>, name: String) -> Option<LieAlgebra> {
+    let before = table.diagnostics.len();
+    let (list, whole) = table.strings("brackets", "a list of texts", BRACKETS)?;
+    let Some(named) = generators(table) else {
         if !table.has("generators") {
-            let (key, owner) = ("generators".to_owned(), table.name().to_owned());
-            let missing = Mistake::MissingKey(key, owner, GENERATORS.to_owned());
-            diagnostics.report(table.span, missing);
+            table.missing("generators", GENERATORS);
         }
         return None;
     };
-    let mut names = Names::default();
-    for (i, (name, place)) in named.iter().enumerate() {
-        names.add(name, Name::Coordinate(i), *place, diagnostics);
-    }
+    let mut names = Names::of_coordinates(&named, table.diagnostics);
     names.include(table.constants);
     let mut brackets = Vec::new();
-    for value in list {
-        match value.get_ref() {
-            DeValue::String(line) => {
-                // After the opening quote.
-                let offset = value.span().start + 1;
-                brackets.extend(bracket(line, offset, span(value), &names, diagnostics));
-            }
-            _ => wrong_kind("brackets", "a list of texts", value, BRACKETS, diagnostics),
-        }
+    for (line, place) in &list {
+        let offset = table.offset(*place, line);
+        brackets.extend(bracket(line, offset, *place, &names, table.diagnostics));
     }
-    if diagnostics.len() > before {
+    if table.diagnostics.len() > before {
         return None;
     }
     let generators = named.into_iter().map(|(name, _)| name).collect();
     let rounded = brackets.iter().flat_map(|(_, _, terms)| terms).any(|(_, value)| rounded(value));
-    match LieAlgebra::from_brackets(name, generators, brackets) {
-        Ok(algebra) => Some(algebra),
-        Err(error) => {
-            diagnostics.report(whole, not_exact(error, rounded));
-            None
-        }
-    }
+    let algebra = LieAlgebra::from_brackets(name, generators, brackets);
+    table.diagnostics.check(whole, algebra.map_err(|error| not_exact(error, rounded)))
 }
 
 /// Whether a number is one of floating point, as roots are, and no fraction that somebody wrote.

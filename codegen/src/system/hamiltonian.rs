@@ -1,76 +1,46 @@
-//! Coordinates and the Hamiltonian of a system file.
+//! Coordinates, the Hamiltonian and the potential of a system file.
 
-use toml::de::DeValue;
-
+use super::initial::copies;
 use super::parameters::Parameters;
-use super::table::{Table, span, wrong_kind};
-use crate::diagnostic::{Diagnostics, Mistake, Span};
-use crate::expr::{Arena, ExprId};
+use super::table::Table;
+use crate::diagnostic::Span;
 use crate::lie::LieAlgebra;
-use crate::parse::{Name, Names, text};
-use crate::problem::Parameter;
+use crate::parse::{Name, Names};
+use crate::pass::Energy;
+use crate::potential::matrix_size;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
+const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 
-/// The Hamiltonian as the file gives it.
-pub(super) struct Written {
-    pub coordinates: Vec<String>,
-    pub coordinates_span: Span,
-    pub parameters: Vec<Parameter>,
-    pub arena: Arena,
-    pub hamiltonian: Option<(ExprId, Span)>,
-    pub source: String,
-}
-
-/// Reads `coordinates` and `hamiltonian`.
-pub(super) fn read(
+/// Reads `hamiltonian`, in these coordinates; without any it would be full of unknown names.
+pub(super) fn hamiltonian(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
+    coordinates: &[(String, Span)],
     parameters: &Parameters,
-    file: &str,
-    diagnostics: &mut Diagnostics,
-) -> Written {
-    let mut names = Names::default();
-    let (coordinates, coordinates_span) = coordinates(root, algebra, diagnostics);
-    for (i, (name, place)) in coordinates.iter().enumerate() {
-        names.add(name, Name::Coordinate(i), *place, diagnostics);
-    }
-    let kept = parameters.add_to(&mut names, diagnostics);
+) -> Energy {
+    let mut names = Names::of_coordinates(coordinates, root.diagnostics);
+    let kept = parameters.add_to(&mut names, root.diagnostics);
     if names.get("mu").is_none() {
         let dim = algebra.map_or(0, LieAlgebra::dim);
         (0..dim).for_each(|i| names.alias(format!("mu[{i}]"), Name::Coordinate(i)));
     }
-    let mut arena = Arena::new();
-    let mut source = String::new();
-    let mut hamiltonian = None;
-    match root.string("hamiltonian", HAMILTONIAN, diagnostics) {
-        Some((text, place)) => {
-            source = text.to_owned();
-            // Names cannot be resolved without coordinates: that would only repeat the mistake.
-            if !coordinates.is_empty() {
-                let offset = content_offset(file, place, text);
-                let id = text::parse(text, offset, &names, &mut arena, diagnostics);
-                hamiltonian = Some((id, place));
-            }
-        }
-        None if !root.has("hamiltonian") => {
-            let (key, owner) = ("hamiltonian".to_owned(), root.name().to_owned());
-            let missing = Mistake::MissingKey(key, owner, HAMILTONIAN.to_owned());
-            diagnostics.report(Span::text(0..0), missing);
-        }
-        None => {}
+    if !root.has("hamiltonian") {
+        root.missing("hamiltonian", HAMILTONIAN);
     }
-    let coordinates = coordinates.into_iter().map(|(name, _)| name).collect();
-    Written { coordinates, coordinates_span, parameters: kept, arena, hamiltonian, source }
+    if coordinates.is_empty() {
+        root.string("hamiltonian", HAMILTONIAN);
+        return Energy::default();
+    }
+    root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default()
 }
 
-/// The names of the coordinates; those of the generators, or mu[0], mu[1], … where none are given.
-/// For a power the names of one copy are enough: x, y, z are then x[0], y[0], z[0], x[1], ….
-fn coordinates(
+/// The names of the coordinates, and where they are given; those of the generators, or mu[0], mu[1], … where none are
+/// given. For a power the names of one copy are enough: x, y, z are then x[0], y[0], z[0], x[1], ….
+pub(super) fn coordinates(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
-    diagnostics: &mut Diagnostics,
 ) -> (Vec<(String, Span)>, Span) {
     if !root.has("coordinates") {
         let dim = algebra.map_or(0, LieAlgebra::dim);
@@ -81,16 +51,10 @@ fn coordinates(
         };
         return ((0..dim).map(|i| (name(i), Span::Whole)).collect(), Span::Whole);
     }
-    let Some((list, whole)) = root.array("coordinates", COORDINATES, diagnostics) else {
+    let Some((mut names, whole)) = root.strings("coordinates", "a list of names", COORDINATES)
+    else {
         return (Vec::new(), Span::Whole);
     };
-    let mut names = Vec::new();
-    for value in list {
-        match value.get_ref() {
-            DeValue::String(name) => names.push((name.to_string(), span(value))),
-            _ => wrong_kind("coordinates", "a list of names", value, COORDINATES, diagnostics),
-        }
-    }
     if let Some(copies) = algebra.and_then(|algebra| copies(algebra, names.len())) {
         let copy = |i| names.iter().map(move |(name, place)| (format!("{name}[{i}]"), *place));
         names = (0..copies).flat_map(copy).collect();
@@ -98,17 +62,17 @@ fn coordinates(
     (names, whole)
 }
 
-/// How many copies a power of a group has, if `each` coordinates are those of one copy.
-pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
-    let (_, copies) = algebra.name().rsplit_once('^')?;
-    let copies = copies.parse().ok()?;
-    (copies > 1 && each * copies == algebra.dim()).then_some(copies)
-}
-
-/// Where the content of a TOML string begins in the file.
-pub(super) fn content_offset(file: &str, place: Span, content: &str) -> usize {
-    let Span::Text { start, end } = place else { return 0 };
-    // Strings with escapes do not occur literally; their places are then approximate.
-    let inside = file.get(start..end).and_then(|raw| raw.find(content)).unwrap_or(1);
-    start + inside
+/// Reads `potential`, if the file has one and its group is known: a polynomial in the entries of the group element's matrix.
+pub(super) fn potential(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    parameters: &Parameters,
+) -> Option<Energy> {
+    root.string("potential", POTENTIAL)?;
+    let size = matrix_size(algebra?);
+    let entry = |at: usize| (format!("g[{}][{}]", at / size, at % size), Span::Whole);
+    let entries: Vec<_> = (0..size * size).map(entry).collect();
+    let mut names = Names::of_coordinates(&entries, root.diagnostics);
+    let kept = parameters.add_to(&mut names, root.diagnostics);
+    root.energy("potential", POTENTIAL, &names, kept)
 }

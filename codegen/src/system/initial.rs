@@ -1,17 +1,15 @@
 //! The table `[initial]`: the state at the start.
 
-use toml::Spanned;
 use toml::de::DeValue;
 
-use super::hamiltonian::copies;
 use super::project::project;
 use super::run::Run;
-use super::table::{Table, exact, expression, matrix, nearest_float, refuse, span, wrong_kind};
-use crate::diagnostic::{Diagnostics, Mistake, Span};
+use super::table::{Table, Value, nearest_float, span};
+use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer};
-use crate::parse::Names;
 use crate::poly::split_at;
+use crate::potential::matrix_size;
 use crate::problem::Problem;
 
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
@@ -22,31 +20,32 @@ const TRANSLATION: &str = "translation = [0, 0, 0]";
 /// How far from 1 the length of a quaternion may be without `project`.
 const UNIT: f64 = 1e-9;
 
-/// A velocity and its place.
-pub(super) type Velocity = (Vec<Rational>, Span);
-
-/// Reads `[initial]` into `run`; returns a velocity, from which [`momentum`] finds the momentum.
+/// Reads `[initial]` into `run`; returns a velocity and its place, from which [`momentum`] finds the momentum.
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     run: &mut Run,
-    diagnostics: &mut Diagnostics,
-) -> Option<Velocity> {
-    let table = root.table("initial", diagnostics)?;
-    let known =
-        ["momentum", "angular_velocity", "group_element", "quaternion", "translation", "project"];
-    table.check_keys(&known, diagnostics);
-    element(&table, algebra, run, diagnostics);
-    let momentum = coordinates(&table, "momentum", MOMENTUM, algebra, diagnostics);
+) -> Option<(Vec<Rational>, Span)> {
+    let table = root.table("initial")?;
+    table.check_keys(&[
+        "momentum",
+        "angular_velocity",
+        "group_element",
+        "quaternion",
+        "translation",
+        "project",
+    ]);
+    run.group_element = element(&table, algebra);
+    let momentum = coordinates(&table, "momentum", MOMENTUM, algebra);
     run.momentum = momentum.map(|(list, _)| list.iter().map(nearest_float).collect());
-    let velocity = coordinates(&table, "angular_velocity", VELOCITY, algebra, diagnostics)?;
+    let velocity = coordinates(&table, "angular_velocity", VELOCITY, algebra)?;
     if table.has("momentum") {
         let what = "`momentum` and `angular_velocity` are both given: keep one";
-        refuse(velocity.1, what, MOMENTUM, diagnostics);
+        table.refuse(velocity.1, what, MOMENTUM);
     }
     if !algebra.is_none_or(|algebra| matches!(factor(algebra).0, "SO3" | "SU2")) {
         let what = "an angular velocity is one of SO3, SU2 or a power of them: give the momentum";
-        refuse(velocity.1, what, MOMENTUM, diagnostics);
+        table.refuse(velocity.1, what, MOMENTUM);
     }
     Some(velocity)
 }
@@ -58,6 +57,12 @@ fn factor(algebra: &LieAlgebra) -> (&str, usize) {
     power.unwrap_or((algebra.name(), 1))
 }
 
+/// How many copies a power of a group has, if `each` coordinates are those of one copy.
+pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
+    let (_, copies) = factor(algebra);
+    (copies > 1 && each * copies == algebra.dim()).then_some(copies)
+}
+
 /// A list of numbers, as many as the momentum has coordinates. In a power of a group it may be given for one copy:
 /// numbers, or expressions in the copy's number i, counted from 0.
 fn coordinates(
@@ -65,62 +70,45 @@ fn coordinates(
     key: &str,
     example: &str,
     algebra: Option<&LieAlgebra>,
-    diagnostics: &mut Diagnostics,
 ) -> Option<(Vec<Rational>, Span)> {
-    let (list, place) = table.array(key, example, diagnostics)?;
+    let (list, place) = table.array(key, example)?;
     if let Some(copies) = algebra.and_then(|algebra| copies(algebra, list.len())) {
-        let column = |value: &&Spanned<DeValue<'_>>| {
-            copy_by_copy(key, value, copies, example, table.constants, diagnostics)
+        let column = |value: &Value<'_>| match value.get_ref() {
+            DeValue::String(text) => {
+                let copy = |i: usize| table.expression(text, span(value), &[("i", i as i64)]);
+                (0..copies).map(copy).collect()
+            }
+            _ => Some(vec![table.exact(key, value, example)?; copies]),
         };
-        let columns: Option<Vec<_>> = list.iter().map(column).collect();
+        let columns: Option<Vec<Vec<_>>> = list.into_iter().map(column).collect();
         let columns = columns?;
         let all = (0..copies).flat_map(|i| columns.iter().map(move |column| column[i].clone()));
         return Some((all.collect(), place));
     }
-    let number =
-        |value: &&Spanned<DeValue<'_>>| exact(key, value, example, table.constants, diagnostics);
-    let numbers: Option<Vec<Rational>> = list.iter().map(number).collect();
+    let count = list.len();
+    let numbers = table.numbers(key, list, example);
     if let Some(algebra) = algebra
-        && list.len() != algebra.dim()
+        && count != algebra.dim()
     {
         let (name, dim) = (algebra.name().to_owned(), algebra.dim());
-        diagnostics.report(place, Mistake::Dimension(list.len(), name, dim));
+        table.diagnostics.report(place, Mistake::Dimension(count, name, dim));
     }
-    numbers.map(|numbers| (numbers, place))
+    Some((numbers?, place))
 }
 
-fn copy_by_copy(
-    key: &str,
-    value: &Spanned<DeValue<'_>>,
-    copies: usize,
-    example: &str,
-    constants: &Names,
-    diagnostics: &mut Diagnostics,
-) -> Option<Vec<Rational>> {
-    let DeValue::String(text) = value.get_ref() else {
-        return Some(vec![exact(key, value, example, constants, diagnostics)?; copies]);
-    };
-    // After the opening quote.
-    let offset = value.span().start + 1;
-    let mut at = |i: usize| expression(text, offset, &[("i", i as i64)], constants, diagnostics);
-    (0..copies).map(&mut at).collect()
-}
-
-/// The momentum with ∂H/∂μ = `velocity`, at the defaults of parameters that are kept.
-///
-/// # Errors
-/// Where the Hamiltonian is no quadratic function of which the velocity determines the momentum.
+/// The momentum with ∂H/∂μ = `velocity`, at the defaults of parameters that are kept; reports a Hamiltonian that is no
+/// quadratic function of which the velocity determines the momentum.
 pub(super) fn momentum(
     problem: &Problem,
-    velocity: &[Rational],
-    place: Span,
-) -> Result<Vec<f64>, Diagnostics> {
-    solved(problem, velocity).ok_or_else(|| {
+    (velocity, place): &(Vec<Rational>, Span),
+    root: &Table<'_>,
+) -> Option<Vec<f64>> {
+    let momentum = solved(problem, velocity);
+    if momentum.is_none() {
         let what = "this does not determine the momentum: the Hamiltonian is not a quadratic function with an inverse";
-        let mut diagnostics = Diagnostics::new();
-        refuse(place, what, MOMENTUM, &mut diagnostics);
-        diagnostics
-    })
+        root.refuse(*place, what, MOMENTUM);
+    }
+    momentum
 }
 
 fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
@@ -162,64 +150,52 @@ fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
 }
 
 /// Reads the group element, by its matrix or by quaternions.
-fn element(
-    table: &Table<'_>,
-    algebra: Option<&LieAlgebra>,
-    run: &mut Run,
-    diagnostics: &mut Diagnostics,
-) {
+fn element(table: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<Vec<f64>>> {
     let projected = match table.get("project").map(|value| (value.get_ref(), value)) {
         Some((&DeValue::Boolean(yes), _)) => yes,
         Some((_, value)) => {
-            wrong_kind("project", "true or false", value, "project = true", diagnostics);
+            table.wrong_kind("project", "true or false", value, "project = true");
             false
         }
         None => false,
     };
     if table.has("translation") && !table.has("quaternion") {
         let what = "`translation` stands beside `quaternion`";
-        refuse(table.span, what, QUATERNION, diagnostics);
+        table.refuse(table.span, what, QUATERNION);
     }
     if let (Some(value), Some(algebra)) = (table.get("quaternion"), algebra) {
         if table.has("group_element") {
             let what = "`quaternion` and `group_element` are both given: keep one";
-            refuse(span(value), what, QUATERNION, diagnostics);
+            table.refuse(span(value), what, QUATERNION);
         }
-        run.group_element = by_quaternions(table, value, algebra, projected, diagnostics);
-        return;
+        return by_quaternions(table, value, algebra, projected);
     }
-    if let Some(value) = table.get("group_element")
-        && let Some(rows) = matrix("group_element", value, ELEMENT, table.constants, diagnostics)
+    let value = table.get("group_element")?;
+    let rows = table.matrix("group_element", value, ELEMENT)?;
+    let size = algebra.map(matrix_size);
+    let square = rows.iter().all(|row| row.len() == rows.len());
+    if !square || size.is_some_and(|size| size != rows.len()) {
+        let expected = size.map_or("a square matrix".to_owned(), |n| format!("{n} × {n}"));
+        let what = format!("the group element must be {expected}");
+        table.refuse(span(value), &what, ELEMENT);
+        return None;
+    }
+    let mut rows: Vec<Vec<f64>> =
+        rows.iter().map(|row| row.iter().map(nearest_float).collect()).collect();
+    if let (true, Some(algebra)) = (projected, algebra)
+        && let Err(what) = project(&mut rows, algebra)
     {
-        // Elements are matrices of the basis's size, or adjoint matrices.
-        let size = algebra.map(|algebra| match algebra.basis().and_then(<[_]>::first) {
-            Some(first) => first.rows(),
-            None => algebra.dim(),
-        });
-        let square = rows.iter().all(|row| row.len() == rows.len());
-        if !square || size.is_some_and(|size| size != rows.len()) {
-            let expected = size.map_or("a square matrix".to_owned(), |n| format!("{n} × {n}"));
-            let message = format!("the group element must be {expected}");
-            return refuse(span(value), &message, ELEMENT, diagnostics);
-        }
-        let mut rows: Vec<Vec<f64>> =
-            rows.iter().map(|row| row.iter().map(nearest_float).collect()).collect();
-        if let (true, Some(algebra)) = (projected, algebra)
-            && let Err(what) = project(&mut rows, algebra)
-        {
-            refuse(span(value), &what, ELEMENT, diagnostics);
-        }
-        run.group_element = Some(rows);
+        table.refuse(span(value), &what, ELEMENT);
     }
+    Some(rows)
 }
 
 /// The matrix, block by block, of rotations given by unit quaternions w, x, y, z, and of translations beside them.
 fn by_quaternions(
     table: &Table<'_>,
-    value: &Spanned<DeValue<'_>>,
+    value: &Value<'_>,
     algebra: &LieAlgebra,
     projected: bool,
-    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Vec<f64>>> {
     let (name, copies) = factor(algebra);
     let block: fn([f64; 4], [f64; 3]) -> Vec<Vec<f64>> = match name {
@@ -236,18 +212,18 @@ fn by_quaternions(
         },
         _ => {
             let what = "a quaternion is an element of SO3, SU2, SE3 or of a power of them";
-            refuse(span(value), what, ELEMENT, diagnostics);
+            table.refuse(span(value), what, ELEMENT);
             return None;
         }
     };
-    let quaternions = lists::<4>(table, "quaternion", copies, QUATERNION, diagnostics)?;
+    let quaternions = lists::<4>(table, "quaternion", copies, QUATERNION)?;
     let translations = match table.get("translation") {
         Some(value) if name != "SE3" => {
             let what = "only an element of SE3 has a translation";
-            refuse(span(value), what, QUATERNION, diagnostics);
+            table.refuse(span(value), what, QUATERNION);
             return None;
         }
-        Some(_) => lists::<3>(table, "translation", copies, TRANSLATION, diagnostics)?,
+        Some(_) => lists::<3>(table, "translation", copies, TRANSLATION)?,
         None => vec![[0.0; 3]; copies],
     };
     let mut blocks = Vec::new();
@@ -258,7 +234,7 @@ fn by_quaternions(
             let what = format!(
                 "a quaternion of a rotation has length 1, not {length}; project = true divides by its length"
             );
-            refuse(span(value), &what, QUATERNION, diagnostics);
+            table.refuse(span(value), &what, QUATERNION);
             return None;
         }
         blocks.push(block(q.map(|x| x / length), t));
@@ -279,14 +255,12 @@ fn lists<const N: usize>(
     key: &str,
     copies: usize,
     example: &str,
-    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<[f64; N]>> {
-    let (list, place) = table.array(key, example, diagnostics)?;
+    let (list, place) = table.array(key, example)?;
     let rows = if list.iter().any(|entry| entry.get_ref().is_array()) {
-        matrix(key, table.get(key)?, example, table.constants, diagnostics)?
+        table.matrix(key, table.get(key)?, example)?
     } else {
-        let mut number = |entry: &&_| exact(key, entry, example, table.constants, diagnostics);
-        vec![list.iter().map(&mut number).collect::<Option<Vec<_>>>()?]
+        vec![table.numbers(key, list, example)?]
     };
     let row = |row: &Vec<Rational>| {
         <[f64; N]>::try_from(row.iter().map(nearest_float).collect::<Vec<_>>()).ok()
@@ -299,7 +273,7 @@ fn lists<const N: usize>(
                 1 => format!("`{key}` must be {N} numbers"),
                 _ => format!("`{key}` must be {copies} lists of {N} numbers, one for each factor"),
             };
-            refuse(place, &what, example, diagnostics);
+            table.refuse(place, &what, example);
             None
         }
     }

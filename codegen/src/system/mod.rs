@@ -43,23 +43,20 @@ mod hamiltonian;
 mod initial;
 mod options;
 mod parameters;
-mod potential;
 mod project;
 mod run;
 mod splitting;
 mod table;
-mod tolerance;
 mod units;
 
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, unclosed_quote};
-use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::pass::{
-    self, DEFAULT_TRUNCATION, Draft, assemble, assemble_potential, chart, check_truncation,
-};
+use crate::lie::{LieAlgebra, catalogue};
+use crate::parse::Names;
+use crate::pass::{Choice, Draft, assemble, assemble_potential};
 use crate::potential::Potential;
-use crate::problem::{FrameChoice, Problem, Solver};
+use crate::problem::Problem;
 use table::Table;
 
 pub use crate::splitting::Splitting;
@@ -90,7 +87,7 @@ pub struct System {
 /// # Errors
 /// All mistakes, each at its place in `text`; [`Diagnostics::render`] writes them out.
 pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
-    let mut diagnostics = Diagnostics::new();
+    let diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
     // After an unclosed quote the rest parses as nonsense: only the quote is reported.
     if let Some(at) = unclosed_quote(text).filter(|_| !errors.is_empty()) {
@@ -106,160 +103,122 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
-    let parameters =
-        parameters::Parameters::read(document.get_ref(), text, options, &mut diagnostics);
-    let root = Table::root(document.get_ref(), &parameters.constants);
-    root.check_keys(
-        &[
-            "name",
-            "group",
-            "algebra",
-            "coordinates",
-            "hamiltonian",
-            "potential",
-            "parameters",
-            "units",
-            "integrator",
-            "initial",
-            "run",
-        ],
-        &mut diagnostics,
-    );
-    let name = root.string("name", "name = \"rigid-body\"", &mut diagnostics);
+    let system = system(document.get_ref(), text, options, &diagnostics);
+    diagnostics.into_result(system)
+}
+
+fn system(
+    document: &DeTable<'_>,
+    text: &str,
+    options: Options,
+    diagnostics: &Diagnostics,
+) -> Option<System> {
+    let nothing = Names::default();
+    let root = Table::root(document, text, &nothing, diagnostics);
+    let parameters = parameters::Parameters::read(&root, options);
+    let root = root.with(&parameters.constants);
+    root.check_keys(&[
+        "name",
+        "group",
+        "algebra",
+        "coordinates",
+        "hamiltonian",
+        "potential",
+        "parameters",
+        "units",
+        "integrator",
+        "initial",
+        "run",
+    ]);
+    let name = root.string("name", "name = \"rigid-body\"");
     let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
-    let algebra = group(&root, &name, &mut diagnostics);
-    let written = hamiltonian::read(&root, algebra.as_ref(), &parameters, text, &mut diagnostics);
-    let units = units::read(&root, &written.coordinates, &mut diagnostics);
-    let integrator = root.table("integrator", &mut diagnostics);
-    let chosen = match &integrator {
-        Some(table) => integrator_table(table, options, &mut diagnostics),
-        None => Chosen::default(),
-    };
-    let truncation = match options.truncation {
-        Some(k) => check_truncation(k, Span::Whole, &mut diagnostics),
-        None => chosen.truncation,
-    };
-    let chart = options.chart.map_or(chosen.chart, |chart| (chart, Span::Whole));
-    let mut run = run::read(&root, integrator.as_ref(), &mut diagnostics);
-    let velocity = initial::read(&root, algebra.as_ref(), &mut run, &mut diagnostics);
+    let algebra = group(&root, &name);
+    let (coordinates, coordinates_span) = hamiltonian::coordinates(&root, algebra.as_ref());
+    let energy = hamiltonian::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters);
+    let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
+    let units = units::read(&root, &coordinates);
+    let integrator = root.table("integrator");
+    let choice = choice(integrator.as_ref(), options, diagnostics);
+    let mut run = run::read(&root, integrator.as_ref());
+    let velocity = initial::read(&root, algebra.as_ref(), &mut run);
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
-        run.truncation = truncation;
+        run.truncation = choice.truncation;
     }
-    let potential = potential::read(&root, algebra.as_ref(), &parameters, text, &mut diagnostics);
-    let splitting = splitting::read(&root, integrator.as_ref(), &mut diagnostics);
-    let draft = Draft {
-        name,
-        algebra,
-        coordinates: written.coordinates,
-        coordinates_span: written.coordinates_span,
-        arena: written.arena,
-        hamiltonian: written.hamiltonian,
-        parameters: written.parameters,
-        source: written.source,
-        chart,
-        truncation,
-        solver: options.solver.or(chosen.solver),
-        frame: chosen.frame,
-    };
+    let potential = hamiltonian::potential(&root, algebra.as_ref(), &parameters);
+    let splitting = splitting::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
-    let potential = potential.and_then(|draft| {
-        assemble_potential(draft, Diagnostics::new())
-            .map_err(|mistakes| diagnostics.append(mistakes))
-            .ok()
+    let potential = potential.and_then(|energy| {
+        assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
+    let hamiltonian = energy;
+    let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
     let problem = assemble(draft, diagnostics)?;
-    if let Some((velocity, place)) = velocity {
-        run.momentum = Some(initial::momentum(&problem, &velocity, place)?);
+    if let Some(velocity) = velocity {
+        run.momentum = initial::momentum(&problem, &velocity, &root);
     }
-    let potential = match potential {
-        Some(potential) => Some((potential, splitting::choose(splitting, &problem)?)),
-        None => None,
-    };
-    let parameters = root.get("parameters").and_then(|table| table.get_ref().as_table());
-    let parameters = parameters.into_iter().flat_map(|table| table.keys());
-    let parameters = parameters.map(|name| name.get_ref().to_string()).collect();
-    Ok(System { problem, potential, run, units, parameters })
+    let potential =
+        potential.map(|potential| (potential, splitting::choose(splitting, &problem, diagnostics)));
+    Some(System { problem, potential, run, units, parameters: parameters.names() })
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.
-fn group(root: &Table<'_>, name: &str, diagnostics: &mut Diagnostics) -> Option<LieAlgebra> {
-    let text = root.string("group", "group = \"SO3\"", diagnostics);
-    let table = root.table("algebra", diagnostics);
-    match (text, table) {
+fn group(root: &Table<'_>, name: &str) -> Option<LieAlgebra> {
+    let example = "group = \"SO3\"";
+    match (root.string("group", example), root.table("algebra")) {
         (Some((_, span)), Some(_)) => {
-            let help = "keep `group` for a known group, [algebra] for one of your own".to_owned();
-            let message = "both `group` and [algebra] are given".to_owned();
-            diagnostics.report(span, Mistake::Other(message, Some(help)));
+            let message = "both `group` and [algebra] are given";
+            let help = "keep `group` for a known group, [algebra] for one of your own";
+            root.diagnostics.report_other(span, message, help);
             None
         }
-        (Some((text, span)), None) => match catalogue::lookup(text) {
-            Ok(algebra) => Some(algebra),
-            Err(error) => {
-                diagnostics.report(span, Mistake::Group(error.to_string()));
-                None
-            }
-        },
-        (None, Some(table)) => algebra::read(&table, name, diagnostics),
+        (Some((text, span)), None) => {
+            let found = catalogue::lookup(text);
+            root.diagnostics.check(span, found.map_err(|error| Mistake::Group(error.to_string())))
+        }
+        (None, Some(table)) => algebra::read(&table, name),
         (None, None) => {
             if !root.has("group") && !root.has("algebra") {
-                let example = "group = \"SO3\"".to_owned();
-                let missing =
-                    Mistake::MissingKey("group".to_owned(), "the file".to_owned(), example);
-                diagnostics.report(Span::text(0..0), missing);
+                root.missing("group", example);
             }
             None
         }
     }
 }
 
-/// The method that `[integrator]` gives.
-struct Chosen {
-    truncation: Option<usize>,
-    chart: (Chart, Span),
-    solver: Option<Solver>,
-    frame: (FrameChoice, Span),
-}
-
-impl Default for Chosen {
-    fn default() -> Self {
-        Self {
-            truncation: Some(DEFAULT_TRUNCATION),
-            chart: (Chart::default(), Span::Whole),
-            solver: None,
-            frame: (FrameChoice::default(), Span::Whole),
+/// The method that `[integrator]` gives, as far as the options do not replace it.
+fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics) -> Choice {
+    let mut choice = Choice::default();
+    if let Some(table) = table {
+        table.check_keys(&[
+            "truncation",
+            "chart",
+            "solver",
+            "frame",
+            "step",
+            "tolerance",
+            "region",
+            "splitting",
+        ]);
+        if table.has("truncation") && options.truncation.is_none() {
+            let given = table.integer("truncation", "truncation = 7");
+            choice.truncation = None;
+            given.into_iter().for_each(|(k, place)| choice.set_truncation(k, place, diagnostics));
+        }
+        let examples = ["chart = \"exp\"", "solver = \"fixed_point\"", "frame = \"comoving\""];
+        for (key, example) in ["chart", "solver", "frame"].into_iter().zip(examples) {
+            if let Some((name, place)) = table.string(key, example)
+                && (key != "chart" || options.chart.is_none())
+            {
+                choice.set_named(key, name, place, diagnostics);
+            }
         }
     }
-}
-
-fn integrator_table(table: &Table<'_>, options: Options, diagnostics: &mut Diagnostics) -> Chosen {
-    let known =
-        ["truncation", "chart", "solver", "frame", "step", "tolerance", "region", "splitting"];
-    table.check_keys(&known, diagnostics);
-    let mut chosen = Chosen::default();
-    if table.has("truncation") && options.truncation.is_none() {
-        chosen.truncation = table
-            .integer("truncation", "truncation = 7", diagnostics)
-            .and_then(|(k, span)| check_truncation(k, span, diagnostics));
+    if let Some(k) = options.truncation {
+        choice.set_truncation(k, Span::Whole, diagnostics);
     }
-    if let Some((name, span)) = table.string("chart", "chart = \"exp\"", diagnostics)
-        && options.chart.is_none()
-    {
-        match chart(name) {
-            Ok(chart) => chosen.chart = (chart, span),
-            Err(mistake) => diagnostics.report(span, mistake),
-        }
+    if let Some(chart) = options.chart {
+        choice.chart = (chart, Span::Whole);
     }
-    if let Some((name, span)) = table.string("solver", "solver = \"fixed_point\"", diagnostics) {
-        match pass::solver(name) {
-            Ok(named) => chosen.solver = Some(named),
-            Err(mistake) => diagnostics.report(span, mistake),
-        }
-    }
-    if let Some((name, span)) = table.string("frame", "frame = \"comoving\"", diagnostics) {
-        match pass::frame(name) {
-            Ok(frame) => chosen.frame = (frame, span),
-            Err(mistake) => diagnostics.report(span, mistake),
-        }
-    }
-    chosen
+    choice.solver = options.solver.or(choice.solver);
+    choice
 }

@@ -3,11 +3,10 @@
 use std::collections::BTreeSet;
 
 use num_traits::One;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::options::{Options, Parameters as Treatment};
-use super::table::{Table, exact, matrix};
+use super::table::{Table, Value};
 use crate::diagnostic::{Diagnostics, Span};
 use crate::lie::RationalMatrix;
 use crate::number::Rational;
@@ -35,16 +34,9 @@ struct Given {
 impl Parameters {
     /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices and in `inv(…)` are
     /// numbers and never kept.
-    pub(super) fn read(
-        root: &DeTable<'_>,
-        file: &str,
-        options: Options,
-        diagnostics: &mut Diagnostics,
-    ) -> Self {
-        let nothing = Names::none();
-        let root = Table::root(root, &nothing);
-        let mut result = Self { list: Vec::new(), constants: Names::none() };
-        let Some(table) = root.table("parameters", diagnostics) else { return result };
+    pub(super) fn read(root: &Table<'_>, options: Options) -> Self {
+        let mut result = Self { list: Vec::new(), constants: Names::default() };
+        let Some(table) = root.table("parameters") else { return result };
         let mut numbers =
             root.get("algebra").map_or(BTreeSet::new(), |table| words_of(table.get_ref()));
         let energy = |key: &&str| root.get(key)?.get_ref().as_str();
@@ -66,15 +58,16 @@ impl Parameters {
         }
         for at in order {
             let (name, place, value) = entries[at];
+            let known = table.with(&result.constants);
             // The name of a wrong one is known all the same, so that its uses are no further mistakes.
             let (shape, values) = result
-                .value(name, value, diagnostics)
+                .value(name, value, &known)
                 .unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
             let parameter = Parameter { name: name.to_owned(), shape, default: Some(values) };
             let kept = options.parameters == Treatment::Kept && !numbers.contains(name);
-            let inverse = if file.contains("inv(") { inverse(&parameter) } else { None };
+            let inverse = if root.file.contains("inv(") { inverse(&parameter) } else { None };
             let given = Given { parameter, place, kept, inverse };
-            given.add_to(&mut result.constants, None, diagnostics);
+            given.add_to(&mut result.constants, None, root.diagnostics);
             result.list.push((at, given));
         }
         result.list.sort_by_key(|(at, _)| *at);
@@ -82,11 +75,7 @@ impl Parameters {
     }
 
     /// Adds their names to others, and returns those that are kept.
-    pub(super) fn add_to(
-        &self,
-        names: &mut Names,
-        diagnostics: &mut Diagnostics,
-    ) -> Vec<Parameter> {
+    pub(super) fn add_to(&self, names: &mut Names, diagnostics: &Diagnostics) -> Vec<Parameter> {
         let mut scalars = 0;
         let mut kept = Vec::new();
         for (_, given) in &self.list {
@@ -99,34 +88,37 @@ impl Parameters {
         kept
     }
 
+    /// The names of all parameters.
+    pub(super) fn names(&self) -> Vec<String> {
+        self.list.iter().map(|(_, given)| given.parameter.name.clone()).collect()
+    }
+
     /// A number, an array of numbers, an array of such arrays, or the inverse of one.
     fn value(
         &self,
         name: &str,
-        value: &Spanned<DeValue<'_>>,
-        diagnostics: &mut Diagnostics,
+        value: &Value<'_>,
+        table: &Table<'_>,
     ) -> Option<(Shape, Vec<Rational>)> {
         let example = format!("{name} = 1.5 or {name} = \"2/3\"");
-        let mut number = |entry| exact(name, entry, &example, &self.constants, diagnostics);
         match value.get_ref() {
             DeValue::Array(list) if list.iter().any(|entry| entry.get_ref().is_array()) => {
-                let rows = matrix(name, value, &example, &self.constants, diagnostics)?;
+                let rows = table.matrix(name, value, &example)?;
                 let columns = rows.first().map_or(0, Vec::len);
                 Some((Shape::Grid(rows.len(), columns), rows.concat()))
             }
             DeValue::Array(list) => {
-                let values: Option<Vec<Rational>> = list.iter().map(number).collect();
-                values.map(|values| (Shape::Array(values.len()), values))
+                let values = table.numbers(name, list.iter(), &example)?;
+                Some((Shape::Array(values.len()), values))
             }
-            DeValue::String(text) => match self.inverse(text) {
+            other => match other.as_str().and_then(|text| self.inverse(text)) {
                 Some(inverse) => {
                     let n = inverse.rows();
                     let entries = (0..n * n).map(|at| inverse.get(at / n, at % n));
                     Some((Shape::Grid(n, n), entries.collect()))
                 }
-                None => number(value).map(|x| (Shape::Scalar, vec![x])),
+                None => Some((Shape::Scalar, vec![table.exact(name, value, &example)?])),
             },
-            _ => number(value).map(|x| (Shape::Scalar, vec![x])),
         }
     }
 
@@ -140,7 +132,7 @@ impl Parameters {
 
 impl Given {
     /// Adds the names of its scalars: numbers, or parameters counted from `first`; and those of its inverse.
-    fn add_to(&self, names: &mut Names, first: Option<usize>, diagnostics: &mut Diagnostics) {
+    fn add_to(&self, names: &mut Names, first: Option<usize>, diagnostics: &Diagnostics) {
         let Parameter { name, default, .. } = &self.parameter;
         let values = default.iter().flatten();
         for (i, (scalar, value)) in self.parameter.scalar_names().iter().zip(values).enumerate() {

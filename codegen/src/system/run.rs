@@ -1,9 +1,13 @@
-//! The run a system file describes: `[run]` and the step or the tolerance.
+//! The run a system file describes: `[run]`, and the step or the tolerance of `[integrator]`.
 
-use super::table::{Table, nearest_float, refuse};
-use super::tolerance;
-use crate::diagnostic::Diagnostics;
+use toml::de::DeValue;
+
+use super::table::{Table, nearest_float, span};
+use crate::diagnostic::Span;
 use crate::tolerance::Region;
+
+const TOLERANCE: &str = "tolerance = 1e-9";
+const REGION: &str = "region = 2.5";
 
 /// Where to start, how far and in which steps; `None` where the file does not say.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,40 +30,72 @@ pub struct Run {
     pub group_element: Option<Vec<Vec<f64>>>,
 }
 
-/// Reads `[run]`, and `step` and `tolerance` of `[integrator]`.
-pub(super) fn read(
-    root: &Table<'_>,
-    integrator: Option<&Table<'_>>,
-    diagnostics: &mut Diagnostics,
-) -> Run {
+/// Reads `[run]`, and `step`, `tolerance` and `region` of `[integrator]`.
+pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
     let mut run = Run::default();
-    if let Some((step, place)) =
-        integrator.and_then(|table| table.number("step", "step = 0.1", diagnostics))
-    {
-        let step = nearest_float(&step);
-        if step == 0.0 || !step.is_finite() {
-            refuse(place, "the step must be finite and other than zero", "step = 0.1", diagnostics);
-        }
-        run.step = Some(step);
-    }
     if let Some(table) = integrator {
-        (run.tolerance, run.region) = tolerance::read(table, diagnostics);
+        let step = table.number("step", "step = 0.1");
+        run.step = accepted(table, step, "step = 0.1", |step| {
+            (step == 0.0 || !step.is_finite())
+                .then_some("the step must be finite and other than zero")
+        });
+        let tolerance = table.number("tolerance", TOLERANCE);
+        run.tolerance = accepted(table, tolerance, TOLERANCE, |tolerance| {
+            (!(1e-14..=1e-1).contains(&tolerance))
+                .then_some("the tolerance must lie between 1e-14 and 1e-1")
+        });
+        if let (Some((_, place)), true) = (tolerance, table.has("step")) {
+            let what = "a tolerance picks the step: keep one of `tolerance` and `step`";
+            table.refuse(place, what, TOLERANCE);
+        }
+        run.region = region(table);
     }
-    if let Some(table) = root.table("run", diagnostics) {
-        table.check_keys(&["time", "every"], diagnostics);
-        if let Some((time, place)) = table.number("time", "time = 100.0", diagnostics) {
-            let time = nearest_float(&time);
-            if time <= 0.0 || !time.is_finite() {
-                refuse(place, "the time must be finite and positive", "time = 100.0", diagnostics);
-            }
-            run.time = Some(time);
-        }
-        if let Some((every, place)) = table.integer("every", "every = 1", diagnostics) {
-            if every == 0 {
-                refuse(place, "`every` counts steps from 1", "every = 1", diagnostics);
-            }
-            run.every = Some(every);
-        }
+    if let Some(table) = root.table("run") {
+        table.check_keys(&["time", "every"]);
+        let time = table.number("time", "time = 100.0");
+        run.time = accepted(&table, time, "time = 100.0", |time| {
+            (time <= 0.0 || !time.is_finite()).then_some("the time must be finite and positive")
+        });
+        let every = table.integer("every", "every = 1");
+        run.every = accepted(&table, every, "every = 1", |every| {
+            (every == 0).then_some("`every` counts steps from 1")
+        });
     }
     run
+}
+
+/// A number that was given, refused where `wrong` says why.
+fn accepted<T: Copy>(
+    table: &Table<'_>,
+    given: Option<(T, Span)>,
+    example: &str,
+    wrong: impl Fn(T) -> Option<&'static str>,
+) -> Option<T> {
+    let (value, place) = given?;
+    if let Some(what) = wrong(value) {
+        table.refuse(place, what, example);
+    }
+    Some(value)
+}
+
+fn region(table: &Table<'_>) -> Option<Region> {
+    let value = table.get("region")?;
+    if !table.has("tolerance") {
+        let what = "`region` says where a tolerance is to hold, and there is none";
+        table.refuse(span(value), what, TOLERANCE);
+    }
+    if !matches!(value.get_ref(), DeValue::Array(_)) {
+        return table.number("region", REGION).map(|(radius, _)| Region::Ball(radius));
+    }
+    let rows = table.matrix("region", value, REGION)?;
+    let bounds = rows.iter().map(|row| match row.as_slice() {
+        [low, high] => Some([nearest_float(low), nearest_float(high)]),
+        _ => None,
+    });
+    let bounds: Option<Vec<[f64; 2]>> = bounds.collect();
+    if bounds.is_none() {
+        let expected = "a radius, or [low, high] for each coordinate";
+        table.wrong_kind("region", expected, value, REGION);
+    }
+    bounds.map(Region::Box)
 }

@@ -1,9 +1,6 @@
 //! The table `[units]`: texts for the people who read plots and reports.
 
-use toml::de::DeValue;
-
-use super::table::{Table, span, wrong_kind};
-use crate::diagnostic::{Diagnostics, Mistake, nearest};
+use super::table::Table;
 
 const EXAMPLE: &str = "momentum = \"kg m²/s\"";
 /// A unit longer than this is a sentence, and would not fit beside an axis.
@@ -28,42 +25,30 @@ impl Units {
 
 /// Reads `[units]`: `time`, `momentum` (of every coordinate without a unit of its own), and the names
 /// of coordinates. In a power of a group the name of one copy's coordinate stands for all copies.
-pub(super) fn read(
-    root: &Table<'_>,
-    coordinates: &[String],
-    diagnostics: &mut Diagnostics,
-) -> Units {
+pub(super) fn read(root: &Table<'_>, coordinates: &[String]) -> Units {
     let mut units = Units::default();
-    let Some(table) = root.table("units", diagnostics) else { return units };
+    let Some(table) = root.table("units") else { return units };
     let mut all = None;
     let mut own: Vec<Option<String>> = vec![None; coordinates.len()];
-    for (key, place, value) in table.entries() {
+    for (key, place, _) in table.entries() {
         let places: Vec<usize> = (0..coordinates.len())
             .filter(|&i| key == coordinates[i] || key == head(&coordinates[i]))
             .collect();
         if !matches!(key, "time" | "momentum") && places.is_empty() {
             // Without coordinates there was a mistake in them, and every key would be unknown.
             if !coordinates.is_empty() {
-                let known = known(coordinates);
-                let near = nearest(key, known.iter().map(String::as_str)).map(str::to_owned);
-                let owner = table.name().to_owned();
-                let unknown = Mistake::UnknownKey(key.to_owned(), owner, near, known);
-                diagnostics.report(place, unknown);
+                table.unknown_key(key, place, &known(coordinates));
             }
             continue;
         }
-        let DeValue::String(text) = value.get_ref() else {
-            let example = format!("{key} = \"kg m²/s\"");
-            wrong_kind(key, "a text in quotes", value, &example, diagnostics);
+        let Some((text, span)) = table.string(key, &format!("{key} = \"kg m²/s\"")) else {
             continue;
         };
         let Some(unit) = unit(text) else {
-            let message = format!(
-                "a unit is a text of 1 to {LONGEST} printable characters; leave it out where there \
-                 is none"
+            let what = format!(
+                "a unit is a text of 1 to {LONGEST} printable characters; leave it out where there is none"
             );
-            let help = Some(format!("write for example {EXAMPLE}"));
-            diagnostics.report(span(value), Mistake::Other(message, help));
+            table.refuse(span, &what, EXAMPLE);
             continue;
         };
         match key {
@@ -90,11 +75,11 @@ fn head(coordinate: &str) -> &str {
 }
 
 /// The keys of the table: those of copies once.
-fn known(coordinates: &[String]) -> Vec<String> {
-    let mut known = vec!["time".to_owned(), "momentum".to_owned()];
+fn known(coordinates: &[String]) -> Vec<&str> {
+    let mut known = vec!["time", "momentum"];
     for name in coordinates.iter().map(|name| head(name)) {
-        if known.last().is_none_or(|last| last != name) && !known.iter().any(|k| k == name) {
-            known.push(name.to_owned());
+        if !known.contains(&name) {
+            known.push(name);
         }
     }
     known

@@ -1,16 +1,9 @@
 //! One evaluator: every number of a system file knows parameters, `pi`, roots and functions.
-#![allow(clippy::panic)]
 
 use coadjoint_codegen::number::{Rational, ratio};
-use coadjoint_codegen::system::{self, Options, Parameters, System};
+use coadjoint_codegen::system::System;
 
-fn read(text: &str) -> System {
-    system::read(text, Options::default()).unwrap_or_else(|e| panic!("{}", e.render("f", text)))
-}
-
-fn kept() -> Options {
-    Options { parameters: Parameters::Kept, ..Options::default() }
-}
+use crate::given::{kept, read, said};
 
 fn terms(system: &System) -> Vec<Rational> {
     system.problem.hamiltonian.terms().map(|(_, value)| value).collect()
@@ -47,7 +40,7 @@ fn the_same_expressions_stand_everywhere() {
     assert_eq!(run.group_element.as_ref().map(|rows| rows[0][0]), Some(1.0));
     assert_eq!(run.time, Some(20.0));
     // A parameter that the brackets use is a number, whatever is kept.
-    let problem = system::read(text, kept()).unwrap().problem;
+    let problem = kept(text).problem;
     let names: Vec<&str> = problem.parameters.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["K"]);
 }
@@ -66,7 +59,7 @@ fn inverses_and_indices_are_numbers() {
     "#;
     let expected = [(26, 2), (-8, 1), (7, 1), (23, 2), (-9, 1), (19, 2)].map(|(n, d)| ratio(n, d));
     assert_eq!(terms(&read(text)), expected);
-    let problem = system::read(text, kept()).unwrap().problem;
+    let problem = kept(text).problem;
     assert_eq!(problem.parameters.len(), 1);
 }
 
@@ -140,13 +133,12 @@ fn nesting_is_refused_where_it_would_overflow() {
     let index = format!("mu[{}0{}]", "(".repeat(many), ")".repeat(many));
     let lists = format!("mu[{}0{}]", "P[".repeat(many), "]".repeat(many));
     let sums: String = (0..many).map(|i| format!("sum(i{i}, 0..1, ")).collect();
-    for (energy, said) in [
+    for (energy, message) in [
         (index, "is not an integer known here"),
         (lists, "is not an integer known here"),
         (format!("{sums}mu[0]{}", ")".repeat(many)), "more than 64 sums are nested"),
     ] {
         let text = format!("group = \"SO3\"\nhamiltonian = \"{energy}\"\n[parameters]\nP = [0]");
-        let mistakes = system::read(&text, Options::default()).unwrap_err();
-        assert!(mistakes.render("f", &text).contains(said), "{said}");
+        assert!(said(&text).contains(message), "{message}");
     }
 }

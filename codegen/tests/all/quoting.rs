@@ -1,13 +1,13 @@
 //! Texts of users never become code: what is emitted for hostile names is what is emitted for plain ones, but for comments.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used)]
 
+use crate::given::kept;
 use crate::tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options as RustOptions, file, potential_items};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::step::Step;
-use coadjoint_codegen::system::{self, Options, Parameters, System};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
 /// Texts that end comments, strings, elements and lines, that continue lines, or that are words of some language.
@@ -35,11 +35,6 @@ fn hostile() -> Vec<String> {
     list
 }
 
-fn read(text: &str, parameters: Parameters) -> System {
-    let options = Options { parameters, ..Options::default() };
-    system::read(text, options).unwrap_or_else(|e| panic!("{}", e.render("f", text)))
-}
-
 /// A text in quotes, of JSON and of TOML.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
@@ -52,7 +47,7 @@ fn own_algebra(name: &str) -> Integrator {
          generators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = -c\", \"[b, c] = a\", \"[c, a] = b\"]\n\
          [integrator]\ntruncation = 3"
     );
-    Integrator::build(read(&text, Parameters::Kept).problem, TermLimit::default()).unwrap()
+    Integrator::build(kept(&text).problem, TermLimit::default()).unwrap()
 }
 
 /// The lines of Rust that are no comments.
@@ -78,7 +73,7 @@ fn names_of_systems_and_algebras_stay_in_comments() {
         let integrator = own_algebra(name);
         let top =
             "name = \"top\"\ngroup = \"SO3\"\nhamiltonian = \"mu[0]^2\"\npotential = \"g[2][2]\"";
-        let mut potential = read(top, Parameters::Kept).potential.unwrap().0;
+        let mut potential = kept(top).potential.unwrap().0;
         potential.source = name.to_owned();
         potential.algebra = integrator.problem.algebra.clone();
         let kick = potential_items(&Kick::build(potential), &style);
@@ -162,7 +157,7 @@ fn kept_parameters_may_have_any_name() {
         sum.join(" + ").replace("mu[0]", "g[0][0]"),
         values.join("\n")
     );
-    let system = read(&text, Parameters::Kept);
+    let system = kept(&text);
     let kick = Kick::build(system.potential.unwrap().0);
     for name in ["plain", "double", "NULL", "Self"] {
         let mut problem = system.problem.clone();

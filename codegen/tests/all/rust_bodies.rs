@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 fn read(arguments: &str, function: &str) -> Result<Problem, String> {
     let arguments = arguments.parse().unwrap();
     let function = syn::parse_str(function).unwrap();
-    rust::read(arguments, &function).map_err(|errors| {
+    rust::lie_poisson(arguments, &function).map_err(|errors| {
         let lines = errors.into_syn_error().into_iter().map(|error| {
             let (start, end) = (error.span().start(), error.span().end());
             format!("{}:{}-{}: {error}", start.line, start.column + 1, end.column + 1)

@@ -1,12 +1,14 @@
 //! Large systems: work and code grow in proportion to the number of sites.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used)]
 
 use coadjoint_codegen::emit;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::system::{Options, Parameters, read};
+use coadjoint_codegen::system::Options;
+
+use crate::given::{kept, read, read_with, said};
 
 /// A Heisenberg ring with anisotropy and field, couplings to the next neighbours only.
 fn ring(sites: usize) -> Integrator {
@@ -22,10 +24,7 @@ sum(i, 0..{sites}, 0.3*z[i]^2 - 0.5*z[i]
 truncation = 3
 "#
     );
-    let system = read(&text, Options::default()).unwrap_or_else(|mistakes| {
-        panic!("{}", mistakes.render("ring", &text));
-    });
-    Integrator::build(system.problem, TermLimit::default()).unwrap()
+    Integrator::build(read(&text).problem, TermLimit::default()).unwrap()
 }
 
 #[test]
@@ -78,14 +77,13 @@ fn small_systems_use_newtons_method_unless_told_otherwise() {
              hamiltonian = \"x[0]*x[1] + y[0]^2/2 + z[1]^2/2\"\n[integrator]\n{solver}"
         )
     };
-    let solver = |line: &str, options| read(&text(line), options).unwrap().problem.solver();
+    let solver = |line: &str, options| read_with(&text(line), options).problem.solver();
     let plain = Options::default();
     assert_eq!(solver("", plain), Solver::Newton);
     assert_eq!(solver("solver = \"fixed_point\"", plain), Solver::FixedPoint);
     let option = Options { solver: Some(Solver::Newton), ..plain };
     assert_eq!(solver("solver = \"fixed_point\"", option), Solver::Newton);
-    let mistakes = read(&text("solver = \"fixedpoint\""), plain).unwrap_err();
-    let shown = mistakes.render("file", &text("solver = \"fixedpoint\""));
+    let shown = said(&text("solver = \"fixedpoint\""));
     assert!(shown.contains("did you mean `fixed_point`"), "{shown}");
 }
 
@@ -113,12 +111,8 @@ c = 2.5
 [integrator]
 truncation = 5
 "#;
-    let built = |parameters| {
-        let options = Options { parameters, ..Options::default() };
-        let system = read(text, options).unwrap_or_else(|m| panic!("{}", m.render("body", text)));
-        Integrator::build(system.problem, TermLimit::default()).unwrap()
-    };
-    let (kept, substituted) = (built(Parameters::Kept), built(Parameters::Substituted));
+    let [kept, substituted] = [kept(text), read(text)]
+        .map(|system| Integrator::build(system.problem, TermLimit::default()).unwrap());
     assert!(emit::check_size(&kept).is_ok());
     // The number that a refusal gives is that of the terms with literals, or a little more.
     let promised = kept.coefficients.series();

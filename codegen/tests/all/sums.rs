@@ -1,7 +1,9 @@
 //! Sums over sites in system files, and coordinates and momenta given for one copy.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used)]
 
-use coadjoint_codegen::system::{Options, System, read};
+use coadjoint_codegen::system::{self, Options};
+
+use crate::given::{read, said};
 
 fn file(hamiltonian: &str, momentum: &str) -> String {
     format!(
@@ -10,15 +12,7 @@ fn file(hamiltonian: &str, momentum: &str) -> String {
     )
 }
 
-fn system(hamiltonian: &str) -> System {
-    let text = file(hamiltonian, "[1, 2, 3, 4, 5, 6, 7, 8, 9]");
-    read(&text, Options::default()).unwrap_or_else(|m| panic!("{}", m.render("file", &text)))
-}
-
-fn refused(hamiltonian: &str) -> String {
-    let text = file(hamiltonian, "[1, 2, 3, 4, 5, 6, 7, 8, 9]");
-    read(&text, Options::default()).unwrap_err().render("file", &text)
-}
+const MOMENTUM: &str = "[1, 2, 3, 4, 5, 6, 7, 8, 9]";
 
 #[test]
 fn a_sum_is_its_terms() {
@@ -32,8 +26,8 @@ fn a_sum_is_its_terms() {
             "x[0]*x[1] + 2*x[0]*x[2] + x[1]*x[2]",
         ),
     ] {
-        let expected = system(long).problem.hamiltonian;
-        assert_eq!(system(short).problem.hamiltonian, expected, "{short}");
+        let [short, long] = [short, long].map(|text| read(&file(text, MOMENTUM)));
+        assert_eq!(short.problem.hamiltonian, long.problem.hamiltonian, "{}", short.problem.source);
     }
 }
 
@@ -51,7 +45,7 @@ fn mistakes_in_sums_are_named() {
         ("sum(i, 0..3, x[i]^2", "sum"),
         ("sum", "sum"),
     ] {
-        let shown = refused(hamiltonian);
+        let shown = said(&file(hamiltonian, MOMENTUM));
         assert!(shown.contains(message), "{hamiltonian}: {shown}");
     }
 }
@@ -60,7 +54,7 @@ fn mistakes_in_sums_are_named() {
 fn the_momentum_of_a_power_may_be_given_for_one_copy() {
     let momentum = |text: &str| {
         let text = file("sum(i, 0..3, x[i]^2)", text);
-        read(&text, Options::default()).map(|system| system.run.momentum.unwrap())
+        system::read(&text, Options::default()).map(|system| system.run.momentum.unwrap())
     };
     assert_eq!(
         momentum("[\"i + 1\", 0.5, \"2/4\"]").unwrap(),

@@ -51,7 +51,7 @@ fn the_attribute_reads_the_copied_function_as_the_same_hamiltonian() {
             _ => None,
         });
         let (arguments, function) = function.unwrap_or_else(|| panic!("{id}:\n{copied}"));
-        let read = rust::read(arguments, &function).unwrap_or_else(|mistakes| {
+        let read = rust::lie_poisson(arguments, &function).unwrap_or_else(|mistakes| {
             panic!("{id}: {}\n{copied}", mistakes.render("copied", &copied))
         });
         let kept = system.with_names().unwrap_or_else(|| system.integrator.problem.clone());

@@ -37,9 +37,9 @@ const KEPT: [(&str, &[&str]); 3] = [
     (
         "codegen",
         &[
+            "parse::rust::assign",
             "parse::rust::evaluate",
             "parse::rust::function",
-            "parse::rust::place",
             "parse::rust::scope",
             "parse::rust::signature",
             "parse::rust::value",

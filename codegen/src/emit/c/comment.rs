@@ -13,7 +13,7 @@ use crate::step::Step;
 const WIDTH: usize = 112;
 
 /// The opening comment, the guard, what is included, and macros.
-pub fn opening(
+pub(super) fn opening(
     integrator: &Integrator,
     step: &Step,
     fold: &Folding,

@@ -8,7 +8,7 @@ use super::names::Names;
 use crate::step::Step;
 
 /// The functions that make steps.
-pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
+pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
     let of = if kernel.flows().is_some() { "&c[flow * @P@_COEFFICIENTS]" } else { "c" };
     let refused_step = REFUSED_STEP.replace("(c,", &format!("({of},"));

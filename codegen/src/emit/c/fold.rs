@@ -19,7 +19,7 @@ use crate::step::Step;
 /// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
 /// order of their bases; then the bound on the Hessian, and the square of the radius.
 #[derive(Debug)]
-pub struct Folding {
+pub(super) struct Folding {
     /// For each coefficient that is read its place.
     pub places: BTreeMap<usize, usize>,
     /// The data that folding reads.
@@ -43,7 +43,7 @@ impl Folding {
     ///
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].
-    pub fn new(integrator: &Integrator, step: &Step) -> Result<Self, HeaderError> {
+    pub(super) fn new(integrator: &Integrator, step: &Step) -> Result<Self, HeaderError> {
         let programs = step.kernel().programs();
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
@@ -74,12 +74,17 @@ impl Folding {
     }
 
     /// How many coefficients there are.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.places.len()
     }
 
     /// The function that folds.
-    pub fn init(&self, integrator: &Integrator, names: &Names, options: &HeaderOptions) -> String {
+    pub(super) fn init(
+        &self,
+        integrator: &Integrator,
+        names: &Names,
+        options: &HeaderOptions,
+    ) -> String {
         let fold = self.table.lists();
         let problem = &integrator.problem;
         let scalars = parameter::scalars(&problem.parameters, names);
@@ -89,7 +94,7 @@ impl Folding {
             .map(|symbol| parameter::expression(&symbol.expr, &scalars, names))
             .collect();
         let mut text = String::new();
-        if problem.symbols.iter().any(|symbol| parameter::has_power(&symbol.expr)) {
+        if symbols.iter().any(|text| text.contains(parameter::POWER_OF)) {
             text.push_str(POWER);
         }
         if !fold.last.is_empty() {
@@ -137,7 +142,7 @@ impl Folding {
             let _ = writeln!(text, "    if (!((h >= {step}) && (h <= {step}))) {{");
             text.push_str("        status = @P@_BAD_STEP;\n    }\n");
         }
-        let read = products > 0 && symbols.iter().any(|text| text.contains("parameters->"));
+        let read = products > 0 && symbols.iter().any(|text| text.contains(parameter::MEMBER));
         if !read && !problem.parameters.is_empty() {
             text.push_str("    (void)parameters;\n");
         }

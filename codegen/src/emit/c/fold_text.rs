@@ -1,7 +1,7 @@
 //! The text of the function that folds.
 
 /// a^n, where parameters have powers: the operations of the interpreter.
-pub const POWER: &str = "
+pub(super) const POWER: &str = "
 /* Internal: a^n by repeated squaring. */
 static inline double @p@_internal_power(double a, uint32_t n)
 {
@@ -22,7 +22,7 @@ static inline double @p@_internal_power(double a, uint32_t n)
 ";
 
 /// How far a series is trusted.
-pub const WITHIN: &str = "
+pub(super) const WITHIN: &str = "
 /* Internal: the value of a polynomial. */
 static inline double @p@_internal_polynomial(const double *coefficients, double r)
 {
@@ -70,7 +70,7 @@ static inline double @p@_internal_radius(const double *last, const double *befor
 ";
 
 /// The documentation of the function.
-pub const ABOUT: &str = "
+pub(super) const ABOUT: &str = "
 /**
  * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
  * a parameter changes; steps only read the map. It needs about /*BYTES*/ bytes of stack.
@@ -82,7 +82,7 @@ pub const ABOUT: &str = "
 ";
 
 /// Counters, and the step size.
-pub const BEGIN: &str = "    double radius = DBL_MAX;
+pub(super) const BEGIN: &str = "    double radius = DBL_MAX;
     @p@_status status = @P@_OK;
     uint32_t term = 0u;
     uint32_t part = 0u;
@@ -95,7 +95,7 @@ pub const BEGIN: &str = "    double radius = DBL_MAX;
 ";
 
 /// Opaque coefficients and their products.
-pub const SYMBOLS: &str = "    for (i = 0u; i < /*SYMBOLS*/; i++) {
+pub(super) const SYMBOLS: &str = "    for (i = 0u; i < /*SYMBOLS*/; i++) {
         if ((status == @P@_OK) && (!(fabs(symbol[i]) <= DBL_MAX))) {
             status = @P@_BAD_PARAMETER;
         }
@@ -107,7 +107,7 @@ pub const SYMBOLS: &str = "    for (i = 0u; i < /*SYMBOLS*/; i++) {
 ";
 
 /// A coefficient's share in the bound on the Hessian.
-pub const BOUND: &str =
+pub(super) const BOUND: &str =
     "        for (; (next_bound < /*BOUNDS*/) && (bound_base[next_bound] == base); next_bound++) {
             i = bound_place[next_bound];
             map->c[i] = map->c[i] + (fabs(value) * bound_weight[next_bound]);
@@ -115,7 +115,7 @@ pub const BOUND: &str =
 ";
 
 /// A part of the last two terms of the series.
-pub const LAST: &str =
+pub(super) const LAST: &str =
     "            for (; (next_last < /*LASTS*/) && (last_part[next_last] == part); next_last++) {
                 const double size = fabs(sum) * last_weight[next_last];
                 i = last_place[next_last];
@@ -128,7 +128,7 @@ pub const LAST: &str =
 ";
 
 /// The coefficients.
-pub const LOOP: &str = "    power[0] = 1.0;
+pub(super) const LOOP: &str = "    power[0] = 1.0;
     for (i = 1u; i < /*POWERS*/; i++) {
         power[i] = power[i - 1u] * h;
     }
@@ -152,14 +152,14 @@ pub const LOOP: &str = "    power[0] = 1.0;
 ";
 
 /// The smallest radius of a factor of the group.
-pub const RADIUS: &str = "    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
+pub(super) const RADIUS: &str = "    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
         const double own = @p@_internal_radius(&last[i], &before[i]);
         radius = (own < radius) ? own : radius;
     }
 ";
 
 /// The radius, and whether all is finite.
-pub const END: &str = "/*RADIUS*/    for (i = 0u; i < (@P@_COEFFICIENTS - 1u); i++) {
+pub(super) const END: &str = "/*RADIUS*/    for (i = 0u; i < (@P@_COEFFICIENTS - 1u); i++) {
         if ((status == @P@_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
             status = @P@_BAD_PARAMETER;
         }
@@ -176,7 +176,7 @@ pub const END: &str = "/*RADIUS*/    for (i = 0u; i < (@P@_COEFFICIENTS - 1u); i
 ";
 
 /// Folding for a step of kicks and flows.
-pub const STEP: &str =
+pub(super) const STEP: &str =
     "static inline @p@_status @p@_init(@p@_map *map, double h/*PARAMETERS*/)
 {
     /* The flows and kicks of a step, as parts of it. */

@@ -5,12 +5,17 @@ use super::names::Names;
 use crate::expr::{Function, ParameterExpr};
 use crate::problem::{Parameter, Shape};
 
+/// The text before the name of a parameter.
+pub(crate) const MEMBER: &str = "parameters->";
+/// The end of the name of the function for powers, with the parenthesis of a call.
+pub(crate) const POWER_OF: &str = "_internal_power(";
+
 /// The scalars of the parameters as members of the structure `parameters`, in their order.
 pub(crate) fn scalars(parameters: &[Parameter], names: &Names) -> Vec<String> {
     let members = parameters.iter().zip(&names.parameters);
     members
         .flat_map(|(parameter, name)| {
-            let place = move |i: usize| format!("parameters->{name}{}", index(&parameter.shape, i));
+            let place = move |i: usize| format!("{MEMBER}{name}{}", index(&parameter.shape, i));
             (0..parameter.shape.len()).map(place).collect::<Vec<_>>()
         })
         .collect()
@@ -38,52 +43,20 @@ pub(crate) fn member(shape: &Shape, name: &str) -> String {
     }
 }
 
-/// Whether a power is in an expression that C has to compute.
-pub(crate) fn has_power(expr: &ParameterExpr) -> bool {
-    match expr {
-        ParameterExpr::Rational(_) | ParameterExpr::Parameter(_) => false,
-        ParameterExpr::Add(a, b)
-        | ParameterExpr::Sub(a, b)
-        | ParameterExpr::Mul(a, b)
-        | ParameterExpr::Div(a, b) => has_power(a) || has_power(b),
-        ParameterExpr::Neg(a) | ParameterExpr::Call(_, a) => has_power(a),
-        ParameterExpr::Powi(a, _) => has_parameter(a),
-    }
-}
-
-fn has_parameter(expr: &ParameterExpr) -> bool {
-    match expr {
-        ParameterExpr::Rational(_) => false,
-        ParameterExpr::Parameter(_) => true,
-        ParameterExpr::Add(a, b)
-        | ParameterExpr::Sub(a, b)
-        | ParameterExpr::Mul(a, b)
-        | ParameterExpr::Div(a, b) => has_parameter(a) || has_parameter(b),
-        ParameterExpr::Neg(a) | ParameterExpr::Call(_, a) | ParameterExpr::Powi(a, _) => {
-            has_parameter(a)
-        }
-    }
-}
-
 /// The value of `expr`; what has no parameter in it is a number already. `scalars` are the expressions of the parameters.
 pub(crate) fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names) -> String {
     let sub = |e: &ParameterExpr| expression(e, scalars, names);
-    if !has_parameter(expr) {
-        return decimal(expr.evaluate(&[]));
-    }
-    match expr {
-        ParameterExpr::Rational(_) => decimal(expr.evaluate(&[])),
-        ParameterExpr::Parameter(i) => {
-            scalars.get(*i).cloned().unwrap_or_else(|| decimal(f64::NAN))
-        }
+    let number = || decimal(expr.evaluate(&[]));
+    let text = match expr {
+        ParameterExpr::Rational(_) => number(),
+        ParameterExpr::Parameter(i) => scalars.get(*i).cloned().unwrap_or_else(number),
         ParameterExpr::Add(a, b) => format!("({} + {})", sub(a), sub(b)),
         ParameterExpr::Sub(a, b) => format!("({} - {})", sub(a), sub(b)),
         ParameterExpr::Mul(a, b) => format!("({} * {})", sub(a), sub(b)),
         ParameterExpr::Div(a, b) => format!("({} / {})", sub(a), sub(b)),
         ParameterExpr::Neg(a) => format!("(-{})", sub(a)),
         ParameterExpr::Powi(a, n) => {
-            let function = format!("{}_internal_power", names.lower);
-            let power = format!("{function}({}, {}u)", sub(a), n.unsigned_abs());
+            let power = format!("{}{POWER_OF}{}, {}u)", names.lower, sub(a), n.unsigned_abs());
             if *n < 0 { format!("(1.0 / {power})") } else { power }
         }
         ParameterExpr::Call(function, a) => {
@@ -98,5 +71,6 @@ pub(crate) fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names
             };
             format!("{name}({})", sub(a))
         }
-    }
+    };
+    if text.contains(MEMBER) { text } else { number() }
 }

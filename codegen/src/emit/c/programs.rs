@@ -38,12 +38,12 @@ fn energy(step: &Step) -> Program {
 }
 
 /// How many Casimirs are watched.
-pub fn casimirs(step: &Step) -> usize {
+pub(super) fn casimirs(step: &Step) -> usize {
     step.kernel().programs().watch.outputs().len().saturating_sub(1)
 }
 
 /// All programs, and what they need.
-pub fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
+pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
     let dialect = Portable::new(names, fold.places.clone());
     let prefix = format!("{}_internal_", names.lower);

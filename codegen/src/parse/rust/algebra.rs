@@ -5,91 +5,75 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Expr, ExprArray, ExprCall, Lit};
 
-use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix};
-use crate::number::Rational;
-use crate::parse::{Name, Names, bracket, rational};
+use crate::parse::{Names, bracket, fraction, rows};
 
 const KEYS: [&str; 3] = ["basis", "generators", "brackets"];
-const EXAMPLE: &str = "algebra(basis = [[[0, -1], [1, 0]]]) or \
+const EXAMPLE: &str = "write for example algebra(basis = [[[0, -1], [1, 0]]]) or \
                        algebra(generators = [a, b, c], brackets = [\"[a, b] = c\"])";
 /// The name of every algebra written in place; the catalogue has none of this name.
 const NAME: &str = "algebra(…)";
 
 /// Reads `algebra(…)`; `None` if `value` is not of this form, so that it names a group.
-pub(super) fn read(
-    value: &TokenStream,
-    diagnostics: &mut Diagnostics,
-) -> Option<Option<LieAlgebra>> {
+pub(super) fn read(value: &TokenStream, diagnostics: &Diagnostics) -> Option<Option<LieAlgebra>> {
     let call: ExprCall = syn::parse2(value.clone()).ok()?;
     let Expr::Path(path) = &*call.func else { return None };
-    if !path.path.is_ident("algebra") {
-        return None;
-    }
+    path.path.is_ident("algebra").then(|| of_call(&call, diagnostics))
+}
+
+fn of_call(call: &ExprCall, diagnostics: &Diagnostics) -> Option<LieAlgebra> {
     let before = diagnostics.len();
     let (mut basis, mut generators, mut brackets) = (None, None, None);
     for argument in &call.args {
         let Some((key, list)) = entry(argument, diagnostics) else { continue };
         match key.as_str() {
-            "basis" => basis = matrices(list, diagnostics),
-            "generators" => generators = Some(names(list)),
+            "basis" => basis = list.elems.iter().map(|one| matrix(one, diagnostics)).collect(),
+            "generators" => {
+                let named = list.elems.iter().map(|element| (text(element), Span::of(element)));
+                generators = Some(named.collect::<Vec<_>>());
+            }
             "brackets" => brackets = Some(list),
             _ => {
-                let suggestion = nearest(&key, KEYS).map(str::to_owned);
-                let known = KEYS.map(str::to_owned).to_vec();
-                let unknown = Mistake::UnknownKey(key, "algebra(…)".to_owned(), suggestion, known);
+                let unknown = Mistake::unknown_key(&key, NAME, &KEYS);
                 diagnostics.report(Span::of(argument), unknown);
             }
         }
     }
     if diagnostics.len() > before {
-        return Some(None);
+        return None;
     }
-    let whole = Span::of(&call);
+    let whole = Span::of(call);
+    let names = generators.as_ref().map(|list| list.iter().map(|(name, _)| name.clone()).collect());
     let algebra = match (basis, generators, brackets) {
-        (Some(basis), None, None) => LieAlgebra::from_basis(NAME, basis),
-        (Some(basis), Some(names), None) => {
-            let names = names.into_iter().map(|(name, _)| name).collect();
-            LieAlgebra::from_named_basis(NAME, names, basis)
-        }
-        (None, Some(names), Some(list)) => by_brackets(names, list, diagnostics),
+        (Some(basis), _, None) => match names {
+            None => LieAlgebra::from_basis(NAME, basis),
+            Some(names) => LieAlgebra::from_named_basis(NAME, names, basis),
+        },
+        (None, Some(generators), Some(list)) => by_brackets(&generators, list, diagnostics),
         _ => {
             let message = "an algebra is given by a basis, or by generators and brackets";
-            let help = Some(format!("write for example {EXAMPLE}"));
-            diagnostics.report(whole, Mistake::Other(message.to_owned(), help));
-            return Some(None);
+            diagnostics.report_other(whole, message, EXAMPLE);
+            return None;
         }
     };
-    Some(match algebra {
-        Ok(algebra) if diagnostics.len() == before => Some(algebra),
-        Ok(_) => None,
-        Err(error) => {
-            // Mistakes in single brackets make the rest meaningless.
-            if diagnostics.len() == before {
-                diagnostics.report(whole, Mistake::Algebra(error));
-            }
-            None
-        }
-    })
+    // Mistakes in single brackets make the rest meaningless.
+    if diagnostics.len() > before {
+        return None;
+    }
+    diagnostics.check(whole, algebra.map_err(Mistake::Algebra))
 }
 
 /// `key = [ … ]`.
-fn entry<'a>(argument: &'a Expr, diagnostics: &mut Diagnostics) -> Option<(String, &'a ExprArray)> {
+fn entry<'a>(argument: &'a Expr, diagnostics: &Diagnostics) -> Option<(String, &'a ExprArray)> {
     if let Expr::Assign(assign) = argument
         && let (Expr::Path(key), Expr::Array(list)) = (&*assign.left, &*assign.right)
         && let Some(key) = key.path.get_ident()
     {
         return Some((key.to_string(), list));
     }
-    let message = "this is not of the form key = [ … ]".to_owned();
-    let help = Some(format!("write for example {EXAMPLE}"));
-    diagnostics.report(Span::of(argument), Mistake::Other(message, help));
+    diagnostics.report_other(Span::of(argument), "this is not of the form key = [ … ]", EXAMPLE);
     None
-}
-
-/// Names as identifiers or string literals.
-fn names(list: &ExprArray) -> Vec<(String, Span)> {
-    list.elems.iter().map(|element| (text(element), Span::of(element))).collect()
 }
 
 /// The content of a string literal, or the tokens themselves.
@@ -103,75 +87,43 @@ fn text(expression: &Expr) -> String {
     }
 }
 
-fn matrices(list: &ExprArray, diagnostics: &mut Diagnostics) -> Option<Vec<RationalMatrix>> {
-    list.elems.iter().map(|matrix| self::matrix(matrix, diagnostics)).collect()
+fn matrix(expression: &Expr, diagnostics: &Diagnostics) -> Option<RationalMatrix> {
+    let number = |entry| diagnostics.check(Span::of(entry), fraction(&text(entry)));
+    let row = |row| {
+        let entries = array(row, diagnostics)?.elems.iter().map(number);
+        Some((entries.collect::<Option<_>>()?, Span::of(row)))
+    };
+    let rows = rows(array(expression, diagnostics)?.elems.iter().map(row), diagnostics)?;
+    Some(RationalMatrix::from_rows(rows))
 }
 
-fn matrix(expression: &Expr, diagnostics: &mut Diagnostics) -> Option<RationalMatrix> {
-    let rows = array(expression, diagnostics)?;
-    let mut result: Vec<Vec<Rational>> = Vec::new();
-    for row in &rows.elems {
-        let entries = array(row, diagnostics)?;
-        let numbers: Option<Vec<Rational>> =
-            entries.elems.iter().map(|entry| number(entry, diagnostics)).collect();
-        let numbers = numbers?;
-        if let Some(first) = result.first()
-            && first.len() != numbers.len()
-        {
-            let message =
-                format!("this row has {} entries, the first one {}", numbers.len(), first.len());
-            let help = Some("give every row as many entries".to_owned());
-            diagnostics.report(Span::of(row), Mistake::Other(message, help));
-            return None;
-        }
-        result.push(numbers);
-    }
-    Some(RationalMatrix::from_rows(result))
-}
-
-fn array<'a>(expression: &'a Expr, diagnostics: &mut Diagnostics) -> Option<&'a ExprArray> {
-    match expression {
-        Expr::Array(array) => Some(array),
-        other => {
-            let message = "a basis is a list of matrices, each a list of rows".to_owned();
-            let help = Some("write for example [[[0, -1], [1, 0]]]".to_owned());
-            diagnostics.report(Span::of(other), Mistake::Other(message, help));
-            None
-        }
-    }
-}
-
-fn number(expression: &Expr, diagnostics: &mut Diagnostics) -> Option<Rational> {
-    let text = text(expression);
-    match rational(&text) {
-        Ok(number) => Some(number),
-        Err(_) => {
-            diagnostics.report(Span::of(expression), Mistake::Number(text));
-            None
-        }
-    }
+fn array<'a>(expression: &'a Expr, diagnostics: &Diagnostics) -> Option<&'a ExprArray> {
+    let Expr::Array(array) = expression else {
+        let message = "a basis is a list of matrices, each a list of rows";
+        let help = "write for example [[[0, -1], [1, 0]]]";
+        diagnostics.report_other(Span::of(expression), message, help);
+        return None;
+    };
+    Some(array)
 }
 
 /// The algebra of these brackets, as far as they can be read.
 fn by_brackets(
-    generators: Vec<(String, Span)>,
+    generators: &[(String, Span)],
     list: &ExprArray,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Result<LieAlgebra, LieAlgebraError> {
-    let mut known = Names::default();
-    for (i, (name, place)) in generators.iter().enumerate() {
-        known.add(name, Name::Coordinate(i), *place, diagnostics);
-    }
+    let known = Names::of_coordinates(generators, diagnostics);
     let mut brackets = Vec::new();
     for element in &list.elems {
         let place = Span::of(element);
         // Bytes inside a string literal have no span: its mistakes are reported at the literal.
-        let mut inside = Diagnostics::new();
-        brackets.extend(bracket(&text(element), 0, place, &known, &mut inside));
-        for found in inside.iter() {
-            diagnostics.report(place, found.mistake.clone());
+        let inside = Diagnostics::new();
+        brackets.extend(bracket(&text(element), 0, place, &known, &inside));
+        for found in inside.list() {
+            diagnostics.report(place, found.mistake);
         }
     }
-    let names = generators.into_iter().map(|(name, _)| name).collect();
+    let names = generators.iter().map(|(name, _)| name.clone()).collect();
     LieAlgebra::from_brackets(NAME, names, brackets)
 }

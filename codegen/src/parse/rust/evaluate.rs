@@ -2,12 +2,13 @@
 
 use syn::{Block, Expr, Lit, UnOp};
 
+use super::assign::member;
 use super::scope::Scopes;
 use super::value::Value;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Node};
 use crate::number::Rational;
-use crate::parse::{NumberError, decimal};
+use crate::parse::decimal;
 
 /// The most operations a function may run through.
 const MOST_OPERATIONS: usize = 200_000;
@@ -34,13 +35,13 @@ pub(super) struct Evaluator<'a> {
     pub(super) scopes: Scopes,
     pub(super) calls: usize,
     arena: Arena,
-    diagnostics: &'a mut Diagnostics,
+    diagnostics: &'a Diagnostics,
     operations: usize,
     stopped: bool,
 }
 
 impl<'a> Evaluator<'a> {
-    pub(super) fn new(diagnostics: &'a mut Diagnostics) -> Self {
+    pub(super) fn new(diagnostics: &'a Diagnostics) -> Self {
         Self {
             scopes: Scopes::default(),
             calls: 0,
@@ -55,13 +56,15 @@ impl<'a> Evaluator<'a> {
         self.arena
     }
 
-    pub(super) fn report(&mut self, span: Span, mistake: Mistake) {
+    /// Reports a mistake, and stands for it.
+    pub(super) fn wrong(&mut self, span: Span, mistake: Mistake) -> Value {
         self.diagnostics.report(span, mistake);
+        Value::Wrong
     }
 
     /// Reports something that is not read, and stands for it.
     pub(super) fn unsupported(&mut self, span: Span, what: &str, help: &str) -> Value {
-        self.report(span, Mistake::Unsupported(what.to_owned(), help.to_owned()));
+        self.diagnostics.report_other(span, what, help);
         Value::Wrong
     }
 
@@ -77,7 +80,7 @@ impl<'a> Evaluator<'a> {
         }
         if !self.stopped {
             self.stopped = true;
-            self.report(span, Mistake::LongLoop(MOST_OPERATIONS));
+            self.wrong(span, Mistake::LongLoop(MOST_OPERATIONS));
         }
         Err(Flow::Stop)
     }
@@ -86,7 +89,7 @@ impl<'a> Evaluator<'a> {
     pub(super) fn body(&mut self, block: &Block) -> Option<(ExprId, Span)> {
         let value = match self.block(block) {
             Ok(value) | Err(Flow::Return(value)) => value,
-            Err(Flow::Break | Flow::Continue | Flow::Wrong | Flow::Stop) => return None,
+            Err(_) => return None,
         };
         let result = block.stmts.last().map_or(Span::of(block), Span::of);
         match value {
@@ -115,7 +118,7 @@ impl<'a> Evaluator<'a> {
             Value::Integer(n) => Some(*n),
             Value::Wrong => None,
             _ => {
-                self.report(span, Mistake::NotConstant(what));
+                self.wrong(span, Mistake::NotConstant(what));
                 None
             }
         }
@@ -124,14 +127,12 @@ impl<'a> Evaluator<'a> {
     /// The value of an expression.
     pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, Flow> {
         let span = || Span::of(expression);
-        if let Some(value) = self.read_place(expression) {
-            return value;
-        }
         match expression {
             Expr::Lit(literal) => Ok(self.literal(&literal.lit)),
             Expr::Paren(inner) => self.expression(&inner.expr),
             Expr::Group(inner) => self.expression(&inner.expr),
             Expr::Reference(inner) => self.expression(&inner.expr),
+            Expr::Unary(syn::ExprUnary { op: UnOp::Deref(_), expr, .. }) => self.expression(expr),
             Expr::Block(block) if block.label.is_none() => self.block(&block.block),
             Expr::Unsafe(block) => self.block(&block.block),
             Expr::Const(block) => self.block(&block.block),
@@ -139,23 +140,24 @@ impl<'a> Evaluator<'a> {
             Expr::Unary(unary) => {
                 let value = self.expression(&unary.expr)?;
                 self.tick(span())?;
-                Ok(match unary.op {
-                    UnOp::Neg(_) => self.negate(value, span()),
-                    UnOp::Not(_) => match value {
-                        Value::Bool(truth) => Value::Bool(!truth),
-                        Value::Wrong => Value::Wrong,
-                        _ => self.unsupported(span(), "`!` of this is not known", ""),
-                    },
-                    _ => value,
+                Ok(match (unary.op, value) {
+                    (UnOp::Neg(_), value) => self.negate(value, span()),
+                    (_, Value::Bool(truth)) => Value::Bool(!truth),
+                    (_, Value::Wrong) => Value::Wrong,
+                    _ => self.unsupported(span(), "`!` of this is not known", ""),
                 })
             }
             Expr::Cast(cast) => {
                 let value = self.expression(&cast.expr)?;
                 Ok(self.cast(value, &cast.ty, span()))
             }
-            Expr::Array(array) => self.list(array.elems.iter()),
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Ok(Value::Unit),
-            Expr::Tuple(tuple) => self.list(tuple.elems.iter()),
+            Expr::Array(syn::ExprArray { elems, .. })
+            | Expr::Tuple(syn::ExprTuple { elems, .. }) => {
+                let values: Result<Vec<Value>, Flow> =
+                    elems.iter().map(|entry| self.expression(entry)).collect();
+                Ok(Value::list(values?))
+            }
             Expr::Repeat(repeat) => {
                 let value = self.expression(&repeat.expr)?;
                 let count = self.expression(&repeat.len)?;
@@ -165,24 +167,28 @@ impl<'a> Evaluator<'a> {
                 };
                 let count = usize::try_from(count).unwrap_or(0);
                 if count > MOST_OPERATIONS {
-                    self.tick_all(place)?;
+                    self.operations = MOST_OPERATIONS;
+                    self.tick(place)?;
                 }
-                Ok(Value::List(vec![value; count]))
+                Ok(Value::list(vec![value; count]))
             }
             Expr::Range(range) => self.range(range),
             Expr::Index(index) => {
                 let base = self.expression(&index.expr)?;
-                self.index_value(base, index, span())
+                if let Expr::Range(range) = &*index.index {
+                    return self.slice(&base, range);
+                }
+                match self.index(&index.index) {
+                    Ok(index) => Ok(self.entry(&base, &index, span())),
+                    Err(Flow::Wrong) => Ok(Value::Wrong),
+                    Err(flow) => Err(flow),
+                }
             }
             Expr::Field(field) => {
                 let base = self.expression(&field.base)?;
-                let Some(index) = super::place::member(&field.member) else {
-                    return Ok(self.unsupported(span(), "this field is not known", ""));
-                };
-                Ok(match base.entry(&[index]) {
-                    Ok(value) => value.clone(),
-                    Err(_) if matches!(base, Value::Wrong) => Value::Wrong,
-                    Err(length) => self.bad_index(span(), &[index], length, base.kind()),
+                Ok(match member(&field.member) {
+                    Some(index) => self.entry(&base, &[index], span()),
+                    None => self.unsupported(span(), "this field is not known", ""),
                 })
             }
             Expr::Assign(assign) => {
@@ -212,69 +218,24 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn tick_all(&mut self, span: Span) -> Result<(), Flow> {
-        self.operations = MOST_OPERATIONS;
-        self.tick(span)
-    }
-
-    fn list<'e>(&mut self, entries: impl Iterator<Item = &'e Expr>) -> Result<Value, Flow> {
-        let values: Result<Vec<Value>, Flow> =
-            entries.map(|entry| self.expression(entry)).collect();
-        Ok(Value::List(values?))
-    }
-
-    fn index_value(
-        &mut self,
-        base: Value,
-        index: &syn::ExprIndex,
-        span: Span,
-    ) -> Result<Value, Flow> {
-        if let Expr::Range(range) = &*index.index {
-            return self.slice(base, range);
-        }
-        let position = match self.index(&index.index) {
-            Some(Ok(position)) => position,
-            Some(Err(Flow::Wrong)) | None => return Ok(Value::Wrong),
-            Some(Err(flow)) => return Err(flow),
-        };
-        Ok(match base.entry(&position) {
-            Ok(value) => value.clone(),
-            Err(_) if matches!(base, Value::Wrong) => Value::Wrong,
-            Err(length) => self.bad_index(span, &position, length, base.kind()),
-        })
-    }
-
     fn literal(&mut self, literal: &Lit) -> Value {
         let span = Span::of(literal);
-        let (digits, size_of) = match literal {
-            Lit::Float(number) => (number.base10_digits().to_owned(), span),
-            Lit::Int(number) if matches!(number.suffix(), "f64" | "f32") => {
-                (number.base10_digits().to_owned(), span)
-            }
+        let digits = match literal {
+            Lit::Float(number) => number.base10_digits(),
+            Lit::Int(number) if matches!(number.suffix(), "f64" | "f32") => number.base10_digits(),
             Lit::Int(number) => {
-                return match number.base10_parse::<i128>() {
+                let digits = number.base10_digits();
+                return match digits.parse() {
                     Ok(value) => Value::Integer(value),
-                    Err(_) => {
-                        self.report(span, Mistake::NumberSize(number.base10_digits().to_owned()));
-                        Value::Wrong
-                    }
+                    Err(_) => self.wrong(span, Mistake::NumberSize(digits.to_owned())),
                 };
             }
             Lit::Bool(truth) => return Value::Bool(truth.value),
             _ => return self.unsupported(span, "only numbers make sense here", ""),
         };
-        match decimal(&digits) {
+        match decimal(digits) {
             Ok(value) => self.constant(value, span),
-            Err(error) => {
-                self.report(
-                    size_of,
-                    match error {
-                        NumberError::Form => Mistake::Number(digits),
-                        NumberError::Size => Mistake::NumberSize(digits),
-                    },
-                );
-                Value::Wrong
-            }
+            Err(mistake) => self.wrong(span, mistake),
         }
     }
 }

@@ -7,7 +7,7 @@ use syn::{Expr, ExprCall, Pat, Path};
 use super::evaluate::{DEEPEST_CALL, Evaluator, Flow};
 use super::scope::Scopes;
 use super::signature::sized;
-use super::value::Value;
+use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::number::{Rational, integer};
 use crate::problem::Shape;
@@ -79,8 +79,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value of a path that is no variable: a known constant, or an unknown name.
+    /// The value of a variable or a known constant; other names are reported.
     pub(super) fn path(&mut self, path: &Path) -> Value {
+        let variable = path.get_ident().and_then(|name| self.scopes.get(&name.to_string()));
+        if let Some(value) = variable {
+            return value.clone();
+        }
         let span = Span::of(path);
         let segments: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
         let last = segments.last().map(String::as_str).unwrap_or_default();
@@ -98,8 +102,7 @@ impl Evaluator<'_> {
                 let help = "define it with `const` inside the function, or pass it as a parameter";
                 return self.unsupported(span, &message, help);
             }
-            self.report(span, Mistake::UnknownVariable(name.clone(), suggestion, names));
-            return Value::Wrong;
+            return self.wrong(span, Mistake::UnknownVariable(name.clone(), suggestion, names));
         }
         let message = format!("`{}` is not read", segments.join("::"));
         self.unsupported(span, &message, "write its value, or pass it as a parameter")
@@ -112,18 +115,19 @@ impl Evaluator<'_> {
         for argument in &call.args {
             arguments.push(self.expression(argument)?);
         }
-        let Expr::Path(path) = &*call.func else {
-            return match self.expression(&call.func)? {
-                Value::Function(function) => self.apply(&function, arguments, span),
-                _ => Ok(self.unsupported(span, "this call is not read", "")),
-            };
+        let function = match &*call.func {
+            Expr::Path(path) => {
+                let name = path.path.get_ident().map(ToString::to_string);
+                name.and_then(|name| self.scopes.get(&name)).cloned()
+            }
+            expression => Some(self.expression(expression)?),
         };
-        if let Some(name) = path.path.get_ident()
-            && let Some(Value::Function(function)) = self.scopes.get(&name.to_string())
-        {
-            let function = Rc::clone(function);
+        if let Some(Value::Function(function)) = function {
             return self.apply(&function, arguments, span);
         }
+        let Expr::Path(path) = &*call.func else {
+            return Ok(self.unsupported(span, "this call is not read", ""));
+        };
         let segments: Vec<String> =
             path.path.segments.iter().map(|s| s.ident.to_string()).collect();
         let value = match &segments[..] {
@@ -168,52 +172,42 @@ impl Evaluator<'_> {
             Shape::Matrix(rows, columns) => (rows, columns),
             _ => return None,
         };
-        let wrap = |entries: Vec<Value>| {
-            if columns == 1 {
-                Value::Vector(entries)
-            } else {
-                Value::Matrix { rows, columns, entries }
-            }
-        };
         let mut number = |n: i64| self.constant(integer(n), span);
-        Some(match (name, arguments) {
-            ("new", entries) if entries.len() == rows * columns => wrap(entries.to_vec()),
-            ("zeros", []) => wrap((0..rows * columns).map(|_| number(0)).collect()),
-            ("repeat" | "from_element", [value]) => wrap(vec![value.clone(); rows * columns]),
+        let all = 0..rows * columns;
+        let entries: Vec<Value> = match (name, arguments) {
+            ("new", entries) if entries.len() == rows * columns => entries.to_vec(),
+            ("zeros", []) => all.map(|_| number(0)).collect(),
+            ("repeat" | "from_element", [value]) => vec![value.clone(); rows * columns],
             ("identity", []) => {
-                let entry = |k: usize| i64::from(k / columns == k % columns);
-                wrap((0..rows * columns).map(|k| number(entry(k))).collect())
+                all.map(|k| number(i64::from(k / columns == k % columns))).collect()
             }
-            ("from_diagonal", [Value::Vector(diagonal)]) if diagonal.len() == rows => {
-                let mut entries = Vec::new();
-                for k in 0..rows * columns {
-                    let (i, j) = (k / columns, k % columns);
-                    entries.push(if i == j { diagonal[i].clone() } else { number(0) });
-                }
-                wrap(entries)
+            ("from_diagonal", [Value::Matrix(diagonal)]) if diagonal.entries.len() == rows => {
+                let entry = |k: usize| match k / columns == k % columns {
+                    true => diagonal.entries[k / columns].clone(),
+                    false => number(0),
+                };
+                all.map(entry).collect()
             }
             ("x" | "y" | "z" | "x_axis" | "y_axis" | "z_axis", []) if columns == 1 => {
                 let axis = ["x", "y", "z"].iter().position(|a| name.starts_with(a))?;
-                wrap((0..rows).map(|i| number(i64::from(i == axis))).collect())
+                all.map(|i| number(i64::from(i == axis))).collect()
             }
-            ("from" | "from_column_slice", [Value::List(list)]) if columns == 1 => {
-                wrap(list.clone())
+            ("from" | "from_column_slice", [Value::List(list)])
+                if columns == 1 && list.len() == rows =>
+            {
+                list.to_vec()
             }
             ("from_row_slice", [Value::List(list)]) if list.len() == rows * columns => {
-                wrap(list.clone())
+                list.to_vec()
             }
             // nalgebra reads nested arrays column by column.
-            ("from", [Value::List(list)]) => {
-                let mut entries = Vec::new();
-                for k in 0..rows * columns {
-                    let (i, j) = (k / columns, k % columns);
-                    let Value::List(column) = list.get(j)? else { return None };
-                    entries.push(column.get(i)?.clone());
-                }
-                wrap(entries)
+            ("from", [list @ Value::List(_)]) => {
+                let entry = |k: usize| list.entry(&[k % columns])?.entry(&[k / columns]);
+                all.map(entry).collect::<Result<_, _>>().ok()?
             }
             _ => return None,
-        })
+        };
+        Some(Value::Matrix(Matrix::new(rows, columns, entries.into_iter())))
     }
 }
 

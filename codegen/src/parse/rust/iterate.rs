@@ -1,10 +1,14 @@
 //! Loops, ranges and iterator chains: everything whose length is known.
 
+use std::rc::Rc;
+
 use syn::{Expr, ExprRange, RangeLimits};
 
 use super::evaluate::{Evaluator, Flow};
+use super::function::Callable;
 use super::value::Value;
 use crate::diagnostic::{Mistake, Span};
+use crate::number::integer;
 
 impl Evaluator<'_> {
     /// The integers of a range.
@@ -16,7 +20,7 @@ impl Evaluator<'_> {
             self.tick(span)?;
             list.push(Value::Integer(i));
         }
-        Ok(Value::List(list))
+        Ok(Value::list(list))
     }
 
     /// Start and end (excluded) of a range; an open end is `open`.
@@ -28,7 +32,7 @@ impl Evaluator<'_> {
         let bound = |this: &mut Self, bound: &Option<Box<Expr>>, default: Option<i128>| {
             let Some(bound) = bound else {
                 if default.is_none() {
-                    this.report(Span::of(range), Mistake::NotConstant("the end of a range"));
+                    this.wrong(Span::of(range), Mistake::NotConstant("the end of a range"));
                 }
                 return Ok(default);
             };
@@ -38,24 +42,22 @@ impl Evaluator<'_> {
         let start = bound(self, &range.start, open.map(|_| 0))?;
         let end = bound(self, &range.end, open.map(|n| n as i128))?;
         let inclusive = matches!(range.limits, RangeLimits::Closed(_)) && range.end.is_some();
-        Ok(start
-            .zip(end)
-            .map(|(start, end)| (start, if inclusive { end.saturating_add(1) } else { end })))
+        let end = end.map(|end| if inclusive { end.saturating_add(1) } else { end });
+        Ok(start.zip(end))
     }
 
     /// `base[start..end]`.
-    pub(super) fn slice(&mut self, base: Value, range: &ExprRange) -> Result<Value, Flow> {
-        let (Value::List(list) | Value::Vector(list)) = base else { return Ok(Value::Wrong) };
+    pub(super) fn slice(&mut self, base: &Value, range: &ExprRange) -> Result<Value, Flow> {
+        let Some(list) = base.iterated() else { return Ok(Value::Wrong) };
         let Some((start, end)) = self.bounds(range, Some(list.len()))? else {
             return Ok(Value::Wrong);
         };
-        let bound = |i: i128| usize::try_from(i).ok().filter(|&i| i <= list.len());
-        Ok(match (bound(start), bound(end)) {
-            (Some(start), Some(end)) if start <= end => Value::List(list[start..end].to_vec()),
-            _ => {
+        let slice = usize::try_from(start).ok().zip(usize::try_from(end).ok());
+        Ok(match slice.and_then(|(start, end)| list.get(start..end)) {
+            Some(slice) => Value::list(slice.to_vec()),
+            None => {
                 let shown = format!("{start}..{end}");
-                self.report(Span::of(range), Mistake::IndexRange(shown, list.len()));
-                Value::Wrong
+                self.wrong(Span::of(range), Mistake::IndexRange(shown, list.len()))
             }
         })
     }
@@ -63,19 +65,20 @@ impl Evaluator<'_> {
     /// `for pattern in list { … }`.
     pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, Flow> {
         let span = Span::of(&for_loop.expr);
-        let items = match self.expression(&for_loop.expr)? {
-            Value::List(items) | Value::Vector(items) => items,
-            Value::Matrix { entries, .. } => entries,
-            Value::Wrong => return Ok(Value::Wrong),
-            _ => {
-                let help = "loop over a range such as 0..3, or over an array";
-                return Ok(self.unsupported(span, "this cannot be looped over", help));
-            }
+        let list = self.expression(&for_loop.expr)?;
+        let Some(items) = list.iterated() else {
+            return Ok(match list {
+                Value::Wrong => Value::Wrong,
+                _ => {
+                    let help = "loop over a range such as 0..3, or over an array";
+                    self.unsupported(span, "this cannot be looped over", help)
+                }
+            });
         };
-        for item in items {
+        for item in items.iter() {
             self.tick(span)?;
             self.scopes.enter();
-            self.bind(&for_loop.pat, item);
+            self.bind(&for_loop.pat, item.clone());
             let flow = self.block(&for_loop.body);
             self.scopes.leave();
             if ends(flow)? {
@@ -116,73 +119,55 @@ impl Evaluator<'_> {
         items: &[Value],
         call: &syn::ExprMethodCall,
         arguments: &[Value],
-    ) -> Option<Result<Value, Flow>> {
+    ) -> Result<Option<Value>, Flow> {
         let span = Span::of(call);
-        let count = |this: &mut Self| {
-            let value = arguments.first()?;
-            let n = this.integer(value, "this number", Span::of(&call.args))?;
-            usize::try_from(n).ok()
-        };
+        let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
         let list = match (call.method.to_string().as_str(), arguments) {
             (
                 "iter" | "iter_mut" | "into_iter" | "copied" | "cloned" | "clone" | "to_vec"
                 | "as_slice" | "as_ref" | "collect" | "to_owned" | "by_ref",
                 [],
             ) => items.to_vec(),
-            ("len" | "count", []) => return Some(Ok(Value::Integer(items.len() as i128))),
+            ("len" | "count", []) => return Ok(Some(Value::Integer(items.len() as i128))),
             ("rev", []) => items.iter().rev().cloned().collect(),
-            ("enumerate", []) => {
-                let pair = |(i, v): (usize, &Value)| {
-                    Value::List(vec![Value::Integer(i as i128), v.clone()])
-                };
-                items.iter().enumerate().map(pair).collect()
-            }
-            ("zip" | "chain", [Value::List(other) | Value::Vector(other)]) => {
-                if call.method == "chain" {
-                    items.iter().chain(other).cloned().collect()
-                } else {
-                    let pair = |(a, b): (&Value, &Value)| Value::List(vec![a.clone(), b.clone()]);
-                    items.iter().zip(other).map(pair).collect()
+            ("enumerate", []) => (0..).map(Value::Integer).zip(items).map(pair).collect(),
+            ("zip", [other]) => match other.iterated() {
+                Some(other) => items.iter().cloned().zip(other.iter()).map(pair).collect(),
+                None => return Ok(None),
+            },
+            ("chain", [other]) => match other.iterated() {
+                Some(other) => items.iter().chain(other.iter()).cloned().collect(),
+                None => return Ok(None),
+            },
+            (name @ ("take" | "skip" | "step_by" | "windows"), [count]) => {
+                let count = self.integer(count, "this number", Span::of(&call.args));
+                let Some(n) = count.and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
+                match name {
+                    "take" => items.iter().take(n).cloned().collect(),
+                    "skip" => items.iter().skip(n).cloned().collect(),
+                    "step_by" => items.iter().step_by(n.max(1)).cloned().collect(),
+                    _ => items.windows(n.max(1)).map(|w| Value::list(w.to_vec())).collect(),
                 }
             }
-            ("take", [_]) => items.iter().take(count(self)?).cloned().collect(),
-            ("skip", [_]) => items.iter().skip(count(self)?).cloned().collect(),
-            ("step_by", [_]) => items.iter().step_by(count(self)?.max(1)).cloned().collect(),
-            ("windows", [_]) => {
-                items.windows(count(self)?.max(1)).map(|w| Value::List(w.to_vec())).collect()
-            }
-            ("map", [Value::Function(function)]) => {
-                let mut mapped = Vec::new();
-                for item in items {
-                    match self.apply(function, vec![item.clone()], span) {
-                        Ok(value) => mapped.push(value),
-                        Err(flow) => return Some(Err(flow)),
-                    }
-                }
-                mapped
-            }
+            ("map", [Value::Function(function)]) => self.mapped(items, function, span)?,
             ("flat_map", [Value::Function(function)]) => {
-                let mut mapped = Vec::new();
-                for item in items {
-                    match self.apply(function, vec![item.clone()], span) {
-                        Ok(Value::List(values)) => mapped.extend(values),
-                        Ok(other) => mapped.push(other),
-                        Err(flow) => return Some(Err(flow)),
-                    }
-                }
-                mapped
+                let mapped = self.mapped(items, function, span)?.into_iter();
+                let flat = mapped.flat_map(|value| match value {
+                    Value::List(values) => values.to_vec(),
+                    other => vec![other],
+                });
+                flat.collect()
             }
             ("filter", [Value::Function(function)]) => {
                 let mut kept = Vec::new();
-                for item in items {
-                    match self.apply(function, vec![item.clone()], span) {
-                        Ok(Value::Bool(true)) => kept.push(item.clone()),
-                        Ok(Value::Bool(false) | Value::Wrong) => {}
-                        Ok(_) => {
-                            self.report(span, Mistake::NotConstant("the condition of a filter"));
-                            return Some(Ok(Value::Wrong));
+                for (item, keep) in items.iter().zip(self.mapped(items, function, span)?) {
+                    match keep {
+                        Value::Bool(true) => kept.push(item.clone()),
+                        Value::Bool(false) | Value::Wrong => {}
+                        _ => {
+                            let unknown = Mistake::NotConstant("the condition of a filter");
+                            return Ok(Some(self.wrong(span, unknown)));
                         }
-                        Err(flow) => return Some(Err(flow)),
                     }
                 }
                 kept
@@ -190,34 +175,36 @@ impl Evaluator<'_> {
             ("fold", [start, Value::Function(function)]) => {
                 let mut value = start.clone();
                 for item in items {
-                    match self.apply(function, vec![value, item.clone()], span) {
-                        Ok(next) => value = next,
-                        Err(flow) => return Some(Err(flow)),
-                    }
+                    value = self.apply(function, vec![value, item.clone()], span)?;
                 }
-                return Some(Ok(value));
+                return Ok(Some(value));
             }
-            ("sum" | "product", []) => {
-                let sum = call.method == "sum";
-                return Some(self.accumulate(items, sum, span));
+            (name @ ("sum" | "product"), []) => {
+                let operation = if name == "sum" { Self::add } else { Self::multiply };
+                let Some((first, items)) = items.split_first() else {
+                    let neutral = integer(i64::from(name == "product"));
+                    return Ok(Some(self.constant(neutral, span)));
+                };
+                let mut value = first.clone();
+                for item in items {
+                    self.tick(span)?;
+                    value = operation(self, value, item.clone(), span);
+                }
+                return Ok(Some(value));
             }
-            _ => return None,
+            _ => return Ok(None),
         };
-        Some(Ok(Value::List(list)))
+        Ok(Some(Value::list(list)))
     }
 
-    fn accumulate(&mut self, items: &[Value], sum: bool, span: Span) -> Result<Value, Flow> {
-        let mut items = items.iter().cloned();
-        let Some(mut value) = items.next() else {
-            let neutral = crate::number::integer(i64::from(!sum));
-            return Ok(self.constant(neutral, span));
-        };
-        for item in items {
-            self.tick(span)?;
-            value =
-                if sum { self.add(value, item, span) } else { self.multiply(value, item, span) };
-        }
-        Ok(value)
+    /// The values of a function at items.
+    fn mapped(
+        &mut self,
+        items: &[Value],
+        function: &Rc<Callable>,
+        span: Span,
+    ) -> Result<Vec<Value>, Flow> {
+        items.iter().map(|item| self.apply(function, vec![item.clone()], span)).collect()
     }
 }
 

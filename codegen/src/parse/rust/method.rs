@@ -3,37 +3,13 @@
 use syn::ExprMethodCall;
 
 use super::evaluate::{Evaluator, Flow};
-use super::value::Value;
+use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{Function, Node};
-use crate::number::{Rational, ratio};
+use crate::number::{Rational, integer};
 
-const KNOWN: [&str; 24] = [
-    "powi",
-    "powf",
-    "mul_add",
-    "sqrt",
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "ln",
-    "abs",
-    "recip",
-    "dot",
-    "cross",
-    "norm_squared",
-    "norm",
-    "component_mul",
-    "component_div",
-    "sum",
-    "iter",
-    "map",
-    "zip",
-    "enumerate",
-    "fold",
-    "transpose",
-];
+const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
+    component_mul, component_div, sum, iter, map, zip, enumerate, fold, transpose";
 
 impl Evaluator<'_> {
     /// `receiver.method(arguments)`.
@@ -51,37 +27,34 @@ impl Evaluator<'_> {
         let value = match &receiver {
             Value::Number(_) => self.number_method(&name, &receiver, &arguments, span),
             Value::Integer(n) => self.integer_method(&name, *n, &arguments, span),
-            Value::List(items) => match self.list_method(items, call, &arguments) {
-                Some(value) => return value,
-                None => None,
-            },
-            Value::Vector(items) => match self.vector_method(&name, items, call, &arguments) {
+            Value::List(items) => self.list_method(items, call, &arguments)?,
+            Value::Matrix(matrix) => match self.matrix_method(&name, matrix, call, &arguments) {
                 Some(value) => Some(value),
-                None => match self.list_method(items, call, &arguments) {
-                    // Maps of vectors are vectors; their iterators are lists.
-                    Some(Ok(Value::List(list))) if name == "map" || name == "clone" => {
-                        Some(Value::Vector(list))
-                    }
-                    Some(value) => return value,
-                    None => None,
-                },
+                // Maps of matrices are matrices; their iterators are lists.
+                None => {
+                    let found = self.list_method(&matrix.transposed().entries, call, &arguments)?;
+                    found.map(|found| match found {
+                        Value::List(list) if name == "map" => {
+                            let (rows, columns) = matrix.shape();
+                            let entries = list.iter().cloned();
+                            Value::Matrix(Matrix::new(columns, rows, entries).transposed())
+                        }
+                        found => found,
+                    })
+                }
             },
-            Value::Matrix { rows, columns, entries } => {
-                self.matrix_method(&name, (*rows, *columns, entries), call, &arguments)
-            }
             _ => None,
         };
         Ok(match value {
             Some(value) => value,
             None if arguments.iter().any(|a| matches!(a, Value::Wrong)) => Value::Wrong,
             None => {
-                let suggestion = nearest(&name, KNOWN)
+                let suggestion = nearest(&name, KNOWN.split(", "))
                     .filter(|known| *known != name)
                     .map(|known| format!("did you mean `{known}`?"));
                 let message =
                     format!("`{name}` of {} with these arguments is not read", receiver.kind());
-                let help =
-                    suggestion.unwrap_or_else(|| format!("methods read: {}", KNOWN.join(", ")));
+                let help = suggestion.unwrap_or_else(|| format!("methods read: {KNOWN}"));
                 self.unsupported(Span::of(&call.method), &message, &help)
             }
         })
@@ -96,21 +69,20 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Option<Value> {
         let &Value::Number(x) = receiver else { return None };
-        let one = |this: &mut Self| this.constant(ratio(1, 1), span);
         Some(match (name, arguments) {
             ("powi", [power @ (Value::Integer(_) | Value::Wrong)]) => {
                 let n = self.integer(power, "the power", span)?;
-                let Value::Number(n) = self.constant(Rational::from_integer(n.into()), span) else {
-                    return None;
-                };
-                self.push(Node::Pow(x, n), span)
+                match self.constant(Rational::from_integer(n.into()), span) {
+                    Value::Number(n) => self.push(Node::Pow(x, n), span),
+                    other => other,
+                }
             }
             ("powf", [Value::Number(n)]) => self.push(Node::Pow(x, *n), span),
             ("mul_add", [a, b]) => {
                 let product = self.multiply(receiver.clone(), a.clone(), span);
                 self.add(product, b.clone(), span)
             }
-            ("recip", []) => match one(self) {
+            ("recip", []) => match self.constant(integer(1), span) {
                 Value::Number(one) => self.push(Node::Div(one, x), span),
                 other => other,
             },
@@ -162,115 +134,84 @@ impl Evaluator<'_> {
             ("clone" | "into", []) => Some(n),
             _ => return None,
         };
-        Some(match value {
-            Some(value) => Value::Integer(value),
-            None => self.unsupported(span, "this integer operation overflows", ""),
-        })
-    }
-
-    fn vector_method(
-        &mut self,
-        name: &str,
-        items: &[Value],
-        call: &ExprMethodCall,
-        arguments: &[Value],
-    ) -> Option<Value> {
-        let span = Span::of(call);
-        Some(match (name, arguments) {
-            ("dot", [Value::Vector(other)]) => {
-                if items.len() != other.len() {
-                    let message = format!("dot of {} and {} entries", items.len(), other.len());
-                    return Some(self.unsupported(span, &message, "both must have as many"));
-                }
-                self.dot(items.to_vec(), other.clone(), span)
-            }
-            ("norm_squared" | "magnitude_squared", []) => {
-                self.dot(items.to_vec(), items.to_vec(), span)
-            }
-            ("norm" | "magnitude", []) => {
-                let square = self.dot(items.to_vec(), items.to_vec(), span);
-                self.root(square, span)
-            }
-            ("cross", [Value::Vector(other)]) if items.len() == 3 && other.len() == 3 => {
-                let entries = (0..3).map(|i| {
-                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    let a = self.multiply(items[j].clone(), other[k].clone(), span);
-                    let b = self.multiply(items[k].clone(), other[j].clone(), span);
-                    self.subtract(a, b, span)
-                });
-                Value::Vector(entries.collect())
-            }
-            ("component_mul", [other @ Value::Vector(_)]) => {
-                self.entrywise_product(Value::Vector(items.to_vec()), other.clone(), span)
-            }
-            ("component_div", [other @ Value::Vector(_)]) => {
-                self.entrywise_quotient(Value::Vector(items.to_vec()), other.clone(), span)
-            }
-            ("scale", [factor]) => {
-                self.multiply(Value::Vector(items.to_vec()), factor.clone(), span)
-            }
-            ("clone" | "into_owned" | "clone_owned" | "to_owned", []) => {
-                Value::Vector(items.to_vec())
-            }
-            ("transpose", []) => {
-                Value::Matrix { rows: 1, columns: items.len(), entries: items.to_vec() }
-            }
-            ("fixed_rows", [start]) => {
-                let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
-                let count = turbofish(call)?;
-                match items.get(start..start.checked_add(count)?) {
-                    Some(rows) => Value::Vector(rows.to_vec()),
-                    None => {
-                        let shown = format!("{start}..{}", start + count);
-                        self.report(span, Mistake::IndexRange(shown, items.len()));
-                        Value::Wrong
-                    }
-                }
-            }
-            ("xyz", []) if items.len() >= 3 => Value::Vector(items[..3].to_vec()),
-            ("xy", []) if items.len() >= 2 => Value::Vector(items[..2].to_vec()),
-            _ => return None,
-        })
+        Some(self.checked_integer(value, span))
     }
 
     fn matrix_method(
         &mut self,
         name: &str,
-        (rows, columns, entries): (usize, usize, &[Value]),
+        matrix: &Matrix,
         call: &ExprMethodCall,
         arguments: &[Value],
     ) -> Option<Value> {
         let span = Span::of(call);
-        let transposed = || Value::Matrix {
-            rows: columns,
-            columns: rows,
-            entries: (0..columns)
-                .flat_map(|j| (0..rows).map(move |i| entries[i * columns + j].clone()))
-                .collect(),
-        };
-        Some(match (name, arguments) {
-            ("transpose", []) => transposed(),
-            ("tr_mul", [other]) => self.multiply(transposed(), other.clone(), span),
-            ("clone" | "into_owned" | "clone_owned", []) => {
-                Value::Matrix { rows, columns, entries: entries.to_vec() }
+        let (rows, columns) = matrix.shape();
+        let items = &matrix.entries;
+        let whole = || Value::Matrix(matrix.clone());
+        let diagonal = || (0..rows.min(columns)).map(|i| items[i * columns + i].clone());
+        let found = match (name, arguments) {
+            ("dot", [Value::Matrix(other)]) => {
+                if items.len() != other.entries.len() {
+                    let message =
+                        format!("dot of {} and {} entries", items.len(), other.entries.len());
+                    return Some(self.unsupported(span, &message, "both must have as many"));
+                }
+                return Some(self.dot(items, &other.entries, span));
             }
-            ("diagonal", []) => {
-                let diagonal = (0..rows.min(columns)).map(|i| entries[i * columns + i].clone());
-                Value::Vector(diagonal.collect())
+            ("norm_squared" | "magnitude_squared", []) => {
+                return Some(self.dot(items, items, span));
             }
-            ("column", [j]) => {
-                let j = usize::try_from(self.integer(j, "the column", span)?).ok()?;
-                let column = (0..rows).map(|i| entries.get(i * columns + j).cloned());
-                Value::Vector(column.collect::<Option<_>>()?)
+            ("norm" | "magnitude", []) => {
+                let square = self.dot(items, items, span);
+                return Some(self.root(square, span));
             }
             ("trace", []) => {
-                let diagonal = (0..rows.min(columns)).map(|i| entries[i * columns + i].clone());
-                let ones: Vec<Value> =
-                    (0..rows.min(columns)).map(|_| self.constant(ratio(1, 1), span)).collect();
-                self.dot(diagonal.collect(), ones, span)
+                let diagonal: Vec<Value> = diagonal().collect();
+                let ones = vec![self.constant(integer(1), span); diagonal.len()];
+                return Some(self.dot(&diagonal, &ones, span));
             }
+            ("component_mul", [other @ Value::Matrix(_)]) => {
+                return Some(self.zip(whole(), other.clone(), span, name, Node::Mul));
+            }
+            ("component_div", [other @ Value::Matrix(_)]) => {
+                return Some(self.zip(whole(), other.clone(), span, name, Node::Div));
+            }
+            ("scale", [factor]) => return Some(self.multiply(whole(), factor.clone(), span)),
+            ("tr_mul", [other]) => {
+                let transposed = Value::Matrix(matrix.transposed());
+                return Some(self.multiply(transposed, other.clone(), span));
+            }
+            ("cross", [Value::Matrix(other)]) if items.len() == 3 && other.entries.len() == 3 => {
+                let other = &other.entries;
+                matrix.with((0..3).map(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    let a = self.multiply(items[j].clone(), other[k].clone(), span);
+                    let b = self.multiply(items[k].clone(), other[j].clone(), span);
+                    self.subtract(a, b, span)
+                }))
+            }
+            ("clone" | "into_owned" | "clone_owned" | "to_owned", []) => matrix.clone(),
+            ("transpose", []) => matrix.transposed(),
+            ("diagonal", []) => Matrix::new(rows.min(columns), 1, diagonal()),
+            ("column", [j]) => {
+                let j = usize::try_from(self.integer(j, "the column", span)?).ok()?;
+                let column = (0..rows).map(|i| items.get(i * columns + j).cloned());
+                Matrix::vector(&column.collect::<Option<Vec<_>>>()?)
+            }
+            ("fixed_rows", [start]) if columns == 1 => {
+                let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
+                let end = start.checked_add(turbofish(call)?)?;
+                let Some(rows) = items.get(start..end) else {
+                    let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
+                    return Some(self.wrong(span, wrong));
+                };
+                Matrix::vector(rows)
+            }
+            ("xyz", []) if columns == 1 => Matrix::vector(items.get(..3)?),
+            ("xy", []) if columns == 1 => Matrix::vector(items.get(..2)?),
             _ => return None,
-        })
+        };
+        Some(Value::Matrix(found))
     }
 }
 

@@ -7,13 +7,12 @@
 
 mod algebra;
 mod arguments;
+mod assign;
 mod evaluate;
 mod function;
 mod iterate;
 mod method;
 mod operate;
-mod pattern;
-mod place;
 mod scope;
 mod signature;
 mod statement;
@@ -24,10 +23,9 @@ use quote::ToTokens;
 use syn::ItemFn;
 
 use crate::diagnostic::{Diagnostics, Span};
-use crate::expr::{Arena, ExprId};
-use crate::pass::{Draft, PotentialDraft, assemble, assemble_potential};
+use crate::pass::{Draft, Energy, assemble, assemble_potential};
 use crate::potential::Potential;
-use crate::problem::{Parameter, Problem, Shape};
+use crate::problem::{Problem, Shape};
 use evaluate::Evaluator;
 use signature::Variable;
 
@@ -35,37 +33,16 @@ use signature::Variable;
 ///
 /// # Errors
 /// Every mistake of the arguments, the signature and the body, each at its tokens.
-pub fn lie_poisson(arguments: TokenStream, function: &ItemFn) -> syn::Result<Problem> {
-    read(arguments, function).map_err(Diagnostics::into_syn_error)
-}
-
-/// As [`lie_poisson`], with the mistakes as data.
-///
-/// # Errors
-/// As [`lie_poisson`].
-pub fn read(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagnostics> {
-    let mut diagnostics = Diagnostics::new();
-    let arguments = arguments::read(arguments, &mut diagnostics);
-    let function = Function::read(function, Variable::Momentum, &mut diagnostics);
+pub fn lie_poisson(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagnostics> {
+    let diagnostics = Diagnostics::new();
+    let (algebra, choice) = arguments::lie_poisson(arguments, &diagnostics);
+    let (variable, hamiltonian) = read(function, Variable::Momentum, &diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
-    let Some((_, coordinates, coordinates_span)) = function.variable else {
-        return Err(diagnostics);
-    };
-    let draft = Draft {
-        name: function.name,
-        algebra: arguments.algebra,
-        coordinates,
-        coordinates_span,
-        arena: function.arena,
-        hamiltonian: function.energy,
-        parameters: function.parameters,
-        source: function.source,
-        chart: arguments.chart,
-        truncation: arguments.truncation,
-        solver: arguments.solver,
-        frame: arguments.frame,
-    };
-    assemble(draft, diagnostics)
+    let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
+    let name = function.sig.ident.to_string();
+    let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
+    let problem = assemble(draft, &diagnostics);
+    diagnostics.into_result(problem)
 }
 
 /// Reads `#[potential(arguments)] function`.
@@ -73,60 +50,37 @@ pub fn read(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagno
 /// # Errors
 /// Every mistake of the arguments, the signature and the body.
 pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
-    let mut diagnostics = Diagnostics::new();
-    let algebra = arguments::potential(arguments, &mut diagnostics);
-    let function = Function::read(function, Variable::Element, &mut diagnostics);
-    let declared = match function.variable {
-        Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) => {
-            Some(((rows, columns), span))
-        }
-        _ => return Err(diagnostics),
+    let diagnostics = Diagnostics::new();
+    let algebra = arguments::potential(arguments, &diagnostics);
+    let (variable, energy) = read(function, Variable::Element, &diagnostics);
+    let Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) = variable
+    else {
+        return Err(diagnostics);
     };
-    let draft = PotentialDraft {
-        name: function.name,
-        algebra,
-        declared,
-        arena: function.arena,
-        energy: function.energy,
-        parameters: function.parameters,
-        source: function.source,
-    };
-    assemble_potential(draft, diagnostics)
+    let (name, declared) = (function.sig.ident.to_string(), Some(((rows, columns), span)));
+    let potential = assemble_potential(name, algebra, declared, energy, &diagnostics);
+    diagnostics.into_result(potential)
 }
 
-/// A function as it was read.
-struct Function {
-    name: String,
-    variable: Option<(Shape, Vec<String>, Span)>,
-    parameters: Vec<Parameter>,
-    arena: Arena,
-    energy: Option<(ExprId, Span)>,
-    source: String,
-}
-
-impl Function {
-    fn read(function: &ItemFn, variable: Variable, diagnostics: &mut Diagnostics) -> Self {
-        let mut evaluator = Evaluator::new(diagnostics);
-        let signature = signature::read(&function.sig, variable, &mut evaluator);
-        // Without its variable every name of the body would be unknown.
-        let energy = signature.variable.is_some().then(|| evaluator.body(&function.block));
-        Self {
-            name: function.sig.ident.to_string(),
-            variable: signature.variable,
-            parameters: signature.parameters,
-            arena: evaluator.into_arena(),
-            energy: energy.flatten(),
-            source: function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" "),
-        }
-    }
+/// The shape of a function's first argument, the names of its entries, and where; and the energy that it computes.
+fn read(
+    function: &ItemFn,
+    variable: Variable,
+    diagnostics: &Diagnostics,
+) -> (Option<(Shape, Vec<String>, Span)>, Energy) {
+    let mut evaluator = Evaluator::new(diagnostics);
+    let (variable, parameters) = signature::read(&function.sig, variable, &mut evaluator);
+    // Without its variable every name of the body would be unknown.
+    let root = variable.is_some().then(|| evaluator.body(&function.block)).flatten();
+    let source = function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" ");
+    (variable, Energy { arena: evaluator.into_arena(), root, parameters, source })
 }
 
 /// The user's source text, as far as the compiler tells.
 fn source(statement: &syn::Stmt) -> String {
-    let tokens = statement.to_token_stream();
     let text = match Span::of(statement) {
         Span::Tokens { first, last } => first.join(last).and_then(|whole| whole.source_text()),
         _ => None,
     };
-    text.unwrap_or_else(|| tokens.to_string())
+    text.unwrap_or_else(|| statement.to_token_stream().to_string())
 }

@@ -5,10 +5,10 @@ use std::cmp::Ordering;
 use syn::{BinOp, Expr, ExprBinary, Type};
 
 use super::evaluate::{Evaluator, Flow};
-use super::value::Value;
+use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span};
 use crate::expr::{ExprId, Node};
-use crate::number::Rational;
+use crate::number::{Rational, integer};
 
 type Combine = fn(ExprId, ExprId) -> Node;
 
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
         self.unsupported(span, &message, "write it out in coordinates")
     }
 
-    fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
+    pub(super) fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
         match value {
             Some(value) => Value::Integer(value),
             None => self.unsupported(span, "this integer operation overflows", ""),
@@ -99,45 +99,40 @@ impl Evaluator<'_> {
             (Value::Integer(a), Value::Integer(b)) => Value::Bool(op(a.cmp(b))),
             (Value::Bool(a), Value::Bool(b)) => Value::Bool(op(a.cmp(b))),
             (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
-            _ => self.unsupported(
-                span,
-                "a comparison must not depend on the momentum or a parameter: the Hamiltonian must \
-                 be one polynomial",
-                "compare integers known beforehand only, such as loop variables",
-            ),
+            _ => self.undecided("a comparison", span),
         }
+    }
+
+    /// A matrix whose entries are those of another after an operation.
+    fn map(&mut self, matrix: &Matrix, mut of: impl FnMut(&mut Self, Value) -> Value) -> Value {
+        let entries = matrix.entries.iter().map(|entry| of(self, entry.clone()));
+        Value::Matrix(matrix.with(entries))
     }
 
     pub(super) fn negate(&mut self, value: Value, span: Span) -> Value {
         match value {
             Value::Number(a) => self.push(Node::Neg(a), span),
             Value::Integer(n) => self.checked_integer(n.checked_neg(), span),
-            Value::Vector(list) => {
-                Value::Vector(list.into_iter().map(|v| self.negate(v, span)).collect())
-            }
-            Value::Matrix { rows, columns, entries } => {
-                let entries = entries.into_iter().map(|v| self.negate(v, span)).collect();
-                Value::Matrix { rows, columns, entries }
-            }
-            Value::Wrong => Value::Wrong,
+            Value::Matrix(matrix) => self.map(&matrix, |this, entry| this.negate(entry, span)),
             other => self.no_operation("-", &other, &other, span),
         }
     }
 
     /// Entry by entry.
-    fn zip(&mut self, a: Value, b: Value, span: Span, name: &str, node: Combine) -> Value {
+    pub(super) fn zip(
+        &mut self,
+        a: Value,
+        b: Value,
+        span: Span,
+        name: &str,
+        node: Combine,
+    ) -> Value {
         match (a, b) {
             (Value::Number(a), Value::Number(b)) => self.push(node(a, b), span),
-            (Value::Vector(a), Value::Vector(b)) if a.len() == b.len() => Value::Vector(
-                a.into_iter().zip(b).map(|(a, b)| self.zip(a, b, span, name, node)).collect(),
-            ),
-            (
-                Value::Matrix { rows, columns, entries: a },
-                Value::Matrix { rows: r, columns: c, entries: b },
-            ) if (rows, columns) == (r, c) => {
-                let entries = a.into_iter().zip(b);
-                let entries = entries.map(|(a, b)| self.zip(a, b, span, name, node)).collect();
-                Value::Matrix { rows, columns, entries }
+            (Value::Matrix(a), Value::Matrix(b)) if a.shape() == b.shape() => {
+                let entries = a.entries.iter().cloned().zip(b.entries.iter().cloned());
+                let entries = entries.map(|(a, b)| self.zip(a, b, span, name, node));
+                Value::Matrix(a.with(entries))
             }
             (a, b) => self.no_operation(name, &a, &b, span),
         }
@@ -157,46 +152,22 @@ impl Evaluator<'_> {
         }
     }
 
-    pub(super) fn entrywise_product(&mut self, a: Value, b: Value, span: Span) -> Value {
-        self.zip(a, b, span, "component_mul", Node::Mul)
-    }
-
-    pub(super) fn entrywise_quotient(&mut self, a: Value, b: Value, span: Span) -> Value {
-        self.zip(a, b, span, "component_div", Node::Div)
-    }
-
     pub(super) fn multiply(&mut self, a: Value, b: Value, span: Span) -> Value {
         match (a, b) {
             (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_mul(b), span),
             (Value::Number(a), Value::Number(b)) => self.push(Node::Mul(a, b), span),
-            (Value::Number(s), Value::Vector(list)) | (Value::Vector(list), Value::Number(s)) => {
-                let scaled = list.into_iter().map(|v| self.multiply(Value::Number(s), v, span));
-                Value::Vector(scaled.collect())
+            (Value::Number(s), Value::Matrix(matrix))
+            | (Value::Matrix(matrix), Value::Number(s)) => {
+                self.map(&matrix, |this, entry| this.multiply(Value::Number(s), entry, span))
             }
-            (Value::Number(s), Value::Matrix { rows, columns, entries })
-            | (Value::Matrix { rows, columns, entries }, Value::Number(s)) => {
-                let scaled = entries.into_iter().map(|v| self.multiply(Value::Number(s), v, span));
-                Value::Matrix { rows, columns, entries: scaled.collect() }
-            }
-            (Value::Matrix { rows, columns, entries }, Value::Vector(vector))
-                if columns == vector.len() =>
-            {
-                let row = |i: usize| entries[i * columns..(i + 1) * columns].to_vec();
-                Value::Vector((0..rows).map(|i| self.dot(row(i), vector.clone(), span)).collect())
-            }
-            (
-                Value::Matrix { rows, columns, entries: a },
-                Value::Matrix { rows: inner, columns: width, entries: b },
-            ) if columns == inner => {
-                let mut entries = Vec::with_capacity(rows * width);
-                for i in 0..rows {
-                    for j in 0..width {
-                        let row = a[i * columns..(i + 1) * columns].to_vec();
-                        let column = (0..inner).map(|k| b[k * width + j].clone()).collect();
-                        entries.push(self.dot(row, column, span));
-                    }
-                }
-                Value::Matrix { rows, columns: width, entries }
+            (Value::Matrix(a), Value::Matrix(b)) if a.columns == b.rows => {
+                let transposed = b.transposed();
+                let entry = |at: usize| {
+                    let (i, j) = (at / b.columns, at % b.columns);
+                    let row = &a.entries[i * a.columns..][..a.columns];
+                    self.dot(row, &transposed.entries[j * b.rows..][..b.rows], span)
+                };
+                Value::Matrix(Matrix::new(a.rows, b.columns, (0..a.rows * b.columns).map(entry)))
             }
             (a, b) => self.no_operation("*", &a, &b, span),
         }
@@ -206,29 +177,24 @@ impl Evaluator<'_> {
         match (a, b) {
             (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_div(b), span),
             (Value::Number(a), Value::Number(b)) => self.push(Node::Div(a, b), span),
-            (Value::Vector(list), Value::Number(s)) => Value::Vector(
-                list.into_iter().map(|v| self.divide(v, Value::Number(s), span)).collect(),
-            ),
-            (Value::Matrix { rows, columns, entries }, Value::Number(s)) => {
-                let entries = entries.into_iter();
-                let entries = entries.map(|v| self.divide(v, Value::Number(s), span)).collect();
-                Value::Matrix { rows, columns, entries }
+            (Value::Matrix(matrix), Value::Number(s)) => {
+                self.map(&matrix, |this, entry| this.divide(entry, Value::Number(s), span))
             }
             (a, b) => self.no_operation("/", &a, &b, span),
         }
     }
 
     /// Σ aᵢ bᵢ.
-    pub(super) fn dot(&mut self, a: Vec<Value>, b: Vec<Value>, span: Span) -> Value {
+    pub(super) fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
         let mut sum: Option<Value> = None;
-        for (a, b) in a.into_iter().zip(b) {
-            let product = self.multiply(a, b, span);
+        for (a, b) in a.iter().zip(b) {
+            let product = self.multiply(a.clone(), b.clone(), span);
             sum = Some(match sum {
                 Some(sum) => self.add(sum, product, span),
                 None => product,
             });
         }
-        sum.unwrap_or_else(|| self.constant(crate::number::integer(0), span))
+        sum.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
     /// `value as type`.
@@ -241,10 +207,7 @@ impl Evaluator<'_> {
             Value::Number(id) if to_float => Value::Number(id),
             Value::Bool(truth) if !to_float => Value::Integer(i128::from(truth)),
             Value::Wrong => Value::Wrong,
-            _ => {
-                self.report(span, Mistake::NotConstant("a number cast to an integer"));
-                Value::Wrong
-            }
+            _ => self.wrong(span, Mistake::NotConstant("a number cast to an integer")),
         }
     }
 }

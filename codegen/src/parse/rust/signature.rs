@@ -4,7 +4,7 @@ use quote::ToTokens;
 use syn::{FnArg, Pat, ReturnType, Type};
 
 use super::evaluate::Evaluator;
-use super::value::Value;
+use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span};
 use crate::expr::Node;
 use crate::problem::{Parameter, Shape};
@@ -42,81 +42,62 @@ impl Variable {
     }
 }
 
-/// The contents of the signature.
-pub(super) struct Signature {
-    /// The shape of the first argument, the names of its entries, and where; `None` if it is not
-    /// usable.
-    pub variable: Option<(Shape, Vec<String>, Span)>,
-    pub parameters: Vec<Parameter>,
-}
-
-/// Reads a signature and binds its arguments.
+/// Reads a signature and binds its arguments: the shape of the first one, the names of its entries, and where, `None` if it
+/// is not usable; and the parameters.
 pub(super) fn read(
     signature: &syn::Signature,
     variable: Variable,
     evaluator: &mut Evaluator<'_>,
-) -> Signature {
+) -> (Option<(Shape, Vec<String>, Span)>, Vec<Parameter>) {
     qualifiers(signature, evaluator);
-    let mut result = Signature { variable: None, parameters: Vec::new() };
+    let (mut first, mut parameters) = (None, Vec::new());
     let mut scalars = 0;
     for (position, argument) in signature.inputs.iter().enumerate() {
         let typed = match argument {
             FnArg::Typed(typed) => typed,
             FnArg::Receiver(receiver) => {
-                unsupported(
-                    evaluator,
-                    Span::of(receiver),
-                    "a method cannot be read",
-                    "write a free function of its variables and parameters",
-                );
+                let help = "write a free function of its variables and parameters";
+                evaluator.unsupported(Span::of(receiver), "a method cannot be read", help);
                 continue;
             }
         };
-        let span = Span::of(&typed.ty);
+        let (span, place) = (Span::of(&typed.ty), Span::of(&typed.pat));
         let shape = shape(&typed.ty);
         if position == 0 {
             let Some(shape) = shape.filter(|shape| variable.accepts(shape)) else {
                 let (what, help) = variable.expected();
-                unsupported(evaluator, span, what, help);
+                evaluator.unsupported(span, what, help);
                 continue;
             };
-            let place = Span::of(&typed.pat);
-            let value = shaped(Some(&shape), |i| evaluator.push(Node::Coordinate(i), place));
+            let value = shaped(&shape, |i| evaluator.push(Node::Coordinate(i), place));
             evaluator.bind(&typed.pat, value);
             let names = coordinate_names(&typed.pat, shape.len());
-            result.variable = Some((shape, names, span));
+            first = Some((shape, names, span));
             continue;
         }
         let Some(name) = name(&typed.pat) else {
-            unsupported(
-                evaluator,
-                Span::of(&typed.pat),
-                "a parameter needs a name",
-                "take it apart in the body instead, with let",
-            );
+            let help = "take it apart in the body instead, with let";
+            evaluator.unsupported(place, "a parameter needs a name", help);
             continue;
         };
         if name == "step" {
             let taken = "the step size, the first argument of the integrator's `new`".to_owned();
-            evaluator.report(Span::of(&typed.pat), Mistake::NameTaken(name.clone(), taken));
+            evaluator.wrong(place, Mistake::NameTaken(name.clone(), taken));
         }
-        let Some(shape) = shape else {
-            let message = format!("parameters of type `{}` are not read", tokens_text(&typed.ty));
-            unsupported(
-                evaluator,
-                span,
-                &message,
-                "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra \
-                 of fixed size",
-            );
-            evaluator.bind(&typed.pat, Value::Wrong);
-            continue;
+        let value = match &shape {
+            Some(shape) => shaped(shape, |i| evaluator.push(Node::Parameter(scalars + i), place)),
+            None => {
+                let ty = typed.ty.to_token_stream();
+                let message = format!("parameters of type `{ty}` are not read");
+                let help = "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra of fixed size";
+                evaluator.unsupported(span, &message, help)
+            }
         };
-        let place = Span::of(&typed.pat);
-        let value = shaped(Some(&shape), |i| evaluator.push(Node::Parameter(scalars + i), place));
         evaluator.bind(&typed.pat, value);
-        scalars += shape.len();
-        result.parameters.push(Parameter { name, shape, default: None });
+        if let Some(shape) = shape {
+            scalars += shape.len();
+            parameters.push(Parameter { name, shape, default: None });
+        }
     }
     if signature.inputs.is_empty() {
         let (what, help) = match variable {
@@ -124,53 +105,41 @@ pub(super) fn read(
             Variable::Element => ("the group element", "write for example g: [[f64; 3]; 3]"),
         };
         let what = format!("the function has no arguments: the first one must be {what}");
-        unsupported(evaluator, Span::of(&signature.ident), &what, help);
+        evaluator.unsupported(Span::of(&signature.ident), &what, help);
     }
-    result
-}
-
-fn unsupported(evaluator: &mut Evaluator<'_>, span: Span, what: &str, help: &str) {
-    evaluator.report(span, Mistake::Unsupported(what.to_owned(), help.to_owned()));
+    (first, parameters)
 }
 
 fn qualifiers(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) {
     if let Some(token) = &signature.asyncness {
-        unsupported(evaluator, Span::of(token), "an energy cannot be async", "remove `async`");
+        evaluator.unsupported(Span::of(token), "an energy cannot be async", "remove `async`");
     }
     if !signature.generics.params.is_empty() {
         let span = Span::of(&signature.generics);
         let help = "write the function for f64; what is generated is generic by itself";
-        unsupported(evaluator, span, "an energy cannot be generic", help);
+        evaluator.unsupported(span, "an energy cannot be generic", help);
     }
-    let returns_f64 = match &signature.output {
-        ReturnType::Type(_, ty) => is_f64(ty),
-        ReturnType::Default => false,
+    let span = match &signature.output {
+        ReturnType::Type(_, ty) if is_f64(ty) => return,
+        ReturnType::Default => Span::of(&signature.ident),
+        output => Span::of(output),
     };
-    if !returns_f64 {
-        let span = match &signature.output {
-            ReturnType::Default => Span::of(&signature.ident),
-            output => Span::of(output),
-        };
-        unsupported(evaluator, span, "the energy is returned as f64", "write -> f64");
-    }
+    evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
 }
 
 /// Fills a shape with numbers by their position.
-fn shaped(shape: Option<&Shape>, mut number: impl FnMut(usize) -> Value) -> Value {
-    match shape {
-        None => Value::Wrong,
-        Some(Shape::Scalar) => number(0),
-        Some(Shape::Array(n)) => Value::List((0..*n).map(number).collect()),
-        Some(Shape::Vector(n)) => Value::Vector((0..*n).map(number).collect()),
-        Some(Shape::Grid(rows, columns)) => {
-            let row = |i| Value::List((0..*columns).map(|j| number(i * columns + j)).collect());
-            Value::List((0..*rows).map(row).collect())
+fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
+    match *shape {
+        Shape::Scalar => number(0),
+        Shape::Array(n) => Value::list((0..n).map(number)),
+        Shape::Vector(n) => Value::Matrix(Matrix::new(n, 1, (0..n).map(number))),
+        Shape::Grid(rows, columns) => {
+            let row = |i| Value::list((0..columns).map(|j| number(i * columns + j)));
+            Value::list((0..rows).map(row))
         }
-        Some(Shape::Matrix(rows, columns)) => Value::Matrix {
-            rows: *rows,
-            columns: *columns,
-            entries: (0..rows * columns).map(number).collect(),
-        },
+        Shape::Matrix(rows, columns) => {
+            Value::Matrix(Matrix::new(rows, columns, (0..rows * columns).map(number)))
+        }
     }
 }
 
@@ -190,10 +159,6 @@ fn coordinate_names(pattern: &Pat, count: usize) -> Vec<String> {
         _ => Vec::new(),
     };
     if names.len() == count { names } else { (0..count).map(|i| format!("mu[{i}]")).collect() }
-}
-
-fn tokens_text(ty: &Type) -> String {
-    ty.to_token_stream().to_string()
 }
 
 fn is_f64(ty: &Type) -> bool {
@@ -248,8 +213,11 @@ pub(super) fn sized(name: &str, sizes: &[usize]) -> Option<Shape> {
     let digits = |text: &str| -> Option<Vec<usize>> {
         text.split('x').map(|n| n.parse().ok().filter(|n| (1..=6).contains(n))).collect()
     };
-    if let Some(n) = name.strip_prefix("Vector").and_then(digits) {
-        return matches!(n[..], [_]).then(|| Shape::Vector(n[0]));
+    if let Some(n) = name.strip_prefix("Vector") {
+        return match digits(n)?[..] {
+            [n] => Some(Shape::Vector(n)),
+            _ => None,
+        };
     }
     match name.strip_prefix("Matrix").and_then(digits)?[..] {
         [n] => Some(Shape::Matrix(n, n)),

@@ -58,37 +58,28 @@ impl Evaluator<'_> {
     }
 
     fn item(&mut self, item: &Item) -> Result<(), Flow> {
-        match item {
-            Item::Const(constant) => {
-                let value = self.expression(&constant.expr)?;
-                self.scopes.bind(constant.ident.to_string(), value);
-            }
-            Item::Static(constant) => {
-                let value = self.expression(&constant.expr)?;
-                self.scopes.bind(constant.ident.to_string(), value);
-            }
-            Item::Fn(function) => {
-                let value = self.function_item(function);
-                self.scopes.bind(function.sig.ident.to_string(), value);
-            }
-            Item::Use(_) => {}
+        let (name, value) = match item {
+            Item::Const(constant) => (&constant.ident, self.expression(&constant.expr)?),
+            Item::Static(constant) => (&constant.ident, self.expression(&constant.expr)?),
+            Item::Fn(function) => (&function.sig.ident, self.function_item(function)),
+            Item::Use(_) => return Ok(()),
             _ => {
                 let help = "only const, fn and use are read inside the body";
                 self.unsupported(Span::of(item), "this item is not read", help);
+                return Ok(());
             }
-        }
+        };
+        self.scopes.bind(name.to_string(), value);
         Ok(())
     }
 
     /// `if`, where the condition is known.
     pub(super) fn branch(&mut self, branch: &syn::ExprIf) -> Result<Value, Flow> {
-        let Some(truth) = self.condition(&branch.cond)? else { return Ok(Value::Wrong) };
-        if truth {
-            return self.block(&branch.then_branch);
-        }
-        match &branch.else_branch {
-            Some((_, otherwise)) => self.expression(otherwise),
-            None => Ok(Value::Unit),
+        match (self.condition(&branch.cond)?, &branch.else_branch) {
+            (Some(true), _) => self.block(&branch.then_branch),
+            (Some(false), Some((_, otherwise))) => self.expression(otherwise),
+            (Some(false), None) => Ok(Value::Unit),
+            (None, _) => Ok(Value::Wrong),
         }
     }
 
@@ -103,14 +94,18 @@ impl Evaluator<'_> {
             Value::Bool(truth) => Some(truth),
             Value::Wrong => None,
             _ => {
-                self.unsupported(
-                    span,
-                    "a condition must not depend on the momentum or a parameter: the Hamiltonian \
-                     must be one polynomial",
-                    "compare integers known beforehand only, such as loop variables",
-                );
+                self.undecided("a condition", span);
                 None
             }
         })
+    }
+
+    /// Reports a truth value that is not known.
+    pub(super) fn undecided(&mut self, what: &str, span: Span) -> Value {
+        let message = format!(
+            "{what} must not depend on the momentum or a parameter: the Hamiltonian must be one polynomial"
+        );
+        let help = "compare integers known beforehand only, such as loop variables";
+        self.unsupported(span, &message, help)
     }
 }

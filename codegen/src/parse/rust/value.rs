@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::function::Callable;
 use crate::expr::ExprId;
 
-/// A value of the function's world.
+/// A value of the function's world. Copies of lists and matrices share their entries.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     /// An `f64`.
@@ -15,11 +15,9 @@ pub(super) enum Value {
     /// A truth value, known.
     Bool(bool),
     /// An array, a tuple or an iterator.
-    List(Vec<Value>),
-    /// A vector of nalgebra.
-    Vector(Vec<Value>),
-    /// A matrix of nalgebra, row by row.
-    Matrix { rows: usize, columns: usize, entries: Vec<Value> },
+    List(Rc<Vec<Value>>),
+    /// A matrix of nalgebra; one of a single column is a vector.
+    Matrix(Matrix),
     /// A closure or a function of the body.
     Function(Rc<Callable>),
     /// `()`.
@@ -28,7 +26,44 @@ pub(super) enum Value {
     Wrong,
 }
 
+/// A matrix of nalgebra, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Matrix {
+    pub rows: usize,
+    pub columns: usize,
+    pub entries: Rc<Vec<Value>>,
+}
+
+impl Matrix {
+    pub(super) fn new(rows: usize, columns: usize, entries: impl Iterator<Item = Value>) -> Self {
+        Self { rows, columns, entries: Rc::new(entries.collect()) }
+    }
+
+    pub(super) fn vector(entries: &[Value]) -> Self {
+        Self::new(entries.len(), 1, entries.iter().cloned())
+    }
+
+    pub(super) fn shape(&self) -> (usize, usize) {
+        (self.rows, self.columns)
+    }
+
+    /// The matrix of the same shape with these entries.
+    pub(super) fn with(&self, entries: impl Iterator<Item = Value>) -> Self {
+        Self::new(self.rows, self.columns, entries)
+    }
+
+    pub(super) fn transposed(&self) -> Self {
+        let entry =
+            |at: usize| self.entries[at % self.rows * self.columns + at / self.rows].clone();
+        Self::new(self.columns, self.rows, (0..self.entries.len()).map(entry))
+    }
+}
+
 impl Value {
+    pub(super) fn list(entries: impl IntoIterator<Item = Value>) -> Self {
+        Self::List(Rc::new(entries.into_iter().collect()))
+    }
+
     /// A description for messages.
     pub(super) fn kind(&self) -> &'static str {
         match self {
@@ -36,46 +71,57 @@ impl Value {
             Self::Integer(_) => "an integer",
             Self::Bool(_) => "a truth value",
             Self::List(_) => "an array",
-            Self::Vector(_) => "a vector",
-            Self::Matrix { .. } => "a matrix",
+            Self::Matrix(Matrix { columns: 1, .. }) => "a vector",
+            Self::Matrix(_) => "a matrix",
             Self::Function(_) => "a function",
             Self::Unit => "nothing",
             Self::Wrong => "a mistake",
         }
     }
 
-    /// The entry named by an index, or the length where there is none such.
-    pub(super) fn entry(&self, index: &[usize]) -> Result<&Value, usize> {
+    /// The entries in the order in which Rust iterates over them: those of a matrix column by column.
+    pub(super) fn iterated(&self) -> Option<Rc<Vec<Value>>> {
+        match self {
+            Self::List(list) => Some(list.clone()),
+            Self::Matrix(matrix) => Some(matrix.transposed().entries),
+            _ => None,
+        }
+    }
+
+    /// The place of the entry named by an index, or the length where there is none such.
+    fn position(&self, index: &[usize]) -> Result<usize, usize> {
+        let below = |i: usize, length: usize| if i < length { Ok(i) } else { Err(length) };
         match (self, index) {
-            (Self::List(list) | Self::Vector(list), [i] | [i, 0]) => list.get(*i).ok_or(list.len()),
-            (Self::Matrix { rows, columns, entries }, [i, j]) => {
-                if i < rows && j < columns {
-                    entries.get(i * columns + j).ok_or(entries.len())
-                } else {
-                    Err(if i < rows { *columns } else { *rows })
-                }
+            (Self::List(list), &[i]) => below(i, list.len()),
+            (Self::Matrix(Matrix { rows, columns, .. }), &[i, j]) => {
+                Ok(below(i, *rows)? * columns + below(j, *columns)?)
             }
             // nalgebra counts a matrix column by column.
-            (Self::Matrix { rows, columns, entries }, [k]) if *rows > 0 => {
-                entries.get((k % rows) * columns + k / rows).ok_or(entries.len())
+            (Self::Matrix(Matrix { rows, columns, .. }), &[k]) => {
+                let k = below(k, rows * columns)?;
+                Ok(k % rows * columns + k / rows)
             }
             _ => Err(0),
         }
     }
 
-    /// As [`Value::entry`], for assignment.
-    pub(super) fn entry_mut(&mut self, index: &[usize]) -> Option<&mut Value> {
+    /// The entry named by an index, or the length where there is none such.
+    pub(super) fn entry(&self, index: &[usize]) -> Result<Value, usize> {
+        let at = self.position(index)?;
         match self {
-            Self::List(list) | Self::Vector(list) => match index {
-                [i] | [i, 0] => list.get_mut(*i),
-                _ => None,
-            },
-            Self::Matrix { rows, columns, entries } => match index {
-                [i, j] if i < rows && j < columns => entries.get_mut(*i * *columns + *j),
-                [k] if *rows > 0 => entries.get_mut((*k % *rows) * *columns + *k / *rows),
-                _ => None,
-            },
-            _ => None,
+            Self::List(entries) | Self::Matrix(Matrix { entries, .. }) => Ok(entries[at].clone()),
+            _ => Err(0),
+        }
+    }
+
+    /// As [`Value::entry`], for assignment.
+    pub(super) fn entry_mut(&mut self, index: &[usize]) -> Result<&mut Value, usize> {
+        let at = self.position(index)?;
+        match self {
+            Self::List(entries) | Self::Matrix(Matrix { entries, .. }) => {
+                Ok(&mut Rc::make_mut(entries)[at])
+            }
+            _ => Err(0),
         }
     }
 }

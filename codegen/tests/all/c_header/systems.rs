@@ -71,127 +71,48 @@ const SATELLITE: &str = "name = \"satellite\"\ngroup = \"SO3*SO2\"\ncoordinates 
     potential = \"1.5*(g[0][0]*g[3][3] + g[1][0]*g[4][3])^2 + 2*(g[0][1]*g[3][3] + g[1][1]*g[4][3])^2\"\n\
     [integrator]\nstep = 0.05\nsplitting = \"prk4\"\n[initial]\nmomentum = [0.1, -0.2, 1.6, 0.0]\n";
 
+impl System {
+    /// Written as C with its parameters substituted, in the exponential chart, and compared with no committed header.
+    const fn new(name: &'static str, text: &'static str, truncation: usize) -> Self {
+        let (chart, parameters) = (Chart::Exponential, Parameters::Substituted);
+        let (language, golden, large) = (Language::C, false, false);
+        Self { name, text, truncation, chart, parameters, language, golden, large }
+    }
+
+    const fn kept(self) -> Self {
+        Self { parameters: Parameters::Kept, ..self }
+    }
+
+    const fn large(self) -> Self {
+        Self { large: true, ..self }
+    }
+
+    const fn golden(self) -> Self {
+        Self { golden: true, ..self }
+    }
+
+    const fn cayley(self) -> Self {
+        Self { chart: Chart::Cayley, ..self }
+    }
+
+    const fn cpp(self) -> Self {
+        Self { language: Language::Cpp, ..self }
+    }
+}
+
 const SYSTEMS: &[System] = &[
-    System {
-        name: "rigid_body",
-        text: "examples/rigid_body.toml",
-        truncation: 5,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: true,
-        large: false,
-    },
-    System {
-        name: "heavy_top",
-        text: "examples/heavy_top.toml",
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Kept,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "cayley_body",
-        text: CAYLEY_BODY,
-        truncation: 3,
-        chart: Chart::Cayley,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "comoving_body",
-        text: COMOVING_BODY,
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Kept,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "three_wave",
-        text: THREE_WAVE,
-        truncation: 5,
-        chart: Chart::Exponential,
-        parameters: Parameters::Kept,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "three_wave_cayley",
-        text: THREE_WAVE,
-        truncation: 3,
-        chart: Chart::Cayley,
-        parameters: Parameters::Kept,
-        language: Language::Cpp,
-        golden: true,
-        large: false,
-    },
-    System {
-        name: "su3",
-        text: "examples/su3_quadratic.toml",
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: false,
-        large: true,
-    },
-    System {
-        name: "ring",
-        text: RING,
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: false,
-        large: true,
-    },
-    System {
-        name: "pendulum",
-        text: PENDULUM,
-        truncation: 5,
-        chart: Chart::Exponential,
-        parameters: Parameters::Kept,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "satellite",
-        text: SATELLITE,
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::Cpp,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "plane_and_spin",
-        text: PRODUCT,
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
-    System {
-        name: "brackets",
-        text: BRACKETS,
-        truncation: 3,
-        chart: Chart::Exponential,
-        parameters: Parameters::Substituted,
-        language: Language::C,
-        golden: false,
-        large: false,
-    },
+    System::new("rigid_body", "examples/rigid_body.toml", 5).golden(),
+    System::new("heavy_top", "examples/heavy_top.toml", 3).kept(),
+    System::new("cayley_body", CAYLEY_BODY, 3).cayley(),
+    System::new("comoving_body", COMOVING_BODY, 3).kept(),
+    System::new("three_wave", THREE_WAVE, 5).kept(),
+    System::new("three_wave_cayley", THREE_WAVE, 3).cayley().kept().cpp().golden(),
+    System::new("su3", "examples/su3_quadratic.toml", 3).large(),
+    System::new("ring", RING, 3).large(),
+    System::new("pendulum", PENDULUM, 5).kept(),
+    System::new("satellite", SATELLITE, 3).cpp(),
+    System::new("plane_and_spin", PRODUCT, 3),
+    System::new("brackets", BRACKETS, 3),
 ];
 
 /// All systems, built once.
@@ -352,16 +273,7 @@ pub fn check_golden(path: &str, text: &str) {
 }
 
 /// The system of `examples/c`.
-const TOUTATIS: System = System {
-    name: "toutatis",
-    text: "examples/c/toutatis.toml",
-    truncation: 7,
-    chart: Chart::Exponential,
-    parameters: Parameters::Substituted,
-    language: Language::C,
-    golden: true,
-    large: false,
-};
+const TOUTATIS: System = System::new("toutatis", "examples/c/toutatis.toml", 7).golden();
 
 /// It with its header.
 pub fn toutatis() -> Built {
