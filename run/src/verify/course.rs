@@ -85,7 +85,7 @@ impl Course {
                 return Err(Trouble::Unknown("it lies at the limit of the chart".to_owned()));
             }
         }
-        if let Some(ratio) = step.series_ratio(&x, UNIT)
+        if let Some(ratio) = step.at(&x).ok().and_then(|point| point.series_ratio(UNIT))
             && !(ratio <= LARGEST_RATIO)
         {
             let what = format!("is of a series whose last two terms have the ratio {ratio:.3}");
@@ -94,8 +94,8 @@ impl Course {
         let Some(twins) = &mut self.twins else {
             return Ok(self.motion.step(setting, Some(right), UNIT)?);
         };
-        let (momentum, _) = step.momentum();
-        let before = DVector::from_iterator(x.len(), momentum.iter().map(|m| m.to_f64())).norm();
+        let momentum = step.momentum().iter().map(|m| m.to_f64());
+        let before = DVector::from_iterator(x.len(), momentum).norm();
         let end = step.end(&right, UNIT).map_err(Stop::Judge)?;
         self.motion.step(setting, Some(right), UNIT)?;
         Ok(twins.step(setting, (&end, before), &self.motion, self.size)?)

@@ -3,16 +3,19 @@
 use nalgebra::{DMatrix, Schur};
 
 use super::geometry::Geometry;
-use super::norm::norm;
+use super::linear::norm;
 use crate::lie::Chart;
 
 /// Exponential chart: |Im λ| must be less for every eigenvalue λ of ad_x: a half turn. On groups that are not unimodular
-/// the runtime asks for |tr ad_x| ≤ π besides. Nilpotent algebras have no limit.
+/// the runtime asks for |tr ad_x| ≤ π besides. Where ad_x is nilpotent there is no limit.
 const EXPONENTIAL: f64 = std::f64::consts::PI;
 
 /// Cayley chart: |λ| must not be more for every eigenvalue λ of the matrix x, which on SO(3) is |x| ≤ 2 and on
 /// SU(2) |x| ≤ 4.
 const CAYLEY: f64 = 2.0;
+
+/// Eigenvalues of a defective matrix are as inexact as the root of its rounding.
+const DEFECTIVE: f64 = 4e-8;
 
 /// Whether x is inside the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,17 +28,10 @@ pub enum Inside {
     CannotTell,
 }
 
-/// Eigenvalues of a defective matrix are as inexact as the root of its rounding.
-const DEFECTIVE: f64 = 4e-8;
-
-pub(super) fn inside(geometry: &Geometry, x: &[f64]) -> Inside {
-    let (size, matrix, limit) = match geometry.chart {
-        Chart::Exponential if geometry.nilpotent => return Inside::Yes,
-        Chart::Exponential => (geometry.dim, geometry.ad_transpose(x), EXPONENTIAL),
-        Chart::Cayley => {
-            let (size, matrix) = geometry.representation(x);
-            (size, matrix, CAYLEY)
-        }
+pub(super) fn inside(geometry: &Geometry, x: &DMatrix<f64>) -> Inside {
+    let (matrix, limit) = match geometry.chart {
+        Chart::Exponential => (geometry.ad_transpose(x), EXPONENTIAL),
+        Chart::Cayley => (geometry.matrix_of(x), CAYLEY),
     };
     // Sufficient: no eigenvalue is larger than any norm.
     let length = norm(&matrix);
@@ -45,7 +41,14 @@ pub(super) fn inside(geometry: &Geometry, x: &[f64]) -> Inside {
     if !length.is_finite() {
         return Inside::CannotTell;
     }
-    let matrix = DMatrix::from_row_slice(size, size, &matrix);
+    // Powers of a nilpotent matrix vanish without rounding where the basis is adapted to it, as in the catalogue.
+    if geometry.chart == Chart::Exponential {
+        let squarings = 0..usize::BITS - matrix.nrows().leading_zeros();
+        let power = squarings.fold(&matrix / length, |power, _| &power * &power);
+        if power.amax() == 0.0 {
+            return Inside::Yes;
+        }
+    }
     let antisymmetric = (&matrix + matrix.transpose()).amax() == 0.0;
     let uncertain = if antisymmetric { 1e-13 } else { DEFECTIVE } * length;
     let Some(schur) = Schur::try_new(matrix, f64::EPSILON, 1000) else {

@@ -4,9 +4,9 @@
 //! *Tight and rigorous error bounds for basic building blocks of double-word arithmetic* (2017): a relative
 //! error of at most 3·2⁻¹⁰⁶ for a sum, 5·2⁻¹⁰⁶ for a product and 10·2⁻¹⁰⁶ for a quotient.
 
-use std::cmp::Ordering;
-use std::iter::Sum;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
 
 /// A number of about 106 bits, between 1e-290 and 1e290 in size (below, the second half loses bits).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,18 +64,6 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// The remainder after the nearest double.
-    #[must_use]
-    pub fn remainder(self) -> f64 {
-        self.lo
-    }
-
-    /// The absolute value.
-    #[must_use]
-    pub fn abs(self) -> Self {
-        if self.hi < 0.0 { -self } else { self }
-    }
-
     /// Whether it is neither infinite nor NaN.
     #[must_use]
     pub fn is_finite(self) -> bool {
@@ -85,11 +73,11 @@ impl DoubleDouble {
     /// The product with 2^exponent.
     #[must_use]
     pub fn scaled(self, exponent: i64) -> Self {
-        let mut left = exponent.clamp(-4400, 4400) as i32;
+        let mut left = exponent.clamp(-4400, 4400);
         let mut value = self;
         while left != 0 {
             let part = left.clamp(-900, 900);
-            let factor = power_of_two(part);
+            let factor = f64::from_bits(((1023 + part) as u64) << 52);
             value = Self { hi: value.hi * factor, lo: value.lo * factor };
             left -= part;
         }
@@ -97,14 +85,25 @@ impl DoubleDouble {
     }
 }
 
-/// 2^exponent for |exponent| ≤ 1000.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((1023 + exponent.clamp(-1000, 1000)) as u64) << 52)
-}
-
 impl From<f64> for DoubleDouble {
     fn from(value: f64) -> Self {
         Self { hi: value, lo: 0.0 }
+    }
+}
+
+impl Zero for DoubleDouble {
+    fn zero() -> Self {
+        Self::default()
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl One for DoubleDouble {
+    fn one() -> Self {
+        Self::from(1.0)
     }
 }
 
@@ -167,58 +166,16 @@ impl AddAssign for DoubleDouble {
     }
 }
 
-impl Sum for DoubleDouble {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::default(), |sum, term| sum + term)
+impl SubAssign for DoubleDouble {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
     }
 }
 
-impl PartialOrd for DoubleDouble {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        match self.hi.partial_cmp(&other.hi) {
-            Some(Ordering::Equal) => self.lo.partial_cmp(&other.lo),
-            order => order,
-        }
-    }
-}
-
-/// The arithmetic that the judge needs, in double or doubled precision.
-pub trait Real:
-    Copy
-    + Default
-    + PartialEq
-    + PartialOrd
-    + From<f64>
-    + Neg<Output = Self>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + AddAssign
-{
-    /// The number of doubled precision, rounded to this type.
-    fn of(value: DoubleDouble) -> Self;
-
-    /// The nearest double.
-    fn double(self) -> f64;
-}
-
-impl Real for f64 {
-    fn of(value: DoubleDouble) -> Self {
-        value.hi
-    }
-
-    fn double(self) -> f64 {
-        self
-    }
-}
-
-impl Real for DoubleDouble {
-    fn of(value: DoubleDouble) -> Self {
-        value
-    }
-
-    fn double(self) -> f64 {
-        self.hi
+impl MulAssign for DoubleDouble {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
     }
 }

@@ -13,15 +13,7 @@ pub enum JudgeError {
     /// The chart does not exist for the algebra.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// A term has a coordinate that the algebra does not have.
-    #[error("a term of S names coordinate {index}, counted from zero, of {dim}")]
-    Coordinate {
-        /// The coordinate.
-        index: usize,
-        /// The dimension.
-        dim: usize,
-    },
-    /// A vector or a matrix has the wrong number of entries.
+    /// A vector has the wrong number of entries.
     #[error("{what} has {found} entries in place of {expected}")]
     Length {
         /// The value given.

@@ -1,121 +1,110 @@
-//! Small dense matrices, row by row, in either precision.
+//! Matrices in double or doubled precision; a vector is a matrix of one column.
 
-use super::JudgeError;
-use super::double_double::Real;
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, Scalar};
+use num_traits::{One, Zero};
+use std::ops::Neg;
 
-/// The unit matrix.
-pub(super) fn identity<T: Real>(n: usize) -> Vec<T> {
-    let mut matrix = vec![T::default(); n * n];
-    (0..n).for_each(|i| matrix[i * n + i] = T::from(1.0));
-    matrix
+use super::DoubleDouble;
+
+/// The arithmetic that the judge needs, in double or doubled precision.
+pub(super) trait Real:
+    Scalar
+    + Copy
+    + Zero
+    + One
+    + From<f64>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + Neg<Output = Self>
+{
+    /// The number of doubled precision, rounded to this type.
+    fn of(value: DoubleDouble) -> Self;
+
+    /// The nearest double.
+    fn double(self) -> f64;
+
+    /// The solution of a linear system for each column of the right side; `None` where the matrix is singular, as far as
+    /// double precision tells.
+    fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>>;
 }
 
-/// The product of two square matrices.
-pub(super) fn multiply<T: Real>(n: usize, a: &[T], b: &[T]) -> Vec<T> {
-    let mut product = vec![T::default(); n * n];
-    multiply_into(n, a, b, &mut product);
-    product
+impl Real for f64 {
+    fn of(value: DoubleDouble) -> Self {
+        value.to_f64()
+    }
+
+    fn double(self) -> f64 {
+        self
+    }
+
+    fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>> {
+        matrix.clone().lu().solve(right)
+    }
 }
 
-/// The same into a matrix that is there.
-pub(super) fn multiply_into<T: Real>(n: usize, a: &[T], b: &[T], product: &mut [T]) {
-    product.fill(T::default());
-    for i in 0..n {
-        for k in 0..n {
-            let left = a[i * n + k];
-            if left == T::default() {
-                continue;
+impl Real for DoubleDouble {
+    fn of(value: DoubleDouble) -> Self {
+        value
+    }
+
+    fn double(self) -> f64 {
+        self.to_f64()
+    }
+
+    /// By factors in double precision, whose solution is refined as far as its residual in doubled precision tells.
+    fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>> {
+        const ROUNDING: f64 = 1e-29;
+        const ENOUGH: f64 = 1e-20;
+        let factors = doubles(matrix).lu();
+        let mut solution = DMatrix::zeros(right.nrows(), right.ncols());
+        let mut last = f64::INFINITY;
+        loop {
+            let correction = factors.solve(&doubles(&(right - matrix * &solution)))?;
+            let length = size(&correction);
+            if !(length < 0.5 * last) {
+                return (last <= ENOUGH * size(&solution)).then_some(solution);
             }
-            for j in 0..n {
-                product[i * n + j] += left * b[k * n + j];
+            solution += exact(&correction);
+            last = length;
+            if length <= ROUNDING * size(&solution) {
+                return Some(solution);
             }
         }
     }
 }
 
-/// Gauss' factors of a square matrix, with partial pivoting.
-#[derive(Clone, Debug)]
-pub(super) struct Lu<T> {
-    n: usize,
-    factors: Vec<T>,
-    rows: Vec<usize>,
-    /// The sign and the smallest and largest size of the pivots.
-    pub(super) sign: f64,
-    pub(super) smallest: f64,
-    pub(super) largest: f64,
+/// A column of these numbers.
+pub(super) fn column<T: Scalar>(values: impl ExactSizeIterator<Item = T>) -> DMatrix<T> {
+    DMatrix::from_iterator(values.len(), 1, values)
 }
 
-impl<T: Real> Lu<T> {
-    /// `None` where the matrix is singular or not finite.
-    pub(super) fn new(n: usize, mut matrix: Vec<T>) -> Option<Self> {
-        let mut rows: Vec<usize> = (0..n).collect();
-        let (mut sign, mut smallest, mut largest) = (1.0, f64::INFINITY, 0.0_f64);
-        for k in 0..n {
-            let mut pivot = k;
-            for i in k..n {
-                let value = matrix[i * n + k].double().abs();
-                if !value.is_finite() {
-                    return None;
-                }
-                if value > matrix[pivot * n + k].double().abs() {
-                    pivot = i;
-                }
-            }
-            if pivot != k {
-                (0..n).for_each(|j| matrix.swap(k * n + j, pivot * n + j));
-                rows.swap(k, pivot);
-                sign = -sign;
-            }
-            let top = matrix[k * n + k];
-            let value = top.double();
-            if value == 0.0 {
-                return None;
-            }
-            sign *= value.signum();
-            smallest = smallest.min(value.abs());
-            largest = largest.max(value.abs());
-            for i in k + 1..n {
-                let factor = matrix[i * n + k] / top;
-                matrix[i * n + k] = factor;
-                for j in k + 1..n {
-                    let change = factor * matrix[k * n + j];
-                    matrix[i * n + j] = matrix[i * n + j] - change;
-                }
-            }
-        }
-        Some(Self { n, factors: matrix, rows, sign, smallest, largest })
-    }
+/// The matrix rounded to double precision.
+pub(super) fn doubles<T: Real>(matrix: &DMatrix<T>) -> DMatrix<f64> {
+    matrix.map(Real::double)
+}
 
-    /// The solution for a right side.
-    pub(super) fn solve(&self, right: &[T]) -> Result<Vec<T>, JudgeError> {
-        let n = self.n;
-        let mut x: Vec<T> = self.rows.iter().map(|&row| right[row]).collect();
-        for i in 0..n {
-            for j in 0..i {
-                let change = self.factors[i * n + j] * x[j];
-                x[i] = x[i] - change;
-            }
-        }
-        for i in (0..n).rev() {
-            for j in i + 1..n {
-                let change = self.factors[i * n + j] * x[j];
-                x[i] = x[i] - change;
-            }
-            x[i] = x[i] / self.factors[i * n + i];
-        }
-        if x.iter().all(|x| x.double().is_finite()) { Ok(x) } else { Err(JudgeError::OutOfRange) }
-    }
+/// The matrix in doubled precision.
+pub(super) fn exact(matrix: &DMatrix<f64>) -> DMatrix<DoubleDouble> {
+    matrix.map(DoubleDouble::from)
+}
 
-    /// The Frobenius norm of the inverse.
-    pub(super) fn inverse_norm(&self) -> f64 {
-        let mut sum = 0.0_f64;
-        for j in 0..self.n {
-            let mut unit = vec![T::default(); self.n];
-            unit[j] = T::from(1.0);
-            let Ok(column) = self.solve(&unit) else { return f64::INFINITY };
-            sum = sum
-                .hypot(super::norm::norm(&column.iter().map(|v| v.double()).collect::<Vec<_>>()));
-        }
-        sum
+/// The largest absolute value, in double precision; NaN where a value is.
+pub(super) fn size<'a, T: Real>(values: impl IntoIterator<Item = &'a T>) -> f64 {
+    values.into_iter().fold(0.0, |largest, value| maximum(largest, value.double().abs()))
+}
+
+/// The Euclidean norm, of a matrix Frobenius' one, without overflow; NaN where a value is.
+pub(super) fn norm<'a, T: Real>(values: impl IntoIterator<Item = &'a T> + Copy) -> f64 {
+    let largest = size(values);
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
     }
+    let squares = values.into_iter().map(|x| (x.double() / largest).powi(2));
+    largest * squares.sum::<f64>().sqrt()
+}
+
+/// The larger of two numbers; NaN where one is, unlike `f64::max`.
+pub(super) fn maximum(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

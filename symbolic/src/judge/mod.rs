@@ -22,9 +22,9 @@
 //! let step = setting.step(&[2.0, 0.5, 1.0]).unwrap();
 //! let right = step.right_solution().unwrap();
 //! let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
-//! let residual = step.residual(&x, f64::EPSILON / 2.0).unwrap();
-//! assert!(residual.relative() < 1.0);
-//! assert!(matches!(step.branch(&x).0, Branch::Proven | Branch::Right));
+//! let point = step.at(&x).unwrap();
+//! assert!(point.residual(f64::EPSILON / 2.0).relative() < 1.0);
+//! assert!(matches!(point.branch().0, Branch::Proven | Branch::Right));
 //! ```
 
 // A comparison with what is not a number must refuse.
@@ -37,8 +37,6 @@ mod error;
 mod geometry;
 mod linear;
 mod motion;
-mod norm;
-mod plan;
 mod point;
 mod series;
 mod step;
@@ -46,17 +44,20 @@ mod wide;
 
 pub use branch::Branch;
 pub use domain::Inside;
-pub use double_double::{DoubleDouble, Real};
+pub use double_double::DoubleDouble;
 pub use error::JudgeError;
 pub use motion::{Motion, Stop};
 pub use point::{Point, Residual};
 pub use step::{End, RightSolution, Step};
 
+use nalgebra::DMatrix;
+
 use crate::comoving::Frame;
 use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
-use crate::lie::{Chart, LieAlgebra};
+use crate::lie::LieAlgebra;
 use crate::problem::Problem;
-use geometry::{Geometry, size};
+use geometry::Geometry;
+use linear::{column, size};
 use series::Series;
 use step::Scaled;
 use wide::exponent_of;
@@ -69,6 +70,7 @@ const UNITS: i64 = 32;
 pub struct Judge {
     geometry: Geometry,
     series: Series,
+    /// The motion of a comoving frame, which follows each step.
     frame: Vec<Series>,
 }
 
@@ -92,34 +94,9 @@ impl Judge {
         let (algebra, chart) = (&problem.algebra, problem.chart);
         let series = derive(algebra, chart, problem.generated(), problem.truncation, limit)?;
         let judge = Self::new(algebra, &series)?;
-        Ok(match &problem.comoving {
-            Some(frame) => judge.with_frame(frame),
-            None => judge,
-        })
-    }
-
-    /// For any S given by terms (k, c, \[(coordinate, power), …\]), the step size counted in c; k tells which
-    /// terms are the last of a series.
-    ///
-    /// # Errors
-    /// [`JudgeError::Coordinate`], [`JudgeError::Chart`].
-    pub fn from_terms(
-        algebra: &LieAlgebra,
-        chart: Chart,
-        terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
-    ) -> Result<Self, JudgeError> {
-        let geometry = Geometry::new(algebra, chart)?;
-        let mut series = Series::from_terms(&geometry.factors, terms)?;
-        series.step_is_counted();
-        Ok(Self { geometry, series, frame: Vec::new() })
-    }
-
-    /// The same where S generates the motion in a comoving frame, whose own motion follows each step.
-    #[must_use]
-    pub fn with_frame(mut self, frame: &Frame) -> Self {
-        let factors = &self.geometry.factors;
-        self.frame = frame.parts().map(|part| Series::new(factors, [(1, part)])).collect();
-        self
+        let parts = problem.comoving.iter().flat_map(Frame::parts);
+        let frame = parts.map(|part| Series::new(&judge.geometry.factors, [(1, part)])).collect();
+        Ok(Self { frame, ..judge })
     }
 
     /// With a step size and the values of the symbols put in. They are taken as exact: give the doubles
@@ -154,22 +131,19 @@ impl Setting<'_> {
     /// # Errors
     /// [`JudgeError::NotFinite`], [`JudgeError::Length`]; [`JudgeError::OutOfRange`] where S is.
     pub fn step(&mut self, mu: &[f64]) -> Result<Step<'_>, JudgeError> {
-        let mu: Vec<DoubleDouble> = mu.iter().map(|&mu| DoubleDouble::from(mu)).collect();
-        self.step_from(&mu, 0)
+        self.step_from(&column(mu.iter().map(|&m| DoubleDouble::from(m))), 0)
     }
 
-    /// The step from a momentum in units of 2^scale, as another step's [`End`] holds it.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn step_from(
+    /// The step from a momentum in units of 2^scale.
+    fn step_from(
         &mut self,
-        momentum: &[DoubleDouble],
+        momentum: &DMatrix<DoubleDouble>,
         scale: i64,
     ) -> Result<Step<'_>, JudgeError> {
-        let (dim, found) = (self.judge.geometry.dim, momentum.len());
-        if found != dim {
-            return Err(JudgeError::Length { what: "the momentum", found, expected: dim });
+        let (judge, found) = (self.judge, momentum.nrows());
+        if found != judge.geometry.dim {
+            let expected = judge.geometry.dim;
+            return Err(JudgeError::Length { what: "the momentum", found, expected });
         }
         let largest = size(momentum);
         if !largest.is_finite() {
@@ -178,23 +152,19 @@ impl Setting<'_> {
         let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
         // Not so small that coefficients underflow in it.
         let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
-        let place = match self.scaled.iter().position(|scaled| scaled.scale == unit) {
-            Some(place) => place,
-            None => {
-                let judge = self.judge;
-                let fold = |series: &Series| series.folded(self.step, &self.symbols, unit);
-                let (series, frame) = (fold(&judge.series), judge.frame.iter().map(fold).collect());
-                let growth = series.growth();
-                self.scaled.push(Scaled { series, growth, frame, scale: unit });
-                self.scaled.len() - 1
-            }
-        };
+        let place = self.scaled.iter().position(|scaled| scaled.scale == unit);
+        let place = place.unwrap_or_else(|| {
+            let fold = |series: &Series| series.folded(self.step, &self.symbols, unit);
+            let (series, frame) = (fold(&judge.series), judge.frame.iter().map(fold).collect());
+            self.scaled.push(Scaled { series, frame, scale: unit });
+            self.scaled.len() - 1
+        });
         let folded = &self.scaled[place];
         if !folded.series.is_finite() {
             return Err(JudgeError::OutOfRange);
         }
-        let momentum: Vec<_> = momentum.iter().map(|m| m.scaled(scale - unit)).collect();
-        let double = momentum.iter().map(|m| m.to_f64()).collect();
-        Ok(Step { geometry: &self.judge.geometry, folded, momentum, double })
+        let momentum = momentum.map(|m| m.scaled(scale - unit));
+        let double = linear::doubles(&momentum);
+        Ok(Step { geometry: &judge.geometry, folded, momentum, double })
     }
 }

@@ -1,8 +1,10 @@
 //! A motion in doubled precision: the right solution of each step, with bounds on what rounding may do.
 
-use super::linear::multiply;
-use super::norm::norm;
-use super::{Branch, DoubleDouble, End, JudgeError, RightSolution, Setting};
+use nalgebra::DMatrix;
+
+use super::linear::{column, norm};
+use super::step::ratio;
+use super::{Branch, DoubleDouble, JudgeError, RightSolution, Setting, Step};
 
 /// Why a motion stops.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,10 +18,10 @@ pub enum Stop {
 /// Where a motion has come to, and how far rounding may have taken another one from it.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    momentum: Vec<DoubleDouble>,
+    momentum: DMatrix<DoubleDouble>,
     scale: i64,
-    /// The product of the steps' elements, row by row; none before the first step.
-    element: Option<Vec<DoubleDouble>>,
+    /// The product of the steps' elements; none before the first step.
+    element: Option<DMatrix<DoubleDouble>>,
     momentum_bound: f64,
     element_bound: f64,
 }
@@ -28,15 +30,15 @@ impl Motion {
     /// From a momentum.
     #[must_use]
     pub fn new(mu: &[f64]) -> Self {
-        let momentum = mu.iter().map(|&m| DoubleDouble::from(m)).collect();
+        let momentum = column(mu.iter().map(|&m| DoubleDouble::from(m)));
         Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }
     }
 
     /// The step from where the motion has come to.
     ///
     /// # Errors
-    /// As [`Setting::step_from`].
-    pub fn here<'s>(&self, setting: &'s mut Setting<'_>) -> Result<super::Step<'s>, JudgeError> {
+    /// As [`Setting::step`].
+    pub fn here<'s>(&self, setting: &'s mut Setting<'_>) -> Result<Step<'s>, JudgeError> {
         setting.step_from(&self.momentum, self.scale)
     }
 
@@ -50,23 +52,18 @@ impl Motion {
         known: Option<RightSolution>,
         unit: f64,
     ) -> Result<(), Stop> {
-        let step = setting.step_from(&self.momentum, self.scale).map_err(Stop::Judge)?;
-        let right = match known {
-            Some(right) => right,
-            None => step.right_solution().map_err(Stop::Branch)?,
-        };
+        let step = self.here(setting).map_err(Stop::Judge)?;
+        let right = known.map_or_else(|| step.right_solution(), Ok).map_err(Stop::Branch)?;
         let end = step.end(&right, unit).map_err(Stop::Judge)?;
-        let length = norm(&doubles(&self.momentum));
+        let length = norm(&self.momentum);
         let relative = if length == 0.0 { 0.0 } else { self.momentum_bound / length };
         let shift = DoubleDouble::from(self.momentum_bound).scaled(self.scale - end.scale);
         self.momentum_bound = end.growth * shift.to_f64() + end.momentum_bound;
-        let factor = norm(&doubles(&end.element));
         self.element_bound =
-            factor * (self.element_bound + end.growth * relative) + end.element_bound;
-        let size = matrix_size(end.element.len());
+            norm(&end.element) * (self.element_bound + end.growth * relative) + end.element_bound;
         self.element = Some(match &self.element {
             None => end.element,
-            Some(element) => multiply(size, element, &end.element),
+            Some(element) => element * end.element,
         });
         (self.momentum, self.scale) = (end.momentum, end.scale);
         Ok(())
@@ -78,69 +75,41 @@ impl Motion {
         self.momentum.iter().map(|m| m.scaled(self.scale).to_f64()).collect()
     }
 
-    /// The group element that this motion has led to from `before`, rounded.
+    /// The group element, row by row, that this motion has led to from `before`, rounded.
     #[must_use]
     pub fn element_from(&self, before: &[f64]) -> Vec<f64> {
-        let exact: Vec<_> = before.iter().map(|&g| DoubleDouble::from(g)).collect();
-        match &self.element {
-            Some(element) => doubles(&multiply(matrix_size(before.len()), &exact, element)),
-            None => before.to_vec(),
-        }
+        self.exact_element_from(before).transpose().iter().map(|g| g.to_f64()).collect()
+    }
+
+    fn exact_element_from(&self, before: &[f64]) -> DMatrix<DoubleDouble> {
+        let size = before.len().isqrt();
+        let before = before.iter().map(|&g| DoubleDouble::from(g));
+        let before = DMatrix::from_row_iterator(size, size, before);
+        self.element.as_ref().map_or_else(|| before.clone(), |element| &before * element)
     }
 
     /// Whether the motion and its bounds are numbers, so that a deviation means something: turns of hundreds of radians are
     /// bounded by what exceeds all numbers.
     #[must_use]
     pub fn is_bounded(&self) -> bool {
-        let element = self.element.iter().flatten().all(|entry| entry.is_finite());
-        let momentum = self.momentum.iter().all(|entry| entry.is_finite());
-        element && momentum && self.momentum_bound.is_finite() && self.element_bound.is_finite()
+        let mut numbers = self.momentum.iter().chain(self.element.iter().flatten());
+        let bounds = self.momentum_bound.is_finite() && self.element_bound.is_finite();
+        bounds && numbers.all(|number| number.is_finite())
     }
 
     /// How far a momentum is from this one over the bound of both motions' difference.
     #[must_use]
     pub fn momentum_deviation(&self, momentum: &[f64]) -> f64 {
-        let difference = self.momentum.iter().zip(momentum).map(|(&exact, &found)| {
-            (exact - DoubleDouble::from(found).scaled(-self.scale)).to_f64()
-        });
-        over(norm(&difference.collect::<Vec<_>>()), self.momentum_bound)
+        let found = column(momentum.iter().map(|&m| DoubleDouble::from(m).scaled(-self.scale)));
+        ratio(norm(&(&self.momentum - found)), self.momentum_bound)
     }
 
     /// How far a group element is from `before` times the steps' elements, over the bound.
     #[must_use]
     pub fn element_deviation(&self, before: &[f64], after: &[f64]) -> f64 {
-        let before_exact: Vec<_> = before.iter().map(|&g| DoubleDouble::from(g)).collect();
-        let product = match &self.element {
-            Some(element) => multiply(matrix_size(before.len()), &before_exact, element),
-            None => before_exact,
-        };
-        let difference =
-            product.iter().zip(after).map(|(&e, &f)| (e - DoubleDouble::from(f)).to_f64());
-        over(norm(&difference.collect::<Vec<_>>()), norm(before) * self.element_bound)
-    }
-}
-
-fn doubles(v: &[DoubleDouble]) -> Vec<f64> {
-    v.iter().map(|v| v.to_f64()).collect()
-}
-
-fn matrix_size(entries: usize) -> usize {
-    (0..=entries).find(|n| n * n >= entries).unwrap_or(0)
-}
-
-/// error / bound; infinite where that is no number.
-fn over(error: f64, bound: f64) -> f64 {
-    if error == 0.0 {
-        return 0.0;
-    }
-    let ratio = error / bound;
-    if ratio.is_nan() { f64::INFINITY } else { ratio }
-}
-
-impl End {
-    /// The momentum after the step, rounded.
-    #[must_use]
-    pub fn rounded(&self) -> Vec<f64> {
-        self.momentum.iter().map(|m| m.scaled(self.scale).to_f64()).collect()
+        let product = self.exact_element_from(before);
+        let found = after.iter().map(|&g| DoubleDouble::from(g));
+        let found = DMatrix::from_row_iterator(product.nrows(), product.ncols(), found);
+        ratio(norm(&(product - found)), norm(before) * self.element_bound)
     }
 }

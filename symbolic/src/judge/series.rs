@@ -3,46 +3,38 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::plan::{Part, Plan};
+use nalgebra::DMatrix;
+
+use super::DoubleDouble;
+use super::linear::{Real, column, norm};
 use super::wide::Wide;
-use super::{DoubleDouble, JudgeError};
-use crate::poly::split_at;
+use crate::poly::{Polynomial, split_at};
 
-use crate::poly::Polynomial;
-
-/// One term of S before a step size, parameters and a scale of the momentum are put in.
-#[derive(Clone, Debug)]
-pub(super) struct Term {
-    pub(super) value: Wide,
-    /// k of t^k.
-    pub(super) order: u32,
-    /// The symbols' powers.
-    pub(super) symbols: Vec<(usize, u32)>,
-    /// Index of its monomial in the momenta.
-    pub(super) monomial: usize,
-}
+/// The powers of coordinates in a monomial.
+type Powers = Vec<(usize, u32)>;
 
 /// S = Σ t^k S_k(p), ready for a step size.
 #[derive(Clone, Debug)]
 pub(super) struct Series {
-    /// The direct factor of each coordinate.
-    factors: Vec<usize>,
-    pub(super) monomials: Vec<Vec<(usize, u32)>>,
-    pub(super) terms: Vec<Term>,
-    /// How they are evaluated; none before all terms are known.
+    terms: Vec<Term>,
     plan: Arc<Plan>,
-    /// The last order and the one two before it, where the series has them.
-    pub(super) last: Option<(u32, u32)>,
-    /// Whether the coefficients hold the step size.
-    counted: bool,
+    /// The last order, where the series has the one two before it too.
+    last: Option<u32>,
+}
+
+/// One term of S before a step size, parameters and a scale of the momentum are put in.
+#[derive(Clone, Debug)]
+struct Term {
+    value: Wide,
+    /// k of t^k.
+    order: u32,
+    /// The symbols' powers.
+    symbols: Powers,
+    /// Index of its monomial in the momenta.
+    monomial: usize,
 }
 
 impl Series {
-    fn empty(factors: &[usize]) -> Self {
-        let (monomials, terms, plan) = (Vec::new(), Vec::new(), Arc::default());
-        Self { factors: factors.to_vec(), monomials, terms, plan, last: None, counted: false }
-    }
-
     /// From the polynomials S₁, S₂, … (any orders), whose variables beyond the coordinates are symbols; `factors` has the
     /// direct factor of each coordinate.
     pub(super) fn new<'a>(
@@ -50,109 +42,55 @@ impl Series {
         orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
     ) -> Self {
         let dim = factors.len();
-        let mut index = BTreeMap::new();
-        let mut result = Self::empty(factors);
-        let mut known = Vec::new();
+        let mut known = BTreeMap::new();
+        let mut monomials: Vec<Powers> = Vec::new();
+        let (mut terms, mut last) = (Vec::new(), None);
         for (order, polynomial) in orders {
-            known.push(order);
-            for (factors, value) in polynomial.factors() {
-                let (momenta, symbols) = split_at(&factors, dim);
-                let momenta: Vec<_> = momenta.iter().map(|&(i, e)| (i as usize, e)).collect();
+            // S is odd in t.
+            last = if order >= 3 && order % 2 == 1 { Some(order) } else { last };
+            for (powers, value) in polynomial.factors() {
+                let (momenta, symbols) = split_at(&powers, dim);
+                let momenta: Powers = momenta.iter().map(|&(i, e)| (i as usize, e)).collect();
                 let symbols = symbols.iter().map(|&(i, e)| (i as usize - dim, e)).collect();
-                let monomial = result.monomial(&mut index, momenta);
-                result.terms.push(Term { value: Wide::rational(&value), order, symbols, monomial });
+                let monomial = *known.entry(momenta.clone()).or_insert_with(|| {
+                    monomials.push(momenta);
+                    monomials.len() - 1
+                });
+                terms.push(Term { value: Wide::rational(&value), order, symbols, monomial });
             }
         }
-        result.finish(known);
-        result
-    }
-
-    /// From terms (order, c, [(coordinate, power), …]) whose coefficients count the step size already.
-    pub(super) fn from_terms(
-        factors: &[usize],
-        terms: impl IntoIterator<Item = (u32, f64, Vec<(usize, u32)>)>,
-    ) -> Result<Self, JudgeError> {
-        let dim = factors.len();
-        let mut index = BTreeMap::new();
-        let mut result = Self::empty(factors);
-        let mut known = Vec::new();
-        for (order, value, powers) in terms {
-            let mut merged: BTreeMap<usize, u32> = BTreeMap::new();
-            for (i, power) in powers {
-                if i >= dim {
-                    return Err(JudgeError::Coordinate { index: i, dim });
-                }
-                *merged.entry(i).or_insert(0) += power;
-            }
-            let momenta = merged.into_iter().filter(|f| f.1 > 0).collect();
-            let monomial = result.monomial(&mut index, momenta);
-            known.push(order);
-            let value = Wide::of(value);
-            result.terms.push(Term { value, order, symbols: Vec::new(), monomial });
-        }
-        result.finish(known);
-        Ok(result)
-    }
-
-    fn monomial(
-        &mut self,
-        index: &mut BTreeMap<Vec<(usize, u32)>, usize>,
-        factors: Vec<(usize, u32)>,
-    ) -> usize {
-        *index.entry(factors.clone()).or_insert_with(|| {
-            self.monomials.push(factors);
-            self.monomials.len() - 1
-        })
-    }
-
-    /// The coefficients hold the step size already.
-    pub(super) fn step_is_counted(&mut self) {
-        self.counted = true;
-    }
-
-    /// Once all terms are known, of these orders.
-    fn finish(&mut self, mut known: Vec<u32>) {
-        self.plan = Arc::new(Plan::new(&self.factors, &self.monomials));
-        // S is odd in t.
-        known.retain(|order| order % 2 == 1);
-        let last = known.iter().max().copied();
-        self.last = last.filter(|&last| last >= 3).map(|last| (last, last - 2));
+        Self { terms, plan: Arc::new(Plan::new(factors, &monomials)), last }
     }
 
     /// S(σq)/σ with σ = 2^scale, whose gradient in q is ∂S/∂p at p = σq.
     pub(super) fn folded(&self, step: f64, symbols: &[f64], scale: i64) -> Folded {
+        let plan = Arc::clone(&self.plan);
         let largest = self.terms.iter().map(|term| term.order).max().unwrap_or(0);
-        let step = if self.counted { Wide::one() } else { Wide::of(step) };
-        let powers: Vec<Wide> = (0..=largest).map(|k| step.power(k)).collect();
-        let count = self.monomials.len();
+        let powers: Vec<Wide> = (0..=largest).map(|k| Wide::of(step).power(k)).collect();
+        let zeros = vec![DoubleDouble::default(); plan.degrees.len()];
         // Terms that cancel (in a spherical body, say) must not leave roundings of a double's size.
-        let [mut exact, mut last, mut before] =
-            [(); 3].map(|()| vec![DoubleDouble::default(); count]);
-        let mut size = vec![0.0; count];
+        let (mut exact, mut last_two) = (zeros.clone(), [zeros.clone(), zeros]);
+        let mut size = vec![0.0; exact.len()];
         for term in &self.terms {
             let mut value = term.value.times(powers[term.order as usize]);
             for &(i, power) in &term.symbols {
                 let symbol = symbols.get(i).copied().unwrap_or(f64::NAN);
                 value = value.times(Wide::of(symbol).power(power));
             }
-            let degree: i64 = self.monomials[term.monomial].iter().map(|f| i64::from(f.1)).sum();
-            let value = value.scaled(scale.saturating_mul(degree - 1));
             let at = term.monomial;
+            let value = value.scaled(scale * i64::from(plan.degrees[at] - 1));
             exact[at] += value;
             size[at] += value.to_f64().abs();
-            if let Some((of_last, of_before)) = self.last {
-                if term.order == of_last {
-                    last[at] += value;
-                } else if term.order == of_before {
-                    before[at] += value;
-                }
+            let before_last = self.last.and_then(|last| last.checked_sub(term.order));
+            if let Some(place @ (0 | 2)) = before_last {
+                last_two[place as usize / 2][at] += value;
             }
         }
-        let plan = Arc::clone(&self.plan);
-        let rounded = |v: &[DoubleDouble]| v.iter().map(|v| v.to_f64()).collect::<Vec<_>>();
-        let double = rounded(&exact);
-        let (last, before) = (plan.part(&rounded(&last)), plan.part(&rounded(&before)));
-        Folded { plan, exact, double, size, last, before, has_two: self.last.is_some() }
+        let rounded = |list: &[DoubleDouble]| list.iter().map(|v| v.to_f64()).collect::<Vec<_>>();
+        let last_two = last_two.map(|list| rounded(&list).iter().map(|c| c.abs()).collect());
+        let (double, growth) = (rounded(&exact), plan.growth(&size));
+        let last_two = self.last.map(|_| last_two);
+        Folded { plan, exact, double, size, last_two, growth }
     }
 }
 
@@ -164,53 +102,184 @@ pub(super) struct Folded {
     double: Vec<f64>,
     /// Sums of the terms' absolute values.
     size: Vec<f64>,
-    /// S_K, and S_{K−2}.
-    last: Part,
-    before: Part,
-    has_two: bool,
+    /// The absolute values of the coefficients of S_K and S_{K−2}, where there are both.
+    last_two: Option<[Vec<f64>; 2]>,
+    /// For each degree d: a bound G on |∂S_d/∂p| / |p|^(d−1) and one on ‖Hess S_d‖ / |p|^(d−2), |.| being
+    /// Euclidean: every factor is at most |p|.
+    pub(super) growth: Vec<(i32, f64, f64)>,
 }
-
-/// A gradient and a Hessian, row by row.
-pub(super) type Derivatives<T> = (Vec<T>, Vec<T>);
 
 impl Folded {
     pub(super) fn is_finite(&self) -> bool {
         self.exact.iter().all(|c| c.is_finite())
     }
 
-    /// Whether the series has two orders to compare.
-    pub(super) fn has_two(&self) -> bool {
-        self.has_two
-    }
-
     /// ∂S/∂p in doubled precision.
-    pub(super) fn gradient(&self, p: &[DoubleDouble]) -> Vec<DoubleDouble> {
-        self.plan.first(&self.exact, &self.plan.products(p))
+    pub(super) fn gradient(&self, p: &DMatrix<DoubleDouble>) -> DMatrix<DoubleDouble> {
+        column(self.plan.gradient(&self.exact, &self.plan.products(p.as_slice())).into_iter())
     }
 
     /// ∂S/∂p and its derivative in double precision.
-    pub(super) fn derivatives(&self, p: &[f64]) -> Derivatives<f64> {
-        let products = self.plan.products(p);
-        (self.plan.first(&self.double, &products), self.plan.second(&self.double, &products))
+    pub(super) fn derivatives(&self, p: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let (plan, n) = (&self.plan, p.nrows());
+        let products = plan.products(p.as_slice());
+        let hessian = evaluate(&plan.second, n * n, &self.double, &products);
+        let gradient = plan.gradient(&self.double, &products);
+        (column(gradient.into_iter()), DMatrix::from_vec(n, n, hessian))
     }
 
-    /// The sums of the absolute values of the terms of ∂S/∂p at |p|, and of all monomials of ∂S_K/∂p and of
-    /// ∂S_{K−2}/∂p in each direct factor.
-    pub(super) fn absolute(&self, p: &[f64]) -> (Vec<f64>, [Vec<f64>; 2]) {
-        let p: Vec<f64> = p.iter().map(|p| p.abs()).collect();
-        let products = self.plan.products(&p);
-        let last_two = [&self.last, &self.before].map(|part| part.at(&products));
-        (self.plan.first(&self.size, &products), last_two)
+    /// The length of the sums of the absolute values of the terms of ∂S/∂p.
+    pub(super) fn terms(&self, p: &DMatrix<f64>) -> f64 {
+        norm(&self.plan.gradient(&self.size, &self.plan.products(p.abs().as_slice())))
     }
 
-    /// Bounds on |∂S_K/∂p| and |∂S_{K−2}/∂p| of each direct factor in every direction, |p| of all factors being r.
-    pub(super) fn last_two_anywhere(&self, r: f64) -> [Vec<f64>; 2] {
-        [&self.last, &self.before].map(|part| part.anywhere(r))
+    /// The sums of the absolute values of all monomials of ∂S_K/∂p and of ∂S_{K−2}/∂p in each direct factor; and bounds
+    /// on these in every direction, |p| of all factors being r. `None` where there are no two terms.
+    pub(super) fn last_two(&self, p: &DMatrix<f64>, r: f64) -> Option<[[Vec<f64>; 2]; 2]> {
+        let plan = &self.plan;
+        let products = plan.products(p.abs().as_slice());
+        let here = |coefficients: &Vec<f64>| {
+            let gradient = plan.gradient(coefficients, &products).into_iter();
+            plan.by_factor(plan.factors.iter().copied().zip(gradient))
+        };
+        let anywhere = |coefficients: &Vec<f64>| {
+            let monomials = plan.bounds.iter().zip(&plan.degrees).zip(coefficients);
+            plan.by_factor(monomials.filter(|(_, c)| **c != 0.0).flat_map(|((own, degree), c)| {
+                own.iter().map(move |&(factor, bound)| (factor, bound * c * r.powi(degree - 1)))
+            }))
+        };
+        let [last, before] = self.last_two.as_ref()?;
+        Some([[here(last), here(before)], [anywhere(last), anywhere(before)]])
+    }
+}
+
+/// How the derivatives of some monomials are evaluated: each product of powers by one multiplication.
+#[derive(Clone, Debug, Default)]
+struct Plan {
+    /// The direct factor of each coordinate.
+    factors: Vec<usize>,
+    /// The degree of each monomial.
+    degrees: Vec<i32>,
+    /// For each monomial, and each direct factor of the group that it has coordinates of: a bound on the gradient in these
+    /// where |p| of every factor is one, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part in factor g being
+    /// Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
+    bounds: Vec<Vec<(usize, f64)>>,
+    /// Product k + 1 is an earlier one times a coordinate; product 0 is 1.
+    products: Vec<(usize, usize)>,
+    first: Vec<Derivative>,
+    second: Vec<Derivative>,
+}
+
+/// What a monomial adds at one place of a derivative: its coefficient times `factor` times a product.
+#[derive(Clone, Copy, Debug)]
+struct Derivative {
+    monomial: usize,
+    place: usize,
+    factor: f64,
+    product: usize,
+}
+
+/// The powers with that of coordinate i one less.
+fn without(powers: &[(usize, u32)], i: usize) -> Powers {
+    let lowered = powers.iter().map(|&(j, e)| (j, if i == j { e - 1 } else { e }));
+    lowered.filter(|power| power.1 > 0).collect()
+}
+
+/// The derivative with this many places of the polynomial with these coefficients.
+fn evaluate<T: Real>(
+    derivative: &[Derivative],
+    places: usize,
+    coefficients: &[T],
+    products: &[T],
+) -> Vec<T> {
+    let mut result = vec![T::zero(); places];
+    for entry in derivative.iter().filter(|entry| !coefficients[entry.monomial].is_zero()) {
+        let value = coefficients[entry.monomial] * T::from(entry.factor) * products[entry.product];
+        result[entry.place] += value;
+    }
+    result
+}
+
+impl Plan {
+    fn new(factors: &[usize], monomials: &[Powers]) -> Self {
+        let n = factors.len();
+        let mut plan = Self { factors: factors.to_vec(), ..Self::default() };
+        let mut known = BTreeMap::new();
+        for (monomial, powers) in monomials.iter().enumerate() {
+            for (at, &(i, a)) in powers.iter().enumerate() {
+                let lower = without(powers, i);
+                let (factor, product) = (f64::from(a), plan.product(&mut known, &lower));
+                plan.first.push(Derivative { monomial, place: i, factor, product });
+                for &(j, b) in &powers[..=at] {
+                    let b = if i == j { a - 1 } else { b };
+                    if b > 0 {
+                        let product = plan.product(&mut known, &without(&lower, j));
+                        let factor = f64::from(a) * f64::from(b);
+                        let entry = |place| Derivative { monomial, place, factor, product };
+                        plan.second.push(entry(i * n + j));
+                        plan.second.extend((i != j).then(|| entry(j * n + i)));
+                    }
+                }
+            }
+            let mut degrees: BTreeMap<usize, u32> = BTreeMap::new();
+            powers.iter().for_each(|&(i, m)| *degrees.entry(factors[i]).or_insert(0) += m);
+            let share = |&(i, m): &(usize, u32)| {
+                let degree = f64::from(degrees[&factors[i]]);
+                (f64::from(m) / degree).powf(0.5 * f64::from(m))
+            };
+            let highest: f64 = powers.iter().map(share).product();
+            let bounds = degrees.iter().map(|(&own, &degree)| (own, f64::from(degree) * highest));
+            plan.bounds.push(bounds.collect());
+            plan.degrees.push(powers.iter().map(|power| power.1 as i32).sum());
+        }
+        plan
     }
 
-    /// For each degree d: a bound G on |∂S_d/∂p| / |p|^(d−1) and one on ‖Hess S_d‖ / |p|^(d−2), |.| being
-    /// Euclidean: every factor is at most |p|.
-    pub(super) fn growth(&self) -> Vec<(u32, f64, f64)> {
-        self.plan.growth(&self.size)
+    /// The number of a product, which is added where it is new.
+    fn product(&mut self, known: &mut BTreeMap<Powers, usize>, powers: &Powers) -> usize {
+        let Some(&(i, _)) = powers.last() else { return 0 };
+        if let Some(&product) = known.get(powers) {
+            return product;
+        }
+        let lower = self.product(known, &without(powers, i));
+        self.products.push((lower, i));
+        known.insert(powers.clone(), self.products.len());
+        self.products.len()
+    }
+
+    /// All products at p.
+    fn products<T: Real>(&self, p: &[T]) -> Vec<T> {
+        let mut values = vec![T::one()];
+        for &(lower, i) in &self.products {
+            values.push(values[lower] * p[i]);
+        }
+        values
+    }
+
+    fn gradient<T: Real>(&self, coefficients: &[T], products: &[T]) -> Vec<T> {
+        evaluate(&self.first, self.factors.len(), coefficients, products)
+    }
+
+    /// See [`Folded::growth`].
+    fn growth(&self, size: &[f64]) -> Vec<(i32, f64, f64)> {
+        let n = self.factors.len();
+        let ones = vec![1.0; self.products.len() + 1];
+        let mut degrees = self.degrees.clone();
+        degrees.sort_unstable();
+        degrees.dedup();
+        let bounds = degrees.into_iter().map(|degree| {
+            let own = self.degrees.iter().zip(size);
+            let own: Vec<f64> = own.map(|(d, c)| if *d == degree { *c } else { 0.0 }).collect();
+            let hessian = evaluate(&self.second, n * n, &own, &ones);
+            (degree, norm(&self.gradient(&own, &ones)), norm(&hessian))
+        });
+        bounds.collect()
+    }
+
+    /// The sums over each direct factor.
+    fn by_factor(&self, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
+        let mut sums = vec![0.0; self.factors.last().map_or(0, |last| last + 1)];
+        values.for_each(|(factor, value)| sums[factor] += value);
+        sums
     }
 }

@@ -1,7 +1,7 @@
 //! Coefficients of any size: a number of doubled precision times a power of two.
 
 use num_bigint::{BigInt, Sign};
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive};
 
 use super::DoubleDouble;
 use crate::number::Rational;
@@ -15,21 +15,13 @@ pub(super) struct Wide {
 }
 
 impl Wide {
-    /// 1.
-    pub(super) fn one() -> Self {
-        Self { mantissa: DoubleDouble::from(0.5), exponent: 1 }
-    }
-
     /// A double, exactly; not finite ones stay so.
     pub(super) fn of(value: f64) -> Self {
-        Self { mantissa: DoubleDouble::from(value), exponent: 0 }.normal()
+        Self { mantissa: value.into(), exponent: 0 }.normal()
     }
 
     /// A rational, to 106 bits.
     pub(super) fn rational(value: &Rational) -> Self {
-        if value.is_zero() {
-            return Self::of(0.0);
-        }
         let (numerator, denominator) = (value.numer().abs(), value.denom());
         let shift = 120 + denominator.bits() as i64 - numerator.bits() as i64;
         let quotient = if shift >= 0 {
@@ -60,12 +52,12 @@ impl Wide {
     }
 
     pub(super) fn power(self, exponent: u32) -> Self {
-        (0..exponent).fold(Self::one(), |product, _| product.times(self))
+        (0..exponent).fold(Self::of(1.0), |product, _| product.times(self))
     }
 
     /// The product with 2^exponent as a number of doubled precision: 0 or infinite where out of range.
     pub(super) fn scaled(self, exponent: i64) -> DoubleDouble {
-        self.mantissa.scaled(self.exponent + exponent)
+        self.mantissa.scaled(self.exponent.saturating_add(exponent))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The judge against exact references: end states of motions, and steps that are wrong on purpose.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_symbolic::judge::{Branch, DoubleDouble, Inside, Judge, Motion, Real};
+use coadjoint_symbolic::judge::{Branch, DoubleDouble, Inside, Judge, Motion};
 use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
 use coadjoint_symbolic::number::Rational;
 use coadjoint_symbolic::number::ratio;
@@ -125,9 +125,10 @@ fn a_spherical_body_turns_uniformly() {
             for (x, mu) in x.iter().zip(mu) {
                 assert!((x - angle / 1.3 * mu / scale).abs() < 1e-14 * angle, "{scale:e} {angle}");
             }
-            assert!(step.residual(&x, UNIT).unwrap().relative() < 1.0);
+            let point = step.at(&x).unwrap();
+            assert!(point.residual(UNIT).relative() < 1.0);
             assert_eq!(step.inside(&x), Inside::Yes);
-            assert!(matches!(step.branch(&x).0, Branch::Proven | Branch::Right));
+            assert!(matches!(point.branch().0, Branch::Proven | Branch::Right));
         }
     }
 }
@@ -140,14 +141,16 @@ fn wrong_steps_are_told() {
     let step = setting.step(&[2.0, 0.5, 1.0]).unwrap();
     let right = step.right_solution().unwrap();
     let mut x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
-    assert!(step.residual(&x, UNIT).unwrap().relative() < 0.1);
-    assert!(step.series_ratio(&x, 0.5 * f64::EPSILON).unwrap() < 0.1);
-    assert_eq!(step.branch(&x).0, Branch::Proven);
+    let point = step.at(&x).unwrap();
+    assert!(point.residual(UNIT).relative() < 0.1);
+    assert!(point.series_ratio(UNIT).unwrap() < 0.1);
+    assert_eq!(point.branch().0, Branch::Proven);
     x[0] += 1e-13;
-    assert!(step.residual(&x, UNIT).unwrap().relative() > 1.0);
-    assert!(step.residual(&x, 2_f64.powi(-24)).unwrap().relative() < 1.0);
+    let point = step.at(&x).unwrap();
+    assert!(point.residual(UNIT).relative() > 1.0);
+    assert!(point.residual(2_f64.powi(-24)).relative() < 1.0);
     assert!(matches!(step.inside(&[0.0, 3.2, 0.0]), Inside::No(_)));
-    assert!(step.residual(&[f64::NAN, 0.0, 0.0], UNIT).is_err());
+    assert!(step.at(&[f64::NAN, 0.0, 0.0]).is_err());
     assert!(setting.step(&[f64::INFINITY, 0.0, 0.0]).is_err());
     assert!(setting.step(&[1.0, 0.0]).is_err());
 }
@@ -167,7 +170,7 @@ fn doubled_precision() {
         (DoubleDouble::from(1.0) + small - DoubleDouble::from(1.0)).to_f64(),
         2_f64.powi(-90)
     );
-    assert_eq!(DoubleDouble::from(3.0).scaled(-1000).scaled(1000).double(), 3.0);
+    assert_eq!(DoubleDouble::from(3.0).scaled(-1000).scaled(1000).to_f64(), 3.0);
 }
 
 /// Along an axis x = h Ω solves the equation at any h; beyond the first fork of x = s ∂S(p̂) it is not the right solution.
@@ -179,8 +182,9 @@ fn a_solution_beyond_a_fork_is_told() {
     for size in 1..70 {
         let step = setting.step(&[0.0, 0.2 * f64::from(size), 0.0]).unwrap();
         let x = [0.0, 0.1 * f64::from(size), 0.0];
-        assert!(step.residual(&x, UNIT).unwrap().relative() < 1.0);
-        match step.branch(&x).0 {
+        let point = step.at(&x).unwrap();
+        assert!(point.residual(UNIT).relative() < 1.0);
+        match point.branch().0 {
             Branch::Proven | Branch::Right => {
                 assert_eq!(seen[1], 0, "size {size}: right beyond a fork");
                 seen[0] += 1;
@@ -228,7 +232,7 @@ fn spoilt_steps_are_told() {
             for sign in [-1.0, 1.0] {
                 let mut spoilt = x.clone();
                 spoilt[i] += sign * by;
-                let relative = step.residual(&spoilt, UNIT).unwrap().relative();
+                let relative = step.at(&spoilt).unwrap().residual(UNIT).relative();
                 assert!(relative > 2.0, "{group} {chart:?}: {relative} for coordinate {i}");
             }
         }

@@ -230,8 +230,15 @@ fn any_function() -> Vec<Model> {
                 .into_iter()
                 .map(|(m, c)| (c * change(), m))
                 .collect();
-            let all = terms.iter().map(|(c, monomial)| (1, *c, monomial.clone()));
-            let judge = Judge::from_terms(&algebra, Chart::Exponential, all).ok()?;
+            // The judge's S is h times a Hamiltonian.
+            let exact = |value: f64| Rational::from_float(value).expect("finite");
+            let all = terms.iter().map(|(c, monomial)| {
+                let factors = monomial.iter().map(|&(i, power)| (i as u32, power));
+                (factors.collect(), exact(*c) / exact(h))
+            });
+            let energy = Polynomial::from_factors(3, all);
+            let series = derive(&algebra, Chart::Exponential, &energy, 1, limit).ok()?;
+            let judge = Judge::new(&algebra, &series).ok()?;
             let steps = PolynomialFunction::new(SO3::<f64>::new(), Exponential, terms).ok()?;
             Some(Made { steps: Box::new(Runner::new(steps)), judge: Some(judge) })
         };
