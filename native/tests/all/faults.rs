@@ -4,16 +4,108 @@
 use std::fs;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use crate::common::{bits, kernel, lane, state};
+use crate::samples::{Chance, Sample, Seen, compare};
 use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
-use coadjoint_program::{Kernel, Stepper};
+use tempfile::TempDir;
+
+fn by_c(seed: u64, options: &COptions) -> Result<Native, NativeError> {
+    Native::by_c(&Sample::small(seed).kernel, options)
+}
+
+/// The step of the small kernel of this seed, through this cache: whether it was found there, and that it is right.
+fn cached(seed: u64, cache: &Path) -> bool {
+    let options = COptions { cache: CacheFolder::At(cache.to_owned()), ..COptions::default() };
+    let native = by_c(seed, &options).unwrap();
+    let mut seen = Seen::default();
+    compare(&Sample::small(seed), &native.entry, 300, &mut Chance(9), &mut seen);
+    native.cached
+}
+
+/// A folder, and the path of a cache in it that is not there yet.
+fn new_cache() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = folder.path().join("deep/cache");
+    (folder, cache)
+}
+
+/// The entries of a cache.
+fn entries(cache: &Path) -> Vec<PathBuf> {
+    let mut list: Vec<PathBuf> =
+        fs::read_dir(cache).unwrap().map(|entry| entry.unwrap().path()).collect();
+    list.sort();
+    list
+}
+
+/// A compiler that is this shell script; it gives its version unless the script does first.
+fn script(folder: &TempDir, version: &str, body: &str) -> COptions {
+    let path = folder.path().join("compiler");
+    let text = format!(
+        "#!/bin/sh\nif [ \"$1\" = --version ]; then {version}; echo script 1; exit 0; fi\n{body}\n"
+    );
+    fs::write(&path, text).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    COptions { compiler: Some(path.into()), cache: CacheFolder::None, ..COptions::default() }
+}
+
+/// The name of an error's variant, and its message, which is one line.
+fn told(error: NativeError) -> (String, String) {
+    let text = error.to_string();
+    assert!(!text.contains('\n') && text.len() < 600, "{text}");
+    let debug = format!("{error:?}");
+    (debug.split(' ').next().unwrap().to_owned(), text)
+}
+
+#[test]
+fn compilers_that_are_broken_are_named_with_what_they_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let compiler = Some("/nowhere/no-such-compiler".into());
+    let error = by_c(1, &COptions { compiler, ..COptions::default() }).unwrap_err();
+    let (kind, text) = told(error);
+    assert!(kind == "Start" && text.contains("/nowhere/no-such-compiler"), "{text}");
+
+    let says = "echo; echo 'In file x:' >&2; echo 'step.c:1: error: no such thing' >&2; exit 3";
+    let writes = "while [ \"$1\" != -o ]; do shift; done; echo rubbish > \"$2\"";
+    let other =
+        "while [ \"$1\" != -o ]; do shift; done; echo 'int x;' | cc -shared -xc - -o \"$2\"";
+    for (version, body, expected, parts) in [
+        (":", says, "Failed", ["error: no such thing", "exit status: 3"]),
+        (":", "exit 1", "Failed", ["it said nothing", ""]),
+        (":", "kill -9 $$", "Failed", ["signal: 9", ""]),
+        (":", "exit 0", "NoLibrary", ["", ""]),
+        ("exit 7", "", "Failed", ["", ""]),
+        (":", writes, "Load", ["", ""]),
+        (":", other, "Load", ["coadjoint_sizes", ""]),
+    ] {
+        let (kind, text) = told(by_c(1, &script(&folder, version, body)).unwrap_err());
+        assert_eq!(kind, expected, "{text}");
+        assert!(parts.iter().all(|part| text.contains(part)), "{text}");
+    }
+}
+
+/// A file to which a script writes the process that it has started, and that script, which hangs.
+fn hanging(folder: &TempDir) -> (PathBuf, String) {
+    let started = folder.path().join("started");
+    let script = format!("sleep 1000 & echo $! > {}; wait", started.display());
+    (started, script)
+}
+
+/// The number of the process once it is there.
+fn wait_for(started: &Path) -> String {
+    loop {
+        let text = fs::read_to_string(started).unwrap_or_default();
+        if text.ends_with('\n') {
+            return text.trim().to_owned();
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
 
 fn alive(pid: &str) -> bool {
-    let status = Command::new("kill").args(["-0", pid.trim()]).stderr(Stdio::null()).status();
+    let status = Command::new("kill").args(["-0", pid]).stderr(Stdio::null()).status();
     status.unwrap().success()
 }
 
@@ -26,174 +118,86 @@ fn ends(pid: &str) {
     assert!(!alive(pid), "the child {pid} goes on");
 }
 
-fn small(seed: u64) -> Kernel {
-    kernel(seed, [3, 4, 1], 20, true, 0.05)
-}
-
-fn options(cache: &Path) -> COptions {
-    COptions { cache: CacheFolder::At(cache.to_owned()), ..COptions::default() }
-}
-
-/// A compiler that is this shell script; it gives its version unless the script does first.
-fn script(folder: &Path, version: &str, body: &str) -> COptions {
-    let path = folder.join("compiler");
-    let text = format!(
-        "#!/bin/sh\nif [ \"$1\" = --version ]; then {version}; echo script 1; exit 0; fi\n{body}\n"
-    );
-    fs::write(&path, text).unwrap();
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-    COptions { compiler: Some(path.into()), cache: CacheFolder::None, ..COptions::default() }
-}
-
-fn same_bits(kernel: &Kernel, native: &Native) {
-    let (slots, g, mu) = state(kernel, 9);
-    for r in 0..4 {
-        let (mut g, mut mu) = (lane(&g, r), lane(&mu, r));
-        let (mut g_expected, mut mu_expected) = (g.clone(), mu.clone());
-        let expected = kernel.advance(&slots, &mut g_expected, &mut mu_expected, 300);
-        assert_eq!(native.entry.advance(&slots, &mut g, &mut mu, 300), expected);
-        assert_eq!(bits(&g), bits(&g_expected));
-        assert_eq!(bits(&mu), bits(&mu_expected));
-    }
-}
-
-/// The entries of a cache.
-fn entries(cache: &Path) -> Vec<PathBuf> {
-    let mut list: Vec<PathBuf> =
-        fs::read_dir(cache).unwrap().map(|entry| entry.unwrap().path()).collect();
-    list.sort();
-    list
-}
-
-fn is_one_line(error: &NativeError) -> String {
-    let text = error.to_string();
-    assert!(!text.contains('\n') && text.len() < 600, "{text}");
-    text
-}
-
-#[test]
-fn a_second_run_finds_the_first_ones_step() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("deep/cache");
-    let kernel = small(1);
-    let first = Native::by_c(&kernel, &options(&cache)).unwrap();
-    let second = Native::by_c(&kernel, &options(&cache)).unwrap();
-    assert!(!first.cached && second.cached);
-    same_bits(&kernel, &first);
-    same_bits(&kernel, &second);
-    let other = Native::by_c(&small(2), &options(&cache)).unwrap();
-    assert!(!other.cached, "another step is another entry");
-    assert_eq!(entries(&cache).len(), 2);
-    assert_eq!(fs::metadata(&cache).unwrap().mode() & 0o777, 0o700);
-}
-
-#[test]
-fn a_missing_compiler_is_named() {
-    let compiler = Some("/nowhere/no-such-compiler".into());
-    let error = Native::by_c(&small(1), &COptions { compiler, ..COptions::default() }).unwrap_err();
-    assert!(matches!(error, NativeError::Start { .. }), "{error:?}");
-    assert!(is_one_line(&error).contains("/nowhere/no-such-compiler"));
-}
-
-#[test]
-fn a_broken_compiler_is_named_with_what_it_says() {
-    let folder = tempfile::tempdir().unwrap();
-    let says = "echo; echo 'In file x:' >&2; echo 'step.c:1: error: no such thing' >&2; exit 3";
-    let error = Native::by_c(&small(1), &script(folder.path(), ":", says)).unwrap_err();
-    assert!(matches!(error, NativeError::Failed { .. }), "{error:?}");
-    let text = is_one_line(&error);
-    assert!(text.contains("error: no such thing") && text.contains("exit status: 3"), "{text}");
-
-    let silent = Native::by_c(&small(1), &script(folder.path(), ":", "exit 1")).unwrap_err();
-    assert!(is_one_line(&silent).contains("it said nothing"));
-    let killed = Native::by_c(&small(1), &script(folder.path(), ":", "kill -9 $$")).unwrap_err();
-    assert!(is_one_line(&killed).contains("signal: 9"));
-    let lazy = Native::by_c(&small(1), &script(folder.path(), ":", "exit 0")).unwrap_err();
-    assert!(matches!(lazy, NativeError::NoLibrary { .. }), "{lazy:?}");
-    let answer = Native::by_c(&small(1), &script(folder.path(), "exit 7", "")).unwrap_err();
-    assert!(matches!(answer, NativeError::Failed { .. }), "{answer:?}");
-}
-
-#[test]
-fn a_library_that_is_none_is_an_error() {
-    let folder = tempfile::tempdir().unwrap();
-    let writes = "while [ \"$1\" != -o ]; do shift; done; echo rubbish > \"$2\"";
-    let error = Native::by_c(&small(1), &script(folder.path(), ":", writes)).unwrap_err();
-    assert!(matches!(error, NativeError::Load { .. }), "{error:?}");
-    is_one_line(&error);
-    let other =
-        "while [ \"$1\" != -o ]; do shift; done; echo 'int x;' | cc -shared -xc - -o \"$2\"";
-    let error = Native::by_c(&small(1), &script(folder.path(), ":", other)).unwrap_err();
-    assert!(is_one_line(&error).contains("coadjoint_sizes"), "{error}");
-}
-
 #[test]
 fn a_hanging_compiler_is_stopped_with_all_that_it_started() {
     let folder = tempfile::tempdir().unwrap();
-    let started = folder.path().join("started");
-    let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
+    let (started, hangs) = hanging(&folder);
     for (version, body) in [(":", hangs.as_str()), (hangs.as_str(), ":")] {
         let limit = Duration::from_millis(700);
-        let options = COptions { time_limit: limit, ..script(folder.path(), version, body) };
-        let error = Native::by_c(&small(1), &options).unwrap_err();
-        assert!(matches!(error, NativeError::TimedOut { .. }), "{error:?}");
-        is_one_line(&error);
-        let pid = fs::read_to_string(&started).unwrap();
-        ends(&pid);
+        let options = COptions { time_limit: limit, ..script(&folder, version, body) };
+        assert_eq!(told(by_c(1, &options).unwrap_err()).0, "TimedOut");
+        ends(&wait_for(&started));
     }
-}
-
-#[test]
-fn a_compiler_that_is_not_wanted_is_stopped_with_all_that_it_started() {
-    let folder = tempfile::tempdir().unwrap();
-    let started = folder.path().join("started");
-    let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
-    let options = script(folder.path(), ":", &hangs);
+    fs::remove_file(&started).unwrap();
+    // One that is not wanted any more.
+    let options = script(&folder, ":", &hangs);
     let stop = options.stop.clone();
-    let compiling = std::thread::spawn(move || Native::by_c(&small(1), &options).unwrap_err());
-    while fs::read_to_string(&started).unwrap_or_default().is_empty() {
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    let compiling = std::thread::spawn(move || by_c(1, &options).unwrap_err());
+    let pid = wait_for(&started);
     stop.store(true, Ordering::Relaxed);
-    let error = compiling.join().unwrap();
-    assert!(matches!(error, NativeError::Stopped { .. }), "{error:?}");
-    ends(&fs::read_to_string(&started).unwrap());
+    assert_eq!(told(compiling.join().unwrap()).0, "Stopped");
+    ends(&pid);
 }
 
-/// The environment variable by which a test asks for a copy of itself that compiles with this compiler.
+/// The environment variables by which a test asks for a copy of itself that compiles with this compiler, or in this cache.
 const HANGING: &str = "COADJOINT_TEST_HANGING";
+const CHILD: &str = "COADJOINT_TEST_CACHE";
+
+/// A copy of this program that runs one test with a variable set.
+fn copy(test: &str, variable: &str, value: impl AsRef<std::ffi::OsStr>) -> Child {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["--exact", test]).env(variable, value).stdout(Stdio::null()).spawn().unwrap()
+}
 
 #[test]
 fn no_compiler_outlives_a_process_that_is_killed() {
     if let Some(compiler) = std::env::var_os(HANGING) {
         let (compiler, cache) = (Some(compiler), CacheFolder::None);
-        let _ = Native::by_c(&small(1), &COptions { compiler, cache, ..COptions::default() });
+        let _ = by_c(1, &COptions { compiler, cache, ..COptions::default() });
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let started = folder.path().join("started");
-    let hangs = format!("sleep 1000 & echo $! > {}; wait", started.display());
-    let mut child = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "faults::no_compiler_outlives_a_process_that_is_killed"])
-        .env(HANGING, script(folder.path(), ":", &hangs).compiler.unwrap())
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap();
-    while fs::read_to_string(&started).unwrap_or_default().is_empty() {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let pid = fs::read_to_string(&started).unwrap();
+    let (started, hangs) = hanging(&folder);
+    let compiler = script(&folder, ":", &hangs).compiler.unwrap();
+    let test = "faults::no_compiler_outlives_a_process_that_is_killed";
+    let mut child = copy(test, HANGING, compiler);
+    let pid = wait_for(&started);
     assert!(alive(&pid));
     child.kill().unwrap();
     child.wait().unwrap();
     ends(&pid);
 }
 
+/// Compiles some steps, in a copy of this program; else it starts one itself.
+#[test]
+fn a_process_compiles() {
+    if let Some(cache) = std::env::var_os(CHILD) {
+        for seed in 1..5 {
+            cached(seed, Path::new(&cache));
+        }
+        return;
+    }
+    let (_folder, cache) = new_cache();
+    assert!(child(&cache).wait().unwrap().success());
+}
+
+fn child(cache: &Path) -> Child {
+    copy("faults::a_process_compiles", CHILD, cache)
+}
+
+#[test]
+fn a_second_run_finds_the_first_ones_step() {
+    let (_folder, cache) = new_cache();
+    assert!(!cached(1, &cache) && cached(1, &cache));
+    assert!(!cached(2, &cache), "another step is another entry");
+    assert_eq!(entries(&cache).len(), 2);
+    assert_eq!(fs::metadata(&cache).unwrap().mode() & 0o777, 0o700);
+}
+
 /// Where groups of users share files, new folders can be written to by the group unless they are made otherwise.
 #[test]
 fn the_cache_works_under_any_umask() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("cache");
+    let (_folder, cache) = new_cache();
     for _ in 0..2 {
         let status = Command::new("sh")
             .args(["-c", "umask 002; exec \"$0\" --exact faults::a_process_compiles"])
@@ -204,46 +208,27 @@ fn the_cache_works_under_any_umask() {
             .unwrap();
         assert!(status.success());
     }
-    assert!(Native::by_c(&small(1), &options(&cache)).unwrap().cached);
+    assert!(cached(1, &cache));
 }
 
 #[test]
 fn a_cache_that_cannot_be_used_is_done_without() {
     let folder = tempfile::tempdir().unwrap();
-    let kernel = small(1);
-    let file = folder.path().join("file");
+    let [file, open, target, link] =
+        ["file", "open", "target", "link"].map(|name| folder.path().join(name));
     fs::write(&file, "a file").unwrap();
     // Written to by others.
-    let open = folder.path().join("open");
-    fs::DirBuilder::new().create(&open).unwrap();
+    fs::create_dir(&open).unwrap();
     fs::set_permissions(&open, fs::Permissions::from_mode(0o777)).unwrap();
     // A link to a folder that would do.
-    let (target, link) = (folder.path().join("target"), folder.path().join("link"));
     fs::DirBuilder::new().mode(0o700).create(&target).unwrap();
     std::os::unix::fs::symlink(&target, &link).unwrap();
     // Folders where nothing can be written, or that somebody else owns.
     let unwritable = PathBuf::from("/proc/self/coadjoint");
     for cache in [&file, &file.join("below"), &open, &link, &unwritable, &PathBuf::from("/proc")] {
-        let native = Native::by_c(&kernel, &options(cache)).unwrap();
-        assert!(!native.cached, "{}", cache.display());
-        same_bits(&kernel, &native);
+        assert!(!cached(1, cache), "{}", cache.display());
     }
     assert!(entries(&open).is_empty() && entries(&target).is_empty());
-}
-
-#[test]
-fn a_file_in_the_place_of_an_entry_gives_way() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("cache");
-    let kernel = small(1);
-    Native::by_c(&kernel, &options(&cache)).unwrap();
-    let entry = entries(&cache).remove(0);
-    fs::remove_dir_all(&entry).unwrap();
-    fs::write(&entry, "not a folder").unwrap();
-    let native = Native::by_c(&kernel, &options(&cache)).unwrap();
-    assert!(!native.cached);
-    same_bits(&kernel, &native);
-    assert!(Native::by_c(&kernel, &options(&cache)).unwrap().cached);
 }
 
 /// In a namespace of its own, where a disk of two pages can be mounted without anybody's leave.
@@ -278,35 +263,27 @@ fn a_full_disk_is_done_without() {
 
 #[test]
 fn entries_that_were_changed_are_never_loaded() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("cache");
-    let kernel = small(1);
-    Native::by_c(&kernel, &options(&cache)).unwrap();
+    let (_folder, cache) = new_cache();
+    cached(1, &cache);
     let entry = entries(&cache).remove(0);
     let library = entry.join("step.so");
     let whole = fs::read(&library).unwrap();
     let try_again = |what: &str| {
-        let native = Native::by_c(&kernel, &options(&cache)).unwrap();
-        assert!(!native.cached, "{what}");
-        same_bits(&kernel, &native);
-        assert!(Native::by_c(&kernel, &options(&cache)).unwrap().cached, "{what}: mended");
+        assert!(!cached(1, &cache), "{what}");
+        assert!(cached(1, &cache), "{what}: mended");
         assert_eq!(fs::read(&library).unwrap().len(), whole.len());
     };
-    let replace = |bytes: &[u8]| {
+    let mut changed = whole.clone();
+    changed[whole.len() / 2] ^= 1;
+    for (what, bytes) in
+        [("half a file", &whole[..whole.len() / 2]), ("a bit", &changed), ("nothing", &[])]
+    {
         // A new file: the old one may be in use.
         fs::remove_file(&library).unwrap();
         fs::write(&library, bytes).unwrap();
         fs::set_permissions(&library, fs::Permissions::from_mode(0o600)).unwrap();
-    };
-    replace(&whole[..whole.len() / 2]);
-    try_again("half a file");
-    let mut changed = whole.clone();
-    let middle = changed.len() / 2;
-    changed[middle] ^= 1;
-    replace(&changed);
-    try_again("a bit");
-    replace(&[]);
-    try_again("nothing");
+        try_again(what);
+    }
     fs::remove_file(entry.join("sha256")).unwrap();
     try_again("no hash");
     fs::set_permissions(&library, fs::Permissions::from_mode(0o666)).unwrap();
@@ -314,6 +291,9 @@ fn entries_that_were_changed_are_never_loaded() {
     fs::rename(&library, entry.join("elsewhere")).unwrap();
     std::os::unix::fs::symlink(entry.join("elsewhere"), &library).unwrap();
     try_again("a link");
+    fs::remove_dir_all(&entry).unwrap();
+    fs::write(&entry, "not a folder").unwrap();
+    try_again("a file in the place of the entry");
     if fs::metadata(&cache).unwrap().uid() == 0 {
         std::os::unix::fs::chown(&library, Some(12345), None).unwrap();
         try_again("somebody else's");
@@ -325,34 +305,28 @@ fn entries_that_were_changed_are_never_loaded() {
 #[test]
 fn entries_of_other_steps_and_versions_are_never_called() {
     let folder = tempfile::tempdir().unwrap();
-    let (one, two) = (folder.path().join("one"), folder.path().join("two"));
-    let kernel = small(1);
-    Native::by_c(&kernel, &options(&one)).unwrap();
+    let [one, two, three] = ["one", "two", "three"].map(|name| folder.path().join(name));
+    cached(1, &one);
     let entry = entries(&one).remove(0);
-    // A library with other sizes under this entry's name, hash and all.
-    Native::by_c(&crate::common::kernel(1, [4, 4, 1], 20, true, 0.05), &options(&two)).unwrap();
     let replace = |from: &Path| {
         for name in ["step.so", "sha256"] {
             fs::remove_file(entry.join(name)).unwrap();
             fs::copy(from.join(name), entry.join(name)).unwrap();
         }
+        assert!(!cached(1, &one));
     };
+    // A library with other sizes under this entry's name, hash and all.
+    let options = COptions { cache: CacheFolder::At(two.clone()), ..COptions::default() };
+    Native::by_c(&Sample::with_element(1, 5).kernel, &options).unwrap();
     replace(&entries(&two)[0]);
-    let native = Native::by_c(&kernel, &options(&one)).unwrap();
-    assert!(!native.cached);
-    same_bits(&kernel, &native);
     // The same step, by a version that exported something else.
-    let old = folder.path().join("three");
     let compiler = "text=$(for last; do [ \"${last%.c}\" != \"$last\" ] && echo \"$last\"; done)\n\
                     sed -i 's/coadjoint_sizes\\[4\\] = {[0-9]*/coadjoint_sizes[4] = {0/' \"$text\"\nexec cc \"$@\"";
     let by_old =
-        COptions { cache: CacheFolder::At(old.clone()), ..script(folder.path(), ":", compiler) };
-    let error = Native::by_c(&kernel, &by_old).unwrap_err();
-    assert!(is_one_line(&error).contains("sizes [0, 3, 4"), "{error}");
-    replace(&entries(&old)[0]);
-    let native = Native::by_c(&kernel, &options(&one)).unwrap();
-    same_bits(&kernel, &native);
-    assert!(!native.cached);
+        COptions { cache: CacheFolder::At(three.clone()), ..script(&folder, ":", compiler) };
+    let (_, text) = told(by_c(1, &by_old).unwrap_err());
+    assert!(text.contains("sizes [0, 3, 4"), "{text}");
+    replace(&entries(&three)[0]);
 }
 
 #[test]
@@ -367,59 +341,24 @@ fn what_a_killed_writer_left_is_removed_when_it_is_old() {
     }
     let status = Command::new("touch").args(["-d", "2 days ago"]).arg(&old).status().unwrap();
     assert!(status.success());
-    Native::by_c(&small(1), &options(&cache)).unwrap();
+    cached(1, &cache);
     assert!(!old.exists() && new.exists());
-}
-
-/// The environment variable by which a test asks for a copy of itself that compiles in this cache.
-const CHILD: &str = "COADJOINT_TEST_CACHE";
-
-/// Compiles some steps, in a process that [`child`] has started; else it starts one itself.
-#[test]
-fn a_process_compiles() {
-    match std::env::var_os(CHILD) {
-        Some(cache) => {
-            for seed in 1..5 {
-                let native = Native::by_c(&small(seed), &options(Path::new(&cache))).unwrap();
-                same_bits(&small(seed), &native);
-            }
-        }
-        None => {
-            let folder = tempfile::tempdir().unwrap();
-            assert!(child(&folder.path().join("cache")).wait().unwrap().success());
-        }
-    }
-}
-
-fn child(cache: &Path) -> std::process::Child {
-    Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "faults::a_process_compiles"])
-        .env(CHILD, cache)
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap()
 }
 
 #[test]
 fn processes_that_compile_at_once_leave_one_whole_entry_each() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("cache");
-    let mut children: Vec<_> = (0..3).map(|_| child(&cache)).collect();
-    for child in &mut children {
+    let (_folder, cache) = new_cache();
+    let children: Vec<_> = (0..3).map(|_| child(&cache)).collect();
+    for mut child in children {
         assert!(child.wait().unwrap().success());
     }
     assert_eq!(entries(&cache).len(), 4);
-    for seed in 1..5 {
-        let native = Native::by_c(&small(seed), &options(&cache)).unwrap();
-        assert!(native.cached);
-        same_bits(&small(seed), &native);
-    }
+    assert!((1..5).all(|seed| cached(seed, &cache)));
 }
 
 #[test]
 fn a_process_killed_at_any_moment_leaves_nothing_that_is_wrong() {
-    let folder = tempfile::tempdir().unwrap();
-    let cache = folder.path().join("cache");
+    let (_folder, cache) = new_cache();
     for pause in [20, 60, 110, 170, 240, 320] {
         let mut child = child(&cache);
         std::thread::sleep(Duration::from_millis(pause));
@@ -427,7 +366,6 @@ fn a_process_killed_at_any_moment_leaves_nothing_that_is_wrong() {
         let _ = child.wait();
     }
     for seed in 1..5 {
-        let native = Native::by_c(&small(seed), &options(&cache)).unwrap();
-        same_bits(&small(seed), &native);
+        cached(seed, &cache);
     }
 }
