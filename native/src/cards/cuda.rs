@@ -17,7 +17,7 @@ use cudarc::nvrtc::Ptx;
 
 use super::device::Device;
 use super::error::DeviceError;
-use super::machine::{Array, Machine, Opened, Room};
+use super::machine::{Array, Call, Fault, Machine, Opened, Room};
 use super::nvrtc;
 
 /// Threads of a block.
@@ -42,7 +42,7 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     let count = match CudaContext::device_count() {
         Ok(count) => usize::try_from(count).unwrap_or(0),
         Err(DriverError(CUresult::CUDA_ERROR_NO_DEVICE)) => 0,
-        Err(error) => return Err(call.failed("counted its devices", error)),
+        Err(error) => return Err(call.failed("counted its devices", &error)),
     };
     if device.number >= count {
         let found = match count {
@@ -69,31 +69,9 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     Ok(Opened { machine: Box::new(machine), name, processor: false, memory })
 }
 
-/// Errors of calls.
-#[derive(Clone, Copy)]
-struct Call {
-    device: Device,
-}
-
-impl Call {
-    fn done<T>(
-        self,
-        doing: &'static str,
-        result: Result<T, DriverError>,
-    ) -> Result<T, DeviceError> {
-        result.map_err(|error| self.failed(doing, error))
-    }
-
-    fn failed(self, doing: &'static str, error: DriverError) -> DeviceError {
-        DeviceError::Failed { device: self.device, doing, message: error.to_string() }
-    }
-
-    /// The same for calls that may run out of memory.
-    fn room<T>(self, doing: &'static str, result: Result<T, DriverError>) -> Result<T, Room> {
-        result.map_err(|error| match error.0 {
-            CUresult::CUDA_ERROR_OUT_OF_MEMORY => Room::Short,
-            _ => Room::Failed(self.failed(doing, error)),
-        })
+impl Fault for DriverError {
+    fn is_short(&self) -> bool {
+        self.0 == CUresult::CUDA_ERROR_OUT_OF_MEMORY
     }
 }
 

@@ -1,6 +1,8 @@
 //! The interface of a device.
 
 use super::error::DeviceError;
+#[cfg(any(feature = "opencl", feature = "cuda"))]
+pub(crate) use calls::{Call, Fault};
 
 /// The arrays of a piece of rows on a device, in the order of the kernel's arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,13 +21,64 @@ impl Array {
     pub(crate) const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
 }
 
-/// Why there is no room.
+/// Why a piece of rows was not moved; they are as they were.
 #[cfg_attr(not(any(feature = "opencl", feature = "cuda")), allow(dead_code))]
 pub(crate) enum Room {
     /// Memory is short: fewer rows may fit.
     Short,
     /// Something else.
     Failed(DeviceError),
+}
+
+impl From<DeviceError> for Room {
+    fn from(error: DeviceError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// The errors of a toolkit's calls as those of a device.
+#[cfg(any(feature = "opencl", feature = "cuda"))]
+mod calls {
+    use super::{DeviceError, Room};
+    use crate::cards::Device;
+
+    /// An error of a toolkit.
+    pub(crate) trait Fault: std::fmt::Display {
+        /// Whether memory was short.
+        fn is_short(&self) -> bool;
+    }
+
+    /// Calls to this device.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Call {
+        pub device: Device,
+    }
+
+    impl Call {
+        pub fn done<T, E: Fault>(
+            self,
+            doing: &'static str,
+            result: Result<T, E>,
+        ) -> Result<T, DeviceError> {
+            result.map_err(|error| self.failed(doing, &error))
+        }
+
+        pub fn failed(self, doing: &'static str, error: &impl Fault) -> DeviceError {
+            DeviceError::Failed { device: self.device, doing, message: error.to_string() }
+        }
+
+        /// The same for calls that may run out of memory.
+        pub fn room<T, E: Fault>(
+            self,
+            doing: &'static str,
+            result: Result<T, E>,
+        ) -> Result<T, Room> {
+            result.map_err(|error| match error.is_short() {
+                true => Room::Short,
+                false => Room::Failed(self.failed(doing, &error)),
+            })
+        }
+    }
 }
 
 /// A device with a compiled kernel, and arrays in its memory. Bytes are in the order of this machine.

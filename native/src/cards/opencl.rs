@@ -29,7 +29,7 @@ use opencl3::types::{CL_BLOCKING, cl_mem};
 
 use super::device::Device;
 use super::error::{DeviceError, head};
-use super::machine::{Array, Machine, Opened, Room};
+use super::machine::{Array, Call, Fault, Machine, Opened, Room};
 
 /// The number of threads is a multiple of this, the number that cards run together.
 const GROUP: usize = 64;
@@ -113,30 +113,15 @@ fn find(device: Device) -> Result<Found, DeviceError> {
     })
 }
 
-/// Errors of calls.
-#[derive(Clone, Copy)]
-struct Call {
-    device: Device,
-}
-
-impl Call {
-    fn done<T>(self, doing: &'static str, result: Result<T, ClError>) -> Result<T, DeviceError> {
-        result.map_err(|error| self.failed(doing, error))
-    }
-
-    fn failed(self, doing: &'static str, error: ClError) -> DeviceError {
-        DeviceError::Failed { device: self.device, doing, message: error.to_string() }
-    }
-
-    /// The same for calls that may run out of memory.
-    fn room<T>(self, doing: &'static str, result: Result<T, ClError>) -> Result<T, Room> {
-        result.map_err(|error| match error.0 {
-            CL_MEM_OBJECT_ALLOCATION_FAILURE
-            | CL_OUT_OF_RESOURCES
-            | CL_OUT_OF_HOST_MEMORY
-            | CL_INVALID_BUFFER_SIZE => Room::Short,
-            _ => Room::Failed(self.failed(doing, error)),
-        })
+impl Fault for ClError {
+    fn is_short(&self) -> bool {
+        let short = [
+            CL_MEM_OBJECT_ALLOCATION_FAILURE,
+            CL_OUT_OF_RESOURCES,
+            CL_OUT_OF_HOST_MEMORY,
+            CL_INVALID_BUFFER_SIZE,
+        ];
+        short.contains(&self.0)
     }
 }
 

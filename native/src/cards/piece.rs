@@ -12,29 +12,6 @@ use super::row::{Advanced, Redo, Refused, Row, Status};
 /// The least number of rows that must fit: with fewer, a device does not pay.
 pub(crate) const FEWEST: usize = 1024;
 
-/// Why a piece was not moved; its rows are as they were.
-enum Stopped {
-    /// Memory is short.
-    Short,
-    /// Something else.
-    Failed(DeviceError),
-}
-
-impl From<Room> for Stopped {
-    fn from(room: Room) -> Self {
-        match room {
-            Room::Short => Self::Short,
-            Room::Failed(error) => Self::Failed(error),
-        }
-    }
-}
-
-impl From<DeviceError> for Stopped {
-    fn from(error: DeviceError) -> Self {
-        Self::Failed(error)
-    }
-}
-
 /// A launch longer than this is not doubled: cards that draw the screen are taken from kernels that run for seconds.
 const LONG: Duration = Duration::from_millis(150);
 
@@ -91,7 +68,7 @@ fn advance(
     redo: &mut Redo<'_>,
     told: &dyn Fn(u64),
     advanced: &mut Advanced,
-) -> Result<(), Stopped> {
+) -> Result<(), Room> {
     let count = rows.len();
     let mut element = Numbers::new(card.element, count, card.precision);
     let mut momentum = Numbers::new(card.dim, count, card.precision);
@@ -228,14 +205,14 @@ impl Card {
                     advanced.pieces += 1;
                     first += count;
                 }
-                Err(Stopped::Short) if count > FEWEST => {
+                Err(Room::Short) if count > FEWEST => {
                     self.fits = (count / 2).max(FEWEST);
                 }
-                Err(Stopped::Short) => {
+                Err(Room::Short) => {
                     let (device, name) = (self.device, self.name.clone());
                     return Err(DeviceError::Memory { device, name, rows: count });
                 }
-                Err(Stopped::Failed(error)) => return Err(error),
+                Err(Room::Failed(error)) => return Err(error),
             }
         }
         Ok(advanced)
