@@ -4,9 +4,36 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::dialect::Dialect;
 use super::signature::{Field, Signature};
 use crate::node::Node;
+
+/// How one language writes what a program consists of: as C does, but for numbers, coefficients and operations.
+///
+/// Every operation is rounded once; a dialect whose compiler might contract or reorder operations has to forbid it.
+pub trait Dialect {
+    /// What it shares with C.
+    fn c(&self) -> &C;
+
+    /// A number of the program. It stands alone or as an operand: a negative one has to be in parentheses.
+    fn constant(&self, value: f64) -> String {
+        self.c().literal(value)
+    }
+
+    /// The rounding unit of the numbers: the distance from 1 to the next larger one.
+    fn epsilon(&self) -> String {
+        self.constant(f64::EPSILON)
+    }
+
+    /// Folded coefficient number `index`.
+    fn slot(&self, index: usize) -> String {
+        format!("c[{index}]")
+    }
+
+    /// An operation on operands as they are written, as many as `node` has. Leaves are never asked for.
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        self.c().operation(node, operands)
+    }
+}
 
 /// The dialect of C: infix operators, `fma`, `sqrt`, `fabs`, `rint` and the conditional operator. Arrays and coefficients are
 /// reached by pointers, single inputs are values, single outputs are pointers.
@@ -104,6 +131,36 @@ impl C {
             false => text,
         }
     }
+
+    /// The head of the function of a signature, up to its opening brace, and statements for what it does not read.
+    pub(super) fn head(&self, signature: &Signature<'_>) -> String {
+        let (parameters, unused) = self.parameters(signature);
+        format!("{} {}({parameters})\n{{\n{unused}", self.head, signature.name)
+    }
+
+    /// The statement that declares `name` as the value of `expression`.
+    pub(super) fn declare(&self, name: &str, expression: &str) -> String {
+        format!("    const {} {name} = {expression};\n", self.number)
+    }
+
+    /// An operation on operands as they are written.
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        let [fma, sqrt, abs, rint] = &self.functions;
+        match (node, operands) {
+            (Node::Add(..), [a, b]) => format!("{a} + {b}"),
+            (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
+            (Node::Mul(..), [a, b]) => format!("{a} * {b}"),
+            (Node::Div(..), [a, b]) => format!("{a} / {b}"),
+            (Node::TimesPlus(..), [a, b, c]) => format!("{fma}({a}, {b}, {c})"),
+            (Node::Neg(_), [a]) => format!("-{a}"),
+            (Node::Abs(_), [a]) => format!("{abs}({a})"),
+            (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
+            (Node::Round(_), [a]) => format!("{rint}({a})"),
+            (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
+            // Leaves are written where they are used.
+            _ => String::new(),
+        }
+    }
 }
 
 /// A finite number that is not negative, in C's hexadecimal form; whole numbers below 2²⁴ in decimal.
@@ -125,47 +182,8 @@ fn hexadecimal(value: f64) -> String {
 }
 
 impl Dialect for C {
-    fn head(&self, signature: &Signature<'_>) -> String {
-        let (parameters, unused) = self.parameters(signature);
-        format!("{} {}({parameters})\n{{\n{unused}", self.head, signature.name)
-    }
-
-    fn declare(&self, name: &str, expression: &str) -> String {
-        format!("    const {} {name} = {expression};\n", self.number)
-    }
-
-    fn store(&self, place: &str, value: &str) -> String {
-        format!("    {place} = {value};\n")
-    }
-
-    fn single(&self, name: &str) -> String {
-        format!("*{name}")
-    }
-
-    fn constant(&self, value: f64) -> String {
-        self.literal(value)
-    }
-
-    fn slot(&self, index: usize) -> String {
-        format!("c[{index}]")
-    }
-
-    fn operation(&self, node: Node, operands: &[&str]) -> String {
-        let [fma, sqrt, abs, rint] = &self.functions;
-        match (node, operands) {
-            (Node::Add(..), [a, b]) => format!("{a} + {b}"),
-            (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
-            (Node::Mul(..), [a, b]) => format!("{a} * {b}"),
-            (Node::Div(..), [a, b]) => format!("{a} / {b}"),
-            (Node::TimesPlus(..), [a, b, c]) => format!("{fma}({a}, {b}, {c})"),
-            (Node::Neg(_), [a]) => format!("-{a}"),
-            (Node::Abs(_), [a]) => format!("{abs}({a})"),
-            (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
-            (Node::Round(_), [a]) => format!("{rint}({a})"),
-            (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
-            // Leaves are written where they are used.
-            _ => String::new(),
-        }
+    fn c(&self) -> &C {
+        self
     }
 }
 

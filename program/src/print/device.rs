@@ -4,10 +4,9 @@ use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use super::c::C;
-use super::dialect::Dialect;
-use super::pieces::pieces;
-use super::signature::{Signature, signatures};
+use super::c::{C, Dialect};
+use super::function::function;
+use super::signature::signatures;
 use super::steps::{LoopStyle, steps};
 use crate::kernel::{BLOCK, Kernel};
 use crate::node::Node;
@@ -78,7 +77,7 @@ pub fn device_unit(
     text.push_str(COPY);
     for signature in signatures(kernel, PREFIX) {
         text.push('\n');
-        text.push_str(&pieces(&device, &device.called(), &signature, device.longest));
+        text.push_str(&function(&device, &signature, device.longest));
     }
     let style = LoopStyle {
         prefix: PREFIX.into(),
@@ -91,7 +90,7 @@ pub fn device_unit(
         refuse: [REFUSED_STEP, "why = 4u;"].map(String::from),
         ..LoopStyle::default()
     };
-    text + &FUNCTION.replace("/*STEPS*/", &steps(kernel, &device, &device.c, &style, 4))
+    text + &FUNCTION.replace("/*STEPS*/", &steps(kernel, &device, &style, 4))
 }
 
 fn comment(kernel: &Kernel, about: &str) -> String {
@@ -162,11 +161,6 @@ impl Device {
         Self { c, language, precision, longest, places }
     }
 
-    /// The same for functions that are called.
-    fn called(&self) -> C {
-        C { head: CALLED.into(), ..self.c.clone() }
-    }
-
     fn literal(&self, value: f64) -> String {
         self.c.literal(self.precision.round(value))
     }
@@ -218,20 +212,8 @@ impl Device {
 }
 
 impl Dialect for Device {
-    fn head(&self, signature: &Signature<'_>) -> String {
-        self.c.head(signature)
-    }
-
-    fn declare(&self, name: &str, expression: &str) -> String {
-        self.c.declare(name, expression)
-    }
-
-    fn store(&self, place: &str, value: &str) -> String {
-        self.c.store(place, value)
-    }
-
-    fn single(&self, name: &str) -> String {
-        self.c.single(name)
+    fn c(&self) -> &C {
+        &self.c
     }
 
     fn epsilon(&self) -> String {

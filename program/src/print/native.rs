@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::c::C;
-use super::pieces::pieces;
+use super::function::function;
 use super::signature::signatures;
 use super::steps::{LoopStyle, steps};
 use super::vectors::{PREAMBLE, Vectors};
@@ -51,15 +51,15 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
     if trajectories.one() {
         for signature in signatures(kernel, "scalar_") {
             text.push('\n');
-            text.push_str(&pieces(&scalar, &scalar, &signature, LONGEST));
+            text.push_str(&function(&scalar, &signature, LONGEST));
         }
         let style = LoopStyle { note: SCALAR_NOTE.into(), ..LoopStyle::default() };
-        text.push_str(&SCALAR.replace("/*STEPS*/", &steps(kernel, &scalar, &scalar, &style, 4)));
+        text.push_str(&SCALAR.replace("/*STEPS*/", &steps(kernel, &scalar, &style, 4)));
     }
     if trajectories.lanes() {
         for signature in signatures(kernel, "lanes_") {
             text.push('\n');
-            text.push_str(&pieces(&lanes, &lanes.0, &signature, LONGEST));
+            text.push_str(&function(&lanes, &signature, LONGEST));
         }
         let style = LoopStyle {
             prefix: "lanes_".into(),
@@ -69,7 +69,7 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
             right: "right == spread(1.0)".into(),
             ..LoopStyle::default()
         };
-        text.push_str(&LANES.replace("/*STEPS*/", &steps(kernel, &lanes, &lanes.0, &style, 8)));
+        text.push_str(&LANES.replace("/*STEPS*/", &steps(kernel, &lanes, &style, 8)));
     }
     text
 }

@@ -4,8 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::c::C;
-use super::dialect::Dialect;
+use super::c::Dialect;
 use crate::kernel::Kernel;
 use crate::node::{Id, Node};
 use crate::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
@@ -56,18 +55,11 @@ impl Default for LoopStyle {
     }
 }
 
-/// The statements of the loop in a dialect based on `c`; lines begin with `depth` spaces.
+/// The statements of the loop in a dialect; lines begin with `depth` spaces.
 #[must_use]
-pub fn steps(
-    kernel: &Kernel,
-    dialect: &impl Dialect,
-    c: &C,
-    style: &LoopStyle,
-    depth: usize,
-) -> String {
+pub fn steps(kernel: &Kernel, dialect: &impl Dialect, style: &LoopStyle, depth: usize) -> String {
     let lanes = style.count == "M";
-    let mut writer =
-        Writer { kernel, dialect, c, style, lanes, depth, masks: 0, text: String::new() };
+    let mut writer = Writer { kernel, dialect, style, lanes, depth, masks: 0, text: String::new() };
     writer.block(kernel.schedule(), None);
     writer.text
 }
@@ -75,7 +67,6 @@ pub fn steps(
 struct Writer<'a, D> {
     kernel: &'a Kernel,
     dialect: &'a D,
-    c: &'a C,
     style: &'a LoopStyle,
     lanes: bool,
     depth: usize,
@@ -115,7 +106,7 @@ impl<D: Dialect> Writer<'_, D> {
     fn declare(&mut self, variable: Variable, end: &str, initial: Option<u32>) {
         let name = variable.name();
         let LoopStyle { count, .. } = self.style;
-        let number = &self.c.number;
+        let number = &self.dialect.c().number;
         let text = match (variable.kind(self.kernel), initial) {
             (Kind::Array(len), initial) => {
                 let length = if len == 0 { "1".into() } else { self.length(variable) };
@@ -222,11 +213,11 @@ impl<D: Dialect> Writer<'_, D> {
             Kind::Count if self.lanes => {
                 format!("__builtin_convertvector({}, V)", variable.name())
             }
-            Kind::Count => format!("({}){}", self.c.number, variable.name()),
+            Kind::Count => format!("({}){}", self.dialect.c().number, variable.name()),
             _ => variable.name().into(),
         };
         let mut arguments: Vec<String> = inputs.iter().map(input).collect();
-        if !self.c.slots.is_empty() {
+        if !self.dialect.c().slots.is_empty() {
             let LoopStyle { slots, slots_of_flow, .. } = self.style;
             let flow = Variable::Flow.name();
             arguments.insert(

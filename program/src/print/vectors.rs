@@ -3,9 +3,7 @@
 use alloc::format;
 use alloc::string::String;
 
-use super::c::C;
-use super::dialect::Dialect;
-use super::signature::Signature;
+use super::c::{C, Dialect};
 use crate::node::Node;
 
 /// C on numbers of the type `V`, a GNU vector; coefficients are spread over the lanes where they are used.
@@ -159,20 +157,8 @@ INLINE void store(double *to, V a)
 ";
 
 impl Dialect for Vectors {
-    fn head(&self, signature: &Signature<'_>) -> String {
-        self.0.head(signature)
-    }
-
-    fn declare(&self, name: &str, expression: &str) -> String {
-        self.0.declare(name, expression)
-    }
-
-    fn store(&self, place: &str, value: &str) -> String {
-        self.0.store(place, value)
-    }
-
-    fn single(&self, name: &str) -> String {
-        self.0.single(name)
+    fn c(&self) -> &C {
+        &self.0
     }
 
     fn constant(&self, value: f64) -> String {

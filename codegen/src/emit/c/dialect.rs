@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint_program::Node;
-use coadjoint_program::print::{C, Dialect, Signature};
+use coadjoint_program::print::{C, Dialect};
 
 use super::names::Names;
 
@@ -11,9 +10,9 @@ use super::names::Names;
 #[derive(Clone, Debug)]
 pub(crate) struct Portable {
     /// The header of C it is based on.
-    pub c: C,
+    c: C,
     /// The place of each coefficient that is read.
-    pub places: BTreeMap<usize, usize>,
+    places: BTreeMap<usize, usize>,
 }
 
 impl Portable {
@@ -47,20 +46,8 @@ pub(crate) fn decimal(value: f64) -> String {
 }
 
 impl Dialect for Portable {
-    fn head(&self, signature: &Signature<'_>) -> String {
-        self.c.head(signature)
-    }
-
-    fn declare(&self, name: &str, expression: &str) -> String {
-        self.c.declare(name, expression)
-    }
-
-    fn store(&self, place: &str, value: &str) -> String {
-        self.c.store(place, value)
-    }
-
-    fn single(&self, name: &str) -> String {
-        self.c.single(name)
+    fn c(&self) -> &C {
+        &self.c
     }
 
     fn constant(&self, value: f64) -> String {
@@ -69,10 +56,6 @@ impl Dialect for Portable {
 
     fn slot(&self, index: usize) -> String {
         format!("c[{}]", self.places.get(&index).copied().unwrap_or(0))
-    }
-
-    fn operation(&self, node: Node, operands: &[&str]) -> String {
-        self.c.operation(node, operands)
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     };
     let dialect = Portable::new(names, fold.places.clone());
     let text = DRIVE
-        .replace("/*STEPS*/", &steps(kernel, &dialect, &dialect.c, &style, 4))
+        .replace("/*STEPS*/", &steps(kernel, &dialect, &style, 4))
         .replace("/*TOLERANCE*/", &decimal(kernel.tolerance()))
         .replace("/*NEAR*/", &decimal(kernel.near()));
     names.fill(&text)

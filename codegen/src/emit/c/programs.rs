@@ -1,6 +1,6 @@
 //! The programs of a step as functions of C.
 
-use coadjoint_program::print::{Field, Signature, pieces, signatures};
+use coadjoint_program::print::{Field, Signature, function, signatures};
 use coadjoint_program::{Graph, Program};
 
 use super::dialect::Portable;
@@ -54,7 +54,7 @@ pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     }
     let mut print = |about: &str, signature: &Signature<'_>| {
         text.push_str(&format!("\n/* Internal: {about}. */\n"));
-        text.push_str(&pieces(&dialect, &dialect.c, signature, LONGEST));
+        text.push_str(&function(&dialect, signature, LONGEST));
     };
     for signature in signatures(kernel, &prefix) {
         let about = match signature.name.strip_prefix(&prefix).unwrap_or_default() {
