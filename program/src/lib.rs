@@ -4,8 +4,8 @@
 //! - [`Kernel`] is a whole step as programs: guess, correction, acceptance, transport, and the loop that drives them.
 //! - [`Stepper`] is what makes the steps of a kernel. The kernel itself is one, the interpreter, the reference for all
 //!   targets.
-//! - [`fold::Fold`] is how the coefficients of a kernel follow from a step size and parameters; it is all that there is
-//!   without the features.
+//! - [`fold::Fold`] is how the coefficients of a kernel follow from a step size and parameters, [`splitting`] how kicks and
+//!   flows make a step; they are all that there is without the features.
 //! - [`print`](mod@print) writes programs and kernels in other languages.
 //!
 //! A fused product is an operation of the program, so that targets agree to the bit.
@@ -48,6 +48,7 @@ mod program;
 pub mod quoting;
 #[cfg(feature = "programs")]
 pub mod schedule;
+pub mod splitting;
 #[cfg(feature = "programs")]
 mod stepper;
 

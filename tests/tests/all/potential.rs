@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::steps::{Kicked, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
+use coadjoint::steps::{Kicked, Rkn4, Rkn6, Splitting, Strang};
 use coadjoint::{LieGroup, Phase, SO3, StepError, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
@@ -44,28 +44,6 @@ fn attitude() -> UnitQuaternion<f64> {
 fn hand_written(earth: [f64; 3], attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
     let r = attitude.inverse() * Vector3::from(earth);
     r.cross(&Vector3::from(INERTIA).component_mul(&r)) * 3.0
-}
-
-/// The lengths of kicks and flows of a step.
-fn lengths<M: Splitting>() -> [Vec<f64>; 2] {
-    let kicks = (0..=M::STAGES).map(|i| M::KICKS[i.min(M::STAGES - i)]);
-    let flows = (0..M::STAGES).map(|i| M::PARTS[i.min(M::STAGES - 1 - i)]);
-    [kicks.collect(), flows.collect()]
-}
-
-#[test]
-fn splittings_of_files_are_those_of_the_runtime() {
-    use coadjoint_codegen::splitting::Splitting as OfFiles;
-    for (of_files, expected, order) in [
-        (OfFiles::Strang, lengths::<Strang>(), Strang::ORDER),
-        (OfFiles::Rkn4, lengths::<Rkn4>(), Rkn4::ORDER),
-        (OfFiles::Rkn6, lengths::<Rkn6>(), Rkn6::ORDER),
-        (OfFiles::Prk4, lengths::<Prk4>(), Prk4::ORDER),
-        (OfFiles::Prk6, lengths::<Prk6>(), Prk6::ORDER),
-    ] {
-        assert_eq!([of_files.kicks(), of_files.flows()], expected, "{of_files:?}");
-        assert_eq!(of_files.order(), order, "{of_files:?}");
-    }
 }
 
 #[test]
