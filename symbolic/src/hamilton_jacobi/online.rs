@@ -1,8 +1,7 @@
 //! Power series in t whose coefficients are computed one after the other, never twice.
 
 use super::{DeriveError, TermLimit};
-use crate::lie::{LieAlgebra, StructureConstant};
-use crate::number::{Rational, integer, residue};
+use crate::number::{Rational, integer};
 use crate::poly::{Polynomial, Product, SumError, sum_of_products};
 use num_traits::One;
 use std::collections::BTreeMap;
@@ -13,31 +12,8 @@ const HIGHEST_DEGREE: u32 = 1000;
 /// The coefficients of t⁰, t¹, … known so far.
 pub(crate) type Series = Vec<Polynomial>;
 
-/// The numbers that polynomials are computed with.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Numbers {
-    /// Exact ones.
-    Rational,
-    /// Residues modulo a prime, which say which terms there are but for an improbable accident.
-    Modular,
-}
-
-impl Numbers {
-    pub(crate) fn reduce(self, polynomial: Polynomial) -> Polynomial {
-        if self == Self::Modular { polynomial.residues() } else { polynomial }
-    }
-
-    fn factor(self, value: &Rational) -> Rational {
-        match self {
-            Self::Rational => value.clone(),
-            Self::Modular => Rational::from_integer(residue(value).into()),
-        }
-    }
-}
-
 /// Counts the work done and stops when it exceeds the limit.
 pub(crate) struct Work {
-    numbers: Numbers,
     limit: TermLimit,
     products: u64,
     pub(crate) order: usize,
@@ -45,13 +21,8 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    pub(crate) fn new(variables: usize, numbers: Numbers, limit: TermLimit) -> Self {
-        Self { numbers, limit, products: 0, order: 0, variables }
-    }
-
-    /// The polynomial times a number.
-    pub(crate) fn scale(&self, polynomial: &Polynomial, factor: &Rational) -> Polynomial {
-        self.numbers.reduce(polynomial.scale(&self.numbers.factor(factor)))
+    pub(crate) fn new(variables: usize, limit: TermLimit) -> Self {
+        Self { limit, products: 0, order: 0, variables }
     }
 
     /// Σ factor · left · right.
@@ -65,11 +36,11 @@ impl Work {
             let pairs = left.len().saturating_mul(right.len());
             let cost = left.words().saturating_mul(right.words());
             count = count.saturating_add(pairs.saturating_mul(cost));
-            list.push(Product { factor: self.numbers.factor(factor), left, right });
+            list.push(Product { factor: factor.clone(), left, right });
         }
         self.charge(count)?;
         let sum = sum_of_products(self.variables, &list, self.limit.terms);
-        sum.map(|sum| self.numbers.reduce(sum)).map_err(|error| match error {
+        sum.map_err(|error| match error {
             SumError::Terms(terms) => {
                 DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }
             }
@@ -107,44 +78,6 @@ pub(crate) fn convolve<'a>(
             list.push((factor.clone(), a, b));
         }
     }
-}
-
-/// The coefficient of t^`order` in ad_x^T w: component j is Σ_{i,l} c_ij^l x_i w_l.
-pub(crate) fn coadjoint(
-    work: &mut Work,
-    algebra: &LieAlgebra,
-    x: &[Series],
-    w: &[Series],
-    order: usize,
-) -> Result<Vec<Polynomial>, DeriveError> {
-    bilinear(work, algebra, order, |c| (c.j, &x[c.i], &w[c.k]))
-}
-
-/// The coefficient of t^`order` in [x, w]: component k is Σ_{i,j} c_ij^k x_i w_j.
-pub(crate) fn adjoint(
-    work: &mut Work,
-    algebra: &LieAlgebra,
-    x: &[Series],
-    w: &[Series],
-    order: usize,
-) -> Result<Vec<Polynomial>, DeriveError> {
-    bilinear(work, algebra, order, |c| (c.k, &x[c.i], &w[c.j]))
-}
-
-fn bilinear<'a>(
-    work: &mut Work,
-    algebra: &LieAlgebra,
-    order: usize,
-    select: impl Fn(&StructureConstant) -> (usize, &'a Series, &'a Series),
-) -> Result<Vec<Polynomial>, DeriveError> {
-    // Looking through zeros is work too, or a long truncation of a trivial flow would never end.
-    work.charge(algebra.structure().len().saturating_mul(order + 1))?;
-    let mut lists = vec![Vec::new(); algebra.dim()];
-    for c in algebra.structure() {
-        let (component, left, right) = select(c);
-        convolve(&mut lists[component], &c.value, left, right, order);
-    }
-    lists.iter().map(|list| work.sum(list)).collect()
 }
 
 /// The factors (variable, exponent) of a monomial and its coefficient.

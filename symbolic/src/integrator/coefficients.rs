@@ -34,7 +34,7 @@ pub struct Coefficients {
 
 impl Coefficients {
     /// Adds a base coefficient and returns its number.
-    pub fn add_base(&mut self, mut contributions: Vec<Contribution>) -> usize {
+    pub(crate) fn add_base(&mut self, mut contributions: Vec<Contribution>) -> usize {
         contributions.sort_by_key(|contribution| contribution.step_power);
         self.bases.push(contributions);
         self.bases.len() - 1
@@ -53,7 +53,7 @@ impl Coefficients {
     }
 
     /// Declares the bases added so far to be those of the series with these terms.
-    pub fn end_series(&mut self, terms: &[BaseTerm]) {
+    pub(crate) fn end_series(&mut self, terms: &[BaseTerm]) {
         self.monomials = terms.iter().map(|term| term.factors.clone()).collect();
     }
 
@@ -107,8 +107,7 @@ impl Coefficients {
     }
 
     /// The coordinates on which S₃ … S_K depend.
-    #[must_use]
-    pub fn beyond_first(&self) -> BTreeSet<usize> {
+    pub(crate) fn beyond_first(&self) -> BTreeSet<usize> {
         let series = self.bases.iter().zip(&self.monomials);
         let beyond = series.filter(|(parts, _)| parts.iter().any(|term| term.step_power > 1));
         beyond.flat_map(|(_, factors)| factors.iter().map(|&(i, _)| i as usize)).collect()
@@ -117,8 +116,7 @@ impl Coefficients {
 
 impl Contribution {
     /// The factor rounded to the nearest `f64`.
-    #[must_use]
-    pub fn rounded_factor(&self) -> f64 {
+    pub(crate) fn rounded_factor(&self) -> f64 {
         self.factor.to_f64().unwrap_or(f64::NAN)
     }
 }

@@ -1,12 +1,13 @@
 //! Choosing the predictor and the Hessian's truncation.
 
-use super::coefficients::BaseTerm;
-use super::coefficients::Coefficients;
+use std::collections::HashSet;
+
+use super::coefficients::{BaseTerm, Coefficients};
 use super::flow;
 use super::terms::collect;
-use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorSize, TermLimit, predictor};
+use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorRows, TermLimit};
 use crate::lie::Chart;
-use crate::poly::Polynomial;
+use crate::poly::{Factors, Polynomial, split_at};
 use crate::problem::{Problem, Solver};
 
 /// How a step finds its first guess of p.
@@ -77,18 +78,12 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let mut plans = Self::by_cost(problem, terms, limit)?.into_iter();
-        loop {
-            let plan = plans.next().map_or_else(|| Self::constant(problem), |(_, plan)| plan);
-            let Predictor::Explicit(degree) = plan.predictor else { return Ok((plan, Vec::new())) };
-            let Problem { algebra, chart, .. } = problem;
-            match predictor(algebra, *chart, problem.generated(), degree, limit) {
-                Ok(polynomials) => return Ok((plan, polynomials)),
-                // Its coefficients are larger than what the count knows of: the next best will do.
-                Err(error) if degree > 0 && too_large(&error) => {}
-                Err(error) => return Err(error),
-            }
+        let (_, plan, mut polynomials) = Self::cheapest(problem, terms, limit)?;
+        match plan.predictor {
+            Predictor::Explicit(degree) => polynomials.truncate(degree + 1),
+            Predictor::Flow(_) => polynomials.clear(),
         }
+        Ok((plan, polynomials))
     }
 
     /// About the operations of a step of the series S₁ … S_K, K the problem's truncation, with the
@@ -104,39 +99,26 @@ impl Plan {
         let dim = problem.algebra.dim();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let terms = collect(&mut Coefficients::default(), dim, orders);
-        let plans = Self::by_cost(problem, &terms, limit)?;
-        Ok(plans.first().map_or(usize::MAX, |&(cost, _)| cost))
+        Ok(Self::cheapest(problem, &terms, limit)?.0)
     }
 
-    /// The plan with the constant predictor.
-    fn constant(problem: &Problem) -> Self {
-        Self {
-            solver: problem.solver(),
-            predictor: Predictor::Explicit(0),
-            hessian_truncation: problem.truncation,
-        }
-    }
-
-    /// The plans that may be worth it, with the operations of a step, the cheapest first. No polynomial of a predictor is
-    /// computed for them: its monomials are counted modulo a prime, and no further than another plan is
-    /// cheaper.
-    fn by_cost(
+    /// The cheapest plan with the operations of a step, and the polynomials of all explicit predictors that were tried: no
+    /// more than another plan is cheaper, nor than [`MOST_PRODUCTS`] where there is another.
+    fn cheapest(
         problem: &Problem,
         terms: &[BaseTerm],
         limit: TermLimit,
-    ) -> Result<Vec<(usize, Self)>, DeriveError> {
+    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
         let highest = Self::single_step_degree(problem.truncation);
         let newton = problem.solver() == Solver::Newton;
-        let flows = newton && problem.chart == Chart::Exponential;
-        // Where a correction is dear the best guess there is pays.
-        let best_guess = flows && corrects_dearly(problem);
         let costs = Costs::new(problem, terms);
         let mut found: Vec<(usize, Self)> = Vec::new();
-        if flows {
+        if newton && problem.chart == Chart::Exponential {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
-            for &degree in if best_guess { &degrees[possible.saturating_sub(1)..] } else { degrees }
-            {
+            // Where a correction is dear the best guess there is pays.
+            let first = if corrects_dearly(problem) { possible.saturating_sub(1) } else { 0 };
+            for &degree in &degrees[first..] {
                 let program =
                     flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
@@ -145,19 +127,29 @@ impl Plan {
             }
         }
         let mut least = found.iter().map(|&(cost, _)| cost).min().unwrap_or(usize::MAX);
-        // Of equal costs the explicit predictor's comes first.
-        let mut explicit: Vec<(usize, Self)> = Vec::new();
+        let most = if found.is_empty() { limit.products } else { MOST_PRODUCTS };
+        let limit = TermLimit { products: limit.products.min(most), ..limit };
         let Problem { algebra, chart, .. } = problem;
-        let mut size = PredictorSize::new(algebra, *chart, problem.generated(), limit)?;
+        let mut rows = PredictorRows::new(algebra, *chart, problem.generated(), limit)?;
         let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
-        for degree in if best_guess { 0..0 } else { 0..last + 1 } {
-            // About two operations for each monomial.
-            let own = match size.next_degree(least / 2) {
-                Ok(monomials) => 2 * monomials,
+        let mut monomials = HashSet::new();
+        let mut polynomials = Vec::new();
+        let mut explicit: Vec<(usize, Self)> = Vec::new();
+        let tried = if corrects_dearly(problem) && !found.is_empty() { 0 } else { last + 1 };
+        for degree in 0..tried {
+            let row = match rows.next_row() {
+                Ok(row) => row,
                 Err(error) if degree > 0 && too_large(&error) => break,
                 Err(error) => return Err(error),
             };
-            // It only grows with the degree.
+            for (i, component) in row.iter().enumerate() {
+                let factors = component.factors();
+                let momenta = |f: &[(u32, u32)]| Factors(split_at(f, algebra.dim()).0.into());
+                monomials.extend(factors.map(|(factors, _)| (i, momenta(&factors))));
+            }
+            polynomials.push(row);
+            // About two operations for each monomial. They only grow with the degree.
+            let own = 2 * monomials.len();
             if own > least {
                 break;
             }
@@ -167,11 +159,21 @@ impl Plan {
                 least = plan.map_or(least, |(cost, _)| cost.min(least));
             }
         }
-        explicit.extend(found);
-        explicit.sort_by_key(|&(cost, _)| cost);
-        Ok(explicit)
+        // Of equal costs the explicit predictor's comes first.
+        let best = explicit.into_iter().chain(found).min_by_key(|&(cost, _)| cost);
+        let constant = || Self {
+            solver: problem.solver(),
+            predictor: Predictor::Explicit(0),
+            hessian_truncation: problem.truncation,
+        };
+        let (cost, plan) = best.unwrap_or_else(|| (usize::MAX, constant()));
+        Ok((cost, plan, polynomials))
     }
 }
+
+/// Products of coefficients at most in looking for an explicit predictor beside one along the flow: where it takes more,
+/// it has too many monomials to be worth it.
+const MOST_PRODUCTS: u64 = 1_000_000;
 
 /// How many independent operations would fit into the time in which a chart or a small linear system
 /// waits for its own results (measured on SO(3)).

@@ -4,14 +4,12 @@ mod bernoulli;
 mod coefficients;
 mod divisor;
 mod field;
-mod residue;
 mod words;
 
 pub(crate) use bernoulli::BernoulliWeights;
 pub(crate) use coefficients::Coefficients;
 pub(crate) use divisor::{bits, lcm};
 pub(crate) use field::{Field, Residue, reconstruct};
-pub(crate) use residue::{PRIME, residue};
 pub(crate) use words::{Sum, Words};
 
 /// An exact rational number, always in lowest terms with a positive denominator.

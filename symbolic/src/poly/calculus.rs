@@ -4,7 +4,7 @@ use super::monomial::{Factors, Packing};
 use super::plan::Product;
 use super::polynomial::{Keys, Polynomial};
 use super::product::sum_of_products;
-use crate::number::{Coefficients, PRIME, Rational, integer, residue};
+use crate::number::{Coefficients, Rational, integer};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -97,28 +97,8 @@ impl Polynomial {
     }
 
     /// The rational multiple whose coefficients are integers without a common divisor, the leading one positive.
-    #[must_use]
-    pub fn primitive(&self) -> Self {
+    pub(crate) fn primitive(&self) -> Self {
         self.scale(&self.values.content().recip())
-    }
-
-    /// The polynomial modulo [`PRIME`], its coefficients being integers from 0.
-    #[must_use]
-    pub(crate) fn residues(self) -> Self {
-        let values: Vec<i128> = match &self.values {
-            Coefficients::Small { numerators, denominator: 1, .. } => {
-                numerators.iter().map(|n| n.rem_euclid(PRIME)).collect()
-            }
-            values => (0..self.len()).map(|index| residue(&values.get(index))).collect(),
-        };
-        let mut kept = values.iter().map(|&value| value != 0);
-        let mut keys = self.keys;
-        match &mut keys {
-            Keys::Packed(keys) => keys.retain(|_| kept.next() == Some(true)),
-            Keys::Sparse(keys) => keys.retain(|_| kept.next() == Some(true)),
-        }
-        let values = values.into_iter().filter(|&value| value != 0).collect();
-        Self::assemble(self.variables, self.bound, keys, Coefficients::small(values, 1))
     }
 
     /// The polynomial raised to a power.
