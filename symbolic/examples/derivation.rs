@@ -4,16 +4,20 @@
 //! Arguments choose systems by parts of their names.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive, predictor};
-use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
+use coadjoint_symbolic::lie::{Chart, catalogue};
 use coadjoint_symbolic::number::{Rational, ratio};
 use coadjoint_symbolic::poly::Polynomial;
 use std::error::Error;
 use std::time::{Duration, Instant};
 
+/// Coefficients times products of variables.
+type Terms = Vec<(Vec<usize>, Rational)>;
+
 struct Case {
     name: &'static str,
-    algebra: LieAlgebra,
-    hamiltonian: Polynomial,
+    group: String,
+    variables: usize,
+    terms: Terms,
     truncations: &'static [usize],
     /// The degree in t of the predictor that goes with the last truncation.
     predictor: Option<usize>,
@@ -21,39 +25,31 @@ struct Case {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let chosen: Vec<String> = std::env::args().skip(1).collect();
+    let limit = TermLimit::new(10_000_000);
     println!("{:<28} {:>4} {:>3} {:>12} {:>8} {:>9}", "system", "n", "K", "time", "S_K", "all S_k");
-    for case in cases()? {
-        if !chosen.is_empty() && !chosen.iter().any(|name| case.name.contains(name.as_str())) {
+    for Case { name, group, variables, terms, truncations, predictor: degree } in cases() {
+        if !chosen.is_empty() && !chosen.iter().any(|part| name.contains(part.as_str())) {
             continue;
         }
-        for &truncation in case.truncations {
+        let (algebra, chart) = (catalogue::lookup(&group)?, Chart::Exponential);
+        let factor = |variable| (variable as u32, 1);
+        let terms = terms.into_iter();
+        let terms = terms.map(|(list, value)| (list.into_iter().map(factor).collect(), value));
+        let hamiltonian = Polynomial::from_factors(variables, terms);
+        for &truncation in truncations {
             let (time, (last, all)) = fastest(|| {
-                let series = derive(
-                    &case.algebra,
-                    Chart::Exponential,
-                    &case.hamiltonian,
-                    truncation,
-                    TermLimit::new(10_000_000),
-                )?;
+                let series = derive(&algebra, chart, &hamiltonian, truncation, limit)?;
                 let sizes = (1..=truncation).map(|k| series.order(k).len());
                 Ok((series.order(truncation).len(), sizes.sum::<usize>()))
             })?;
-            let n = case.hamiltonian.variables();
-            println!("{:<28} {n:>4} {truncation:>3} {time:>12.2?} {last:>8} {all:>9}", case.name);
+            println!("{name:<28} {variables:>4} {truncation:>3} {time:>12.2?} {last:>8} {all:>9}");
         }
-        if let Some(degree) = case.predictor {
-            let limit = TermLimit::new(10_000_000);
+        if let Some(degree) = degree {
             let (time, terms) = fastest(|| {
-                let series =
-                    predictor(&case.algebra, Chart::Exponential, &case.hamiltonian, degree, limit)?;
-                Ok(series.iter().flatten().map(Polynomial::len).sum::<usize>())
+                let rows = predictor(&algebra, chart, &hamiltonian, degree, limit)?;
+                Ok(rows.iter().flatten().map(Polynomial::len).sum::<usize>())
             })?;
-            println!(
-                "{:<28} {:>8} {time:>12.2?} {:>18}",
-                case.name,
-                format!("p t^{degree}"),
-                terms
-            );
+            println!("{name:<28} {:>8} {time:>12.2?} {terms:>18}", format!("p t^{degree}"));
         }
     }
     Ok(())
@@ -77,110 +73,52 @@ fn fastest<T>(
     Ok((best, result))
 }
 
-fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
-    let so3 = catalogue::lookup("SO3")?;
-    let se3 = catalogue::lookup("SE3")?;
-    let half = ratio(1, 2);
+fn cases() -> Vec<Case> {
+    let case = |name, group: &str, variables, terms, truncations, predictor| Case {
+        name,
+        group: group.to_owned(),
+        variables,
+        terms,
+        truncations,
+        predictor,
+    };
+    // ½ aᵢ pᵢ², the aᵢ being variables from this one on.
+    let symbolic = |count: usize, first: usize| -> Terms {
+        (0..count).map(|i| (vec![i, i, first + i], ratio(1, 2))).collect()
+    };
+    let squares = |numerator: i64, denominators: &[i64]| -> Terms {
+        let square = |(i, &d): (usize, &i64)| (vec![i, i], ratio(numerator, d));
+        denominators.iter().enumerate().map(square).collect()
+    };
+    let heavy_top = [symbolic(3, 6), vec![(vec![5, 9], ratio(1, 1))]].concat();
+    let decimals = squares(500_000, &[1_534_271, 2_117_933, 2_534_289]);
+    let mixed = [(0, 1, 7), (0, 2, 11), (1, 2, 13)];
+    let mixed = mixed.map(|(i, j, d)| (vec![i, j], ratio(1, d))).to_vec();
+    let inertia = [squares(1, &[3, 4, 5]), mixed].concat();
+    let kirchhoff = squares(1, &[2, 4, 6, 2, 4, 8]);
+    let su3 = squares(1, &[2, 3, 4, 5, 6, 7, 8, 9]);
+    let coupling: Terms = (0..7).map(|i| (vec![i, i + 1], ratio(1, 10))).collect();
+    let coupled = [su3.clone(), coupling].concat();
     let mut cases = vec![
-        Case {
-            name: "rigid body, symbolic",
-            hamiltonian: quadratic(6, (0..3).map(|i| (vec![i, i, i + 3], half.clone()))),
-            algebra: so3.clone(),
-            truncations: &[3, 5, 7, 9],
-            predictor: Some(8),
-        },
-        Case {
-            name: "heavy top, symbolic",
-            hamiltonian: quadratic(
-                10,
-                (0..3)
-                    .map(|i| (vec![i, i, i + 6], half.clone()))
-                    .chain([(vec![5, 9], ratio(1, 1))]),
-            ),
-            algebra: se3.clone(),
-            truncations: &[3, 5, 7],
-            predictor: Some(6),
-        },
-        Case {
-            name: "rigid body, six decimals",
-            hamiltonian: quadratic(
-                3,
-                [1_534_271, 2_117_933, 2_534_289]
-                    .into_iter()
-                    .enumerate()
-                    .map(|(i, d)| (vec![i, i], ratio(500_000, d))),
-            ),
-            algebra: so3.clone(),
-            truncations: &[3, 5, 7, 9],
-            predictor: Some(8),
-        },
-        Case {
-            name: "full inertia tensor",
-            hamiltonian: quadratic(3, full_inertia()),
-            algebra: so3,
-            truncations: &[7, 11, 15, 21],
-            predictor: None,
-        },
-        Case {
-            name: "Kirchhoff body",
-            hamiltonian: quadratic(
-                6,
-                [2, 4, 6, 2, 4, 8].into_iter().enumerate().map(|(i, d)| (vec![i, i], ratio(1, d))),
-            ),
-            algebra: se3,
-            truncations: &[5, 7, 9],
-            predictor: None,
-        },
+        case("rigid body, symbolic", "SO3", 6, symbolic(3, 3), &[3, 5, 7, 9], Some(8)),
+        case("heavy top, symbolic", "SE3", 10, heavy_top, &[3, 5, 7], Some(6)),
+        case("rigid body, six decimals", "SO3", 3, decimals, &[3, 5, 7, 9], Some(8)),
+        case("full inertia tensor", "SO3", 3, inertia, &[7, 11, 15, 21], None),
+        case("Kirchhoff body", "SE3", 6, kirchhoff, &[5, 7, 9], None),
+        case("Kirchhoff body, symbolic", "SE3", 12, symbolic(6, 6), &[3, 5, 7], Some(6)),
+        case("SU3, diagonal", "SU3", 8, su3, &[3, 5, 7], None),
+        case("SU3, coupled", "SU3", 8, coupled, &[3, 5, 7], None),
+        case("ring of spins", "SO3^4", 12, ring(4), &[3, 5], None),
     ];
-    cases.push(Case {
-        name: "Kirchhoff body, symbolic",
-        algebra: catalogue::lookup("SE3")?,
-        hamiltonian: quadratic(12, (0..6).map(|i| (vec![i, i, i + 6], half.clone()))),
-        truncations: &[3, 5, 7],
-        predictor: Some(6),
-    });
-    let su3 = (0..8).map(|i| (vec![i, i], ratio(1, i as i64 + 2)));
-    cases.push(Case {
-        name: "SU3, diagonal",
-        algebra: catalogue::lookup("SU3")?,
-        hamiltonian: quadratic(8, su3.clone()),
-        truncations: &[3, 5, 7],
-        predictor: None,
-    });
-    let coupling = (0..7).map(|i| (vec![i, i + 1], ratio(1, 10)));
-    cases.push(Case {
-        name: "SU3, coupled",
-        algebra: catalogue::lookup("SU3")?,
-        hamiltonian: quadratic(8, su3.chain(coupling)),
-        truncations: &[3, 5, 7],
-        predictor: None,
-    });
-    for sites in [4, 16, 64, 256] {
-        cases.push(Case {
-            name: "ring of spins",
-            algebra: catalogue::lookup(&format!("SO3^{sites}"))?,
-            hamiltonian: quadratic(3 * sites, ring(sites)),
-            truncations: if sites == 4 { &[3, 5] } else { &[3] },
-            predictor: if sites == 4 { None } else { Some(4) },
-        });
-    }
-    Ok(cases)
-}
-
-/// The inverse of a full inertia tensor over small integers.
-fn full_inertia() -> Vec<(Vec<usize>, Rational)> {
-    vec![
-        (vec![0, 0], ratio(1, 3)),
-        (vec![1, 1], ratio(1, 4)),
-        (vec![2, 2], ratio(1, 5)),
-        (vec![0, 1], ratio(1, 7)),
-        (vec![0, 2], ratio(1, 11)),
-        (vec![1, 2], ratio(1, 13)),
-    ]
+    cases.extend([16, 64, 256].map(|sites| {
+        let group = format!("SO3^{sites}");
+        case("ring of spins", &group, 3 * sites, ring(sites), &[3], Some(4))
+    }));
+    cases
 }
 
 /// Heisenberg coupling of neighbours, with an anisotropy and a field along z.
-fn ring(sites: usize) -> Vec<(Vec<usize>, Rational)> {
+fn ring(sites: usize) -> Terms {
     let mut terms = Vec::new();
     for site in 0..sites {
         let next = (site + 1) % sites;
@@ -191,17 +129,4 @@ fn ring(sites: usize) -> Vec<(Vec<usize>, Rational)> {
         terms.push((vec![3 * site + 2], ratio(1, 3)));
     }
     terms
-}
-
-/// The sum of coefficient times the product of the listed variables.
-fn quadratic(
-    variables: usize,
-    terms: impl IntoIterator<Item = (Vec<usize>, Rational)>,
-) -> Polynomial {
-    Polynomial::from_factors(
-        variables,
-        terms.into_iter().map(|(factors, value)| {
-            (factors.into_iter().map(|variable| (variable as u32, 1)).collect(), value)
-        }),
-    )
 }

@@ -4,6 +4,7 @@ mod algebra;
 mod casimir;
 pub mod catalogue;
 mod chart;
+mod elimination;
 mod error;
 mod factors;
 mod field;
@@ -17,8 +18,8 @@ pub use casimir::{CasimirError, casimirs, watched_casimirs};
 pub use chart::{Chart, ChartError};
 pub use error::LieAlgebraError;
 pub use matrix::RationalMatrix;
-pub use product::symmetric_square;
 
-pub(crate) use casimir::Echelon;
 pub(crate) use chart::{CubicEntry, cubic};
+pub(crate) use elimination::Echelon;
+pub(crate) use product::symmetric_square;
 pub(crate) use span::Span;

@@ -185,8 +185,7 @@ fn affine(
 
 /// The action S ↦ ξS + Sξᵀ on symmetric matrices, in the basis E_aa and E_ab + E_ba for a < b, in
 /// lexicographic order of (a, b), a ≤ b.
-#[must_use]
-pub fn symmetric_square(matrix: &RationalMatrix) -> RationalMatrix {
+pub(crate) fn symmetric_square(matrix: &RationalMatrix) -> RationalMatrix {
     let n = matrix.rows();
     let index = |a: usize, b: usize| {
         let (a, b) = (a.min(b), a.max(b));

@@ -1,78 +1,48 @@
 //! Coordinates in the span of matrices, by exact elimination.
 
-use super::RationalMatrix;
-use crate::number::Rational;
-use num_traits::Zero;
+use super::{Echelon, RationalMatrix};
+use crate::number::{Rational, integer};
 use std::collections::BTreeMap;
 
-type Vector = BTreeMap<(usize, usize), Rational>;
-
-/// A set of independent matrices, prepared for finding coordinates in their span.
+/// A set of independent matrices of one size, prepared for finding coordinates in their span.
 ///
-/// Every row is reduced: its pivot entry is one. `combination` says which combination of the
-/// given matrices it is.
+/// Rows of the echelon are the entries of matrices, and behind them in a column for each of the given matrices how
+/// they are made of these.
 pub(crate) struct Span {
-    rows: BTreeMap<(usize, usize), Row>,
-}
-
-struct Row {
-    vector: Vector,
-    combination: BTreeMap<usize, Rational>,
+    echelon: Echelon<Rational>,
+    entries: u32,
+    columns: usize,
 }
 
 impl Span {
     /// Fails with the index of the first matrix that depends on those before it.
     pub(crate) fn new(matrices: &[RationalMatrix]) -> Result<Self, usize> {
-        let mut span = Self { rows: BTreeMap::new() };
+        let (rows, columns) = matrices.first().map_or((0, 0), |one| (one.rows(), one.columns()));
+        let entries = (rows * columns) as u32;
+        let mut span = Self { echelon: Echelon::new(u64::MAX), entries, columns };
         for (index, matrix) in matrices.iter().enumerate() {
-            let (mut rest, used) = span.reduce(matrix);
-            let Some((pivot, lead)) = rest.iter().next().map(|(k, v)| (*k, v.clone())) else {
+            let mut row = span.row(matrix);
+            row.insert(entries + index as u32, integer(1));
+            let rest = span.echelon.insert(row);
+            if rest.is_none_or(|rest| rest.range(..entries).next().is_none()) {
                 return Err(index);
-            };
-            let mut combination: BTreeMap<_, _> =
-                used.into_iter().map(|(i, c)| (i, -c / &lead)).collect();
-            combination.insert(index, lead.recip());
-            for value in rest.values_mut() {
-                *value /= &lead;
             }
-            span.rows.insert(pivot, Row { vector: rest, combination });
         }
         Ok(span)
     }
 
     /// The coordinates of a matrix, or nothing if it lies outside the span.
     pub(crate) fn coordinates(&self, matrix: &RationalMatrix) -> Option<Vec<(usize, Rational)>> {
-        let (rest, used) = self.reduce(matrix);
-        rest.is_empty().then(|| used.into_iter().collect())
+        let (rest, _) = self.echelon.reduced(self.row(matrix));
+        let coordinate = |(column, value): (u32, Rational)| {
+            Some((column.checked_sub(self.entries)? as usize, -value))
+        };
+        rest.into_iter().map(coordinate).collect()
     }
 
-    /// The remainder of a matrix after subtracting rows, and the combination subtracted.
-    fn reduce(&self, matrix: &RationalMatrix) -> (Vector, BTreeMap<usize, Rational>) {
-        let mut rest: Vector = matrix.entries().map(|(i, j, v)| ((i, j), v.clone())).collect();
-        let mut used = BTreeMap::new();
-        let mut place = rest.keys().next().copied();
-        while let Some(at) = place {
-            if let (Some(row), Some(value)) = (self.rows.get(&at), rest.get(&at).cloned()) {
-                add(&mut rest, &row.vector, &-value.clone());
-                add(&mut used, &row.combination, &value);
-            }
-            place = rest.range(at..).find(|(k, _)| **k > at).map(|(k, _)| *k);
-        }
-        (rest, used)
-    }
-}
-
-fn add<K: Ord + Copy>(
-    target: &mut BTreeMap<K, Rational>,
-    other: &BTreeMap<K, Rational>,
-    factor: &Rational,
-) {
-    for (key, value) in other {
-        let slot = target.entry(*key).or_insert_with(Rational::zero);
-        *slot += value * factor;
-        if slot.is_zero() {
-            target.remove(key);
-        }
+    fn row(&self, matrix: &RationalMatrix) -> BTreeMap<u32, Rational> {
+        let entries = matrix.entries();
+        entries.map(|(i, j, value)| ((i * self.columns + j) as u32, value.clone())).collect()
     }
 }
 
@@ -88,7 +58,7 @@ impl RationalMatrix {
         let span = Span::new(&rows).ok()?;
         let mut result = Self::zero(self.rows(), self.columns());
         for i in 0..self.rows() {
-            let unit = Self::from_entries(1, self.columns(), [(0, i, crate::number::integer(1))]);
+            let unit = Self::from_entries(1, self.columns(), [(0, i, integer(1))]);
             for (j, value) in span.coordinates(&unit)? {
                 result.add_to(i, j, value);
             }

@@ -46,21 +46,14 @@ pub(super) struct Flow<'a> {
     pub(super) terms: &'a [Gradient],
 }
 
-/// The error (ν, η) that one term makes.
-#[derive(Clone)]
-struct Error {
-    nu: Vec<f64>,
-    eta: Vec<f64>,
-}
-
 impl Flow<'_> {
     /// Follows the run from `start` for `duration`.
     pub(super) fn follow(&self, start: &[f64], duration: f64) -> Along {
-        let count = self.terms.len();
-        let zero = Error { nu: vec![0.0; start.len()], eta: vec![0.0; start.len()] };
+        let (n, count) = (start.len(), self.terms.len());
         let size = largest(start).max(f64::MIN_POSITIVE);
+        // ν, then η.
+        let mut errors = vec![vec![0.0; 2 * n]; count];
         let mut mu = start.to_vec();
-        let mut errors = vec![zero; count];
         let mut along =
             Along { rates: vec![0.0; count], errors: vec![0.0; count], radius: 0.0, turning: 0.0 };
         let mut forcing: Vec<Vec<f64>> = self.terms.iter().map(|term| term.at(&mu)).collect();
@@ -73,12 +66,19 @@ impl Flow<'_> {
                 step = self.step(&mu);
             }
             let h = f64::min(step, duration - time);
-            let stages = self.stages(&mu, h);
-            let next = combine(&mu, h, &stages.map(|(_, slope)| slope));
+            let mut points = Vec::with_capacity(4);
+            let next = runge_kutta(&mu, h, |_, mu| {
+                points.push(mu.to_vec());
+                self.slope(mu)
+            });
             let after: Vec<Vec<f64>> = self.terms.iter().map(|term| term.at(&next)).collect();
-            let points = self.stages(&mu, h).map(|(point, _)| point);
             for ((error, before), after) in errors.iter_mut().zip(&forcing).zip(&after) {
-                self.advance(error, &points, h, before, after);
+                let middle: Vec<f64> =
+                    before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
+                let e = [before, &middle, &middle, after];
+                *error = runge_kutta(error, h, |stage, error| {
+                    self.error_slope(error, &points[stage], e[stage])
+                });
             }
             if next.iter().chain(after.iter().flatten()).any(|value| !value.is_finite()) {
                 // The motion leaves every bound: no step is small enough.
@@ -91,8 +91,8 @@ impl Flow<'_> {
             steps += 1;
             self.look(&mut along, &mu, &forcing);
             for (largest_so_far, error) in along.errors.iter_mut().zip(&errors) {
-                let now = (largest(&error.nu) / size).max(largest(&error.eta));
-                let finite = error.nu.iter().chain(&error.eta).all(|value| value.is_finite());
+                let now = (largest(&error[..n]) / size).max(largest(&error[n..]));
+                let finite = error.iter().all(|value| value.is_finite());
                 *largest_so_far = largest_so_far.max(if finite { now } else { f64::INFINITY });
             }
         }
@@ -138,59 +138,17 @@ impl Flow<'_> {
         self.brackets.ad_star(&self.energy.at(mu), mu)
     }
 
-    /// The four points of the classical Runge–Kutta method, and μ̇ there.
-    fn stages(&self, mu: &[f64], h: f64) -> [(Vec<f64>, Vec<f64>); 4] {
-        let at = |slope: &[f64], by: f64| {
-            let point: Vec<f64> = mu.iter().zip(slope).map(|(m, s)| m + by * s).collect();
-            let slope = self.slope(&point);
-            (point, slope)
-        };
-        let first = (mu.to_vec(), self.slope(mu));
-        let second = at(&first.1, 0.5 * h);
-        let third = at(&second.1, 0.5 * h);
-        let fourth = at(&third.1, h);
-        [first, second, third, fourth]
-    }
-
-    /// One step of the error's equations.
-    fn advance(
-        &self,
-        error: &mut Error,
-        points: &[Vec<f64>; 4],
-        h: f64,
-        before: &[f64],
-        after: &[f64],
-    ) {
-        let middle: Vec<f64> = before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
-        let mut slopes: Vec<Error> = Vec::with_capacity(4);
-        for (stage, point) in points.iter().enumerate() {
-            let by = [0.0, 0.5 * h, 0.5 * h, h][stage];
-            let here = match slopes.last() {
-                None => error.clone(),
-                Some(slope) => Error {
-                    nu: error.nu.iter().zip(&slope.nu).map(|(v, s)| v + by * s).collect(),
-                    eta: error.eta.iter().zip(&slope.eta).map(|(v, s)| v + by * s).collect(),
-                },
-            };
-            let e = [before, &middle, &middle, after][stage];
-            slopes.push(self.error_slope(&here, point, e));
-        }
-        let of = |part: fn(&Error) -> &Vec<f64>| -> [Vec<f64>; 4] {
-            std::array::from_fn(|stage| part(&slopes[stage]).clone())
-        };
-        error.nu = combine(&error.nu, h, &of(|slope| &slope.nu));
-        error.eta = combine(&error.eta, h, &of(|slope| &slope.eta));
-    }
-
-    fn error_slope(&self, error: &Error, mu: &[f64], e: &[f64]) -> Error {
+    /// (ν̇, η̇) of an error (ν, η).
+    fn error_slope(&self, error: &[f64], mu: &[f64], e: &[f64]) -> Vec<f64> {
+        let (nu, eta) = error.split_at(mu.len());
         let xi = self.energy.at(mu);
         // H″ν + e, by a difference in the direction of ν: exact for quadratic H up to rounding.
-        let size = largest(&error.nu);
+        let size = largest(nu);
         let mut change = e.to_vec();
         if size > 0.0 {
             let by = 1e-5 * largest(mu).max(1e-3) / size;
             let moved = |by: f64| {
-                let moved: Vec<f64> = mu.iter().zip(&error.nu).map(|(m, v)| m + by * v).collect();
+                let moved: Vec<f64> = mu.iter().zip(nu).map(|(m, v)| m + by * v).collect();
                 self.energy.at(&moved)
             };
             let (up, down) = (moved(by), moved(-by));
@@ -198,17 +156,22 @@ impl Flow<'_> {
                 *value += (up[i] - down[i]) / (2.0 * by);
             }
         }
-        let turned = self.brackets.bracket(&xi, &error.eta);
-        let eta = change.iter().zip(&turned).map(|(c, t)| c - t).collect();
+        let turned = self.brackets.bracket(&xi, eta);
         let pushed = self.brackets.ad_star(&change, mu);
-        let carried = self.brackets.ad_star(&xi, &error.nu);
-        let nu = pushed.iter().zip(&carried).map(|(a, b)| a + b).collect();
-        Error { nu, eta }
+        let carried = self.brackets.ad_star(&xi, nu);
+        let nu = pushed.iter().zip(&carried).map(|(a, b)| a + b);
+        nu.chain(change.iter().zip(&turned).map(|(c, t)| c - t)).collect()
     }
 }
 
-/// The classical weights 1/6, 1/3, 1/3, 1/6.
-fn combine(from: &[f64], h: f64, slopes: &[Vec<f64>; 4]) -> Vec<f64> {
-    let [a, b, c, d] = slopes;
+/// A step of the classical method of Runge and Kutta; `slope` is given the number of the stage and its point.
+fn runge_kutta(from: &[f64], h: f64, mut slope: impl FnMut(usize, &[f64]) -> Vec<f64>) -> Vec<f64> {
+    let mut slopes = [(); 4].map(|()| vec![0.0; from.len()]);
+    for (stage, by) in [0.0, 0.5 * h, 0.5 * h, h].into_iter().enumerate() {
+        let last = &slopes[stage.saturating_sub(1)];
+        let point: Vec<f64> = from.iter().zip(last).map(|(x, s)| x + by * s).collect();
+        slopes[stage] = slope(stage, &point);
+    }
+    let [a, b, c, d] = &slopes;
     (0..from.len()).map(|i| from[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i])).collect()
 }

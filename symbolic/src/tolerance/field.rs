@@ -1,49 +1,22 @@
-//! Polynomials and brackets in floating point.
+//! Gradients and brackets in floating point.
 
 use num_traits::ToPrimitive;
 
 use crate::lie::LieAlgebra;
-use crate::poly::Polynomial;
+use crate::poly::{Numeric, Polynomial};
 
 /// ∂F/∂μ of a polynomial F, with values put in for the symbols.
 #[derive(Clone, Debug)]
-pub(super) struct Gradient {
-    dim: usize,
-    /// Coefficient, and (coordinate, exponent) with positive exponents.
-    terms: Vec<(f64, Vec<(usize, i32)>)>,
-}
+pub(super) struct Gradient(Vec<Numeric>);
 
 impl Gradient {
     pub(super) fn new(polynomial: &Polynomial, dim: usize, symbols: &[f64]) -> Self {
-        let terms = polynomial.factors().map(|(factors, value)| {
-            let mut coefficient = value.to_f64().unwrap_or(f64::NAN);
-            let mut momenta = Vec::new();
-            for (variable, exponent) in factors {
-                let (variable, exponent) = (variable as usize, exponent as i32);
-                match variable.checked_sub(dim) {
-                    None => momenta.push((variable, exponent)),
-                    Some(symbol) => {
-                        coefficient *=
-                            symbols.get(symbol).copied().unwrap_or(f64::NAN).powi(exponent);
-                    }
-                }
-            }
-            (coefficient, momenta)
-        });
-        Self { dim, terms: terms.collect() }
+        Self(Numeric::new(polynomial, dim, symbols).gradient(dim))
     }
 
     /// The gradient at μ.
     pub(super) fn at(&self, mu: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; self.dim];
-        for (coefficient, factors) in &self.terms {
-            for &(i, exponent) in factors {
-                let others = factors.iter().filter(|&&(j, _)| j != i);
-                let others: f64 = others.map(|&(j, e)| mu[j].powi(e)).product();
-                sum[i] += coefficient * f64::from(exponent) * mu[i].powi(exponent - 1) * others;
-            }
-        }
-        sum
+        self.0.iter().map(|derivative| derivative.value(mu)).collect()
     }
 }
 

@@ -1,9 +1,9 @@
 //! The space of Casimirs of one degree.
 
-use super::elimination::{Echelon, Exceeded};
 use super::error::{CasimirError, MONOMIALS, OPERATIONS};
 use crate::cancel;
 use crate::lie::LieAlgebra;
+use crate::lie::elimination::{Echelon, Exceeded};
 use crate::number::{Field, Rational, Residue, reconstruct};
 use crate::poly::{Polynomial, Product, sum_of_products};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,16 +1,15 @@
 //! Polynomial Casimirs, by exact linear algebra.
 
-mod elimination;
 mod error;
 mod invariants;
 
 use super::LieAlgebra;
+use super::elimination::Echelon;
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use num_traits::One;
 use std::collections::BTreeMap;
 
-pub(crate) use elimination::Echelon;
 pub use error::CasimirError;
 
 /// Generators of the polynomial Casimirs of degree at most `degree`: every Casimir up to that

@@ -19,29 +19,37 @@ impl<F: Field> Echelon<F> {
         Self { rows: BTreeMap::new(), operations: 0, limit }
     }
 
-    /// Adds a row. Returns what is left of it after reduction, scaled to a leading one, or nothing
-    /// if it depends on the rows before (or the work exceeds the limit; see
-    /// [`within_limit`](Self::within_limit)).
-    pub(crate) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
-        let mut row = row;
-        let mut lead = None;
+    /// What is left of a row without multiples of those in the echelon, and the multiplications that took; the row is not
+    /// finished where the work exceeds the limit.
+    pub(crate) fn reduced(&self, mut row: BTreeMap<u32, F>) -> (BTreeMap<u32, F>, u64) {
+        let mut operations = 0;
         let mut at = row.keys().next().copied();
         while let Some(column) = at {
             cancel::check();
             if let (Some(pivot), Some(value)) = (self.rows.get(&column), row.get(&column).cloned())
             {
-                self.operations += pivot.len() as u64;
-                if self.operations > self.limit {
-                    return None;
+                operations += pivot.len() as u64;
+                if self.operations + operations > self.limit {
+                    break;
                 }
                 subtract(&mut row, pivot, &value);
-            } else if lead.is_none() {
-                lead = Some(column);
             }
             at = row.range(column + 1..).next().map(|(c, _)| *c);
         }
-        let lead = lead?;
-        let inverse = row.get(&lead)?.inverse();
+        (row, operations)
+    }
+
+    /// Adds a row. Returns what is left of it after reduction, scaled to a leading one, or nothing
+    /// if it depends on the rows before (or the work exceeds the limit; see
+    /// [`within_limit`](Self::within_limit)).
+    pub(crate) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
+        let (mut row, operations) = self.reduced(row);
+        self.operations += operations;
+        if self.operations > self.limit {
+            return None;
+        }
+        let (&lead, value) = row.first_key_value()?;
+        let inverse = value.inverse();
         for value in row.values_mut() {
             *value = value.times(&inverse);
         }
