@@ -26,40 +26,27 @@ pub trait Number: Copy {
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self;
 }
 
-#[cfg(feature = "std")]
-#[inline(always)]
-fn fused(a: f64, b: f64, c: f64) -> f64 {
-    a.mul_add(b, c)
-}
-
 #[cfg(not(feature = "std"))]
-#[inline(always)]
-fn fused(a: f64, b: f64, c: f64) -> f64 {
-    libm::fma(a, b, c)
-}
+use libm::{fma as fused, rint as nearest, sqrt as root};
+#[cfg(feature = "std")]
+use standard::{fused, nearest, root};
 
 #[cfg(feature = "std")]
-#[inline(always)]
-fn root(a: f64) -> f64 {
-    a.sqrt()
-}
+mod standard {
+    #[inline(always)]
+    pub fn fused(a: f64, b: f64, c: f64) -> f64 {
+        a.mul_add(b, c)
+    }
 
-#[cfg(not(feature = "std"))]
-#[inline(always)]
-fn root(a: f64) -> f64 {
-    libm::sqrt(a)
-}
+    #[inline(always)]
+    pub fn root(a: f64) -> f64 {
+        a.sqrt()
+    }
 
-#[cfg(feature = "std")]
-#[inline(always)]
-fn nearest(a: f64) -> f64 {
-    a.round_ties_even()
-}
-
-#[cfg(not(feature = "std"))]
-#[inline(always)]
-fn nearest(a: f64) -> f64 {
-    libm::rint(a)
+    #[inline(always)]
+    pub fn nearest(a: f64) -> f64 {
+        a.round_ties_even()
+    }
 }
 
 impl Number for f64 {
