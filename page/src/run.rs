@@ -1,6 +1,6 @@
 //! A run: our steps and the rival's side by side, and how far each has drifted.
 
-use coadjoint_codegen::step::{Scratch, Spatial, Start};
+use coadjoint_codegen::step::{Spatial, Start};
 use coadjoint_program::{Program, Stepper};
 
 use crate::history::{History, Sample};
@@ -225,9 +225,7 @@ impl Run {
 
     fn our_spatial(&self) -> Vec<f64> {
         let State { g, mu, .. } = &self.now;
-        let mut momentum = vec![0.0; mu.len()];
-        self.spatial.momentum(g, mu, &mut Scratch::default(), &mut momentum);
-        momentum
+        self.spatial.momentum(g, mu)
     }
 }
 

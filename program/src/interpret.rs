@@ -10,12 +10,6 @@ use crate::packed::Packed;
 use crate::schedule::{Block, Kept, Kind, Part, Places, Statement, Test, Variable};
 use crate::stepper::{Outcome, Stepper, WIDTH};
 
-/// Memory in which programs are evaluated, reused from call to call.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch<T> {
-    nodes: Vec<T>,
-}
-
 impl Stepper for Kernel {
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
         let mut walk = Walk::<f64, 1>::new(self, slots, g, mu);
@@ -67,25 +61,12 @@ impl Kernel {
     }
 
     /// The numbers of `watch` at a state.
-    pub fn watch(
-        &self,
-        slots: &[f64],
-        g: &[f64],
-        mu: &[f64],
-        scratch: &mut Scratch<f64>,
-        out: &mut [f64],
-    ) {
-        let m = self.element();
-        let read = |i: usize| {
-            let found = if i < m { g.get(i) } else { mu.get(i - m) };
-            found.copied().unwrap_or(0.0)
-        };
-        let slot = |i: usize| slots.get(i).copied().unwrap_or(0.0);
+    #[must_use]
+    pub fn watch(&self, slots: &[f64], g: &[f64], mu: &[f64]) -> Vec<f64> {
         let program = &self.programs().watch;
-        program.evaluate(read, slot, &mut scratch.nodes);
-        for (value, id) in out.iter_mut().zip(program.outputs()) {
-            *value = scratch.nodes[id.index()];
-        }
+        let mut values = vec![0.0; program.outputs().len()];
+        program.run(&[g, mu].concat(), slots, &mut Vec::new(), &mut values);
+        values
     }
 }
 

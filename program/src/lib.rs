@@ -57,7 +57,7 @@ pub use error::ProgramError;
 #[cfg(feature = "programs")]
 pub use graph::Graph;
 #[cfg(feature = "programs")]
-pub use interpret::{Attempt, Scratch};
+pub use interpret::Attempt;
 #[cfg(feature = "programs")]
 pub use kernel::{BLOCK, Kernel, KernelParts, Programs};
 #[cfg(feature = "programs")]

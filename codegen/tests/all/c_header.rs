@@ -9,7 +9,7 @@ mod systems;
 
 use crate::tools::{self, FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::Language;
-use coadjoint_program::{Scratch, Stepper};
+use coadjoint_program::Stepper;
 use num_traits::ToPrimitive;
 use systems::Built;
 
@@ -60,11 +60,7 @@ fn compare(built: &Built, output: &str) {
     }
     let mut g = numbers(output, "identity", 0);
     let mut mu = built.momentum.clone();
-    let watch = |g: &[f64], mu: &[f64]| {
-        let mut out = vec![0.0; kernel.programs().watch.outputs().len()];
-        kernel.watch(&slots, g, mu, &mut Scratch::default(), &mut out);
-        out
-    };
+    let watch = |g: &[f64], mu: &[f64]| kernel.watch(&slots, g, mu);
     let watched = watch(&g, &mu);
     assert_eq!(bits(&numbers(output, "energy", 0)), bits(&watched[..1]), "{name}");
     if watched.len() > 1 {

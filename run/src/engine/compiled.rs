@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Scratch, Spatial, Step};
+use coadjoint_codegen::step::{Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 
 use super::Restore;
@@ -175,9 +175,9 @@ impl Compiled {
         }
     }
 
-    /// Writes the spatial momentum Ad\*_g μ of a state.
-    pub fn spatial_momentum(&self, state: &Numbers, scratch: &mut Scratch, momentum: &mut [f64]) {
-        self.programs.spatial.momentum(&state.g, &state.mu, scratch, momentum);
+    /// The spatial momentum Ad\*_g μ of a state.
+    pub fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+        self.programs.spatial.momentum(&state.g, &state.mu)
     }
 
     /// A state as the group has it.

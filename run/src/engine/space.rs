@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use coadjoint::Phase;
 use coadjoint::groups::ElementError;
-use coadjoint_codegen::step::Scratch;
 
 use super::compiled::{Compiled, Numbers};
 use super::restore::{Restore, entries_of, phase_of};
@@ -85,11 +84,9 @@ impl<G: Restore> Space for Elements<G> {
     }
 
     fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
-        let Some(compiled) = &self.compiled else {
-            return self.phase(state).spatial_momentum(&*self.group).as_slice().to_vec();
-        };
-        let mut momentum = vec![0.0; state.mu.len()];
-        compiled.spatial_momentum(state, &mut Scratch::default(), &mut momentum);
-        momentum
+        match &self.compiled {
+            Some(compiled) => compiled.spatial_momentum(state),
+            None => self.phase(state).spatial_momentum(&*self.group).as_slice().to_vec(),
+        }
     }
 }

@@ -40,7 +40,7 @@ use product::Product;
 use rotation::Rotation;
 use solving::Scheme;
 #[cfg(feature = "spatial")]
-pub use spatial::{Scratch, Spatial};
+pub use spatial::Spatial;
 use tables::Tables;
 use translations::Translations;
 use unitriangular::Unitriangular;

@@ -13,13 +13,6 @@ pub struct Spatial {
     inverted: Vec<(usize, usize)>,
 }
 
-/// Memory reused from one momentum to the next.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    inputs: Vec<f64>,
-    nodes: Vec<f64>,
-}
-
 impl Spatial {
     /// For the states of this step.
     #[must_use]
@@ -27,15 +20,12 @@ impl Spatial {
         Self { program: step.spatial(), inverted: step.inverted() }
     }
 
-    /// Writes the spatial momentum of the state with these numbers of the group element and this μ; NaN where a matrix has no
+    /// The spatial momentum of the state with these numbers of the group element and this μ; NaN where a matrix has no
     /// inverse.
-    pub fn momentum(&self, g: &[f64], mu: &[f64], scratch: &mut Scratch, momentum: &mut [f64]) {
-        let Scratch { inputs, nodes } = scratch;
-        inputs.clear();
-        inputs.extend_from_slice(g);
+    #[must_use]
+    pub fn momentum(&self, g: &[f64], mu: &[f64]) -> Vec<f64> {
         // The program reads of the inverse what has been inverted here, and nothing else.
-        inputs.extend_from_slice(g);
-        inputs.extend_from_slice(mu);
+        let mut inputs = [g, g, mu].concat();
         for &(start, rows) in &self.inverted {
             let block = DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
             let inverse = block.try_inverse();
@@ -43,6 +33,8 @@ impl Spatial {
             let own = &mut inputs[g.len() + start..][..rows * rows];
             own.copy_from_slice(inverse.transpose().as_slice());
         }
-        self.program.run(inputs, &[], nodes, momentum);
+        let mut momentum = vec![0.0; mu.len()];
+        self.program.run(&inputs, &[], &mut Vec::new(), &mut momentum);
+        momentum
     }
 }

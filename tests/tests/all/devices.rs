@@ -274,12 +274,7 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
         let mut rows = start.clone();
         let (_, why) = moved(&mut card, &mut rows, steps);
         assert_eq!(why, [], "{name}");
-        let watched = |row: &Row| {
-            let mut values = vec![0.0; double.kernel().programs().watch.outputs().len()];
-            let mut scratch = coadjoint_program::Scratch::default();
-            double.kernel().watch(&double.slots, &row.g, &row.mu, &mut scratch, &mut values);
-            values
-        };
+        let watched = |row: &Row| double.kernel().watch(&double.slots, &row.g, &row.mu);
         // Roundings of a random walk, ten deviations wide; a matrix of a group by tables multiplies them.
         let kept = 10.0 * u * (steps as f64).sqrt() * n as f64;
         for (row, before) in rows.iter().zip(&start) {

@@ -12,7 +12,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
-use coadjoint_program::{Scratch, Stepper, WIDTH};
+use coadjoint_program::{Stepper, WIDTH};
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by, limited, unlimited};
 use nalgebra::{DMatrix, DVector};
@@ -124,11 +124,7 @@ fn lanes(name: &str, step: &Step, slots: &[f64]) {
 /// Energy and Casimirs at the end are what they were.
 fn watched(name: &str, step: &Step, slots: &[f64], start: &[f64], mu: &[f64], g: &[f64]) {
     let kernel = step.kernel();
-    let count = kernel.programs().watch.outputs().len();
-    let (mut before, mut after) = (vec![0.0; count], vec![0.0; count]);
-    let mut scratch = Scratch::default();
-    kernel.watch(slots, g, start, &mut scratch, &mut before);
-    kernel.watch(slots, g, mu, &mut scratch, &mut after);
+    let [before, after] = [start, mu].map(|mu| kernel.watch(slots, g, mu));
     // Up to the error of the truncation, which may be small.
     assert!((before[0] - after[0]).abs() < 1e-2 * before[0].abs(), "{name}: energy");
     for (before, after) in before.iter().zip(&after).skip(1) {
