@@ -26,17 +26,23 @@ struct Piece {
     offset: usize,
 }
 
+/// How a part of a field is written: from byte `offset` of it on.
+type Write = fn(&mut File, field: &'static str, offset: usize, content: &str);
+
 impl File {
     /// The system file of these fields.
     #[must_use]
     pub fn of(fields: &Fields) -> Self {
         let mut file = Self::default();
-        file.entry("name", "name", &fields.name);
+        file.entry("name", &fields.name, Self::string);
         if fields.algebra.trim().is_empty() {
-            file.entry("group", "group", &fields.group);
+            file.entry("group", &fields.group, Self::string);
         }
-        file.list("coordinates", "coordinates", &fields.coordinates, quoted);
-        file.entry("hamiltonian", "hamiltonian", &fields.hamiltonian);
+        // Without names the group's own are taken.
+        if !words(&fields.coordinates).is_empty() {
+            file.list("coordinates", &fields.coordinates, Self::string);
+        }
+        file.entry("hamiltonian", &fields.hamiltonian, Self::string);
         if !fields.algebra.trim().is_empty() {
             file.text.push_str("\n[algebra]\n");
             file.verbatim("algebra", 0, fields.algebra.trim_end());
@@ -44,19 +50,19 @@ impl File {
         }
         file.parameters(&fields.parameters);
         file.text.push_str("\n[integrator]\n");
-        file.value("truncation", "truncation", &fields.truncation);
+        file.entry("truncation", &fields.truncation, Self::number);
         if fields.chart != "exp" {
-            file.entry("chart", "chart", &fields.chart);
+            file.entry("chart", &fields.chart, Self::string);
         }
         if fields.frame != "fixed" {
-            file.entry("frame", "frame", &fields.frame);
+            file.entry("frame", &fields.frame, Self::string);
         }
-        file.value("step", "step", &fields.step);
+        file.entry("step", &fields.step, Self::number);
         file.text.push_str("\n[initial]\n");
-        file.list("momentum", "momentum", &fields.momentum, number);
+        file.list("momentum", &fields.momentum, Self::number);
         if !fields.time.trim().is_empty() {
             file.text.push_str("\n[run]\n");
-            file.value("time", "time", &fields.time);
+            file.entry("time", &fields.time, Self::number);
         }
         file
     }
@@ -128,17 +134,11 @@ impl File {
         self.text.push_str(close);
     }
 
-    fn entry(&mut self, key: &str, field: &'static str, content: &str) {
-        self.text.push_str(&format!("{key} = "));
+    /// The key named like the field.
+    fn entry(&mut self, field: &'static str, content: &str, write: Write) {
+        self.text.push_str(&format!("{field} = "));
         let lead = content.len() - content.trim_start().len();
-        self.string(field, lead, content.trim());
-        self.text.push('\n');
-    }
-
-    fn value(&mut self, key: &str, field: &'static str, content: &str) {
-        self.text.push_str(&format!("{key} = "));
-        let lead = content.len() - content.trim_start().len();
-        self.number(field, lead, content.trim());
+        write(self, field, lead, content.trim());
         self.text.push('\n');
     }
 
@@ -151,14 +151,9 @@ impl File {
         }
     }
 
-    fn list(&mut self, key: &str, field: &'static str, content: &str, write: Write) {
-        let words = words(content);
-        // Without names the group's own are taken.
-        if words.is_empty() && field == "coordinates" {
-            return;
-        }
-        self.text.push_str(&format!("{key} = ["));
-        for (number, (offset, word)) in words.into_iter().enumerate() {
+    fn list(&mut self, field: &'static str, content: &str, write: Write) {
+        self.text.push_str(&format!("{field} = ["));
+        for (number, (offset, word)) in words(content).into_iter().enumerate() {
             if number > 0 {
                 self.text.push_str(", ");
             }
@@ -196,16 +191,6 @@ impl File {
             self.text.push('\n');
         }
     }
-}
-
-type Write = fn(&mut File, &'static str, usize, &str);
-
-fn quoted(file: &mut File, field: &'static str, offset: usize, word: &str) {
-    file.string(field, offset, word);
-}
-
-fn number(file: &mut File, field: &'static str, offset: usize, word: &str) {
-    file.number(field, offset, word);
 }
 
 /// Words, with where they begin. Blanks inside parentheses and brackets part nothing, commas outside do.

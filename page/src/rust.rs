@@ -1,9 +1,11 @@
 //! The attribute: a system as a Rust function.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use coadjoint_codegen::diagnostic::Diagnostics;
-use coadjoint_codegen::emit::{RUNTIME_TABLES, camel_case, identifier};
+use coadjoint_codegen::emit::c::prefix;
+use coadjoint_codegen::emit::{RUNTIME_TABLES, camel_case, fresh, identifier};
 use coadjoint_codegen::expr::{Arena, ExprId, Node};
 use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::number::Rational;
@@ -34,7 +36,8 @@ pub fn program(system: &System) -> Result<String, String> {
     let numbers = if named.is_some() { Vec::new() } else { system.parameters() };
     let problem = named.as_ref().unwrap_or(&system.integrator.problem);
     let arguments: Vec<String> = names(&problem.parameters, &problem.coordinates);
-    let coordinates: Vec<String> = problem.coordinates.iter().map(|name| lower(name)).collect();
+    let coordinates: Vec<String> =
+        problem.coordinates.iter().map(|name| name.to_lowercase()).collect();
     // A name of its own for each, or by their numbers.
     let plain = problem.coordinates.iter().all(|name| is_plain(name))
         && (1..coordinates.len()).all(|i| !coordinates[..i].contains(&coordinates[i]));
@@ -253,26 +256,19 @@ pub(crate) fn listed(parameter: &Parameter, one: impl Fn(&Rational) -> String) -
 
 /// Names of arguments that style and the language allow, each its own.
 fn names(parameters: &[Parameter], coordinates: &[String]) -> Vec<String> {
-    let mut taken: Vec<String> = coordinates.iter().map(|name| lower(name)).collect();
-    parameters
-        .iter()
-        .map(|parameter| {
-            let mut name = identifier(&lower(&parameter.name)).to_string();
-            while TAKEN.contains(&name.as_str()) || taken.contains(&name) {
-                name.push('_');
-            }
-            taken.push(name.clone());
-            name
-        })
-        .collect()
-}
-
-fn lower(name: &str) -> String {
-    name.to_lowercase()
+    let mut taken: BTreeSet<String> = TAKEN.map(str::to_owned).into();
+    taken.extend(coordinates.iter().map(|name| name.to_lowercase()));
+    let name = |parameter: &Parameter| {
+        let name = identifier(&parameter.name.to_lowercase()).to_string();
+        let name = fresh(&name, &taken);
+        taken.insert(name.clone());
+        name
+    };
+    parameters.iter().map(name).collect()
 }
 
 fn is_plain(name: &str) -> bool {
-    let name = lower(name);
+    let name = name.to_lowercase();
     identifier(&name) == name && !TAKEN.contains(&name.as_str())
 }
 
@@ -286,18 +282,8 @@ fn uses(body: &str, name: &str) -> bool {
 
 /// The function's name.
 fn snake(name: &str) -> String {
-    let mut text: String = name
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
-        .collect();
-    while text.contains("__") {
-        text = text.replace("__", "_");
-    }
-    let text = text.trim_matches('_').to_owned();
-    match text.chars().next() {
-        Some(first) if first.is_ascii_alphabetic() && is_plain(&text) => text,
-        _ => format!("system_{text}").trim_end_matches('_').to_owned(),
-    }
+    let text = prefix(name);
+    if is_plain(&text) { text } else { format!("system_{text}") }
 }
 
 /// `algebra(…)` as the attribute reads it.

@@ -145,7 +145,7 @@ fn exact(sum: Sum, count: usize, table: &mut Table, names: &[String]) -> (Polyno
         .map(|(monomial, coefficient)| {
             let mut exponents = vec![0; count];
             for (coordinate, power) in monomial {
-                exponents[coordinate] = power;
+                exponents[coordinate as usize] = power;
             }
             (exponents, coefficient.factor, coefficient.product)
         })
@@ -196,7 +196,7 @@ pub(crate) fn linear(
     let mut components = Vec::new();
     for (monomial, coefficient) in sum.terms {
         match (&monomial[..], table.value(&coefficient)) {
-            (&[(coordinate, 1)], Ok(number)) => components.push((coordinate, number)),
+            (&[(coordinate, 1)], Ok(number)) => components.push((coordinate as usize, number)),
             _ => {
                 let message = "a bracket must be linear: a sum of numbers times generators";
                 let help = "write for example \"[a, b] = 2*c - 1/2*a\"; Poisson brackets that are not linear in the \

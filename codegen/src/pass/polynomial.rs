@@ -9,6 +9,7 @@ use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Node};
 use crate::number::Rational;
+use crate::poly::monomial_product;
 
 /// The highest degree of a Hamiltonian.
 const HIGHEST_DEGREE: u32 = 100;
@@ -18,7 +19,7 @@ const MOST_TERMS: usize = 100_000;
 const MOST_PRODUCTS: usize = 200_000;
 
 /// Exponents by coordinate, ascending, without zeros.
-pub(super) type Monomial = Vec<(usize, u32)>;
+pub(super) type Monomial = Vec<(u32, u32)>;
 
 /// Σ coefficient · monomial, without zero coefficients.
 #[derive(Clone, Debug, Default)]
@@ -129,7 +130,7 @@ impl Pass<'_> {
             Node::Number(ref value) => Some(Sum::constant(Coefficient::number(value.clone()))),
             Node::Coordinate(i) => {
                 let one = Coefficient::number(Rational::one());
-                Some(Sum { terms: BTreeMap::from([(vec![(i, 1)], one)]) })
+                Some(Sum { terms: BTreeMap::from([(vec![(i as u32, 1)], one)]) })
             }
             Node::Parameter(i) => {
                 let value = self.table.parameter(i);
@@ -211,7 +212,7 @@ impl Pass<'_> {
             for (right, y) in &b.terms {
                 let product = self.table.multiply(x, y);
                 let mut value = self.checked(span, product)?;
-                let monomial = times(left, right);
+                let monomial = monomial_product(left, right);
                 if let Some(before) = result.terms.remove(&monomial) {
                     let sum = self.table.add(&before, &value);
                     value = self.checked(span, sum)?;
@@ -267,30 +268,4 @@ impl Pass<'_> {
 fn negated(mut sum: Sum) -> Sum {
     sum.terms.values_mut().for_each(Coefficient::negate);
     sum
-}
-
-/// The product of two monomials.
-fn times(a: &Monomial, b: &Monomial) -> Monomial {
-    let mut result = Monomial::with_capacity(a.len() + b.len());
-    let (mut i, mut j) = (0, 0);
-    while i < a.len() && j < b.len() {
-        match a[i].0.cmp(&b[j].0) {
-            std::cmp::Ordering::Less => {
-                result.push(a[i]);
-                i += 1;
-            }
-            std::cmp::Ordering::Greater => {
-                result.push(b[j]);
-                j += 1;
-            }
-            std::cmp::Ordering::Equal => {
-                result.push((a[i].0, a[i].1 + b[j].1));
-                i += 1;
-                j += 1;
-            }
-        }
-    }
-    result.extend_from_slice(&a[i..]);
-    result.extend_from_slice(&b[j..]);
-    result
 }

@@ -39,7 +39,7 @@
 //! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
 
 mod algebra;
-mod hamiltonian;
+mod energies;
 mod initial;
 mod options;
 mod parameters;
@@ -133,8 +133,8 @@ fn system(
     let name = root.string("name", "name = \"rigid-body\"");
     let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
     let algebra = group(&root, &name);
-    let (coordinates, coordinates_span) = hamiltonian::coordinates(&root, algebra.as_ref());
-    let energy = hamiltonian::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters);
+    let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
+    let hamiltonian = energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters);
     let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
     let units = units::read(&root, &coordinates);
     let integrator = root.table("integrator");
@@ -144,13 +144,12 @@ fn system(
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = choice.truncation;
     }
-    let potential = hamiltonian::potential(&root, algebra.as_ref(), &parameters);
+    let potential = energies::potential(&root, algebra.as_ref(), &parameters);
     let splitting = splitting::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
     let potential = potential.and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
-    let hamiltonian = energy;
     let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
     let problem = assemble(draft, diagnostics)?;
     if let Some(velocity) = velocity {

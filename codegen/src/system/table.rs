@@ -117,20 +117,20 @@ impl<'a> Table<'a> {
 
     pub(super) fn string(&self, key: &str, example: &str) -> Option<(&'a str, Span)> {
         let value = self.get(key)?;
-        match value.get_ref() {
-            DeValue::String(text) => return Some((text.as_ref(), span(value))),
-            _ => self.wrong_kind(key, "a text in quotes", value, example),
-        }
-        None
+        let DeValue::String(text) = value.get_ref() else {
+            self.wrong_kind(key, "a text in quotes", value, example);
+            return None;
+        };
+        Some((text.as_ref(), span(value)))
     }
 
     pub(super) fn array(&self, key: &str, example: &str) -> Option<(Vec<&'a Value<'a>>, Span)> {
         let value = self.get(key)?;
-        match value.get_ref() {
-            DeValue::Array(list) => return Some((list.iter().collect(), span(value))),
-            _ => self.wrong_kind(key, "an array", value, example),
-        }
-        None
+        let DeValue::Array(list) = value.get_ref() else {
+            self.wrong_kind(key, "an array", value, example);
+            return None;
+        };
+        Some((list.iter().collect(), span(value)))
     }
 
     /// Texts with their places, which `expected` describes, and the place of the whole list.

@@ -10,7 +10,7 @@ mod product;
 mod table;
 
 pub(crate) use monomial::Factors;
-pub use monomial::{Monomial, split_at};
+pub use monomial::{Monomial, product as monomial_product, split_at};
 pub use numeric::Numeric;
 pub(crate) use plan::Product;
 pub use polynomial::Polynomial;

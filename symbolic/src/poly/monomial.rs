@@ -104,30 +104,7 @@ impl PartialOrd for Factors {
 
 impl Key for Factors {
     fn product(&self, other: &Self) -> Self {
-        let (a, b) = (&self.0, &other.0);
-        let mut result = Vec::with_capacity(a.len() + b.len());
-        let (mut i, mut j) = (0, 0);
-        while i < a.len() && j < b.len() {
-            match a[i].0.cmp(&b[j].0) {
-                Ordering::Less => {
-                    result.push(a[i]);
-                    i += 1;
-                }
-                Ordering::Greater => {
-                    result.push(b[j]);
-                    j += 1;
-                }
-                Ordering::Equal => {
-                    // The degree of every product is checked to fit before.
-                    result.push((a[i].0, a[i].1.saturating_add(b[j].1)));
-                    i += 1;
-                    j += 1;
-                }
-            }
-        }
-        result.extend_from_slice(&a[i..]);
-        result.extend_from_slice(&b[j..]);
-        Self(result.into_boxed_slice())
+        Self(product(&self.0, &other.0).into_boxed_slice())
     }
 
     fn hash(&self) -> u64 {
@@ -142,6 +119,34 @@ impl Key for Factors {
 
 /// Factors (variable, exponent), ascending by variable.
 pub type Monomial = [(u32, u32)];
+
+/// The product of two monomials.
+#[must_use]
+pub fn product(a: &Monomial, b: &Monomial) -> Vec<(u32, u32)> {
+    let mut result = Vec::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() && j < b.len() {
+        match a[i].0.cmp(&b[j].0) {
+            Ordering::Less => {
+                result.push(a[i]);
+                i += 1;
+            }
+            Ordering::Greater => {
+                result.push(b[j]);
+                j += 1;
+            }
+            Ordering::Equal => {
+                // The degree of every product is checked to fit before.
+                result.push((a[i].0, a[i].1.saturating_add(b[j].1)));
+                i += 1;
+                j += 1;
+            }
+        }
+    }
+    result.extend_from_slice(&a[i..]);
+    result.extend_from_slice(&b[j..]);
+    result
+}
 
 /// The factors with variables before this one, the momenta say, and the others.
 #[must_use]
