@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::limits::LARGEST_RATIO;
+
 /// The coefficients of a step as data.
 ///
 /// A *base* is a sum of *parts*, a part a power of h times a sum of *terms* factor · product, a product one of powers of
@@ -59,9 +61,6 @@ impl core::error::Error for FoldError {}
 
 /// Series whose last terms have gradients of this degree, or a higher one, have no radius: each momentum is judged by itself.
 pub const DEGREES: usize = 64;
-
-/// The ratio of the last two terms of a series up to which it is trusted.
-pub const LARGEST_RATIO: f64 = 0.5;
 
 impl Fold<'_> {
     /// Writes all coefficients for a step size and the values of the symbols; places that no list names stay as they are.
@@ -180,7 +179,7 @@ pub fn gradient_bound(
 
 /// The |p| of each direct factor of the group up to which the last two terms of a series have at most this ratio in every
 /// direction, given the coefficients of their monomials.
-pub fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
+fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
     let factors = terms.clone().map(|(_, term)| term.1 + 1).max().unwrap_or(0);
     let of_factor = |factor: u32| {
         // By the degree of the gradient: of S_K, and of S_{K−2}.

@@ -5,7 +5,8 @@
 //! - [`Stepper`] is what makes the steps of a kernel. The kernel itself is one, the interpreter, the reference for all
 //!   targets.
 //! - [`fold::Fold`] is how the coefficients of a kernel follow from a step size and parameters, [`splitting`] how kicks and
-//!   flows make a step; they are all that there is without the features.
+//!   flows make a step, [`limits`] are those up to which steps are accepted; they are all that there is without the
+//!   features.
 //! - [`print`](mod@print) writes programs and kernels in other languages.
 //!
 //! A fused product is an operation of the program, so that targets agree to the bit.
@@ -32,6 +33,7 @@ mod graph;
 mod interpret;
 #[cfg(feature = "programs")]
 mod kernel;
+pub mod limits;
 #[cfg(feature = "programs")]
 mod node;
 #[cfg(feature = "programs")]

@@ -737,7 +737,7 @@ const _: () = {
                 }
                 right = accept(c, &mu, &x, residual_bound, distance);
                 if !is_one(c, right) {
-                    driven.refuse(x, distance, residual_bound, tried);
+                    driven.refused = ::core::option::Option::Some((x, distance));
                     live = false;
                 }
                 if is_one(c, right) {

@@ -129,7 +129,7 @@ impl Writer<'_> {
             },
             Statement::Note => quote!(#driven.note(#tried, #bound);),
             Statement::RefuseStep => quote! {
-                #driven.refuse(#x, #distance, #bound, #tried);
+                #driven.refused = ::core::option::Option::Some((#x, #distance));
                 #live = false;
             },
             Statement::RefuseState => quote! {

@@ -2,9 +2,6 @@
 
 use crate::number::scalar::Scalar;
 
-/// The ratio up to which a step is accepted.
-pub(crate) use coadjoint_program::fold::LARGEST_RATIO;
-
 /// A last term that adds no more than rounding to coordinates of order one: what is left of a term that cancels (of a
 /// spherical body, say) is of this size, and its ratio means nothing.
 fn negligible<T: Scalar>() -> T {

@@ -29,10 +29,6 @@ pub trait LieGroup: Clone + Debug {
     /// An element g of the group.
     type Element: Clone + Debug;
 
-    /// Up to which share of a half turn the estimate of what Newton's method leaves of a step is taken for a bound; found
-    /// by experiments (`docs/measurements/stress.md`).
-    const ESTIMATED: f64 = 1.0 / 3.0;
-
     /// n, the dimension of the group.
     fn dim(&self) -> usize;
 

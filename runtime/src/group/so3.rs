@@ -152,8 +152,6 @@ impl<T: Scalar> LieGroup for SO3<T> {
     type Vector = Vector3<T>;
     type Element = UnitQuaternion<T>;
 
-    const ESTIMATED: f64 = 0.5;
-
     #[inline(always)]
     fn dim(&self) -> usize {
         3

@@ -1,5 +1,9 @@
 //! A step as a method of solution proposes it, and the sizes by which it is judged.
 
+use coadjoint_program::limits::NEAR;
+use nalgebra::SimdBool;
+
+use super::Settings;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
@@ -11,18 +15,41 @@ pub struct Candidate<V, T> {
     pub x: V,
     /// How far the solution lies from the first guess of p, relative to the largest coordinate of μ.
     pub moved: T,
-    /// A bound on what is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
+    /// What is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
     pub residual: T,
+    /// What is known of folds and forks of the equation at x.
+    pub branch: Branch,
     /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was done).
     pub iterations: u32,
+}
+
+/// Whether x = s ∂S(p) can have a fold or a fork at a solution for an s from 0 to 1, as far as the matrices there tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branch {
+    /// It has none: ‖∂p/∂x·Hess S‖ < 1, for the sums of rows.
+    Only,
+    /// The leading minors of 1 − ∂p/∂x·Hess S that belong to direct factors of the group are positive, as they are at the
+    /// identity.
+    Oriented,
+    /// Nothing is known, or the equation is not solved to rounding.
+    Unknown,
 }
 
 /// A candidate for a step of `S`.
 pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
-/// A solution this near to its first guess, relative to μ, is the one continued from the identity, since the guess is
-/// (tried by the program `stress`, not proven).
-pub(super) const NEAR: f64 = 0.05;
+/// The residual of a solved equation, relative to the largest coordinate of μ: rounding of many coordinates may stay above
+/// four units of it.
+pub(super) fn rounding<T: Scalar>(dim: usize, settings: Settings<T>) -> T {
+    (T::of((4.0 * dim as f64).min(32.0)) * T::epsilon()).simd_max(settings.tolerance())
+}
+
+impl<V, T: Scalar> Candidate<V, T> {
+    /// Whether the candidate solves its equation, near its first guess. What is not a number is not near.
+    pub(super) fn is_near_solution(&self) -> bool {
+        self.branch != Branch::Unknown && self.moved.simd_le(T::of(NEAR)).all()
+    }
+}
 
 /// The inverse of the largest coordinate of μ, by which sizes are measured; μ = 0, whose solution is p = 0, must not
 /// divide 0 by 0.

@@ -1,8 +1,9 @@
 //! The fixed point p = (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), for groups of many dimensions.
 
+use coadjoint_program::limits::NEAR;
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::candidate::{Candidate, CandidateOf, NEAR, inverse_scale};
+use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
 use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
@@ -10,10 +11,14 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// Evaluations of the fixed point allowed before the solver gives up.
-pub const MAX_EVALUATIONS: u32 = 60;
+const MAX_EVALUATIONS: u32 = 60;
+
+/// The distance from the guess at which iterations start, relative to the largest coordinate of μ: where motions are
+/// symmetric the guess may be exact, also beyond a fork.
+const DISTURBANCE: f64 = 1e-6;
 
 /// The solution for `scale`·S from this guess: more iterations than Newton's method, each with the gradient of S alone
-/// and work linear in the dimension.
+/// and work linear in the dimension. That they converge says that ∂p/∂x·Hess S contracts.
 pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -21,21 +26,23 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
     guess: VectorOf<S>,
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
-    let (group, chart) = (generating.group(), S::Chart::default());
-    let dim = mu.dim();
-    let (near, half) = (ScalarOf::<S>::of(NEAR), ScalarOf::<S>::of(0.5));
-    let (inverse_scale, tolerance) = (inverse_scale(mu), settings.tolerance());
-    // Rounding of many coordinates may stay above that: then it no longer halves.
-    let rounding = ScalarOf::<S>::of((4.0 * dim as f64).min(32.0)) * ScalarOf::<S>::epsilon();
+    let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
+    let (near, zero) = (ScalarOf::<S>::of(NEAR), ScalarOf::<S>::of(0.0));
+    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(dim, settings));
 
-    let mut p = guess.clone();
+    let disturbance = ScalarOf::<S>::of(DISTURBANCE) / inverse_scale;
+    let mut p = VectorOf::<S>::from_entries(dim, |i| {
+        let share = [1.0, -0.7, 0.4][i % 3];
+        disturbance.times_plus(ScalarOf::<S>::of(share), guess[i])
+    });
     let mut found = Candidate {
         x: mu.clone(),
-        moved: ScalarOf::<S>::of(0.0),
+        moved: zero,
         residual: ScalarOf::<S>::of(1.0),
+        branch: Branch::Unknown,
         iterations: 0,
     };
-    let mut open = near.simd_le(half);
+    let mut open = zero.simd_le(near);
     while found.iterations < MAX_EVALUATIONS {
         found.iterations += 1;
         let x = generating.gradient(&p);
@@ -43,19 +50,18 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
         let next = chart.pull_back(group, &x, mu);
         let left = next.clone().minus(&p).largest_entry() * inverse_scale;
         let moved = p.clone().minus(&guess).largest_entry() * inverse_scale;
-        // Stalled at rounding is solved as well as it can be.
-        let stalled = left.simd_gt(half * found.residual);
-        let done = left.simd_le(rounding.simd_max(tolerance).select(stalled, tolerance));
-        let left = left.simd_min(tolerance).select(done, left);
         found.x = x.select(open, &found.x);
         found.moved = moved.select(open, found.moved);
         found.residual = left.select(open, found.residual);
         // A point far from its guess will not be accepted, nor will NaN.
-        open = open & !done & moved.simd_le(near) & left.simd_le(ScalarOf::<S>::of(f64::MAX));
+        open = open & left.simd_gt(rounding) & moved.simd_le(near);
         if open.none() {
             break;
         }
         p = next;
+    }
+    if found.residual.simd_le(rounding).all() {
+        found.branch = Branch::Only;
     }
     found
 }

@@ -1,13 +1,11 @@
 //! Solving the equation of a step, x = ∂S/∂p((d^R τ_x)ᵀ μ), for any function S.
 //!
 //! Functions that are programs solve it by their own ([`Integrator::drive`]). For all others, and for the steps that
-//! programs refuse, this is the way: a [`Candidate`] by Newton's method or by the fixed point ([`Solver`]), which `accept`
-//! judges. A candidate that it refuses goes to `rescue`, which follows the solution from the identity or says why there is
-//! none.
+//! programs refuse, this is the way: a `Candidate` by Newton's method or by the fixed point ([`Solver`]), which `accept`
+//! judges. Where it is not certain to be the right one, the solution is followed from the identity.
 
 mod accept;
 mod candidate;
-mod confirm;
 mod continuation;
 mod fixed_point;
 mod newton;
@@ -15,12 +13,10 @@ mod plain;
 mod rate;
 mod settings;
 
-pub use candidate::{Candidate, CandidateOf};
-pub use fixed_point::MAX_EVALUATIONS;
-pub use newton::MAX_ITERATIONS;
 pub use settings::Settings;
 
-pub(crate) use accept::{judge, rescue};
+pub(crate) use accept::accept;
+pub(crate) use candidate::{Candidate, CandidateOf};
 #[doc(hidden)]
 pub use rate::estimated_ratio;
 
@@ -80,8 +76,8 @@ pub struct Driven<V, T> {
     pub iterations: u32,
     /// The largest residual of a step, relative to the largest coordinate of μ.
     pub residual: T,
-    /// The next step, where it was solved for and refused.
-    pub refused: Option<Candidate<V, T>>,
+    /// The next step, where it was solved for and refused: its x, and how far p lies from its first guess.
+    pub refused: Option<(V, T)>,
 }
 
 /// The outcome of driving the programs of `S`.
@@ -102,9 +98,9 @@ pub struct Solution<V, T> {
     pub p: V,
     /// x = ∂S/∂p(p), the chart coordinate of the group increment.
     pub x: V,
-    /// See [`Candidate::iterations`].
+    /// Newton iterations, or evaluations of the fixed point.
     pub iterations: u32,
-    /// See [`Candidate::residual`].
+    /// What is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
     pub residual: T,
 }
 
@@ -131,7 +127,7 @@ pub fn solve_from<S: Integrator + ?Sized>(
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
     let settings = Settings::default();
     let candidate = propose(generating, mu, guess, settings);
-    let Candidate { x, iterations, residual, .. } = judge(generating, mu, candidate, settings)?;
+    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate, settings)?;
     let p = S::Chart::default().pull_back(generating.group(), &x, mu);
     Ok(Solution { p, x, iterations, residual })
 }
@@ -143,13 +139,10 @@ pub(crate) fn propose<S: Integrator + ?Sized>(
     guess: VectorOf<S>,
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
-    match generating.solver() {
-        Solver::Newton => newton::newton(generating, mu, guess, settings),
-        Solver::FixedPoint => propose_scaled(generating, mu, Scalar::of(1.0), guess, settings),
-    }
+    propose_scaled(generating, mu, Scalar::of(1.0), guess, settings)
 }
 
-/// The solution for `scale`·S from this guess of p, as a continuation asks for it; what is left of it is measured.
+/// The same for `scale`·S, as a continuation asks for it.
 fn propose_scaled<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -158,7 +151,7 @@ fn propose_scaled<S: Integrator + ?Sized>(
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     match generating.solver() {
-        Solver::Newton => newton::careful(generating, mu, scale, guess, settings),
+        Solver::Newton => newton::newton(generating, mu, scale, guess, settings),
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess, settings),
     }
 }

@@ -1,18 +1,15 @@
 //! The rate at which motions part in a step: what tells whether a series of few terms means something, where the ratio of
 //! its last two terms does not.
 
+use coadjoint_program::limits::{LARGEST_RATIO, RATE_OF_HALF_TURN};
 use nalgebra::SimdComplexField;
 
 use super::{Integrator, Solver};
 use crate::chart::Chart;
-use crate::generating::series::LARGEST_RATIO;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-
-/// The rate that a half turn counts as where steps are solved by the fixed point, without Hessians.
-const OF_HALF_TURN: f64 = 4.0;
 
 /// The ratio of terms that the rate at x stands for: up to [`LARGEST_RATIO`] where the rate is at most
 /// [`largest_rate`](crate::GeneratingFunction::largest_rate), zero where that is unbounded.
@@ -28,7 +25,7 @@ pub fn estimated_ratio<S: Integrator + ?Sized>(
     let square = match generating.solver() {
         Solver::Newton => square_of_rate(generating, mu, x),
         Solver::FixedPoint => {
-            let half_turn = ScalarOf::<S>::of(OF_HALF_TURN * OF_HALF_TURN);
+            let half_turn = ScalarOf::<S>::of(RATE_OF_HALF_TURN * RATE_OF_HALF_TURN);
             half_turn * S::Chart::default().extent(generating.group(), x)
         }
     };

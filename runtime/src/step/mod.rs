@@ -15,7 +15,7 @@ use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-use crate::solve::{Candidate, CandidateOf, Integrator, Settings, judge, propose, rescue};
+use crate::solve::{Candidate, Integrator, Settings, accept, propose};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +106,7 @@ pub fn advance_with<S: Integrator + ?Sized>(
     by_hand(generating, phase, None, settings)
 }
 
-/// One step without programs, or of the candidate that programs have found and refused.
+/// One step without programs, or from the x that programs have found and refused, and its distance from their guess.
 ///
 /// # Errors
 /// As [`advance`].
@@ -115,18 +115,19 @@ pub fn advance_with<S: Integrator + ?Sized>(
 fn by_hand<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
-    refused: Option<CandidateOf<S>>,
+    refused: Option<(VectorOf<S>, ScalarOf<S>)>,
     settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let mu = &phase.momentum;
-    let Candidate { x, iterations, residual, .. } = match refused {
-        Some(candidate) => rescue(generating, mu, candidate, settings)?,
-        None => {
-            let guess = generating.predict(mu);
-            let candidate = propose(generating, mu, guess, settings);
-            judge(generating, mu, candidate, settings)?
+    let (guess, distance) = match refused {
+        Some((x, distance)) => {
+            (S::Chart::default().pull_back(generating.group(), &x, mu), distance)
         }
+        None => (generating.predict(mu), ScalarOf::<S>::of(0.0)),
     };
+    let mut candidate = propose(generating, mu, guess, settings);
+    candidate.moved += distance;
+    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate, settings)?;
     reconstruct(generating, phase, &x)?;
     Ok(StepReport { iterations, residual })
 }

@@ -8,7 +8,7 @@ use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::number::program::{Coefficients, Number, Registers};
 use crate::number::scalar::Scalar;
-use crate::solve::{Candidate, Driven};
+use crate::solve::Driven;
 use crate::step::numbers::ElementNumbers;
 
 /// Steps after which a comoving frame moves on and the state is checked: few enough for the integrals of the frame, which
@@ -47,9 +47,7 @@ where
         phase.momentum = mu.into();
     }
     let refused = match refused {
-        Some(Candidate { x, moved, residual, iterations }) => {
-            Some(Candidate { x: x.into(), moved, residual, iterations })
-        }
+        Some((x, distance)) => Some((x.into(), distance)),
         None => None,
     };
     Driven { steps, iterations, residual, refused }
@@ -136,13 +134,6 @@ impl<V, T: Number> Driven<V, T> {
         self.iterations = self.iterations.max(corrections as u32);
         let larger = self.residual.simd_le(residual_bound);
         self.residual = residual_bound.select(larger, self.residual);
-    }
-
-    /// Keeps the candidate of a refused step.
-    #[inline(always)]
-    pub fn refuse(&mut self, x: V, distance: T, residual_bound: T, corrections: u64) {
-        let (moved, residual, iterations) = (distance, residual_bound, corrections as u32);
-        self.refused = Some(Candidate { x, moved, residual, iterations });
     }
 }
 

@@ -22,6 +22,9 @@ use crate::problem::{Problem, Solver};
 /// [`Integrator::largest_rate`] of K = 1, 3, 5.
 const LARGEST_RATES: [f64; 3] = [0.95, 1.9, 3.0];
 
+/// Terms of S₃ that are derived to learn whether it vanishes, where K = 1.
+const TERMS_OF_THIRD: usize = 1000;
+
 /// Everything a back end needs to write or run a step: exact coefficients and straight-line
 /// programs over them.
 ///
@@ -56,26 +59,14 @@ pub struct Integrator {
     pub frame: Vec<Program>,
     /// The kicks of a potential between flows.
     pub kicks: Option<Kicks>,
+    /// The largest rate at which motions may part in a step, where the ratio of the last terms of the series tells too
+    /// little: with Z = ad_xᵀ + 2 ∂p/∂x·Hess S, to first order h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ, the rate is
+    /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₁ is the whole series, and
+    /// for learned maps.
+    pub largest_rate: Option<f64>,
 }
 
 impl Integrator {
-    /// The largest rate at which motions may part in a step, where the ratio of the last terms of the series tells too
-    /// little: with Z = ad_xᵀ + 2 ∂p/∂x·Hess S, to first order h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ, the rate is
-    /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₃ … S_K vanish, so that
-    /// S₁ is the whole series, and for learned maps.
-    #[must_use]
-    pub fn largest_rate(&self) -> Option<f64> {
-        let problem = &self.problem;
-        let whole = problem.truncation > 1 && self.coefficients.beyond_first().is_empty();
-        match problem.truncation {
-            _ if problem.learned || whole => None,
-            1 => Some(LARGEST_RATES[0]),
-            3 => Some(LARGEST_RATES[1]),
-            5 => Some(LARGEST_RATES[2]),
-            _ => None,
-        }
-    }
-
     /// Derives the series and lowers it.
     ///
     /// # Errors
@@ -145,6 +136,14 @@ impl Integrator {
                 lower::vector_program(table, dim, &components)
             }
         };
+        let largest_rate = match problem.truncation {
+            1 => Some(LARGEST_RATES[0]),
+            3 => Some(LARGEST_RATES[1]),
+            5 => Some(LARGEST_RATES[2]),
+            _ => None,
+        };
+        let is_series = || !problem.learned && !is_first_whole(&problem, table);
+        let largest_rate = largest_rate.filter(|_| is_series());
         let gradient = gradient.unwrap_or_else(|| lower::Gradient::new(table, dim, &s)).program();
         let value = lower::value_program(table, dim, &s);
         let energy = lower::value_program(table, dim, &h);
@@ -171,6 +170,7 @@ impl Integrator {
             energy,
             frame,
             kicks: None,
+            largest_rate,
         })
     }
 
@@ -197,4 +197,15 @@ impl Integrator {
     pub fn order(&self) -> usize {
         self.problem.truncation + 1
     }
+}
+
+/// Whether S₃ … S_K vanish, and S₃ where K = 1.
+fn is_first_whole(problem: &Problem, coefficients: &Coefficients) -> bool {
+    if problem.truncation > 1 {
+        return coefficients.beyond_first().is_empty();
+    }
+    let limit = TermLimit::new(TERMS_OF_THIRD);
+    let Problem { algebra, chart, .. } = problem;
+    hamilton_jacobi::derive(algebra, *chart, problem.generated(), 3, limit)
+        .is_ok_and(|series| series.order(3).is_zero())
 }

@@ -3,7 +3,8 @@
 use crate::graph::{Graph, Id};
 use crate::step::vector::Matrix;
 
-/// [`Part::estimated`] where nothing better is known.
+/// [`Part::estimated`] where nothing better is known, and where S is no series with a radius: beyond, estimates were found
+/// ten times too small.
 pub(crate) const ESTIMATED: f64 = 1.0 / 3.0;
 
 /// A factor of a group, with the chart of a step: what programs of a step are built of.
@@ -46,8 +47,8 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     /// finite. These formulas hold up to half a half turn.
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id;
 
-    /// Up to which share of a half turn the estimate of what Newton's method leaves is taken for a bound, as in the runtime
-    /// (`LieGroup::ESTIMATED`).
+    /// Up to which share of a half turn the estimate of what Newton's method leaves is taken for a bound, if S is a series
+    /// with a radius.
     fn estimated(&self) -> f64 {
         ESTIMATED
     }

@@ -1,10 +1,11 @@
 //! The programs of a step, put together.
 
+use coadjoint_program::limits::{NEAR, RATE_OF_HALF_TURN};
 use coadjoint_program::{Kernel, KernelParts, Programs};
 use num_traits::ToPrimitive;
 
 use super::error::StepError;
-use super::part::Part;
+use super::part::{ESTIMATED, Part};
 use super::product::Product;
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
@@ -12,15 +13,6 @@ use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Kicks};
 use crate::lie;
 use crate::poly::Polynomial;
-
-/// A solution this near to its first guess, relative to μ, is the one continued from the identity.
-const NEAR: f64 = 0.05;
-
-/// Up to which share of a half turn steps are accepted at once where S is no series with a radius; else it is the group's.
-const OF_OTHERS: f64 = 1.0 / 3.0;
-
-/// The rate at which motions part that a half turn counts as, as in the runtime (`solve::rate`).
-const RATE_OF_HALF_TURN: f64 = 4.0;
 
 /// The programs of a step; the integrator's folded coefficients come first, after them those of the bound on the
 /// Hessian, and the square of the radius.
@@ -101,10 +93,10 @@ fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usiz
     let radius = graph.slot(radius);
     let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     // Newton's method judges the rate at which motions part with its matrices, the fixed point by the turn.
-    let rate = integrator.largest_rate().filter(|_| scheme == Scheme::FixedPoint);
+    let rate = integrator.largest_rate.filter(|_| scheme == Scheme::FixedPoint);
     let most = rate.map_or(1.0, |rate| rate / RATE_OF_HALF_TURN);
     let [series, others] =
-        [group.estimated(), OF_OTHERS].map(|share| inverse_square(share.min(most)));
+        [group.estimated(), ESTIMATED].map(|share| inverse_square(share.min(most)));
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
     let share = graph.select(radius, finite, series, others);

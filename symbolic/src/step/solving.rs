@@ -196,7 +196,7 @@ fn linearised(
     });
     let residual = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
     let jacobian = Eliminated::new(graph, &jacobian);
-    let rate = integrator.largest_rate().map(|largest| {
+    let rate = integrator.largest_rate.map(|largest| {
         let rate = square_of_rate(graph, &integrator.problem.algebra, x, &product);
         (rate, graph.constant(largest * largest))
     });

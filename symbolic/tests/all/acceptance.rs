@@ -2,6 +2,8 @@
 
 use coadjoint_symbolic::hamilton_jacobi::TermLimit;
 use coadjoint_symbolic::integrator::Integrator;
+#[cfg(feature = "judge")]
+use coadjoint_symbolic::judge::Judge;
 use coadjoint_symbolic::lie::{Chart, catalogue};
 use coadjoint_symbolic::number::ratio;
 use coadjoint_symbolic::poly::Polynomial;
@@ -11,13 +13,13 @@ use coadjoint_symbolic::step::Step;
 /// 60 c of a body.
 const BODY: [i64; 3] = [40, 30, 24];
 
-/// The step of ½ Σ cᵢ pᵢ², 60 c being these in turn.
-fn step(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver>) -> Step {
+/// ½ Σ cᵢ pᵢ², 60 c being these in turn.
+fn problem(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver>) -> Problem {
     let algebra = catalogue::lookup(group).unwrap();
     let n = algebra.dim();
     let square = |i: usize| Polynomial::variable(n, i).pow(2).scale(&ratio(squares[i % 3], 120));
     let hamiltonian = (0..n).fold(Polynomial::zero(n), |sum, i| &sum + &square(i));
-    let problem = Problem {
+    Problem {
         name: "body".to_owned(),
         algebra,
         coordinates: (0..n).map(|i| format!("m{i}")).collect(),
@@ -30,9 +32,16 @@ fn step(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver
         solver,
         comoving: None,
         learned: false,
-    };
+    }
+}
+
+fn built(problem: Problem) -> Step {
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
     Step::build(&integrator).unwrap()
+}
+
+fn step(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver>) -> Step {
+    built(problem(group, squares, truncation, solver))
 }
 
 /// The coefficients of a step of size 1, where the radius of the series is this.
@@ -91,4 +100,74 @@ fn series_of_few_terms_limit_the_rate() {
     let turn = |truncation, size| accepted(BODY, truncation, Solver::FixedPoint, size);
     assert!(turn(1, 1.8) && !turn(1, 1.95));
     assert!(turn(7, 1.95));
+}
+
+/// Where S₃ vanishes S₁ is the whole series, and motions may part at any rate: a spherical body, with K = 1 as with K = 3.
+#[test]
+fn a_series_that_ends_has_no_limit_of_the_rate() {
+    for truncation in [1, 3] {
+        let accepted = |squares| {
+            let step = step("SO3", squares, truncation, Some(Solver::FixedPoint));
+            step.kernel().attempt(&folded(&step, 1e3), &[0.0, 0.0, 3.8]).accepted
+        };
+        assert!(accepted([24; 3]) && !accepted([40, 30, 24]), "{truncation}");
+    }
+}
+
+/// What a kernel estimates of a residual is enough: each increment that it accepts solves its equation to rounding. By
+/// Newton's method, by chords, by the fixed point; where the Hessian is truncated; where H is no square.
+#[cfg(feature = "judge")]
+#[test]
+fn accepted_increments_solve_their_equation() {
+    let quartic = |mut problem: Problem| {
+        let n = problem.algebra.dim();
+        let square = Polynomial::variable(n, 0).pow(2);
+        let fourth = (&square * &square).scale(&ratio(1, 8));
+        problem.hamiltonian = &problem.hamiltonian + &fourth;
+        problem
+    };
+    let cayley = |problem: Problem| Problem { chart: Chart::Cayley, ..problem };
+    let of = |group, truncation, solver| problem(group, BODY, truncation, solver);
+    let fixed = Some(Solver::FixedPoint);
+    let problems = [
+        of("SO3", 7, None),
+        of("SO3", 9, None),
+        of("SO3", 5, fixed),
+        cayley(of("SO3", 7, None)),
+        quartic(of("SO3", 5, None)),
+        quartic(of("SU2", 7, None)),
+        of("SE2", 5, None),
+        of("SE3", 5, None),
+        quartic(of("SE3", 3, None)),
+        of("SL2", 5, None),
+        of("SO3*SE2", 3, fixed),
+        of("SO4", 3, None),
+    ];
+    for problem in problems {
+        let name = format!("{} {} {:?}", problem.algebra.name(), problem.truncation, problem.chart);
+        let dim = problem.algebra.dim();
+        let judge = Judge::of_problem(&problem, TermLimit::default()).unwrap();
+        let mut setting = judge.at(1.0, &[]).unwrap();
+        let step = built(problem);
+        let coefficients = step.fold(1.0, &[]).unwrap();
+        let (mut accepted, mut worst) = (0, 0.0_f64);
+        for k in 0..400 {
+            let k = f64::from(k);
+            let size = 1.8 * (0.5 + 0.5 * (0.77 * k).sin());
+            let entry = |i: usize| size * ((1.3 + i as f64) * k + 0.2 * i as f64).sin();
+            let mu: Vec<f64> = (0..dim).map(entry).collect();
+            let found = step.kernel().attempt(&coefficients, &mu);
+            if found.accepted {
+                accepted += 1;
+                let point = setting.step(&mu).unwrap();
+                let left = point.residual(&found.increment, 0.5 * f64::EPSILON).unwrap();
+                worst = worst.max(left.relative());
+            }
+        }
+        println!("{name}: {accepted} of 400, {worst:.3} of the bound");
+        assert!(
+            accepted > 100 && worst <= 1.0,
+            "{name}: {accepted} of 400, {worst:.3} of the bound"
+        );
+    }
 }

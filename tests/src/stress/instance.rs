@@ -176,10 +176,9 @@ impl Case<'_> {
         let exact: Vec<String> = mu.iter().map(|&m| hex(m)).collect();
         let (family, seed, h, text) = (self.family, self.seed, hex(self.h), &self.system.text);
         let turn = self.h.abs() * speed(self.system, mu);
-        let share = mu.iter().copied().fold(0.0, f64::hypot) / self.steps.radius();
         let exact = exact.join(", ");
         format!(
-            "{what}\n    --only {family} --instance {seed}: h = {h} ({}), h|Ω| = {turn:.4}, |μ| = {share:.3} of the radius\n    μ = [{exact}] = {mu:?}\n    {text}",
+            "{what}\n    --only {family} --instance {seed}: h = {h} ({}), h|Ω| = {turn:.4}\n    μ = [{exact}] = {mu:?}\n    {text}",
             self.h
         )
     }

@@ -58,7 +58,6 @@ struct Runner {
     subject: Arc<Subject>,
     stepper: AnyStepper,
     slots: Vec<f64>,
-    radius: f64,
 }
 
 impl Runner {
@@ -122,10 +121,6 @@ impl Steps for Runner {
         Some(outcomes)
     }
 
-    fn radius(&self) -> f64 {
-        self.radius
-    }
-
     fn unit(&self) -> f64 {
         0.5 * f64::EPSILON
     }
@@ -163,9 +158,8 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
         let subject = Arc::clone(&subject);
         let steps = move |h: f64, _: &mut Random| {
             let slots = subject.step.fold(h, &[]).ok()?;
-            let radius = slots[subject.step.radius_at()].sqrt();
             let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
-            Some(Made::series(Runner { subject, stepper, slots, radius }))
+            Some(Made::series(Runner { subject, stepper, slots }))
         };
         System {
             text: text.clone(),

@@ -64,9 +64,6 @@ pub trait Steps {
     /// The same steps of several states at once, in lanes; `None` where there are none.
     fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>>;
 
-    /// The |μ| up to which the bound on the series' terms tells that it converges.
-    fn radius(&self) -> f64;
-
     /// The unit roundoff of the scalar.
     fn unit(&self) -> f64;
 
@@ -162,10 +159,6 @@ impl<S: Integrator> Steps for Runner<S> {
                 Outcome { before, after: self.state(phase), error }
             });
         Some(outcomes.collect())
-    }
-
-    fn radius(&self) -> f64 {
-        self.steps.radius().largest_lane()
     }
 
     fn unit(&self) -> f64 {

@@ -130,8 +130,6 @@ impl<T: Scalar, G: LieGroup<Scalar = T>> LieGroup for DirectProduct<G> {
     type Vector = DVector<T>;
     type Element = Vec<G::Element>;
 
-    const ESTIMATED: f64 = G::ESTIMATED;
-
     fn dim(&self) -> usize {
         self.dim
     }

@@ -112,8 +112,6 @@ where
     type Vector = SVector<T, N>;
     type Element = (A::Element, B::Element);
 
-    const ESTIMATED: f64 = if A::ESTIMATED < B::ESTIMATED { A::ESTIMATED } else { B::ESTIMATED };
-
     #[inline(always)]
     fn dim(&self) -> usize {
         N

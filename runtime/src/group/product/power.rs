@@ -118,8 +118,6 @@ where
     type Vector = SVector<T, N>;
     type Element = [G::Element; COPIES];
 
-    const ESTIMATED: f64 = G::ESTIMATED;
-
     #[inline(always)]
     fn dim(&self) -> usize {
         N

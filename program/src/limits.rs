@@ -1,0 +1,12 @@
+//! The limits up to which steps are accepted, by kernels and by the runtime's generic step. All come from experiments
+//! (`docs/measurements`).
+
+/// The ratio of the last two terms of a series up to which it is trusted.
+pub const LARGEST_RATIO: f64 = 0.5;
+
+/// The distance of a solution from its first guess, relative to the largest coordinate of μ, up to which it is the one
+/// continued from the identity, if nothing else speaks against it.
+pub const NEAR: f64 = 0.05;
+
+/// The rate at which motions part that a half turn counts as, where a step is solved without the Hessian of S.
+pub const RATE_OF_HALF_TURN: f64 = 4.0;
