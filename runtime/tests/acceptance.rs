@@ -190,6 +190,26 @@ fn the_solution_continued_from_the_identity_is_taken() {
     assert!(accepted > 200 && refused > 100, "{accepted}, {refused}");
 }
 
+/// From a useless guess the solution is followed, which ends where it folds: short waves have others next to it.
+#[test]
+fn a_solution_that_folds_is_not_followed_to_the_next() {
+    let (mut followed, mut refused) = (0, 0);
+    for (height, count) in [(0.06, 100.0), (0.02, 300.0), (0.006, 1000.0), (0.02, 1000.0)] {
+        let step = Waves::new(height, count, Solver::Newton);
+        for mu in momenta(60) {
+            let Ok(solution) = solve_from(&step, &mu, 3.0 * mu) else {
+                refused += 1;
+                continue;
+            };
+            followed += 1;
+            let right = step.followed(&mu);
+            let off = right.map_or(f64::INFINITY, |right| (solution.x - right).amax());
+            assert!(off < 1e-10, "{height}, {count}, {mu:?}: {off:e}");
+        }
+    }
+    assert!(followed > 10 && refused > 2, "{followed}, {refused}");
+}
+
 /// The x that programs have refused is where the solution is looked for, but it was not near their guess.
 #[test]
 fn a_refused_solution_is_not_taken_for_the_right_one() {

@@ -367,8 +367,8 @@ fn chord_correction(
 }
 
 /// The guess, and a correction by two evaluations of the fixed point: p, μ, 1/scale ↦ p after both, the x of the second,
-/// the residual bound at that x, the length of the correction. Where the second evaluation moves p by rounding alone and more
-/// than half as far as the first, the solution is as exact as it can be.
+/// the residual bound at that x, the length of the correction. The equation is solved where the second evaluation moves p by
+/// rounding alone.
 fn fixed_point(
     integrator: &Integrator,
     group: &Product,
@@ -396,18 +396,15 @@ fn fixed_point(
     };
     let (_, once) = evaluate(&mut graph, &p);
     let (x, twice) = evaluate(&mut graph, &once);
-    let first = distance(&mut graph, &p, &once);
     let second = distance(&mut graph, &once, &twice);
     let moved = distance(&mut graph, &p, &twice);
     let tolerance = tolerance(&mut graph);
     let many = (ROUNDINGS_EACH * n as f64).clamp(ROUNDINGS, MOST_ROUNDINGS);
-    let (many, half) = (graph.constant(many), graph.constant(0.5));
+    let many = graph.constant(many);
     let unit = graph.epsilon();
     let rounding = graph.mul(many, unit);
-    let halved = graph.mul(half, first);
-    let allowed = graph.select(second, halved, tolerance, rounding);
     let solved = graph.min(second, tolerance);
-    let bound = graph.select(second, allowed, solved, second);
+    let bound = graph.select(second, rounding, solved, second);
     // The largest of many numbers may hide one that is none.
     let rest = finite(&mut graph, &twice);
     let bound = graph.add(bound, rest);

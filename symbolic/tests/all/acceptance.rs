@@ -1,7 +1,11 @@
 //! The program that accepts a step: each of its conditions, a hair inside and outside.
 
 use coadjoint_symbolic::hamilton_jacobi::TermLimit;
+#[cfg(feature = "judge")]
+use coadjoint_symbolic::hamilton_jacobi::derive;
 use coadjoint_symbolic::integrator::Integrator;
+#[cfg(feature = "judge")]
+use coadjoint_symbolic::integrator::{Plan, Predictor};
 #[cfg(feature = "judge")]
 use coadjoint_symbolic::judge::Judge;
 use coadjoint_symbolic::lie::{Chart, catalogue};
@@ -75,6 +79,9 @@ fn each_condition_counts() {
     assert!(at(1.001 * size) && !at(0.999 * size));
     let two = |radius| verdict("SO3*SO3", radius, &[mu, mu].concat(), &[x, x].concat(), 0.0, 0.0);
     assert!(two(1.001 * size) && !two(0.999 * size));
+    let beside = [[0.0; 3], mu].concat();
+    let fast = |radius| verdict("SO3*SO3", radius, &beside, &[x, x].concat(), 0.0, 0.0);
+    assert!(fast(1.001 * size) && !fast(0.999 * size));
     // A quarter turn with a radius, a sixth of a turn without.
     let turned = |radius, by: f64| verdict("SO3", radius, &mu, &[0.0, by, 0.0], 0.0, 0.0);
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -96,6 +103,7 @@ fn series_of_few_terms_limit_the_rate() {
     let saddle = |truncation, size| accepted([120, -120, 12], truncation, Solver::Newton, size);
     assert!(saddle(1, 0.4) && !saddle(1, 0.6));
     assert!(saddle(3, 0.5) && !saddle(3, 2.5));
+    assert!(saddle(5, 0.6) && !saddle(5, 2.5));
     assert!(saddle(7, 0.6));
     let turn = |truncation, size| accepted(BODY, truncation, Solver::FixedPoint, size);
     assert!(turn(1, 1.8) && !turn(1, 1.95));
@@ -114,41 +122,67 @@ fn a_series_that_ends_has_no_limit_of_the_rate() {
     }
 }
 
+/// A coordinate of which S knows nothing.
+#[test]
+fn a_coordinate_that_is_not_finite_is_not_hidden_by_others() {
+    let mut problem = problem("SO3*R1", BODY, 3, Some(Solver::FixedPoint));
+    let last = Polynomial::variable(4, 3).pow(2).scale(&ratio(BODY[0], 120));
+    problem.hamiltonian = &problem.hamiltonian - &last;
+    let step = built(problem);
+    let accepted =
+        |last| step.kernel().attempt(&folded(&step, 1e3), &[0.1, 0.2, 0.3, last]).accepted;
+    assert!(accepted(0.4) && !accepted(f64::NAN) && !accepted(f64::INFINITY));
+}
+
 /// What a kernel estimates of a residual is enough: each increment that it accepts solves its equation to rounding. By
-/// Newton's method, by chords, by the fixed point; where the Hessian is truncated; where H is no square.
+/// Newton's method, by chords after a poor guess, by the fixed point; where the Hessian is truncated; where H is no square.
 #[cfg(feature = "judge")]
 #[test]
 fn accepted_increments_solve_their_equation() {
-    let quartic = |mut problem: Problem| {
-        let n = problem.algebra.dim();
-        let square = Polynomial::variable(n, 0).pow(2);
+    let quartic = |i: usize, mut problem: Problem| {
+        let square = Polynomial::variable(problem.algebra.dim(), i).pow(2);
         let fourth = (&square * &square).scale(&ratio(1, 8));
         problem.hamiltonian = &problem.hamiltonian + &fourth;
         problem
     };
     let cayley = |problem: Problem| Problem { chart: Chart::Cayley, ..problem };
     let of = |group, truncation, solver| problem(group, BODY, truncation, solver);
+    let flat = |truncation| problem("SO3", [40, 30, 0], truncation, None);
     let fixed = Some(Solver::FixedPoint);
+    let poor = |degree, hessian_truncation| {
+        let (solver, predictor) = (Solver::Newton, Predictor::Explicit(degree));
+        Some(Plan { solver, predictor, hessian_truncation })
+    };
     let problems = [
-        of("SO3", 7, None),
-        of("SO3", 9, None),
-        of("SO3", 5, fixed),
-        cayley(of("SO3", 7, None)),
-        quartic(of("SO3", 5, None)),
-        quartic(of("SU2", 7, None)),
-        of("SE2", 5, None),
-        of("SE3", 5, None),
-        quartic(of("SE3", 3, None)),
-        of("SL2", 5, None),
-        of("SO3*SE2", 3, fixed),
-        of("SO4", 3, None),
+        (of("SO3", 7, None), None),
+        (of("SO3", 7, None), poor(2, 7)),
+        (of("SO3", 7, None), poor(4, 3)),
+        (of("SO3", 9, None), None),
+        (of("SO3", 5, fixed), None),
+        (cayley(of("SO3", 7, None)), None),
+        (quartic(0, of("SO3", 5, None)), None),
+        (quartic(0, of("SO3", 5, None)), poor(2, 5)),
+        (quartic(2, flat(3)), None),
+        (quartic(2, flat(5)), poor(2, 5)),
+        (quartic(0, of("SU2", 7, None)), None),
+        (of("SE2", 5, None), None),
+        (of("SE3", 5, None), None),
+        (of("SE3", 3, None), poor(2, 3)),
+        (quartic(0, of("SE3", 3, None)), None),
+        (of("SL2", 5, None), None),
+        (of("SO3*SE2", 3, fixed), None),
+        (of("SO4", 3, None), None),
+        (of("SO3^9", 3, None), None),
     ];
-    for problem in problems {
-        let name = format!("{} {} {:?}", problem.algebra.name(), problem.truncation, problem.chart);
-        let dim = problem.algebra.dim();
-        let judge = Judge::of_problem(&problem, TermLimit::default()).unwrap();
+    for (problem, plan) in problems {
+        let Problem { algebra, truncation, chart, .. } = &problem;
+        let name = format!("{} {truncation} {chart:?} {plan:?}", algebra.name());
+        let (dim, limit) = (algebra.dim(), TermLimit::default());
+        let series = derive(algebra, *chart, &problem.hamiltonian, *truncation, limit).unwrap();
+        let judge = Judge::of_problem(&problem, limit).unwrap();
         let mut setting = judge.at(1.0, &[]).unwrap();
-        let step = built(problem);
+        let integrator = Integrator::with_plan(problem, series, plan, limit).unwrap();
+        let step = Step::build(&integrator).unwrap();
         let coefficients = step.fold(1.0, &[]).unwrap();
         let (mut accepted, mut worst) = (0, 0.0_f64);
         for k in 0..400 {
@@ -159,14 +193,14 @@ fn accepted_increments_solve_their_equation() {
             let found = step.kernel().attempt(&coefficients, &mu);
             if found.accepted {
                 accepted += 1;
-                let point = setting.step(&mu).unwrap();
-                let left = point.residual(&found.increment, 0.5 * f64::EPSILON).unwrap();
-                worst = worst.max(left.relative());
+                let judged = setting.step(&mu).unwrap();
+                let point = judged.at(&found.increment).unwrap();
+                worst = worst.max(point.residual(0.5 * f64::EPSILON).relative());
             }
         }
         println!("{name}: {accepted} of 400, {worst:.3} of the bound");
         assert!(
-            accepted > 100 && worst <= 1.0,
+            accepted > 50 && worst <= 1.0,
             "{name}: {accepted} of 400, {worst:.3} of the bound"
         );
     }

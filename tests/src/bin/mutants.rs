@@ -255,12 +255,6 @@ const MUTANTS: &[Mutant] = &[
         "1e3 * ROUNDINGS_EACH * n as f64",
     ),
     mutant(
-        "kernel: stalled at any length",
-        SOLVING,
-        "graph.select(second, halved, tolerance, rounding)",
-        "graph.select(second, halved, rounding, rounding)",
-    ),
-    mutant(
         "kernel: what the Hessian leaves out",
         SOLVING,
         "let half = graph.mul(half, scale);\n        bound = graph.mul(half, bound);",
@@ -277,6 +271,12 @@ const MUTANTS: &[Mutant] = &[
         SOLVING,
         "let curved = graph.times_plus(four, bend, curved);",
         "let curved = graph.sub(four, four);",
+    ),
+    mutant(
+        "kernel: the matrices of a chord's own place",
+        SOLVING,
+        "let far = graph.add(first_stretch, stretch);",
+        "let far = graph.sub(stretch, stretch);",
     ),
     mutant(
         "kernel: curvature of a series that is no square",
