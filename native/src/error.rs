@@ -68,3 +68,28 @@ pub enum NativeError {
         message: String,
     },
 }
+
+/// The first lines of what a compiler said that tell of an error, else its first lines, in one line.
+pub(crate) fn first_errors(log: &str) -> String {
+    const LINES: usize = 3;
+    const LONGEST: usize = 400;
+    let lines = || log.lines().map(str::trim).filter(|line| !line.is_empty());
+    let errors: Vec<&str> = lines().filter(|line| line.contains("error")).take(LINES).collect();
+    let chosen = if errors.is_empty() { lines().take(LINES).collect() } else { errors };
+    let text: String = chosen.join("; ").chars().take(LONGEST).collect();
+    if text.is_empty() { "it said nothing".into() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_errors;
+
+    #[test]
+    fn a_log_becomes_one_line_about_the_error() {
+        let log = "warning: a\n\n  x.cl:3: error: no such thing  \nnote: b\nerror: c\n";
+        assert_eq!(first_errors(log), "x.cl:3: error: no such thing; error: c");
+        assert_eq!(first_errors("nothing\nmore\n"), "nothing; more");
+        assert_eq!(first_errors(" \n"), "it said nothing");
+        assert!(first_errors(&"error ".repeat(1000)).len() <= 400);
+    }
+}

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use super::options::{COptions, LIBRARY};
 use super::process::{Fault, Finished, run};
-use crate::error::NativeError;
+use crate::error::{NativeError, first_errors};
 
 /// A C compiler that answers.
 #[derive(Clone, Debug)]
@@ -140,7 +140,7 @@ impl Compiler {
         if finished.status.success() {
             return Ok(finished);
         }
-        let message = telling_line(&finished.errors, &finished.output);
+        let message = first_errors(&format!("{}\n{}", finished.errors, finished.output));
         Err(NativeError::Failed { compiler, status: finished.status.to_string(), message })
     }
 }
@@ -153,12 +153,4 @@ fn split(command: &OsStr) -> (OsString, Vec<OsString>) {
         Some(program) => (program, words.collect()),
         None => (command.to_owned(), Vec::new()),
     }
-}
-
-/// The first line that tells of an error, else the first that tells anything.
-fn telling_line(errors: &str, output: &str) -> String {
-    let lines =
-        || errors.lines().chain(output.lines()).map(str::trim).filter(|line| !line.is_empty());
-    let told = lines().find(|line| line.contains("error")).or_else(|| lines().next());
-    told.map_or_else(|| "it said nothing".into(), |line| line.chars().take(300).collect())
 }

@@ -89,29 +89,3 @@ pub enum DeviceError {
         dim: usize,
     },
 }
-
-/// The first lines of what a compiler said that tell of an error, in one line.
-#[cfg(any(feature = "opencl", feature = "cuda"))]
-pub(crate) fn head(log: &str) -> String {
-    const LINES: usize = 3;
-    const LONGEST: usize = 400;
-    let lines = || log.lines().map(str::trim).filter(|line| !line.is_empty());
-    let errors: Vec<&str> = lines().filter(|line| line.contains("error")).take(LINES).collect();
-    let chosen = if errors.is_empty() { lines().take(LINES).collect() } else { errors };
-    let text: String = chosen.join("; ").chars().take(LONGEST).collect();
-    if text.is_empty() { "its compiler does not say why".into() } else { text }
-}
-
-#[cfg(all(test, any(feature = "opencl", feature = "cuda")))]
-mod tests {
-    use super::head;
-
-    #[test]
-    fn the_head_of_a_log_is_one_line_about_the_error() {
-        let log = "warning: a\n\n  x.cl:3: error: no such thing  \nnote: b\nerror: c\n";
-        assert_eq!(head(log), "x.cl:3: error: no such thing; error: c");
-        assert_eq!(head("nothing\nmore\n"), "nothing; more");
-        assert_eq!(head(" \n"), "its compiler does not say why");
-        assert!(head(&"error ".repeat(1000)).len() <= 400);
-    }
-}

@@ -11,7 +11,7 @@ use coadjoint_program::print::{DeviceLanguage, device_unit};
 use cudarc::nvrtc::result;
 use cudarc::nvrtc::sys;
 
-use super::error::head;
+use crate::error::first_errors;
 
 /// A kernel compiled for a kind of card.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ pub(crate) fn compile_text(text: &str, architecture: &str) -> Result<Compiled, S
     if let Err(error) = done {
         return Err(match log.trim().is_empty() {
             true => error.to_string(),
-            false => head(&log),
+            false => first_errors(&log),
         });
     }
     let mut length = 0;

@@ -28,8 +28,9 @@ use opencl3::program::Program;
 use opencl3::types::{CL_BLOCKING, cl_mem};
 
 use super::device::Device;
-use super::error::{DeviceError, head};
+use super::error::DeviceError;
 use super::machine::{Array, Call, Fault, Machine, Opened, Room};
+use crate::error::first_errors;
 
 /// The number of threads is a multiple of this, the number that cards run together.
 const GROUP: usize = 64;
@@ -53,7 +54,7 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     let mut program = call.done("read the kernel", program)?;
     if let Err(error) = program.build(&[found.id()], options(&found, kernel.precision())) {
         let log = program.get_build_log(found.id()).unwrap_or_default();
-        let log = if log.trim().is_empty() { error.to_string() } else { head(&log) };
+        let log = if log.trim().is_empty() { error.to_string() } else { first_errors(&log) };
         return Err(DeviceError::Build { device, name, log });
     }
     let compiled = call.done("made the kernel", Compiled::create(&program, KERNEL_NAME))?;
