@@ -32,9 +32,6 @@ use crate::precision::Precision;
 use crate::program::Program;
 use crate::schedule::{Block, schedule};
 
-/// Steps after which a comoving frame moves on and the state is checked.
-pub const BLOCK: u64 = 256;
-
 /// The programs of a step. n is the dimension, m how many numbers make a group element, k how many constants a solve has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Programs {

@@ -61,7 +61,7 @@ pub use graph::Graph;
 #[cfg(feature = "programs")]
 pub use interpret::Attempt;
 #[cfg(feature = "programs")]
-pub use kernel::{BLOCK, Kernel, KernelParts, Programs};
+pub use kernel::{Kernel, KernelParts, Programs};
 #[cfg(feature = "programs")]
 pub use node::{Cost, Id, Node};
 #[cfg(feature = "programs")]
@@ -70,5 +70,7 @@ pub use number::{Lanes, Number};
 pub use precision::Precision;
 #[cfg(feature = "programs")]
 pub use program::Program;
+#[cfg(feature = "programs")]
+pub use schedule::BLOCK;
 #[cfg(feature = "programs")]
 pub use stepper::{Outcome, Stepper, Trajectories, WIDTH};

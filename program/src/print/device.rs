@@ -8,10 +8,11 @@ use super::c::{C, Dialect};
 use super::function::function;
 use super::signature::signatures;
 use super::steps::{LoopStyle, steps};
-use crate::kernel::{BLOCK, Kernel};
+use crate::kernel::Kernel;
 use crate::node::Node;
 use crate::precision::Precision;
 use crate::quoting::c_comment;
+use crate::schedule::BLOCK;
 
 /// The name of the kernel in the text of [`device_unit`]. (`step` is a function of OpenCL.)
 pub const KERNEL_NAME: &str = "coadjoint_steps";

@@ -33,7 +33,7 @@ const CRATES: [&str; 16] = [
 
 /// Circles that there may be. The first is that of an evaluator, whose parts call one another as the parts of an
 /// expression do: a value may be a function, whose body is evaluated. The others are to go.
-const KEPT: [(&str, &[&str]); 3] = [
+const KEPT: [(&str, &[&str]); 2] = [
     (
         "codegen",
         &[
@@ -45,7 +45,6 @@ const KEPT: [(&str, &[&str]); 3] = [
             "parse::rust::value",
         ],
     ),
-    ("program", &["kernel", "schedule"]),
     ("run", &["ensemble::engine", "ensemble::march", "ensemble::rows", "ensemble::steps"]),
 ];
 

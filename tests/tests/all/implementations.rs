@@ -21,7 +21,7 @@ const PARTS: &[Part] = &[
             "..=kernel.corrections()",
             "correct.run(",
         ],
-        files: &["program/src/schedule.rs"],
+        files: &["program/src/schedule/tree.rs"],
     },
     Part {
         // The interpreter, Cranelift, and the printers of C and Rust.

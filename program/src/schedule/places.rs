@@ -1,0 +1,94 @@
+//! The loop's variables and programs as a kernel has them.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::tree::{Part, Variable};
+use crate::kernel::Kernel;
+use crate::program::Program;
+
+/// The kind of a variable's contents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// An array of this length.
+    Array(usize),
+    /// A number.
+    Number,
+    /// A whole number that is not negative. Programs read it as a number.
+    Count,
+}
+
+impl Variable {
+    /// The kind of its contents.
+    #[must_use]
+    pub fn kind(self, kernel: &Kernel) -> Kind {
+        match self {
+            Self::Element => Kind::Array(kernel.element()),
+            Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim()),
+            Self::Constants => Kind::Array(kernel.constants()),
+            Self::ResidualBound | Self::Distance | Self::Moved | Self::Right => Kind::Number,
+            Self::Done | Self::Count | Self::Tried | Self::Flow => Kind::Count,
+        }
+    }
+}
+
+impl Part {
+    /// The program in this kernel, if there is one.
+    #[must_use]
+    pub fn program(self, kernel: &Kernel) -> Option<&Program> {
+        let programs = kernel.programs();
+        match self {
+            Self::Guess => Some(&programs.guess),
+            Self::Correct => Some(&programs.correct),
+            Self::Accept => Some(&programs.accept),
+            Self::Transport => Some(&programs.transport),
+            Self::Frame => programs.frame.as_ref(),
+            Self::Sound => Some(&programs.sound),
+            Self::Kick => kernel.kick(),
+        }
+    }
+}
+
+/// Where the numbers of all variables lie in one list: those of g and μ, then the others.
+#[derive(Clone, Debug)]
+pub struct Places {
+    ranges: Vec<Range<usize>>,
+    len: usize,
+}
+
+impl Places {
+    /// The places for a kernel's variables. A count has one, where programs read it as a number.
+    #[must_use]
+    pub fn of(kernel: &Kernel) -> Self {
+        let mut len = 0;
+        let range = |(variable, _): (Variable, _)| {
+            let start = len;
+            len += match variable.kind(kernel) {
+                Kind::Array(numbers) => numbers,
+                Kind::Number | Kind::Count => 1,
+            };
+            start..len
+        };
+        let ranges = Variable::ALL.map(range).to_vec();
+        Self { ranges, len }
+    }
+
+    /// How many places there are.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The places of a variable.
+    #[must_use]
+    pub fn range(&self, variable: Variable) -> Range<usize> {
+        self.ranges[variable as usize].clone()
+    }
+
+    /// The places of the state: g, then μ.
+    #[must_use]
+    pub fn state(&self) -> Range<usize> {
+        self.range(Variable::Element).start..self.range(Variable::Momentum).end
+    }
+}
