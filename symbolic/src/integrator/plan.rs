@@ -102,8 +102,8 @@ impl Plan {
         Ok(Self::cheapest(problem, &terms, limit)?.0)
     }
 
-    /// The cheapest plan with the operations of a step, and the polynomials of all explicit predictors that were tried: no
-    /// more than another plan is cheaper, nor than [`MOST_PRODUCTS`] where there is another.
+    /// The cheapest plan with the operations of a step, and the polynomials of all explicit predictors that were tried: as
+    /// long as no other plan is cheaper, and they take no more than [`MOST_PRODUCTS`].
     fn cheapest(
         problem: &Problem,
         terms: &[BaseTerm],
@@ -127,8 +127,12 @@ impl Plan {
             }
         }
         let mut least = found.iter().map(|&(cost, _)| cost).min().unwrap_or(usize::MAX);
-        let most = if found.is_empty() { limit.products } else { MOST_PRODUCTS };
-        let limit = TermLimit { products: limit.products.min(most), ..limit };
+        let most = match problem.algebra.dim() {
+            ..=SMALL => limit.products,
+            _ if found.is_empty() => limit.products,
+            _ => limit.products.min(MOST_PRODUCTS),
+        };
+        let limit = TermLimit { products: most, ..limit };
         let Problem { algebra, chart, .. } = problem;
         let mut rows = PredictorRows::new(algebra, *chart, problem.generated(), limit)?;
         let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
@@ -171,18 +175,20 @@ impl Plan {
     }
 }
 
-/// Products of coefficients at most in looking for an explicit predictor beside one along the flow: where it takes more,
-/// it has too many monomials to be worth it.
-const MOST_PRODUCTS: u64 = 1_000_000;
+/// In up to this number of dimensions explicit predictors have few monomials.
+const SMALL: usize = 3;
+/// Products of coefficients at most in looking for an explicit predictor beside one along the flow in more dimensions: where
+/// it takes more, it has too many monomials to be worth it.
+const MOST_PRODUCTS: u64 = 5_000_000;
 
 /// How many independent operations would fit into the time in which a chart or a small linear system
 /// waits for its own results (measured on SO(3)).
 const WAIT: usize = 300;
 
-/// Whether most of a step goes into its corrections: in more than three dimensions and for long series, whose Hessian is
+/// Whether most of a step goes into its corrections: in more than [`SMALL`] dimensions and for long series, whose Hessian is
 /// then taken of the first terms alone.
 fn corrects_dearly(problem: &Problem) -> bool {
-    problem.solver() == Solver::Newton && problem.algebra.dim() > 3 && problem.truncation >= 7
+    problem.solver() == Solver::Newton && problem.algebra.dim() > SMALL && problem.truncation >= 7
 }
 
 /// Such a Hessian is that of S₁ + S₃ + S₅.
