@@ -35,11 +35,11 @@ fn entry<const N: usize>(at: [usize; N], value: &Rational) -> Entry<N> {
 /// Entries (row, column, value) of a sparse matrix; those of one place are added.
 type Sparse<T> = Vec<(usize, usize, T)>;
 
-fn times<T: Real>(matrix: &Sparse<T>, columns: &DMatrix<T>) -> DMatrix<T> {
+fn times<T: Real>(matrix: &[(usize, usize, T)], columns: &DMatrix<T>) -> DMatrix<T> {
     let mut product = DMatrix::zeros(columns.nrows(), columns.ncols());
-    for mut_column in 0..columns.ncols() {
+    for (from, mut to) in columns.column_iter().zip(product.column_iter_mut()) {
         for &(row, column, value) in matrix {
-            product[(row, mut_column)] += value * columns[(column, mut_column)];
+            to[row] += value * from[column];
         }
     }
     product
