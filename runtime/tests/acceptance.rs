@@ -409,11 +409,11 @@ fn a_refused_lane_refuses_its_neighbours() {
     };
     let mut good = lanes([1.0, 0.5, 0.0, 0.1]);
     assert!(advance(&of(0.9), &mut good).is_ok());
-    // Outside of the chart, and beyond a fork.
-    let forked = squares([3.0, -3.0, 0.9]);
+    // Outside of the chart; beyond a fork that the determinants of the other lanes do not show.
+    let forked = squares([1.0, -9.0, 0.9]);
     let forked = PolynomialFunction::new(SO3::<F64x4>::new(), Exponential, forked).unwrap();
-    for step in [of(0.9), forked] {
-        let mut bad = lanes([0.1, 4.0, 0.2, 0.1]);
+    for (step, momentum) in [(of(0.9), 4.0), (forked, 1.0)] {
+        let mut bad = lanes([0.1, momentum, 0.2, 0.1]);
         let before = format!("{bad:?}");
         assert!(advance(&step, &mut bad).is_err());
         assert_eq!(format!("{bad:?}"), before);
