@@ -6,6 +6,9 @@
 
 use std::io::Read;
 
+use serde::Deserialize;
+use serde_json::Value;
+
 /// The longest header that is read; that of a plain array has about a hundred bytes.
 const LONGEST: u64 = 1 << 16;
 
@@ -22,35 +25,29 @@ pub(crate) struct NpyHeader {
     pub(crate) width: usize,
     /// Whether the first byte of a number is its highest.
     big_endian: bool,
-    count: usize,
+    /// The number of numbers; all of them are in the file.
+    pub(crate) count: usize,
 }
 
 /// Why an array cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NpyError {
-    /// The file cannot be read.
     #[error(transparent)]
     File(#[from] std::io::Error),
-    /// The file does not begin as an array does.
     #[error("it does not begin with the signature of an array (\\x93NUMPY)")]
     Signature,
-    /// An unknown version of the format.
     #[error("it is of version {0} of the format; versions 1 to 3 are known")]
     Version(u8),
-    /// A header longer than its file, or than any header is.
     #[error(
         "its header claims {claimed} bytes; the file has {rest} left, and no header has more than {LONGEST}"
     )]
     HeaderLength { claimed: u64, rest: u64 },
-    /// A header that is not the dictionary it must be.
     #[error("its header cannot be read: {0}")]
-    Header(&'static str),
-    /// Numbers of another type.
+    Header(String),
     #[error("its numbers are of type {0}; 64- or 32-bit floats are needed (<f8, <f4)")]
-    Type(String),
-    /// A shape with more numbers than the file has.
+    Type(Value),
     #[error("its shape {shape:?} needs more than the {rest} bytes that the file has left")]
-    Shape { shape: Vec<u64>, rest: u64 },
+    Shape { shape: Vec<usize>, rest: u64 },
 }
 
 impl NpyHeader {
@@ -80,19 +77,18 @@ impl NpyHeader {
         }
         let mut text = vec![0; claimed as usize];
         reader.read_exact(&mut text)?;
-        let text = String::from_utf8(text).map_err(|_| NpyError::Header("it is not text"))?;
-        let dictionary = Dictionary::parse(&text)?;
-        let (big_endian, width) = match dictionary.descr.as_str() {
-            "<f8" => (false, 8),
-            "<f4" => (false, 4),
-            ">f8" => (true, 8),
-            ">f4" => (true, 4),
-            _ => return Err(NpyError::Type(dictionary.descr)),
+        let dictionary = Dictionary::parse(&String::from_utf8_lossy(&text));
+        let Dictionary { descr, fortran_order: fortran, shape } =
+            dictionary.map_err(|error| NpyError::Header(error.to_string()))?;
+        let (big_endian, width) = match descr.as_str() {
+            Some("<f8") => (false, 8),
+            Some("<f4") => (false, 4),
+            Some(">f8") => (true, 8),
+            Some(">f4") => (true, 4),
+            _ => return Err(NpyError::Type(descr)),
         };
         let (length, rest) = (before + claimed, rest - claimed);
-        let outside = || NpyError::Shape { shape: dictionary.shape.clone(), rest };
-        let lengths = dictionary.shape.iter().map(|&n| usize::try_from(n));
-        let shape: Vec<usize> = lengths.collect::<Result<_, _>>().map_err(|_| outside())?;
+        let outside = || NpyError::Shape { shape: shape.clone(), rest };
         // Where one length is zero, nothing in the file bounds the others.
         if shape.contains(&0) && shape.iter().any(|&n| n as u64 > LONGEST) {
             return Err(outside());
@@ -103,12 +99,7 @@ impl NpyHeader {
         if bytes as u64 > rest {
             return Err(outside());
         }
-        Ok(Self { shape, fortran: dictionary.fortran, length, width, big_endian, count })
-    }
-
-    /// How many numbers the array has; all of them are in the file.
-    pub(crate) fn count(&self) -> usize {
-        self.count
+        Ok(Self { shape, fortran, length, width, big_endian, count })
     }
 
     /// Adds the numbers of `bytes`; an incomplete one at the end is left.
@@ -160,84 +151,31 @@ pub(crate) fn row_major(shape: &[usize], values: &[f64]) -> Vec<f64> {
     (0..values.len()).map(|index| values[place(index)]).collect()
 }
 
+#[derive(Deserialize)]
 struct Dictionary {
-    descr: String,
-    fortran: bool,
-    shape: Vec<u64>,
+    descr: Value,
+    fortran_order: bool,
+    shape: Vec<usize>,
 }
 
 impl Dictionary {
-    fn parse(text: &str) -> Result<Self, NpyError> {
-        let mut rest = text.trim().strip_prefix('{').ok_or(NpyError::Header("no dictionary"))?;
-        let (mut descr, mut fortran, mut shape) = (None, None, None);
-        loop {
-            rest = rest.trim_start_matches([' ', ',', '\t', '\n']);
-            if rest.starts_with('}') {
-                break;
+    /// Reads it as JSON, with other quotes and brackets, no comma before a closing one, and no `L` as in the `3L` of
+    /// Python 2.
+    fn parse(text: &str) -> serde_json::Result<Self> {
+        let mut json = String::new();
+        for c in text.chars().filter(|c| *c != 'L') {
+            if let ')' | '}' = c {
+                json.truncate(json.trim_end_matches([' ', ',']).len());
             }
-            let (key, after) = quoted(rest).ok_or(NpyError::Header("a key is not a string"))?;
-            let value = after.trim_start().strip_prefix(':');
-            let value = value.ok_or(NpyError::Header("a key has no value"))?.trim_start();
-            let end = end_of(value).ok_or(NpyError::Header("a value does not end"))?;
-            let (value, after) = value.split_at(end);
-            let value = value.trim_end();
-            match key {
-                "descr" => descr = Some(quoted(value).map_or(value, |(inner, _)| inner).to_owned()),
-                "fortran_order" => {
-                    fortran = Some(match value {
-                        "True" => true,
-                        "False" => false,
-                        _ => {
-                            return Err(NpyError::Header(
-                                "`fortran_order` is neither True nor False",
-                            ));
-                        }
-                    });
-                }
-                "shape" => {
-                    shape = Some(
-                        tuple(value)
-                            .ok_or(NpyError::Header("`shape` is not a tuple of whole numbers"))?,
-                    )
-                }
-                _ => {}
-            }
-            rest = after;
+            json.push(match c {
+                '\'' => '"',
+                '(' => '[',
+                ')' => ']',
+                c => c,
+            });
         }
-        match (descr, fortran, shape) {
-            (Some(descr), Some(fortran), Some(shape)) => Ok(Self { descr, fortran, shape }),
-            _ => Err(NpyError::Header("it needs `descr`, `fortran_order` and `shape`")),
-        }
+        serde_json::from_str(&json.replace("True", "true").replace("False", "false"))
     }
-}
-
-/// The text in quotes that begins here, and what follows.
-fn quoted(text: &str) -> Option<(&str, &str)> {
-    let quote = text.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
-    text[1..].split_once(quote)
-}
-
-/// Where a value ends: before the comma or brace after it, outside quotes and brackets.
-fn end_of(text: &str) -> Option<usize> {
-    let (mut depth, mut quote) = (0_usize, None);
-    for (at, c) in text.char_indices() {
-        match (quote, c) {
-            (Some(open), _) => quote = quote.filter(|_| c != open),
-            (None, '\'' | '"') => quote = Some(c),
-            (None, '(' | '[' | '{') => depth += 1,
-            (None, ',' | '}') if depth == 0 => return Some(at),
-            (None, ')' | ']' | '}') => depth = depth.checked_sub(1)?,
-            _ => {}
-        }
-    }
-    None
-}
-
-/// The whole numbers in parentheses; Python 2 wrote them as `3L`.
-fn tuple(text: &str) -> Option<Vec<u64>> {
-    let inside = text.strip_prefix('(')?.strip_suffix(')')?;
-    let parts = inside.split(',').map(str::trim).filter(|part| !part.is_empty());
-    parts.map(|part| part.trim_end_matches('L').parse().ok()).collect()
 }
 
 #[cfg(test)]
@@ -274,13 +212,12 @@ mod tests {
     #[test]
     fn headers_as_they_are_written_are_read() {
         let plain = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }   \n";
-        let odd =
-            "{\"shape\":(6L,),'extra': [('a', {1: 2})], 'fortran_order':True,\"descr\":'>f4'}";
+        let odd = "{\"shape\":(6L,),'fortran_order':True,\"descr\":'>f4'}";
         for version in 1..=3 {
             let mut bytes = array(version, plain);
             bytes.resize(bytes.len() + 48, 0);
             let header = read(&bytes).unwrap();
-            assert_eq!((header.shape.as_slice(), header.count()), (&[2, 3][..], 6));
+            assert_eq!((header.shape.as_slice(), header.count), (&[2, 3][..], 6));
             assert_eq!((header.fortran, header.length), (false, bytes.len() as u64 - 48));
             let mut bytes = array(version, odd);
             bytes.extend([1.5_f32, -2.0, 0.0, 0.0, 0.0, 4.0].iter().flat_map(|x| x.to_be_bytes()));
@@ -293,7 +230,7 @@ mod tests {
         // No axis: one number.
         let mut one = array(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (), }\n");
         one.extend(7.0_f64.to_le_bytes());
-        assert_eq!(read(&one).unwrap().count(), 1);
+        assert_eq!(read(&one).unwrap().count, 1);
     }
 
     #[test]
@@ -305,7 +242,7 @@ mod tests {
             bytes.resize(bytes.len() + 8 * count, 0);
             let header = read(&bytes).unwrap();
             assert!(header.shape.iter().map(|&n| n as u64).eq(shape));
-            assert_eq!(header.count(), count);
+            assert_eq!(header.count, count);
         }
     }
 

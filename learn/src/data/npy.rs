@@ -89,7 +89,7 @@ const PIECE: usize = 1 << 16;
 fn read_array(path: &Path, mut reader: impl Read, total: u64) -> Result<Array, LearnError> {
     let header =
         NpyHeader::read(&mut reader, total).map_err(|e| LearnError::format(path, "NumPy", e))?;
-    let mut missing = header.count() * header.width;
+    let mut missing = header.count * header.width;
     let mut values = Vec::new();
     let mut piece = vec![0; PIECE.min(missing)];
     while missing > 0 {

@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::LearnError;
 
-/// An activation with a continuous second derivative: the map needs the Hessian of S, and the
-/// data fit its gradient.
+/// An activation with a continuous second derivative: the data fit the gradient of S, and the step needs its Hessian.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Activation {

@@ -1,9 +1,8 @@
 //! The optimisers: Adam with a schedule, then L-BFGS, with checkpoints.
 //!
-//! D. Kingma and J. Ba, *Adam: a method for stochastic optimization* (2015), with its usual
-//! constants; J. Nocedal and S. Wright, *Numerical Optimization*, 2nd edition, algorithms 7.4, 3.5
-//! and 3.6. No threshold is absolute, so losses of any scale are lowered as far as rounding lets
-//! them.
+//! D. Kingma and J. Ba, *Adam: a method for stochastic optimization* (2015), with its usual constants; J. Nocedal and
+//! S. Wright, *Numerical Optimization*, 2nd edition, algorithms 7.4, 3.5 and 3.6. No threshold is absolute, so losses of
+//! any scale are lowered as far as rounding allows.
 
 use std::collections::VecDeque;
 
@@ -11,15 +10,13 @@ use nalgebra::DVector;
 
 use super::checkpoint::{Descent, Stage, State};
 use super::options::{Progress, TrainingOptions};
+use super::slope::SlopeFit;
 use crate::error::LearnError;
 
 /// Evaluations between two looks at the validation data.
 const WATCH: usize = 10;
-/// Steps of Adam between two checkpoints.
-const SAVE: usize = 50;
-/// Evaluations by L-BFGS between two checkpoints, which hold its whole memory: twenty rows of
-/// unknowns.
-const SAVE_MEMORY: usize = 200;
+/// Evaluations between two checkpoints, which hold up to 22 rows of unknowns.
+const SAVE: usize = 100;
 /// Pairs of differences kept.
 const MEMORY: usize = 10;
 /// The strong Wolfe conditions: sufficient decrease and sufficient flattening.
@@ -28,11 +25,9 @@ const WOLFE: (f64, f64) = (1e-4, 0.9);
 const SEARCH: usize = 20;
 
 /// A loss and its gradient.
-pub(super) type Evaluate<'a> = dyn FnMut(&[f64]) -> (f64, Vec<f64>) + 'a;
-/// A loss on data that are watched, not fitted.
-pub(super) type Watch<'a> = dyn Fn(&[f64]) -> f64 + 'a;
+type Evaluate<'a> = dyn FnMut(&[f64]) -> (f64, Vec<f64>) + 'a;
 
-/// A point of a line that has been looked at: its step, loss, slope and gradient.
+/// A point of the line that is searched.
 struct Point {
     step: f64,
     loss: f64,
@@ -50,34 +45,24 @@ impl Descent {
 
     /// Searches along one direction, by at most `left` evaluations.
     fn advance(&mut self, left: &mut usize, evaluate: &mut Evaluate<'_>) {
-        let mut direction = self.newton_like();
-        let mut slope = direction.dot(&self.gradient);
-        if slope.is_nan() || slope >= 0.0 {
+        let direction = self.newton_like();
+        let slope = direction.dot(&self.gradient);
+        let found = if slope < 0.0 { self.search(&direction, slope, left, evaluate) } else { None };
+        let Some(found) = found else {
+            // Once more, from the gradient alone, unless this was it.
+            self.stuck = self.pairs.is_empty();
             self.pairs.clear();
-            direction = -&self.gradient;
-            slope = direction.dot(&self.gradient);
-        }
-        if slope.is_nan() || slope >= 0.0 {
-            // The gradient is zero, or not a number.
-            self.stuck = true;
             return;
-        }
-        match self.search(&direction, slope, left, evaluate) {
-            Some(found) => {
-                let moved = direction * found.step;
-                let change = &found.gradient - &self.gradient;
-                self.weights += &moved;
-                (self.loss, self.gradient) = (found.loss, found.gradient);
-                if moved.dot(&change) > f64::EPSILON * moved.norm() * change.norm() {
-                    self.pairs.push_back([moved, change]);
-                    if self.pairs.len() > MEMORY {
-                        self.pairs.pop_front();
-                    }
-                }
+        };
+        let moved = direction * found.step;
+        let change = &found.gradient - &self.gradient;
+        self.weights += &moved;
+        (self.loss, self.gradient) = (found.loss, found.gradient);
+        if moved.dot(&change) > f64::EPSILON * moved.norm() * change.norm() {
+            self.pairs.push_back([moved, change]);
+            if self.pairs.len() > MEMORY {
+                self.pairs.pop_front();
             }
-            // Once more, from the gradient alone.
-            None if !self.pairs.is_empty() => self.pairs.clear(),
-            None => self.stuck = true,
         }
     }
 
@@ -99,8 +84,7 @@ impl Descent {
         direction
     }
 
-    /// A point with the strong Wolfe conditions, or the lowest one when the budget ends; `None` if
-    /// none is lower than the start.
+    /// A point with the strong Wolfe conditions, or the lowest one when the budget ends; `None` if none is below the start.
     fn search(
         &self,
         direction: &DVector<f64>,
@@ -146,8 +130,7 @@ fn between(low: &Point, high: &Point) -> f64 {
     low.step + fraction * width
 }
 
-/// Makes Adam's step number `step`, from 0, of size `rate`, with the running means of the gradient
-/// and of its squares.
+/// Makes Adam's step number `step`, from 0, of size `rate`, with the running means of the gradient and of its squares.
 fn adam(
     [first, second]: &mut [Vec<f64>; 2],
     step: usize,
@@ -164,19 +147,17 @@ fn adam(
     }
 }
 
-/// Lowers the loss from `start`; returns the unknowns and the loss of every evaluation. `task` is
-/// the fingerprint of everything the outcome depends on; `watch` is the loss on other data.
+/// Fits `train`; returns the unknowns and the loss of every evaluation. `task` is the fingerprint of everything the
+/// outcome depends on; the loss on `watched` is only reported.
 pub(super) fn minimise(
-    start: Vec<f64>,
+    (train, watched): (&SlopeFit, Option<&SlopeFit>),
     task: u32,
     options: &TrainingOptions,
-    evaluate: &mut Evaluate<'_>,
-    watch: Option<&Watch<'_>>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Vec<f64>, Vec<f64>), LearnError> {
     let path = options.checkpoint.as_deref();
     let kept = path.map_or(Ok(None), |path| State::load(path, task))?;
-    let mut state = kept.unwrap_or_else(|| State::new(start));
+    let mut state = kept.unwrap_or_else(|| State::new(train.draw(options.seed)));
     let save = |state: &State| path.map_or(Ok(()), |path| state.save(path, task));
     let total = options.adam_steps + options.lbfgs_steps;
     let mut saved = state.history.len();
@@ -185,13 +166,14 @@ pub(super) fn minimise(
         let mut left = total.saturating_sub(step);
         let history = &mut state.history;
         let mut tell = |at: &[f64]| {
-            let (step, (loss, gradient)) = (history.len(), evaluate(at));
-            let validation = watch.filter(|_| step % WATCH == 0).map(|watch| watch(at));
+            let (step, (loss, gradient)) = (history.len(), train.value_and_gradient(at));
+            let watched = watched.filter(|_| step % WATCH == 0);
+            let validation = watched.map(|fit| fit.value_and_gradient(at).0);
             progress(Progress { step, total, loss, validation });
             history.push(loss);
             (loss, gradient)
         };
-        let pause = match &mut state.stage {
+        match &mut state.stage {
             Stage::Adam { weights, moments } if step < options.adam_steps => {
                 let (loss, gradient) = tell(weights);
                 if !loss.is_finite() && step == 0 {
@@ -199,20 +181,17 @@ pub(super) fn minimise(
                     return Err(LearnError::NotConverged(reason.into()));
                 }
                 adam(moments, step, options.rate(step), weights, &gradient);
-                SAVE
             }
             Stage::Adam { weights, .. } if left >= 2 => {
                 let weights = std::mem::take(weights);
                 state.stage = Stage::Descent(Descent::begin(weights, &mut tell));
-                SAVE_MEMORY
             }
             Stage::Descent(descent) if left >= 1 && !descent.stuck => {
                 descent.advance(&mut left, &mut tell);
-                SAVE_MEMORY
             }
             _ => break,
-        };
-        if state.history.len() >= saved + pause {
+        }
+        if state.history.len() >= saved + SAVE {
             save(&state)?;
             saved = state.history.len();
         }
@@ -222,7 +201,7 @@ pub(super) fn minimise(
         Stage::Descent(descent) => descent.weights.as_slice().to_vec(),
         Stage::Adam { weights, .. } => weights,
     };
-    state.history.push(evaluate(&weights).0);
+    state.history.push(train.value_and_gradient(&weights).0);
     Ok((weights, state.history))
 }
 
@@ -230,8 +209,7 @@ pub(super) fn minimise(
 mod tests {
     use super::*;
 
-    /// By hand: after bias correction the first step is −rate·sign(g), and a constant gradient
-    /// keeps it so.
+    /// By hand: after bias correction the first step is −rate·sign(g), and a constant gradient keeps it so.
     #[test]
     fn the_first_steps_of_adam_go_against_the_sign() {
         let (mut moments, mut weights) = ([vec![0.0; 2], vec![0.0; 2]], [1.0, 1.0]);

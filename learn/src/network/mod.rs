@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 
 use crate::error::LearnError;
 use crate::polynomial::Scaling;
-use descent::{Watch, minimise};
+use descent::minimise;
 use slope::SlopeFit;
 
 pub use activation::Activation;
@@ -25,8 +25,7 @@ pub use options::{Progress, TrainingOptions};
 /// The loss on `validation` points and gradients is watched, not fitted.
 ///
 /// # Errors
-/// [`LearnError::InvalidOption`] for no hidden layer, [`LearnError::NotConverged`] when the loss
-/// is not finite.
+/// [`LearnError::InvalidOption`] for no hidden layer, [`LearnError::NotConverged`] when the loss is not finite.
 pub fn fit_network(
     points: &DMatrix<f64>,
     gradients: &DMatrix<f64>,
@@ -60,16 +59,11 @@ pub fn fit_network(
     };
     let train = fit(points, gradients);
     let watched = validation.map(|(points, gradients)| fit(points, gradients));
-    let watch =
-        watched.as_ref().map(|fit| move |unknowns: &[f64]| fit.value_and_gradient(unknowns).0);
-    let watch = watch.as_ref().map(|watch| watch as &Watch<'_>);
     // The fingerprint of the task: checkpoints of other tasks are refused.
     let words = serde_json::to_vec(options).unwrap_or_default();
     let numbers = points.iter().chain(gradients).flat_map(|v| v.to_le_bytes());
     let task = file::crc32(&words.into_iter().chain(numbers).collect::<Vec<u8>>());
-    let mut evaluate = |unknowns: &[f64]| train.value_and_gradient(unknowns);
-    let start = train.draw(options.seed);
-    let (flat, history) = minimise(start, task, options, &mut evaluate, watch, progress)?;
+    let (flat, history) = minimise((&train, watched.as_ref()), task, options, progress)?;
     let network = DenseNetwork::new(train.layers(&flat), scaling, mean, scale);
     Ok((network.map_err(LearnError::NotConverged)?, history))
 }

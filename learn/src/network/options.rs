@@ -17,15 +17,14 @@ pub struct TrainingOptions {
     pub adam_steps: usize,
     /// Adam's first step size; the paper's is 0.001.
     pub rate: f64,
-    /// The step size falls along half a cosine to this fraction of the first (1: constant, as in
-    /// the paper).
+    /// The step size falls along half a cosine to this fraction of the first (1: constant, as in the paper).
     pub final_fraction: f64,
     /// Evaluations of the loss by L-BFGS after Adam.
     pub lbfgs_steps: usize,
     /// Seed of the first weights.
     pub seed: u64,
-    /// Where training keeps its state. If there is one of the same task, training goes on from it
-    /// and ends with the bits of an uninterrupted run; one of another task is refused.
+    /// Where training keeps its state. If there is one of the same task, training goes on from it and ends with the bits
+    /// of an uninterrupted run; one of another task is refused.
     #[serde(skip)]
     pub checkpoint: Option<PathBuf>,
 }
@@ -55,12 +54,10 @@ impl TrainingOptions {
     }
 
     /// Adam's step size at a step.
-    #[must_use]
-    pub fn rate(&self, step: usize) -> f64 {
-        let phase = step as f64 / self.adam_steps.max(1) as f64 * std::f64::consts::PI;
-        let fraction =
-            self.final_fraction + (1.0 - self.final_fraction) * 0.5 * (1.0 + phase.cos());
-        self.rate * fraction
+    pub(super) fn rate(&self, step: usize) -> f64 {
+        let (end, phase) = (self.final_fraction, step as f64 / self.adam_steps.max(1) as f64);
+        let falling = 0.5 * (1.0 + (phase * std::f64::consts::PI).cos());
+        self.rate * (end + (1.0 - end) * falling)
     }
 }
 

@@ -1,10 +1,9 @@
 //! The misfit of a network's slope on some samples, and its derivative in the weights, by hand.
 //!
-//! With Z_k = W_k A_{k−1} + b_k, A_k = σ(Z_k) upwards and C_k = B_k∘σ′(Z_k), B_{k−1} = W_kᵀ C_k
-//! downwards from the last weights, B₀ is the slope ∂N/∂u: the forward pass already contains a
-//! backward one, and its derivative is two passes more. Samples are cut into pieces of a fixed size
-//! which threads share, and the pieces are added up in their order: the bits do not depend on how
-//! many threads there are.
+//! With Z_k = W_k A_{k−1} + b_k, A_k = σ(Z_k) upwards and C_k = B_k∘σ′(Z_k), B_{k−1} = W_kᵀ C_k downwards from the last
+//! weights, B₀ is the slope ∂N/∂u: the forward pass already contains a backward one, and its derivative is two passes
+//! more. Threads share pieces of a fixed number of samples, which are added up in their order: the bits do not depend on
+//! the number of threads.
 
 use coadjoint_codegen::cancel;
 use nalgebra::DMatrix;
@@ -15,8 +14,7 @@ use rayon::prelude::*;
 use super::activation::Activation;
 use super::layers::{Hidden, Layers, Passes};
 
-/// Samples of a piece. More would leave threads idle on a few hundred samples, fewer make the
-/// products of matrices slower.
+/// Samples of a piece. More would leave threads idle on a few hundred samples, fewer make products of matrices slower.
 const PIECE: usize = 64;
 
 /// The shape of a network in training, and the slopes that it is to fit.
@@ -43,12 +41,10 @@ impl SlopeFit {
         Self { inputs: points.nrows(), widths: widths.to_vec(), activation, pieces }
     }
 
-    /// First weights, drawn uniformly: in the first layer from ±1/inputs, with biases from ±1, so
-    /// that inputs in [−1, 1] move every neuron through the bend of its activation; in the others
-    /// with the variance of Glorot and Bengio (2010), biases 0.
-    ///
-    /// Their variance in the first layer too, and no biases, leave a network of tanh odd and nearly
-    /// linear: after 300 evaluations the loss of a hybrid was fourteen times as high.
+    /// First weights, drawn uniformly: in the first layer from ±1/inputs, with biases from ±1, so that inputs in [−1, 1]
+    /// move every neuron through the bend of its activation; in the others with the variance of Glorot and Bengio (2010),
+    /// biases 0. Their variance in the first layer too, without biases, leaves a network of tanh odd and nearly linear:
+    /// after 300 evaluations the loss of a hybrid was fourteen times as high.
     pub(super) fn draw(&self, seed: u64) -> Vec<f64> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut unknowns = Vec::new();
@@ -58,8 +54,8 @@ impl SlopeFit {
         let glorot = |rows: usize, columns: usize| (6.0 / (rows + columns) as f64).sqrt();
         let mut inputs = self.inputs;
         for (k, &width) in self.widths.iter().enumerate() {
-            let first = [1.0 / inputs as f64, 1.0];
-            let [weights, biases] = if k == 0 { first } else { [glorot(inputs, width), 0.0] };
+            let later = [glorot(inputs, width), 0.0];
+            let [weights, biases] = if k == 0 { [1.0 / inputs as f64, 1.0] } else { later };
             draw(weights, inputs * width);
             draw(biases, width);
             inputs = width;
@@ -135,16 +131,13 @@ mod tests {
 
     #[test]
     fn the_gradient_agrees_with_differences() {
-        for (activation, widths) in [
-            (Activation::Tanh, vec![7]),
-            (Activation::Tanh, vec![6, 5]),
-            (Activation::Logistic, vec![4, 6, 5]),
-        ] {
+        use Activation::{Logistic, Tanh};
+        for (activation, widths) in [(Tanh, &[7][..]), (Tanh, &[6, 5]), (Logistic, &[4, 6, 5])] {
             let wave = |seed: f64, count| {
                 DMatrix::from_fn(3, count, |i, j| (seed + 1.7 * i as f64 + 0.9 * j as f64).sin())
             };
             // More than one piece.
-            let fit = SlopeFit::new((&widths, activation), &wave(0.3, 270), &wave(1.1, 270));
+            let fit = SlopeFit::new((widths, activation), &wave(0.3, 270), &wave(1.1, 270));
             let mut flat = fit.draw(3);
             // Biases too.
             flat.iter_mut().enumerate().for_each(|(i, w)| *w += 0.1 * (i as f64).sin());

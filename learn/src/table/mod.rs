@@ -168,7 +168,7 @@ impl Table {
             let (bytes, mut values) =
                 (file::read(path).map_err(LearnError::file(path))?, Vec::new());
             header.decode(bytes.get(header.length as usize..).unwrap_or_default(), &mut values);
-            values.resize(header.count(), f64::NAN);
+            values.resize(header.count, f64::NAN);
             Source::Memory(row_major(&header.shape, &values))
         } else {
             Source::Npy(reader, header)
