@@ -160,39 +160,41 @@ pub fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Term
 }
 
 /// How a family of polynomial functions is made.
-pub struct Recipe<'a> {
+pub struct Recipe {
     /// The name of the family.
-    pub name: &'a str,
-    /// The group, as the catalogue names it.
-    pub group: &'a str,
-    /// The chart.
-    pub chart: Chart,
-    /// The Hamiltonians.
-    pub energy: Energy,
-    /// The truncations.
-    pub truncations: &'a [usize],
-    /// How many Hamiltonians there are for each.
-    pub models: usize,
+    pub name: &'static str,
+    group: &'static str,
+    energy: Energy,
+    truncations: &'static [usize],
+    chart: Chart,
+    /// How many Hamiltonians there are for each truncation.
+    models: usize,
     /// Whether numbers are `f32`.
-    pub single: bool,
+    single: bool,
     /// Whether steps with h|μ|/I < 1.5, I the least moment of inertia, must be accepted for K ≥ 5.
-    pub must_accept: bool,
+    must_accept: bool,
     /// Whether only such are made.
-    pub promise: bool,
+    promise: bool,
     /// See [`Family::weight`].
-    pub weight: usize,
+    weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
-    pub decades: f64,
+    decades: f64,
 }
 
-impl Default for Recipe<'_> {
-    fn default() -> Self {
+impl Recipe {
+    /// Two Hamiltonians for each truncation, in the exponential chart, in double precision.
+    pub fn new(
+        name: &'static str,
+        group: &'static str,
+        energy: Energy,
+        truncations: &'static [usize],
+    ) -> Self {
         Self {
-            name: "",
-            group: "SO3",
+            name,
+            group,
+            energy,
+            truncations,
             chart: Chart::Exponential,
-            energy: Energy::Squares,
-            truncations: &[3, 5],
             models: 2,
             single: false,
             must_accept: false,
@@ -200,6 +202,41 @@ impl Default for Recipe<'_> {
             weight: 128,
             decades: 30.0,
         }
+    }
+
+    /// In the Cayley chart.
+    pub fn cayley(self) -> Self {
+        Self { chart: Chart::Cayley, ..self }
+    }
+
+    /// This many Hamiltonians for each truncation.
+    pub fn models(self, models: usize) -> Self {
+        Self { models, ..self }
+    }
+
+    /// See [`Family::weight`].
+    pub fn weight(self, weight: usize) -> Self {
+        Self { weight, ..self }
+    }
+
+    /// Momenta of moderate size only.
+    pub fn slow(self) -> Self {
+        Self { decades: 1.0, ..self }
+    }
+
+    /// In single precision, of momenta of moderate size.
+    pub fn single(self) -> Self {
+        Self { single: true, ..self.slow() }
+    }
+
+    /// Steps with h|μ|/I < 1.5 must be accepted for K ≥ 5.
+    pub fn must(self) -> Self {
+        Self { must_accept: true, ..self }
+    }
+
+    /// Only such steps are made.
+    pub fn promise(self) -> Self {
+        Self { promise: true, ..self.must() }
     }
 }
 
@@ -212,7 +249,7 @@ pub fn algebra(name: &str) -> LieAlgebra {
     catalogue::lookup(name).expect("a group of the catalogue")
 }
 
-impl Recipe<'_> {
+impl Recipe {
     /// The family whose steps are made by `steps` from the algebra and the terms of S.
     ///
     /// # Panics
