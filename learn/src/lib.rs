@@ -63,7 +63,7 @@ pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
 pub use function::{Generating, MomentumFunction, Scaled};
-pub use gaussian_process::{GaussianProcess, GaussianProcessOptions, fit_gaussian_process};
+pub use gaussian_process::{GaussianProcess, fit_gaussian_process};
 pub use group::{DataGroup, matrix_of};
 pub use hybrid::fit_hybrid;
 pub use least_squares::GaussNewton;

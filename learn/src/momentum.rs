@@ -13,45 +13,24 @@ use crate::least_squares::GaussNewton;
 use crate::polynomial::{Basis, PolynomialModel, Scaling};
 use crate::trivialisation::{ad_star_matrix, left_derivative};
 
-/// How [`fit_poisson`] fits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PoissonOptions {
-    /// The total degree of S.
-    pub degree: usize,
-    /// The iteration; its ridge fixes the rotation about μ that momenta do not determine.
-    pub iteration: GaussNewton,
-}
+/// The iteration; its ridge fixes the rotation about μ that momenta do not determine.
+const ITERATION: GaussNewton =
+    GaussNewton { iterations: 60, relative_decrease: 1e-3, ridge: 1e-16 };
 
-impl PoissonOptions {
-    /// Degree `degree`, up to 60 linearisations, a ridge of 10⁻¹⁶.
-    #[must_use]
-    pub fn degree(degree: usize) -> Self {
-        let iteration = GaussNewton { iterations: 60, relative_decrease: 1e-3, ridge: 1e-16 };
-        Self { degree, iteration }
+/// Refuses a degree that this number of samples does not support.
+pub(crate) fn check(dim: usize, degree: usize, samples: usize) -> Result<(), LearnError> {
+    Basis::check_fit(dim, degree, samples)?;
+    if degree == 0 {
+        let requirement = "a generating function without terms moves nothing; give 2 or more";
+        return Err(LearnError::option("degree", 0, requirement));
     }
-
-    /// Refuses a degree that this number of samples does not support.
-    pub(crate) fn check(&self, dim: usize, samples: usize) -> Result<(), LearnError> {
-        Basis::check_fit(dim, self.degree, samples)?;
-        if self.degree == 0 {
-            let requirement = "a generating function without terms moves nothing; give 2 or more";
-            return Err(LearnError::option("degree", 0, requirement));
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
-/// A Poisson map learned from momenta.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PoissonFit {
-    /// S. It fixes the map of momenta; the attitude it would reconstruct is arbitrary up to a
-    /// rotation about the momentum, because the data do not contain it.
-    pub model: PolynomialModel,
-    /// The mean squared error of μ″ after each accepted step of the iteration.
-    pub history: Vec<f64>,
-}
-
-/// Fits S to pairs (μ′, μ″): min Σ|Φ_S(μ′ᵢ) − μ″ᵢ|², where Φ_S solves J_L(∂S/∂p(p), p) = μ′ for p.
+/// Fits S of this total degree to pairs (μ′, μ″): min Σ|Φ_S(μ′ᵢ) − μ″ᵢ|², where Φ_S solves
+/// J_L(∂S/∂p(p), p) = μ′ for p. Returns S and the mean squared error of μ″ after each accepted step of the iteration.
+/// The attitude that S would reconstruct is arbitrary up to a rotation about the momentum, because the data do not
+/// contain it.
 ///
 /// The paper makes the pᵢ unknowns of the fit, as many as there are samples; here each is a
 /// function of the coefficients, so the unknowns are the coefficients alone. With δc the change
@@ -63,8 +42,8 @@ pub struct PoissonFit {
 pub fn fit_poisson<G, C>(
     group: &G,
     pairs: &MomentumPairs,
-    options: &PoissonOptions,
-) -> Result<PoissonFit, LearnError>
+    degree: usize,
+) -> Result<(PolynomialModel, Vec<f64>), LearnError>
 where
     G: LieGroup<Scalar = f64>,
     C: Chart<G>,
@@ -72,12 +51,12 @@ where
     if pairs.is_empty() {
         return Err(LearnError::NoSamples);
     }
-    options.check(group.dim(), pairs.len())?;
+    check(group.dim(), degree, pairs.len())?;
     let (dim, samples) = pairs.before.shape();
     // p is near both momenta.
     let mut seen = pairs.before.clone().resize_horizontally(2 * samples, 0.0);
     seen.columns_mut(samples, samples).copy_from(&pairs.after);
-    let start = PolynomialModel::zero(Basis::new(dim, options.degree), Scaling::of(&seen));
+    let start = PolynomialModel::zero(Basis::new(dim, degree), Scaling::of(&seen));
     let terms = start.basis().len();
 
     let residual = |c: &DVector<f64>| {
@@ -110,18 +89,13 @@ where
         }
         Some((all, jacobian))
     };
-    let (unknowns, history) = options
-        .iteration
-        .minimise(DVector::zeros(terms), residual, linearise)
-        .ok_or_else(|| {
-            let reason = "no canonical momentum p solves J_L(dS/dp, p) = mu for some sample";
-            LearnError::NotConverged(reason.into())
-        })?;
-    let count = (dim * samples) as f64;
-    Ok(PoissonFit {
-        model: start.clone().with_coefficients(unknowns.as_slice()),
-        history: history.iter().map(|sum| sum / count).collect(),
-    })
+    let found = ITERATION.minimise(DVector::zeros(terms), residual, linearise);
+    let (unknowns, history) = found.ok_or_else(|| {
+        let reason = "no canonical momentum p solves J_L(dS/dp, p) = mu for some sample";
+        LearnError::NotConverged(reason.into())
+    })?;
+    let history = history.iter().map(|sum| sum / (dim * samples) as f64).collect();
+    Ok((start.clone().with_coefficients(unknowns.as_slice()), history))
 }
 
 /// μ″ at the solution (x, p) over μ′, and the matrix of ∂δS/∂p ↦ δμ″.

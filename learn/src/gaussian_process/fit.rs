@@ -10,23 +10,10 @@ use crate::error::LearnError;
 use crate::function::MomentumFunction;
 use crate::polynomial::{Scaling, fit_polynomial};
 
-/// Options of [`fit_gaussian_process`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct GaussianProcessOptions {
-    /// The degree of the polynomial that is the prior mean.
-    pub mean_degree: usize,
-    /// The maximum number of samples conditioned on; the work grows with its cube, and more samples are thinned
-    /// evenly.
-    pub largest: usize,
-    /// The maximum number of samples by which length and noise are chosen.
-    pub largest_for_choice: usize,
-}
-
-impl Default for GaussianProcessOptions {
-    fn default() -> Self {
-        Self { mean_degree: 2, largest: 600, largest_for_choice: 120 }
-    }
-}
+/// The degree of the polynomial that is the prior mean.
+const MEAN_DEGREE: usize = 2;
+/// The maximum number of samples by which length and noise are chosen.
+const LARGEST_FOR_CHOICE: usize = 120;
 
 /// Minus twice the logarithm of the marginal likelihood with σ at its best, up to a constant; the
 /// best σ² and the weights.
@@ -47,17 +34,18 @@ fn likelihood(
     (score.is_finite() && variance > 0.0).then_some((score, variance, weights))
 }
 
-/// Fits a Gaussian process to reduced data; length and noise by the marginal likelihood on a grid.
+/// Fits a Gaussian process to reduced data; length and noise by the marginal likelihood on a grid. More samples than
+/// `largest` are thinned evenly: the work grows with the cube of their number.
 ///
 /// # Errors
 /// [`LearnError::NotDetermined`] when the prior mean cannot be fitted,
 /// [`LearnError::NotConverged`] when no covariance is positive definite.
 pub fn fit_gaussian_process(
     data: &ReducedData,
-    options: &GaussianProcessOptions,
+    largest: usize,
 ) -> Result<GaussianProcess, LearnError> {
-    let mean = fit_polynomial(data, options.mean_degree, 0.0)
-        .or_else(|_| fit_polynomial(data, options.mean_degree, 1e-8))?;
+    let mean = fit_polynomial(data, MEAN_DEGREE, 0.0)
+        .or_else(|_| fit_polynomial(data, MEAN_DEGREE, 1e-8))?;
     let scaling = Scaling::of(&data.p);
     let dim = data.dim();
     // Residual gradients in normalised momenta: ∂/∂u_j = w_j ∂/∂p_j.
@@ -75,7 +63,7 @@ pub fn fit_gaussian_process(
         }
         (points, DVector::from_vec(targets))
     };
-    let (points, targets) = thinned(options.largest_for_choice);
+    let (points, targets) = thinned(LARGEST_FOR_CHOICE);
     let mut best: Option<(f64, f64, f64)> = None;
     for length in [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0] {
         for noise in [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0] {
@@ -91,7 +79,7 @@ pub fn fit_gaussian_process(
         LearnError::NotConverged(reason.into())
     };
     let (_, length, mut noise) = best.ok_or_else(failed)?;
-    let (points, targets) = thinned(options.largest);
+    let (points, targets) = thinned(largest);
     // More points can need a little more noise to stay positive definite.
     let (variance, weights) = loop {
         if let Some((_, variance, weights)) = likelihood(&points, &targets, dim, length, noise) {

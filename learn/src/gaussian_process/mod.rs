@@ -4,5 +4,5 @@ mod fit;
 mod kernel;
 mod model;
 
-pub use fit::{GaussianProcessOptions, fit_gaussian_process};
+pub use fit::fit_gaussian_process;
 pub use model::GaussianProcess;

@@ -10,5 +10,5 @@ pub use basis::{Basis, Scaling};
 pub use fit::{fit_gradients, fit_polynomial};
 pub use group_loss::fit_group_loss;
 pub use model::PolynomialModel;
-pub use select::{Candidate, Selection, SelectionOptions, select_polynomial};
+pub use select::{Candidate, Selection, select_polynomial};
 pub(crate) use select::{folds, gradient_error, split};

@@ -1,5 +1,7 @@
 //! Degree and ridge by cross-validation.
 
+use std::ops::RangeInclusive;
+
 use coadjoint_codegen::cancel;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
@@ -14,32 +16,12 @@ use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::function::MomentumFunction;
 
-/// The candidates of [`select_polynomial`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct SelectionOptions {
-    /// Total degrees to try.
-    pub degrees: Vec<usize>,
-    /// Ridge weights to try, as in [`fit_gradients`](super::fit_gradients).
-    pub ridges: Vec<f64>,
-    /// The number of folds of the cross-validation, at least 2.
-    pub folds: usize,
-    /// The seed of the shuffle that makes the folds.
-    pub seed: u64,
-    /// The maximum number of basis functions of a candidate, which bounds time and memory.
-    pub largest_basis: usize,
-}
-
-impl Default for SelectionOptions {
-    fn default() -> Self {
-        Self {
-            degrees: (2..=10).collect(),
-            ridges: vec![0.0, 1e-14, 1e-10, 1e-6, 1e-3],
-            folds: 5,
-            seed: 0,
-            largest_basis: 300,
-        }
-    }
-}
+/// Ridge weights to try.
+const RIDGES: [f64; 5] = [0.0, 1e-14, 1e-10, 1e-6, 1e-3];
+/// The folds of the cross-validation.
+const FOLDS: usize = 5;
+/// The maximum number of basis functions of a candidate, which bounds time and memory.
+const LARGEST_BASIS: usize = 300;
 
 /// One candidate of a cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,7 +79,7 @@ pub(crate) fn gradient_error(
     sum / points.len().max(1) as f64
 }
 
-/// Chooses degree and ridge by cross-validation and fits the winner to all samples.
+/// Chooses degree and ridge by cross-validation, over folds shuffled by the seed, and fits the winner to all samples.
 ///
 /// Among candidates within one part in 20 of the best, the one with fewer coefficients and then
 /// the larger ridge wins.
@@ -106,18 +88,19 @@ pub(crate) fn gradient_error(
 /// [`LearnError::NotDetermined`] when no candidate can be fitted: too few samples.
 pub fn select_polynomial(
     data: &ReducedData,
-    options: &SelectionOptions,
+    degrees: RangeInclusive<usize>,
+    seed: u64,
 ) -> Result<Selection, LearnError> {
     let (dim, samples) = data.p.shape();
-    let parts: Vec<_> = folds(samples, options.folds, options.seed)
+    let parts: Vec<_> = folds(samples, FOLDS, seed)
         .iter()
         .map(|fold| (split(&data.p, fold), split(&data.x, fold)))
         .collect();
     let mut candidates = Vec::new();
-    for &degree in &options.degrees {
+    for degree in degrees.clone() {
         // Fewer equations than coefficients are met by any number of polynomials, and say nothing of which is right.
         let rest = samples - samples.div_ceil(parts.len().max(1));
-        if Basis::size(dim, degree) > options.largest_basis.min(dim * rest) {
+        if Basis::size(dim, degree) > LARGEST_BASIS.min(dim * rest) {
             continue;
         }
         let basis = Basis::new(dim, degree);
@@ -129,7 +112,7 @@ pub fn select_polynomial(
                 (model, problem)
             })
             .collect();
-        for &ridge in &options.ridges {
+        for ridge in RIDGES {
             let errors: Option<Vec<f64>> = problems
                 .iter()
                 .zip(&parts)
@@ -152,7 +135,7 @@ pub fn select_polynomial(
         .min_by(|a, b| a.degree.cmp(&b.degree).then(b.ridge.total_cmp(&a.ridge)))
         .cloned();
     let Some(best) = best else {
-        let degree = options.degrees.iter().copied().min().unwrap_or(2);
+        let degree = *degrees.start();
         let terms = Basis::size(dim, degree);
         return Err(LearnError::NotDetermined { degree, terms, samples, ridge: 0.0 });
     };

@@ -6,19 +6,21 @@ use super::neural::train;
 use super::request::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
-use crate::gaussian_process::{GaussianProcessOptions, fit_gaussian_process};
+use crate::gaussian_process::fit_gaussian_process;
 use crate::group::DataGroup;
 use crate::model::Model;
 use crate::network::Progress;
 use crate::polynomial::{
-    Candidate, Selection, SelectionOptions, fit_group_loss, fit_polynomial, folds, gradient_error,
-    select_polynomial, split,
+    Candidate, Selection, fit_group_loss, fit_polynomial, folds, gradient_error, select_polynomial,
+    split,
 };
 use crate::save::TrainingRecord;
 
 /// Networks are not tried where a polynomial leaves less than this part of the mean square of x:
 /// no training so far has reached it.
 const BEYOND_NETWORKS: f64 = 1e-16;
+/// The most samples that Gaussian processes are conditioned on.
+const LARGEST_PROCESS: usize = 300;
 
 /// Fits the kind of model asked for.
 pub(super) fn fit<G: DataGroup, C: Chart<G>>(
@@ -29,10 +31,7 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
 ) -> Result<(Model, TrainingRecord), LearnError> {
     let mut record =
         TrainingRecord { samples: data.len(), seed: request.seed, ..TrainingRecord::default() };
-    let selection = || {
-        let options = SelectionOptions { seed: request.seed, ..SelectionOptions::default() };
-        select_polynomial(data, &options)
-    };
+    let selection = || select_polynomial(data, 2..=10, request.seed);
     let mut model = match request.kind {
         Kind::Polynomial | Kind::Auto if request.degree.is_some() => {
             let degree = request.degree.unwrap_or(2);
@@ -48,7 +47,7 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
         }
         Kind::GaussianProcess => {
             record.choice = "Gaussian process, as asked".into();
-            Model::GaussianProcess(fit_gaussian_process(data, &process_options())?)
+            Model::GaussianProcess(fit_gaussian_process(data, LARGEST_PROCESS)?)
         }
         Kind::Auto => automatic(request, data, selection()?, &mut record, progress)?,
         Kind::Network | Kind::Hybrid => {
@@ -72,10 +71,6 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
     Ok((model, record))
 }
 
-fn process_options() -> GaussianProcessOptions {
-    GaussianProcessOptions { largest: 300, ..GaussianProcessOptions::default() }
-}
-
 /// The best of every kind: polynomials by cross-validation over five folds; the
 /// best of them, a Gaussian process and networks, which cost more, on the first of the folds.
 fn automatic(
@@ -95,7 +90,7 @@ fn automatic(
     if let Ok(model) = fit_polynomial(&rest, best.degree, best.ridge) {
         rivals.push((Kind::Polynomial, best.name.clone(), gradient_error(&model, &p, &x)));
     }
-    if let Ok(process) = fit_gaussian_process(&rest, &process_options()) {
+    if let Ok(process) = fit_gaussian_process(&rest, LARGEST_PROCESS) {
         let mse = gradient_error(&process, &p, &x);
         rivals.push((Kind::GaussianProcess, "Gaussian process".into(), mse));
     }
@@ -133,7 +128,7 @@ fn automatic(
     };
     match kind {
         Kind::GaussianProcess => {
-            Ok(Model::GaussianProcess(fit_gaussian_process(data, &process_options())?))
+            Ok(Model::GaussianProcess(fit_gaussian_process(data, LARGEST_PROCESS)?))
         }
         Kind::Network | Kind::Hybrid => {
             let (model, _, history) = train(request, kind, data, "", progress)?;

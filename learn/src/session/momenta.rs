@@ -11,7 +11,7 @@ use crate::evaluate::{drifts, evaluate_momenta};
 use crate::function::{Generating, MomentumFunction, vector};
 use crate::group::DataGroup;
 use crate::model::Model;
-use crate::momentum::{PoissonOptions, fit_poisson};
+use crate::momentum::{check, fit_poisson};
 use crate::polynomial::{Basis, Candidate, folds};
 use crate::save::{ModelFile, TrainingRecord};
 
@@ -30,7 +30,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         return Err(LearnError::option("model", request.kind.name(), requirement));
     }
     if let Some(degree) = request.degree {
-        PoissonOptions::degree(degree).check(group.dim(), pairs.len())?;
+        check(group.dim(), degree, pairs.len())?;
     }
     let finite = |m: &DMatrix<f64>, i: usize| m.column(i).iter().all(|v| v.is_finite());
     let mut bad: Vec<BadRow> = (0..pairs.len())
@@ -64,7 +64,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         if orbit * samples < terms {
             return Err(LearnError::NotDetermined { degree, terms, samples, ridge: 0.0 });
         }
-        fit_poisson::<G, C>(group, pairs, &PoissonOptions::degree(degree))
+        fit_poisson::<G, C>(group, pairs, degree)
     };
     let figures = |model: &Model, pairs: &MomentumPairs| {
         evaluate_momenta(&Map::<'_, G, C>::new(group.clone(), model), pairs)
@@ -82,8 +82,8 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
             if Basis::size(group.dim(), degree) > 300 {
                 break;
             }
-            if let Ok(found) = fit(degree, &outside) {
-                let result = figures(&Model::Polynomial(found.model), &inside);
+            if let Ok((found, _)) = fit(degree, &outside) {
+                let result = figures(&Model::Polynomial(found), &inside);
                 if let Some(mse) = result.mse.momentum.filter(|_| result.unsolved.is_empty()) {
                     let name = format!("polynomial degree {degree}");
                     candidates.push(Candidate { name, degree, ridge: 1e-16, mse });
@@ -103,8 +103,8 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         let mse = best.mse;
         (best.degree, format!("{}: held-out mse of mu'' {mse:.1e}; p eliminated", best.name))
     };
-    let fitted = fit(degree, &pairs)?;
-    let model = Model::Polynomial(fitted.model);
+    let (model, history) = fit(degree, &pairs)?;
+    let model = Model::Polynomial(model);
     let train = figures(&model, &pairs);
     let map = Map::<'_, G, C>::new(group.clone(), &model);
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
@@ -132,7 +132,7 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         seed: request.seed,
         choice,
         candidates,
-        history: fitted.history,
+        history,
         train: Some(train),
     };
     let (name, chart) = (&request.group, &request.chart);

@@ -8,8 +8,7 @@ use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::fit_polynomial;
 use coadjoint_learn::truth::Quadratic;
 use coadjoint_learn::{
-    DataGroup, GaussianProcessOptions, Generating, Model, MomentumFunction, fit_gaussian_process,
-    fit_hybrid,
+    DataGroup, Generating, Model, MomentumFunction, fit_gaussian_process, fit_hybrid,
 };
 
 use crate::support::{WIDE, draw, random, random_network, random_polynomial, relativistic, sample};
@@ -79,8 +78,7 @@ fn fitted<G: DataGroup, C: Chart<G>>(group: &G, truth: &impl MomentumFunction) {
     let train = sample::<G, C>(group, truth, (0.2, WIDE), 80, 1).1;
     let polynomial = fit_polynomial(&train, 3, 0.0).unwrap();
     keeps_the_geometry::<G, C>(group, "fitted polynomial", &polynomial);
-    let options = GaussianProcessOptions { largest: 60, ..Default::default() };
-    let process = fit_gaussian_process(&train, &options).unwrap();
+    let process = fit_gaussian_process(&train, 60).unwrap();
     keeps_the_geometry::<G, C>(group, "Gaussian process", &process);
     let options = TrainingOptions { widths: vec![16, 16], ..TrainingOptions::budget(80) };
     let (network, _) = fit_network(&train.p, &train.x, None, &options, &mut |_| {}).unwrap();

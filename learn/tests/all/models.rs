@@ -9,8 +9,8 @@ use coadjoint_learn::data::{PairRows, ReducedData};
 use coadjoint_learn::polynomial::fit_polynomial;
 use coadjoint_learn::truth::{Quadratic, Quartic};
 use coadjoint_learn::{
-    GaussianProcessOptions, Generating, LearnError, Model, ModelFile, MomentumFunction, Scaled,
-    TrainingRecord, drifts, evaluate, fit_gaussian_process,
+    Generating, LearnError, Model, ModelFile, MomentumFunction, Scaled, TrainingRecord, drifts,
+    evaluate, fit_gaussian_process,
 };
 use nalgebra::Vector3;
 
@@ -34,8 +34,7 @@ fn random_polynomial(seed: u64) -> coadjoint_learn::polynomial::PolynomialModel 
 #[test]
 fn derivatives_agree_with_differences() {
     let weights = vec![1.0 / 1.5, 0.5, 0.4];
-    let options = GaussianProcessOptions { largest: 20, ..Default::default() };
-    let process = fit_gaussian_process(&sample(&bump(), 40, 1).1, &options).unwrap();
+    let process = fit_gaussian_process(&sample(&bump(), 40, 1).1, 20).unwrap();
     let functions: [(&str, &dyn MomentumFunction, f64); 9] = [
         ("quadratic", &Quadratic { weights: weights.clone(), linear: vec![0.1, 0.0, -0.3] }, 1e-9),
         ("quartic", &Quartic { weights, quartic: vec![0.3, 0.1, 0.2] }, 1e-9),
@@ -84,9 +83,8 @@ fn the_gaussian_process_beats_its_mean() {
     let truth = relativistic();
     let (_, train) = sample(&truth, 150, 1);
     let (rows, test) = sample(&truth, 60, 2);
-    let options = GaussianProcessOptions::default();
-    let process = fit_gaussian_process(&train, &options).unwrap();
-    let mean = fit_polynomial(&train, options.mean_degree, 0.0).unwrap();
+    let process = fit_gaussian_process(&train, 600).unwrap();
+    let mean = fit_polynomial(&train, 2, 0.0).unwrap();
     let group = SO3::new();
     let found = evaluate(&Map::new(group, &process), &group, &rows, &test);
     let prior = evaluate(&Map::new(group, &mean), &group, &rows, &test);
@@ -104,12 +102,11 @@ fn path(name: &str) -> PathBuf {
 #[test]
 fn models_of_every_kind_read_back_to_the_same_bits() {
     let (_, train) = sample(&Quadratic::paper(), 40, 1);
-    let options = GaussianProcessOptions { largest: 20, ..Default::default() };
     let models = [
         Model::Polynomial(random_polynomial(4)),
         Model::Network(random_network(4, "tanh")),
         Model::Hybrid { polynomial: random_polynomial(2), network: random_network(3, "logistic") },
-        Model::GaussianProcess(fit_gaussian_process(&train, &options).unwrap()),
+        Model::GaussianProcess(fit_gaussian_process(&train, 20).unwrap()),
     ];
     for model in models {
         let path = path(model.name());

@@ -6,7 +6,7 @@ use coadjoint::solve::Integrator;
 use coadjoint::steps::poisson_map;
 use coadjoint::{LieGroup, SO3};
 use coadjoint_learn::data::MomentumPairs;
-use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
+use coadjoint_learn::momentum::fit_poisson;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};
 use coadjoint_learn::{Generating, MomentumFunction};
 use nalgebra::Vector3;
@@ -33,10 +33,8 @@ fn error(map: &impl Integrator<Group = SO3>, test: &MomentumPairs) -> f64 {
 fn table_two_bars() {
     let (train, test) = (pairs(1.0, 200, 1), pairs(1.0, 100, 2));
     for (degree, bar) in [(4, 1e-11), (6, 1e-15)] {
-        let fit =
-            fit_poisson::<SO3, Exponential>(&SO3::new(), &train, &PoissonOptions::degree(degree))
-                .unwrap();
-        let map = Generating::<SO3, Exponential, _>::new(SO3::new(), &fit.model);
+        let (model, _) = fit_poisson::<SO3, Exponential>(&SO3::new(), &train, degree).unwrap();
+        let map = Generating::<SO3, Exponential, _>::new(SO3::new(), &model);
         let mse = error(&map, &test);
         assert!(mse <= bar, "degree {degree}: {mse:e}");
     }
@@ -56,8 +54,8 @@ fn geometrized_euler_keeps_casimir_and_energy() {
     };
     let wide = MomentumBox { low: -2.5, high: 2.5 };
     let train = momentum_pairs(&group, wide, 1000, 1, euler);
-    let fit = fit_poisson::<SO3, Exponential>(&group, &train, &PoissonOptions::degree(4)).unwrap();
-    let map = Generating::<SO3, Exponential, _>::new(group, &fit.model);
+    let (model, _) = fit_poisson::<SO3, Exponential>(&group, &train, 4).unwrap();
+    let map = Generating::<SO3, Exponential, _>::new(group, &model);
     let start = Vector3::new(2.0, 0.5, 1.0);
     let (mut mu, mut plain) = (start, start);
     let energy = |mu: &Vector3<f64>| body.value(mu.as_slice());

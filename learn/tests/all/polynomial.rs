@@ -5,9 +5,7 @@ use coadjoint::SO3;
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint_learn::MomentumFunction;
 use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
-use coadjoint_learn::polynomial::{
-    SelectionOptions, fit_group_loss, fit_polynomial, select_polynomial,
-};
+use coadjoint_learn::polynomial::{fit_group_loss, fit_polynomial, select_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
 use coadjoint_learn::{GaussNewton, LearnError};
 
@@ -46,11 +44,10 @@ fn degrees_six_and_eight_reach_their_bars_in_both_charts() {
 
 #[test]
 fn cross_validation_takes_a_high_degree_for_exact_data_and_a_low_one_for_noise() {
-    let options = SelectionOptions { degrees: (2..=6).collect(), ..Default::default() };
-    let exact = select_polynomial(&reduced::<Exponential>(200, 1, 0.0), &options).unwrap();
+    let exact = select_polynomial(&reduced::<Exponential>(200, 1, 0.0), 2..=6, 0).unwrap();
     assert_eq!(exact.best.degree, 6);
     assert!(error(&exact.model, &reduced::<Exponential>(100, 2, 0.0)) < 1e-19);
-    let noisy = select_polynomial(&reduced::<Exponential>(200, 1, 0.05), &options).unwrap();
+    let noisy = select_polynomial(&reduced::<Exponential>(200, 1, 0.05), 2..=6, 0).unwrap();
     assert!(noisy.best.degree <= 3, "{:?}", noisy.best);
     // The noise of an increment is √2·0.05 a coordinate; the model averages it out.
     assert!(error(&noisy.model, &reduced::<Exponential>(100, 2, 0.0)) < 1e-4);

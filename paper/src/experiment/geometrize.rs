@@ -4,7 +4,7 @@ use coadjoint::groups::Exponential;
 use coadjoint::steps::poisson_map;
 use coadjoint::{LieGroup, SO3};
 use coadjoint_learn::MomentumFunction;
-use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
+use coadjoint_learn::momentum::fit_poisson;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, momentum_pairs};
 use nalgebra::Vector3;
 
@@ -38,11 +38,10 @@ pub fn run(options: &Options) -> Fallible<Report> {
     };
     enter("euler", None, &momenta(&exact[0], steps, |mu| Ok(euler(mu)))?);
     for degree in options.pick(vec![2, 3, 4, 5, 6], vec![4]) {
-        let fit = PoissonOptions::degree(degree);
-        let fit = fit_poisson::<SO3, Exponential>(&group, &train, &fit)?;
-        let map = map(&fit.model);
+        let (model, history) = fit_poisson::<SO3, Exponential>(&group, &train, degree)?;
+        let map = map(&model);
         let states = momenta(&exact[0], steps, |mu| Ok(poisson_map(&map, mu)?))?;
-        enter(&format!("geometrized_{degree}"), fit.history.last().copied(), &states);
+        enter(&format!("geometrized_{degree}"), history.last().copied(), &states);
     }
     let gain = table.number("euler", 3) / table.number("last", 3);
     report.judge("geometrize", "", &[table.number("last", 2), gain]);

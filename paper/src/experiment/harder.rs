@@ -3,7 +3,7 @@
 use coadjoint::groups::Exponential;
 use coadjoint::{SE3, SO3};
 use coadjoint_learn::data::PairRows;
-use coadjoint_learn::polynomial::{SelectionOptions, select_polynomial};
+use coadjoint_learn::polynomial::select_polynomial;
 use coadjoint_learn::truth::{Bump, MomentumBox, Quadratic, Quartic, Relativistic, phase_pairs};
 use coadjoint_learn::{DataGroup, MomentumFunction};
 
@@ -52,8 +52,7 @@ fn learn<G: DataGroup>(
     let mut table = Table::new(title, COLUMNS);
     task.begin::<Exponential>(truth, step, None, &mut table)?;
     task.polynomials::<Exponential>(&[2, 4, 6, 8], "", &mut table);
-    let selection = SelectionOptions { seed: seed(4), ..Default::default() };
-    let selection = select_polynomial(&task.train, &selection)?;
+    let selection = select_polynomial(&task.train, 2..=10, seed(4))?;
     let figures = task.figures::<Exponential>(&selection.model);
     table.rows.push(row(format!("cross-validated: {}", selection.best.name), &figures, None));
     task.gaussian_process::<Exponential>(options.pick(400, 150), &mut table)?;

@@ -5,8 +5,8 @@ use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce
 use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::{Basis, fit_polynomial};
 use coadjoint_learn::{
-    DataGroup, Figures, GaussianProcessOptions, Generating, MomentumFunction, Scaled, evaluate,
-    fit_gaussian_process, fit_hybrid,
+    DataGroup, Figures, Generating, MomentumFunction, Scaled, evaluate, fit_gaussian_process,
+    fit_hybrid,
 };
 use serde_json::Value;
 
@@ -107,8 +107,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
     /// A Gaussian process of at most this number of samples.
     pub fn gaussian_process<C: Chart<G>>(&self, largest: usize, table: &mut Table) -> Fallible<()> {
         eprintln!("  Gaussian process");
-        let options = GaussianProcessOptions { largest, ..Default::default() };
-        let process = fit_gaussian_process(&self.train, &options)?;
+        let process = fit_gaussian_process(&self.train, largest)?;
         table.rows.push(row("Gaussian process", &self.figures::<C>(&process), None));
         Ok(())
     }

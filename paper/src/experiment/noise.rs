@@ -4,11 +4,9 @@ use coadjoint::SO3;
 use coadjoint::groups::Exponential;
 use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
 use coadjoint_learn::network::TrainingOptions;
-use coadjoint_learn::polynomial::{Scaling, SelectionOptions, select_polynomial};
+use coadjoint_learn::polynomial::{Scaling, select_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
-use coadjoint_learn::{
-    GaussianProcessOptions, MomentumFunction, Scaled, evaluate, fit_gaussian_process,
-};
+use coadjoint_learn::{MomentumFunction, Scaled, evaluate, fit_gaussian_process};
 
 use super::Options;
 use super::learned::{enter, watched};
@@ -63,13 +61,10 @@ pub fn run(options: &Options) -> Fallible<Report> {
         looks.iter_mut().for_each(|look| *look = [look[0], unit * look[1], unit * look[2]]);
         enter_row(&format!("network, {} steps of Adam", training.adam_steps), &network);
         enter(&mut curve, "noise", columns, &looks);
-        let (seed, degrees) = (options.seed(5), (2..=6).collect());
-        let selection = SelectionOptions { seed, degrees, ..Default::default() };
-        let selection = select_polynomial(data, &selection)?;
+        let selection = select_polynomial(data, 2..=6, options.seed(5))?;
         enter_row(&format!("cross-validated: {}", selection.best.name), &selection.model);
-        let largest = options.pick(300, 100);
-        let process = GaussianProcessOptions { largest, ..Default::default() };
-        enter_row("Gaussian process", &fit_gaussian_process(data, &process)?);
+        let process = fit_gaussian_process(data, options.pick(300, 100))?;
+        enter_row("Gaussian process", &process);
         report.tables.push(table);
     }
     report.curves.push(curve);

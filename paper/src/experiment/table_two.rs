@@ -3,7 +3,7 @@
 use coadjoint::SO3;
 use coadjoint::groups::Exponential;
 use coadjoint::steps::poisson_map;
-use coadjoint_learn::momentum::{PoissonOptions, fit_poisson};
+use coadjoint_learn::momentum::fit_poisson;
 use coadjoint_learn::polynomial::PolynomialModel;
 use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_momentum_flow, momentum_pairs};
 use coadjoint_learn::{Generating, MomentumFunction, Scaled, evaluate_momenta};
@@ -50,8 +50,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
         enter("S = Δt·H".into(), &Scaled { factor: step, function: &body });
         let mut models = Vec::new();
         for degree in [2, 4, 6] {
-            let fit = PoissonOptions::degree(degree);
-            let model = fit_poisson::<SO3, Exponential>(&group, &train, &fit)?.model;
+            let (model, _) = fit_poisson::<SO3, Exponential>(&group, &train, degree)?;
             enter(format!("p eliminated, degree {degree}"), &model);
             models.push((format!("degree_{degree}"), model));
         }
