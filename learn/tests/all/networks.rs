@@ -58,7 +58,7 @@ fn the_same_seed_gives_the_same_bits() {
 fn training_goes_on_from_a_checkpoint() {
     let (_, train) = sample(50, 1);
     let path = std::env::temp_dir().join(format!("coadjoint-neural-{}", std::process::id()));
-    let plain = TrainingOptions { widths: vec![12], adam_steps: 80, lbfgs_steps: 420, ..small() };
+    let plain = TrainingOptions { widths: vec![12], adam_steps: 180, lbfgs_steps: 320, ..small() };
     let fit = |options: &TrainingOptions, killed_at: usize| {
         let mut seen = Vec::new();
         let fitted = std::panic::catch_unwind(AssertUnwindSafe(|| {
@@ -71,7 +71,7 @@ fn training_goes_on_from_a_checkpoint() {
     };
     let whole = fit(&plain, usize::MAX).0.unwrap();
     let kept = TrainingOptions { checkpoint: Some(path.clone()), ..plain };
-    for (killed_at, goes_on_at) in [(10, 0), (70, 50), (80, 50), (120, 50), (300, 250)] {
+    for (killed_at, goes_on_at) in [(10, 0), (150, 100), (180, 100), (230, 200), (400, 300)] {
         assert_eq!(fit(&kept, killed_at).0, None);
         let (again, first) = fit(&kept, usize::MAX);
         assert_eq!(again.as_ref(), Some(&whole), "{killed_at}");
