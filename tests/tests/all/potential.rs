@@ -1,9 +1,8 @@
-//! Potentials: the torque derived from V(g), its kicks, and what they leave conserved.
+//! Potentials: the torque derived from V(g), and the quantities that its kicks conserve (the kicks: `kicked.rs`).
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::laws::{measured_order, symplectic_defect_of};
-use coadjoint::steps::{Kicked, Rkn4, Rkn6, Splitting, Strang};
-use coadjoint::{LieGroup, Phase, SO3, StepError, lie_poisson, potential};
+use coadjoint::steps::{Kicked, Rkn4};
+use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
@@ -34,6 +33,12 @@ fn gravity_gradient(g: [[f64; 3]; 3], inertia: [f64; 3], earth: [f64; 3]) -> f64
         sum += 1.5 * inertia[i] * r * r;
     }
     sum
+}
+
+/// The torque of a satellite whose Earth goes round.
+pub fn torque(time: f64, attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let earth = [time.cos(), time.sin(), 0.0];
+    GravityGradient::new(INERTIA, earth).map_or(Vector3::repeat(f64::NAN), |v| v.torque(attitude))
 }
 
 fn attitude() -> UnitQuaternion<f64> {
@@ -136,44 +141,6 @@ fn the_torque_is_minus_the_derivative_of_the_potential() {
             assert!((exact + slope).abs() < 1e-12, "{file}: component {k}: {exact} and {slope}");
         }
     }
-}
-
-fn step<M: Splitting>(
-    h: f64,
-) -> Result<impl Fn(&mut Phase<SO3>, f64) -> Result<(), StepError>, StepError> {
-    let torque = |time: f64, g: &_| {
-        let earth = [time.cos(), time.sin(), 0.0];
-        GravityGradient::new(INERTIA, earth).map_or(Vector3::repeat(f64::NAN), |v| v.torque(g))
-    };
-    let step = Kicked::<M, _, _>::new(h, torque, |part| Satellite::new(part, INERTIA))?;
-    Ok(move |state: &mut Phase<SO3>, time| step.advance(state, time))
-}
-
-fn start() -> Phase<SO3> {
-    Phase::new(attitude(), Vector3::new(0.7, -0.4, 0.9))
-}
-
-#[test]
-fn kicks_by_the_derived_torque_are_symplectic() {
-    let step = step::<Rkn6>(0.2).unwrap();
-    let defect = symplectic_defect_of(&SO3::new(), &start(), &mut |state| step(state, 0.3));
-    let defect = defect.unwrap().unwrap();
-    assert!(defect < 1e-10, "{defect:e}");
-}
-
-#[test]
-fn orders_two_four_and_six() {
-    fn near<M: Splitting>(steps: u32) {
-        let order = measured_order(&SO3::new(), &start(), 2.0, steps, |h, steps, state| {
-            let step = step::<M>(h)?;
-            (0..steps).try_for_each(|n| step(state, f64::from(n) * h))
-        });
-        let order = order.unwrap();
-        assert!((order - f64::from(M::ORDER)).abs() < 0.3, "order {order:.2}, not {}", M::ORDER);
-    }
-    near::<Strang>(40);
-    near::<Rkn4>(16);
-    near::<Rkn6>(6);
 }
 
 fn kernel(file: &str) -> Vec<Vec<Rational>> {
