@@ -5,124 +5,57 @@
 //! is checked in exact arithmetic by `every_integral_commutes_with_its_hamiltonian`.
 #![allow(clippy::expect_used)]
 
-use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::system::{Options, read};
 use coadjoint_tests::reference::{EndState, end_state, numbers};
 use coadjoint_tests::run::run;
 
-/// c·∏ μᵢ, indices repeated for powers.
-type Monomials = &'static [(i64, i64, &'static [usize])];
-
-/// The extra integrals, as (system, name, terms with numerator, denominator, factors).
-const INTEGRALS: &[(&str, &str, Monomials)] = &[
+/// The extra integrals, as (system, name, formula).
+const INTEGRALS: &[(&str, &str, &str)] = &[
     // Π₃ (Π₁² + Π₂²) − 4 Π₁ Γ₃ is one only where Π·Γ = 0; see its own test below.
     (
-        // (¼ (Π₁² − Π₂²) − Γ₁)² + (½ Π₁Π₂ − Γ₂)², expanded.
         "kovalevskaya-top",
         "Kovalevskaya's",
-        &[
-            (1, 16, &[0, 0, 0, 0]),
-            (-1, 8, &[0, 0, 1, 1]),
-            (1, 16, &[1, 1, 1, 1]),
-            (-1, 2, &[0, 0, 3]),
-            (1, 2, &[1, 1, 3]),
-            (1, 1, &[3, 3]),
-            (1, 4, &[0, 0, 1, 1]),
-            (-1, 1, &[0, 1, 4]),
-            (1, 1, &[4, 4]),
-        ],
+        "((mu[0]^2 - mu[1]^2)/4 - mu[3])^2 + (mu[0]*mu[1]/2 - mu[4])^2",
     ),
     (
-        // |Π|² − k Σ aᵢ Pᵢ², a = (1, 7/10, 2/5), k = 4/5
+        // |Π|² − k Σ aᵢ Pᵢ²
         "clebsch-case",
         "Clebsch's",
-        &[
-            (1, 1, &[0, 0]),
-            (1, 1, &[1, 1]),
-            (1, 1, &[2, 2]),
-            (-4, 5, &[3, 3]),
-            (-14, 25, &[4, 4]),
-            (-8, 25, &[5, 5]),
-        ],
+        "mu[0]^2 + mu[1]^2 + mu[2]^2 - 4/5*(mu[3]^2 + 7/10*mu[4]^2 + 2/5*mu[5]^2)",
     ),
     (
         // Σ (j_a² + j_b²) M_ab², j = (1, 2, 3, 4)
         "manakov-so4",
         "Manakov's",
-        &[
-            (5, 1, &[0, 0]),
-            (10, 1, &[1, 1]),
-            (17, 1, &[2, 2]),
-            (13, 1, &[3, 3]),
-            (20, 1, &[4, 4]),
-            (25, 1, &[5, 5]),
-        ],
+        "5*mu[0]^2 + 10*mu[1]^2 + 17*mu[2]^2 + 13*mu[3]^2 + 20*mu[4]^2 + 25*mu[5]^2",
     ),
     // s₁ = s₂ = 1
+    ("three-wave", "Manley and Rowe's first", "mu[0]^2 + mu[1]^2 - mu[4]^2 - mu[5]^2"),
+    ("three-wave", "Manley and Rowe's second", "mu[0]^2 + mu[1]^2 + (mu[2]^2 + mu[3]^2)/2"),
     (
-        "three-wave",
-        "Manley and Rowe's first",
-        &[(1, 1, &[0, 0]), (1, 1, &[1, 1]), (-1, 1, &[4, 4]), (-1, 1, &[5, 5])],
-    ),
-    (
-        "three-wave",
-        "Manley and Rowe's second",
-        &[(1, 1, &[0, 0]), (1, 1, &[1, 1]), (1, 2, &[2, 2]), (1, 2, &[3, 3])],
-    ),
-    // tr L³ = Σ b³ + 3 Σ aᵢ² (bᵢ + bᵢ₊₁)
-    (
+        // tr L³ = Σ b³ + 3 Σ aᵢ² (bᵢ + bᵢ₊₁)
         "toda-lattice",
         "Flaschka's tr L³",
-        &[
-            (1, 1, &[3, 3, 3]),
-            (1, 1, &[4, 4, 4]),
-            (1, 1, &[5, 5, 5]),
-            (1, 1, &[6, 6, 6]),
-            (3, 1, &[0, 0, 3]),
-            (3, 1, &[0, 0, 4]),
-            (3, 1, &[1, 1, 4]),
-            (3, 1, &[1, 1, 5]),
-            (3, 1, &[2, 2, 5]),
-            (3, 1, &[2, 2, 6]),
-        ],
+        "mu[3]^3 + mu[4]^3 + mu[5]^3 + mu[6]^3 + 3*mu[0]^2*(mu[3] + mu[4]) \
+         + 3*mu[1]^2*(mu[4] + mu[5]) + 3*mu[2]^2*(mu[5] + mu[6])",
     ),
     // Symmetries linear in μ.
-    ("lagrange-top", "Π₃", &[(1, 1, &[2])]),
-    ("heavy-top-bruels", "Π₂", &[(1, 1, &[1])]),
-    ("three-wave", "the first diagonal entry", &[(1, 1, &[6])]),
-    ("three-wave", "the second diagonal entry", &[(1, 1, &[7])]),
-    (
-        "heisenberg-spin-ring",
-        "the magnetisation",
-        &[(1, 1, &[2]), (1, 1, &[5]), (1, 1, &[8]), (1, 1, &[11])],
-    ),
+    ("lagrange-top", "Π₃", "mu[2]"),
+    ("heavy-top-bruels", "Π₂", "mu[1]"),
+    ("three-wave", "the first diagonal entry", "mu[6]"),
+    ("three-wave", "the second diagonal entry", "mu[7]"),
+    ("heisenberg-spin-ring", "the magnetisation", "mu[2] + mu[5] + mu[8] + mu[11]"),
 ];
 
-fn integral(name: &str) -> (&'static str, Monomials) {
+fn integral(name: &str) -> (&'static str, &'static str) {
     let found = INTEGRALS.iter().find(|(_, known, _)| *known == name);
-    found.map(|&(system, _, terms)| (system, terms)).expect("a known integral")
+    found.map(|&(system, _, formula)| (system, formula)).expect("a known integral")
 }
 
-fn value(terms: Monomials, mu: &[f64]) -> f64 {
-    terms
-        .iter()
-        .map(|(a, b, factors)| {
-            *a as f64 / *b as f64 * factors.iter().map(|&i| mu[i]).product::<f64>()
-        })
-        .sum()
-}
-
-fn polynomial(terms: Monomials, dim: usize) -> Polynomial {
-    Polynomial::from_terms(
-        dim,
-        terms.iter().map(|(a, b, factors)| {
-            let mut exponents = vec![0; dim];
-            for &i in *factors {
-                exponents[i] += 1;
-            }
-            (exponents, Rational::new((*a).into(), (*b).into()))
-        }),
-    )
+fn polynomial(formula: &str, dim: usize) -> Polynomial {
+    let text = format!("group = \"R{dim}\"\nhamiltonian = \"{formula}\"\n");
+    read(&text, Options::default()).expect("a polynomial").problem.hamiltonian
 }
 
 /// Ḟ = Σ ∂ⱼF ∂ᵢH c_ij^l μ_l, exactly.
@@ -140,30 +73,31 @@ fn rate(system: &str, f: &Polynomial) -> Polynomial {
 
 #[test]
 fn every_integral_commutes_with_its_hamiltonian() {
-    for &(system, name, terms) in INTEGRALS {
+    for &(system, name, formula) in INTEGRALS {
         let dim = end_state(system).algebra().dim();
-        assert!(rate(system, &polynomial(terms, dim)).is_zero(), "{name}");
+        assert!(rate(system, &polynomial(formula, dim)).is_zero(), "{name}");
     }
 }
 
 /// The drift of a function over both halves of `spans` times the reference's span, in steps of `span`/n.
 fn drift(
     entry: &EndState,
-    terms: Monomials,
+    formula: &str,
     truncation: usize,
     (spans, n): (usize, usize),
     start: Option<&[f64]>,
 ) -> (f64, f64) {
-    let watched = |mu: &[f64]| value(terms, mu);
+    let integral = polynomial(formula, entry.momentum0.len());
+    let watched = |mu: &[f64]| integral.evaluate(mu);
     let series = entry.series(truncation);
     run(entry, &series, (spans * n, n), start, &[&watched]).1.watched[0]
 }
 
 /// n and 2n steps to the span show the order K + 1, and the drift is not notably larger in the second half of the run
 /// than in the first.
-fn shrinks(system: &str, terms: Monomials, truncation: usize, (spans, n): (usize, usize)) {
+fn shrinks(system: &str, formula: &str, truncation: usize, (spans, n): (usize, usize)) {
     let entry = end_state(system);
-    let [coarse, fine] = [n, 2 * n].map(|n| drift(&entry, terms, truncation, (spans, n), None));
+    let [coarse, fine] = [n, 2 * n].map(|n| drift(&entry, formula, truncation, (spans, n), None));
     let note = format!("{system}, K = {truncation}: {coarse:?}, {fine:?}");
     let order = (coarse.0.max(coarse.1) / fine.0.max(fine.1)).log2();
     assert!((order - (truncation + 1) as f64).abs() < 0.5, "order {order}: {note}");
@@ -188,8 +122,8 @@ fn integrals_drift_at_the_order_of_the_method() {
         ("Flaschka's tr L³", 3, (4, 50)),
         ("Flaschka's tr L³", 5, (4, 50)),
     ] {
-        let (system, terms) = integral(name);
-        shrinks(system, terms, truncation, runs);
+        let (system, formula) = integral(name);
+        shrinks(system, formula, truncation, runs);
     }
 }
 
@@ -198,14 +132,14 @@ fn integrals_drift_at_the_order_of_the_method() {
 #[test]
 fn goryachev_and_chaplygins_integral() {
     let system = "goryachev-chaplygin-top";
-    let terms: Monomials = &[(1, 1, &[0, 0, 2]), (1, 1, &[1, 1, 2]), (-4, 1, &[0, 5])];
-    let level = polynomial(&[(-1, 1, &[0, 1, 3]), (-1, 1, &[1, 1, 4]), (-1, 1, &[1, 2, 5])], 6);
-    assert_eq!(rate(system, &polynomial(terms, 6)), level);
+    let formula = "mu[2]*(mu[0]^2 + mu[1]^2) - 4*mu[0]*mu[5]";
+    let level = polynomial("-mu[1]*(mu[0]*mu[3] + mu[1]*mu[4] + mu[2]*mu[5])", 6);
+    assert_eq!(rate(system, &polynomial(formula, 6)), level);
     for truncation in [3, 5] {
-        shrinks(system, terms, truncation, (4, 60));
+        shrinks(system, formula, truncation, (4, 60));
         // Off the level it is none: the same top with Π·Γ = 0.48 drifts by order one.
         let start = [1.2, -0.9, 0.7, 0.8, 0.6, 0.0];
-        let off = drift(&end_state(system), terms, truncation, (4, 60), Some(&start));
+        let off = drift(&end_state(system), formula, truncation, (4, 60), Some(&start));
         assert!(off.0 > 0.1, "{off:?}");
     }
 }
@@ -220,9 +154,9 @@ fn linear_symmetries_are_exact() {
         ("the second diagonal entry", 100),
         ("the magnetisation", 50),
     ] {
-        let (system, terms) = integral(name);
+        let (system, formula) = integral(name);
         let entry = end_state(system);
-        let drift = drift(&entry, terms, 3, (1, n), None);
+        let drift = drift(&entry, formula, 3, (1, n), None);
         let size = numbers(&entry.momentum0).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         assert!(drift.0.max(drift.1) < 2e-13 * size, "{name}: {drift:?}");
     }
