@@ -10,14 +10,14 @@ use coadjoint::LieGroup;
 use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint_codegen::lie::{LieAlgebra, catalogue};
-use coadjoint_codegen::number::Rational;
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::Trajectories;
 use coadjoint_run::engine::{
     Compiled, Interpreter, Kept, Numbers, STEEP, Steepness, entries_of, product_group,
 };
 use coadjoint_run::{Backend, integrator, read};
 use nalgebra::DVector;
+use num_traits::ToPrimitive;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -118,31 +118,9 @@ fn hamiltonian(group: &str, dim: usize, random: &mut ChaCha8Rng) -> (String, Opt
     (terms.join(" + "), least)
 }
 
-/// A polynomial: its coefficients, and the coordinates and powers of its monomials.
-struct Terms(Vec<(f64, Vec<(u32, u32)>)>);
-
-impl Terms {
-    fn new(polynomial: &Polynomial) -> Self {
-        let terms = polynomial.factors();
-        Self(terms.map(|(factors, value)| (float(&value), factors)).collect())
-    }
-
-    fn evaluate(&self, x: &[f64]) -> f64 {
-        let power = |&(i, power): &(u32, u32)| x[i as usize].powi(power as i32);
-        self.0
-            .iter()
-            .map(|(value, factors)| value * factors.iter().map(power).product::<f64>())
-            .sum()
-    }
-}
-
-fn float(value: &Rational) -> f64 {
-    num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
-}
-
 /// The exact flow, and what is compared with it.
 struct Truth {
-    velocity: Vec<Terms>,
+    velocity: Vec<Numeric>,
     structure: Vec<(usize, usize, usize, f64)>,
     /// The factor of each coordinate.
     factors: Vec<u32>,
@@ -150,10 +128,11 @@ struct Truth {
 }
 
 impl Truth {
-    fn new(algebra: &LieAlgebra, velocity: Vec<Terms>, compact: bool) -> Self {
+    fn new(algebra: &LieAlgebra, velocity: Vec<Numeric>, compact: bool) -> Self {
         let mut structure = Vec::new();
         for c in algebra.structure() {
-            for entry in [(c.i, c.j, c.k, float(&c.value)), (c.j, c.i, c.k, -float(&c.value))] {
+            let value = c.value.to_f64().unwrap_or(f64::NAN);
+            for entry in [(c.i, c.j, c.k, value), (c.j, c.i, c.k, -value)] {
                 if !structure.contains(&entry) {
                     structure.push(entry);
                 }
@@ -163,12 +142,12 @@ impl Truth {
     }
 
     fn speed(&self, mu: &[f64]) -> f64 {
-        self.velocity.iter().map(|v| v.evaluate(mu)).fold(0.0, f64::hypot)
+        self.velocity.iter().map(|v| v.value(mu)).fold(0.0, f64::hypot)
     }
 
     /// ad\*_{∂H/∂μ} μ
     fn field(&self, mu: &[f64]) -> Vec<f64> {
-        let omega: Vec<f64> = self.velocity.iter().map(|v| v.evaluate(mu)).collect();
+        let omega: Vec<f64> = self.velocity.iter().map(|v| v.value(mu)).collect();
         let mut field = vec![0.0; mu.len()];
         for &(i, j, k, c) in &self.structure {
             field[j] += omega[i] * c * mu[k];
@@ -255,7 +234,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let system = read(name, &text).map_err(|error| said(&error))?;
     let integrator = integrator(name.as_ref(), system.problem).map_err(|error| said(&error))?;
     let problem = &integrator.problem;
-    let velocity = problem.hamiltonian.gradient(dim).iter().map(Terms::new).collect();
+    let velocity = problem.hamiltonian.gradient(dim);
+    let velocity = velocity.iter().map(|rate| Numeric::new(rate, dim, &[])).collect();
     let truth = Truth::new(&algebra, velocity, compact);
     let group = product_group(name.as_ref(), &algebra).map_err(|error| said(&error))?;
     let step = Interpreter::<DirectProduct<MatrixGroup>, Exponential>::new(
