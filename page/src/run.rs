@@ -154,12 +154,7 @@ impl Run {
     #[must_use]
     pub fn matrices(&self, system: &System) -> Vec<f64> {
         let program = &system.step.kernel().programs().matrix;
-        let entries = program.outputs().len();
-        let mut both = vec![0.0; 2 * entries];
-        for (state, matrix) in [&self.before, &self.now].into_iter().zip(both.chunks_mut(entries)) {
-            program.run(&state.g, &[], &mut Vec::new(), matrix);
-        }
-        both
+        [&self.before, &self.now].into_iter().flat_map(|state| program.run(&state.g, &[])).collect()
     }
 
     /// Where three coordinates of μ have been, of late: points (x, y, z), smoothed between steps.

@@ -185,7 +185,6 @@ impl Steps {
         let identity: Vec<f64> = (0..size * size).map(unit).collect();
         let (mut g, mut momentum) = (self.step.element_of(&identity), start.to_vec());
         let (mut states, mut corrections) = (Vec::new(), 0);
-        let mut nodes = Vec::new();
         for n in 0..=steps {
             if n > 0 {
                 let made = kernel.advance(&slots, &mut g, &mut momentum, 1);
@@ -194,9 +193,7 @@ impl Steps {
                 }
                 corrections += u64::from(made.corrections);
             }
-            matrix.evaluate(|i| g[i], |i| slots[i], &mut nodes);
-            let entries = matrix.outputs().iter().map(|id| nodes[id.index()]).collect();
-            states.push(State { momentum: momentum.clone(), matrix: entries });
+            states.push(State { momentum: momentum.clone(), matrix: matrix.run(&g, &slots) });
         }
         Some((states, corrections))
     }

@@ -12,7 +12,7 @@ impl Program {
     ///
     /// Always inlined, so that lanes get the instruction set of the caller.
     #[inline(always)]
-    pub fn evaluate<T: Number>(
+    pub(crate) fn evaluate<T: Number>(
         &self,
         input: impl Fn(usize) -> T,
         slot: impl Fn(usize) -> T,
@@ -43,19 +43,12 @@ impl Program {
         }
     }
 
-    /// Evaluates the program on `inputs` with these folded coefficients; results go to `outputs` in order. Missing
-    /// inputs and slots read as 0.
-    pub fn run<T: Number>(
-        &self,
-        inputs: &[T],
-        slots: &[T],
-        scratch: &mut Vec<T>,
-        outputs: &mut [T],
-    ) {
-        let read = |list: &[T], i: usize| list.get(i).copied().unwrap_or(T::of(0.0));
-        self.evaluate(|i| read(inputs, i), |i| read(slots, i), scratch);
-        for (output, id) in outputs.iter_mut().zip(self.outputs()) {
-            *output = scratch[id.index()];
-        }
+    /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as 0.
+    #[must_use]
+    pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
+        let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
+        let mut nodes = Vec::new();
+        self.evaluate(|i| read(inputs, i), |i| read(slots, i), &mut nodes);
+        self.outputs().iter().map(|id| nodes[id.index()]).collect()
     }
 }

@@ -63,10 +63,7 @@ impl Kernel {
     /// The numbers of `watch` at a state.
     #[must_use]
     pub fn watch(&self, slots: &[f64], g: &[f64], mu: &[f64]) -> Vec<f64> {
-        let program = &self.programs().watch;
-        let mut values = vec![0.0; program.outputs().len()];
-        program.run(&[g, mu].concat(), slots, &mut Vec::new(), &mut values);
-        values
+        self.programs().watch.run(&[g, mu].concat(), slots)
     }
 }
 

@@ -65,8 +65,6 @@ pub use kernel::{Kernel, KernelParts, Programs};
 #[cfg(feature = "programs")]
 pub use node::{Cost, Id, Node};
 #[cfg(feature = "programs")]
-pub use number::{Lanes, Number};
-#[cfg(feature = "programs")]
 pub use precision::Precision;
 #[cfg(feature = "programs")]
 pub use program::Program;

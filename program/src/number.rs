@@ -1,7 +1,7 @@
 //! The numbers that programs are evaluated in: scalars, and several at once.
 
 /// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
-pub trait Number: Copy {
+pub(crate) trait Number: Copy {
     /// The same number in all lanes.
     fn of(value: f64) -> Self;
     /// a + b
@@ -99,7 +99,7 @@ impl Number for f64 {
 /// L numbers side by side; each lane has the bits that it would have alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
-pub struct Lanes<const L: usize>(pub [f64; L]);
+pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
 
 impl<const L: usize> Lanes<L> {
     #[inline(always)]

@@ -88,10 +88,7 @@ pub fn numbers_of(
 /// The matrix, row by row, of an element given by the numbers that the programs have for it.
 #[must_use]
 pub fn matrix_of(kernel: &Kernel, g: &[f64]) -> Vec<f64> {
-    let program = &kernel.programs().matrix;
-    let mut matrix = vec![0.0; program.outputs().len()];
-    program.run(g, &[], &mut Vec::new(), &mut matrix);
-    matrix
+    kernel.programs().matrix.run(g, &[])
 }
 
 /// The state of the runtime that the programs have as these numbers.

@@ -236,10 +236,7 @@ impl Compiled {
 
     /// The matrix of an element, row by row.
     pub fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
-        let program = &self.kernel().programs().matrix;
-        let mut matrix = vec![0.0; program.outputs().len()];
-        program.run(g, &[], &mut Vec::new(), &mut matrix);
-        matrix
+        self.kernel().programs().matrix.run(g, &[])
     }
 
     /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).

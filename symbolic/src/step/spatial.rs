@@ -33,8 +33,6 @@ impl Spatial {
             let own = &mut inputs[g.len() + start..][..rows * rows];
             own.copy_from_slice(inverse.transpose().as_slice());
         }
-        let mut momentum = vec![0.0; mu.len()];
-        self.program.run(&inputs, &[], &mut Vec::new(), &mut momentum);
-        momentum
+        self.program.run(&inputs, &[])
     }
 }

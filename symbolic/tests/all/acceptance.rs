@@ -59,10 +59,7 @@ fn folded(step: &Step, radius: f64) -> Vec<f64> {
 fn verdict(group: &str, radius: f64, mu: &[f64], x: &[f64], left: f64, way: f64) -> bool {
     let step = step(group, BODY, 7, None);
     let inputs = [mu, x, &[left, way]].concat();
-    let mut accepted = [0.0];
-    let program = &step.kernel().programs().accept;
-    program.run(&inputs, &folded(&step, radius), &mut Vec::new(), &mut accepted);
-    accepted[0] == 1.0
+    step.kernel().programs().accept.run(&inputs, &folded(&step, radius)) == [1.0]
 }
 
 #[test]

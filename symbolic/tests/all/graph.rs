@@ -36,8 +36,7 @@ proptest! {
         let mut graph = Graph::new();
         let outputs = [lower(&mut graph, &terms), lower(&mut graph, &other)];
         let program = graph.finish(3, &outputs);
-        let mut results = [f64::NAN; 2];
-        program.run(&inputs, &slots, &mut Vec::new(), &mut results);
+        let results = program.run(&inputs, &slots);
         for (result, terms) in results.iter().zip([&terms, &other]) {
             let expected = by_definition(terms, &inputs, &slots);
             prop_assert!((result - expected).abs() <= 1e-11 * (1.0 + expected.abs()));
@@ -79,8 +78,7 @@ fn many_variables_cost_in_proportion_to_the_terms() {
         let mut graph = Graph::new();
         let output = lower(&mut graph, &terms);
         let program = graph.finish(sites as usize + 1, &[output]);
-        let mut value = [f64::NAN];
-        program.run(&inputs, &slots, &mut Vec::new(), &mut value);
+        let value = program.run(&inputs, &slots);
         let expected = by_definition(&terms, &inputs, &slots);
         assert!((value[0] - expected).abs() <= 1e-13 * expected.abs());
         program.cost().total()

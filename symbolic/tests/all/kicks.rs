@@ -52,12 +52,9 @@ fn a_step_is_its_kicks_and_flows() {
     let (flow, kick) = body();
     let plain = Step::build(&flow).unwrap();
     let torque = |g: &[f64]| {
-        let mut matrix = vec![0.0; 9];
-        plain.kernel().programs().matrix.run(g, &[], &mut Vec::new(), &mut matrix);
+        let matrix = plain.kernel().programs().matrix.run(g, &[]);
         let slots = FoldTable::of_kick(&kick).fold(1.0, &root).unwrap();
-        let mut torque = vec![0.0; 3];
-        kick.torque.run(&matrix, &slots, &mut Vec::new(), &mut torque);
-        torque
+        kick.torque.run(&matrix, &slots)
     };
     for splitting in Splitting::ALL {
         let (kicks, flows) = (splitting.kicks(), splitting.flows());
