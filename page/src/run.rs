@@ -57,7 +57,7 @@ impl Run {
         let size: usize = system.factors.iter().map(|factor| factor.size).sum();
         let identity: Vec<f64> =
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
-        let g = identity_of(system, &identity);
+        let g = system.step.element_of(&identity);
         let mut rate = vec![0.0; n];
         system.rival.rate(momentum, &mut Vec::new(), &mut rate);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
@@ -222,11 +222,6 @@ impl Run {
         let State { g, mu, .. } = &self.now;
         self.spatial.momentum(g, mu)
     }
-}
-
-/// The numbers of the identity.
-fn identity_of(system: &System, identity: &[f64]) -> Vec<f64> {
-    system.step.element_of(identity)
 }
 
 /// How many of the rival's steps cost as much as one of ours, or a little more.

@@ -126,45 +126,26 @@ impl Table {
         self.products.len() - 1
     }
 
-    /// a · b^sign.
-    fn combine(&mut self, a: Product, b: Product, sign: i32) -> Result<Product, Mistake> {
-        if b == ONE {
-            return Ok(a);
-        }
-        if a == ONE && sign == 1 {
-            return Ok(b);
-        }
-        let mut powers: BTreeMap<usize, i32> = self.products[a].iter().copied().collect();
-        for &(atom, power) in &self.products[b] {
-            *powers.entry(atom).or_insert(0) += sign * power;
-        }
-        powers.retain(|_, power| *power != 0);
-        if let Some(power) = powers.values().find(|p| i64::from(p.abs()) > HIGHEST_POWER) {
-            return Err(Mistake::LargePower(power.to_string(), HIGHEST_POWER as u32));
-        }
-        Ok(self.product(powers.into_iter().collect()))
-    }
-
     pub(super) fn multiply(
         &mut self,
         a: &Coefficient,
         b: &Coefficient,
     ) -> Result<Coefficient, Mistake> {
         let factor = limited(&a.factor * &b.factor)?;
-        let product = self.combine(a.product, b.product, 1)?;
-        Ok(Coefficient { factor, product })
-    }
-
-    pub(super) fn divide(
-        &mut self,
-        a: &Coefficient,
-        b: &Coefficient,
-    ) -> Result<Coefficient, Mistake> {
-        if b.is_zero() {
-            return Err(Mistake::DivisionByZero);
-        }
-        let factor = limited(&a.factor / &b.factor)?;
-        let product = self.combine(a.product, b.product, -1)?;
+        let product = match (a.product, b.product) {
+            (ONE, other) | (other, ONE) => other,
+            (a, b) => {
+                let mut powers: BTreeMap<usize, i32> = self.products[a].iter().copied().collect();
+                for &(atom, power) in &self.products[b] {
+                    *powers.entry(atom).or_insert(0) += power;
+                }
+                powers.retain(|_, power| *power != 0);
+                if let Some(power) = powers.values().find(|p| i64::from(p.abs()) > HIGHEST_POWER) {
+                    return Err(Mistake::LargePower(power.to_string(), HIGHEST_POWER as u32));
+                }
+                self.product(powers.into_iter().collect())
+            }
+        };
         Ok(Coefficient { factor, product })
     }
 

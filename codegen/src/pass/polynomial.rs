@@ -155,8 +155,8 @@ impl Pass<'_> {
                 let Some(divisor) = b.as_constant() else {
                     return self.wrong(span, Mistake::DivisionByMomentum);
                 };
-                let divided = self.table.divide(&Coefficient::number(Rational::one()), &divisor);
-                let inverse = self.checked(span, divided)?;
+                let inverse = self.table.power(&divisor, -1);
+                let inverse = self.checked(span, inverse)?;
                 self.multiply(&a?, &Sum::constant(inverse), span)
             }
             Node::Pow(a, b) => {

@@ -5,6 +5,8 @@ use coadjoint_codegen::number::ratio;
 use coadjoint_codegen::problem::Shape;
 use coadjoint_codegen::system::{self, Options, Parameters};
 
+use crate::given::{kept, read};
+
 const RIGID_BODY: &str = r#"
 name = "rigid-body"
 group = "SO3"
@@ -28,7 +30,7 @@ every = 2
 
 #[test]
 fn all_of_a_file_is_read() {
-    let system = system::read(RIGID_BODY, Options::default()).unwrap();
+    let system = read(RIGID_BODY);
     let problem = &system.problem;
     assert_eq!(problem.name, "rigid-body");
     assert_eq!(problem.coordinates, ["x", "y", "z"]);
@@ -46,14 +48,14 @@ fn all_of_a_file_is_read() {
 #[test]
 fn units_are_read_and_change_nothing() {
     let with = format!("{RIGID_BODY}\n[units]\ntime = \" s \"\nmomentum = \"kg m²/s\"\ny = \"1\"");
-    let system = system::read(&with, Options::default()).unwrap();
+    let system = read(&with);
     assert_eq!(system.units.time.as_deref(), Some("s"));
     let of = |units: &system::Units| {
         (0..4).map(|i| units.coordinate(i).map(str::to_owned)).collect::<Vec<_>>()
     };
     let unit = |text: &str| Some(text.to_owned());
     assert_eq!(of(&system.units), [unit("kg m²/s"), unit("1"), unit("kg m²/s"), None]);
-    let without = system::read(RIGID_BODY, Options::default()).unwrap();
+    let without = read(RIGID_BODY);
     assert_eq!(of(&without.units), [None, None, None, None]);
     assert_eq!(without.problem.hamiltonian, system.problem.hamiltonian);
     assert_eq!(without.run, system.run);
@@ -61,7 +63,7 @@ fn units_are_read_and_change_nothing() {
     // Copies share the unit of their coordinate; indexed names need no quotes.
     let copies = "group = \"SO3^2\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x[0]*x[1]\"\n\
         [units]\ny = \"J s\"";
-    let units = system::read(copies, Options::default()).unwrap().units;
+    let units = read(copies).units;
     assert_eq!((units.coordinate(1), units.coordinate(4)), (Some("J s"), Some("J s")));
     assert_eq!((units.coordinate(0), &units.time), (None, &None));
 }
@@ -92,11 +94,10 @@ fn decimals_are_exact_and_arrays_are_indexed() {
         a = [0.1, 1e-3]
         b = [[1, 2], [3.5, 4]]
     "#;
-    let problem = system::read(text, Options::default()).unwrap().problem;
+    let problem = read(text).problem;
     let terms: Vec<_> = problem.hamiltonian.terms().map(|(_, c)| c).collect();
     assert_eq!(terms, [ratio(1, 10), ratio(1, 1000), ratio(7, 2)]);
-    let kept = Options { parameters: Parameters::Kept, ..Options::default() };
-    let problem = system::read(text, kept).unwrap().problem;
+    let problem = kept(text).problem;
     assert_eq!(problem.parameters[1].shape, Shape::Grid(2, 2));
     assert_eq!(problem.symbols[2].text, "b[1][0]");
 }
@@ -119,8 +120,8 @@ fn algebras_are_given_by_basis_or_brackets() {
         generators = ["a", "b", "c"]
         brackets = ["[a,b] = c", "[b, c] = 2*a - a", "[a , c]= -4/4*b"]
     "#;
-    let basis = system::read(by_basis, Options::default()).unwrap().problem.algebra;
-    let brackets = system::read(by_brackets, Options::default()).unwrap().problem;
+    let basis = read(by_basis).problem.algebra;
+    let brackets = read(by_brackets).problem;
     assert_eq!(basis.structure(), brackets.algebra.structure());
     assert_eq!(basis.basis().unwrap().len(), 3);
     assert_eq!(brackets.coordinates, ["a", "b", "c"]);

@@ -17,8 +17,7 @@ use crate::step::Step;
 
 /// How many rows the matrix of an element has.
 fn rows(step: &Step) -> usize {
-    let entries = step.kernel().programs().matrix.outputs().len();
-    (0..=entries).find(|rows| rows * rows >= entries).unwrap_or(0)
+    step.kernel().programs().matrix.outputs().len().isqrt()
 }
 
 /// Sizes, the status, and the structures.

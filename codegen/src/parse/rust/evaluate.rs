@@ -37,7 +37,6 @@ pub(super) struct Evaluator<'a> {
     arena: Arena,
     diagnostics: &'a Diagnostics,
     operations: usize,
-    stopped: bool,
 }
 
 impl<'a> Evaluator<'a> {
@@ -48,7 +47,6 @@ impl<'a> Evaluator<'a> {
             arena: Arena::new(),
             diagnostics,
             operations: 0,
-            stopped: false,
         }
     }
 
@@ -78,10 +76,7 @@ impl<'a> Evaluator<'a> {
         if self.operations <= MOST_OPERATIONS {
             return Ok(());
         }
-        if !self.stopped {
-            self.stopped = true;
-            self.wrong(span, Mistake::LongLoop(MOST_OPERATIONS));
-        }
+        self.wrong(span, Mistake::LongLoop(MOST_OPERATIONS));
         Err(Flow::Stop)
     }
 

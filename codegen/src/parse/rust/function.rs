@@ -6,7 +6,7 @@ use syn::{Expr, ExprCall, Pat, Path};
 
 use super::evaluate::{DEEPEST_CALL, Evaluator, Flow};
 use super::scope::Scopes;
-use super::signature::sized;
+use super::signature::{sized, sizes};
 use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::number::{Rational, integer};
@@ -166,7 +166,12 @@ impl Evaluator<'_> {
         arguments: &[Value],
         span: Span,
     ) -> Option<Value> {
-        let shape = sized(ty, &const_arguments(path))?;
+        // `SVector::<f64, 3>::new`.
+        let sizes = path.segments.iter().flat_map(|segment| match &segment.arguments {
+            syn::PathArguments::AngleBracketed(arguments) => sizes(arguments),
+            _ => Vec::new(),
+        });
+        let shape = sized(ty, &sizes.collect::<Vec<_>>())?;
         let (rows, columns) = match shape {
             Shape::Vector(n) => (n, 1),
             Shape::Matrix(rows, columns) => (rows, columns),
@@ -209,21 +214,6 @@ impl Evaluator<'_> {
         };
         Some(Value::Matrix(Matrix::new(rows, columns, entries.into_iter())))
     }
-}
-
-/// The numbers among the generic arguments of a path: `SVector::<f64, 3>::new`.
-fn const_arguments(path: &Path) -> Vec<usize> {
-    let arguments = path.segments.iter().filter_map(|segment| match &segment.arguments {
-        syn::PathArguments::AngleBracketed(arguments) => Some(&arguments.args),
-        _ => None,
-    });
-    let sizes = arguments.flatten().filter_map(|argument| match argument {
-        syn::GenericArgument::Const(Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(n), .. })) => {
-            n.base10_parse().ok()
-        }
-        _ => None,
-    });
-    sizes.collect()
 }
 
 /// Constants of `std::f64::consts`, with exactly the value of the `f64`.

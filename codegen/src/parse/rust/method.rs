@@ -3,6 +3,7 @@
 use syn::ExprMethodCall;
 
 use super::evaluate::{Evaluator, Flow};
+use super::signature::sizes;
 use super::value::{Matrix, Value};
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{Function, Node};
@@ -200,7 +201,8 @@ impl Evaluator<'_> {
             }
             ("fixed_rows", [start]) if columns == 1 => {
                 let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
-                let end = start.checked_add(turbofish(call)?)?;
+                let count = *sizes(call.turbofish.as_ref()?).first()?;
+                let end = start.checked_add(count)?;
                 let Some(rows) = items.get(start..end) else {
                     let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
                     return Some(self.wrong(span, wrong));
@@ -212,16 +214,5 @@ impl Evaluator<'_> {
             _ => return None,
         };
         Some(Value::Matrix(found))
-    }
-}
-
-/// N of `method::<N>(…)`.
-fn turbofish(call: &ExprMethodCall) -> Option<usize> {
-    let generics = call.turbofish.as_ref()?;
-    match generics.args.first()? {
-        syn::GenericArgument::Const(syn::Expr::Lit(syn::ExprLit {
-            lit: syn::Lit::Int(n), ..
-        })) => n.base10_parse().ok(),
-        _ => None,
     }
 }

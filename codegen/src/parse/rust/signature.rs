@@ -182,21 +182,18 @@ pub(super) fn shape(ty: &Type) -> Option<Shape> {
         Type::Path(path) if is_f64(ty) && path.qself.is_none() => Some(Shape::Scalar),
         Type::Path(path) => {
             let last = path.path.segments.last()?;
-            let mut sizes = Vec::new();
-            let mut numbers = 0;
-            if let syn::PathArguments::AngleBracketed(arguments) = &last.arguments {
-                for argument in &arguments.args {
-                    match argument {
-                        syn::GenericArgument::Type(ty) if is_f64(ty) => numbers += 1,
-                        syn::GenericArgument::Const(size) => sizes.push(length(size)?),
-                        _ => return None,
-                    }
-                }
-            }
-            if numbers != 1 {
+            let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
                 return None;
-            }
-            sized(&last.ident.to_string(), &sizes)
+            };
+            let sizes = sizes(arguments);
+            let numbers = arguments.args.iter().filter(|argument| match argument {
+                syn::GenericArgument::Type(ty) => is_f64(ty),
+                _ => false,
+            });
+            let numbers = numbers.count();
+            // One is the type of the entries; all others are sizes.
+            let fits = numbers == 1 && numbers + sizes.len() == arguments.args.len();
+            fits.then(|| sized(&last.ident.to_string(), &sizes)).flatten()
         }
         _ => None,
     }
@@ -224,6 +221,15 @@ pub(super) fn sized(name: &str, sizes: &[usize]) -> Option<Shape> {
         [rows, columns] => Some(Shape::Matrix(rows, columns)),
         _ => None,
     }
+}
+
+/// The numbers among generic arguments: `<f64, 3>`.
+pub(super) fn sizes(arguments: &syn::AngleBracketedGenericArguments) -> Vec<usize> {
+    let size = |argument: &syn::GenericArgument| match argument {
+        syn::GenericArgument::Const(size) => length(size),
+        _ => None,
+    };
+    arguments.args.iter().filter_map(size).collect()
 }
 
 fn length(expression: &syn::Expr) -> Option<usize> {
