@@ -66,6 +66,7 @@ impl Names {
     }
 
     /// Adds every name of others that is not known yet.
+    #[cfg(feature = "system")]
     pub(crate) fn include(&mut self, others: &Self) {
         let new = others.order.iter().filter(|name| !self.known.contains_key(*name)).cloned();
         self.order.extend(new.collect::<Vec<_>>());
