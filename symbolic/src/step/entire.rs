@@ -83,27 +83,27 @@ impl Angle {
         self.exact(graph, |k| alternating(k, 2 * k + 3))
     }
 
-    /// db/dt, to what `accuracy` asks for.
+    /// 2 db/dt, by which b changes with θ²/2, to what `accuracy` asks for.
     pub(crate) fn b_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
-        let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 4);
+        let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 4);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
-    /// dc/dt, to what `accuracy` asks for.
+    /// 2 dc/dt, to what `accuracy` asks for.
     pub(crate) fn c_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
-        let coefficient = |k: usize| (k + 1) as f64 * alternating(k + 1, 2 * k + 5);
+        let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 5);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
-    /// d²b/dt², for Newton's method.
+    /// 4 d²b/dt², for Newton's method.
     pub(crate) fn b_curvature(self, graph: &mut Graph) -> Id {
-        let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6);
+        let coefficient = |k: usize| (4 * (k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
 
-    /// d²c/dt², for Newton's method.
+    /// 4 d²c/dt², for Newton's method.
     pub(crate) fn c_curvature(self, graph: &mut Graph) -> Id {
-        let coefficient = |k: usize| ((k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7);
+        let coefficient = |k: usize| (4 * (k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
 

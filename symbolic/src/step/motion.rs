@@ -136,32 +136,28 @@ fn bend(
     gamma: &V3,
     v: &V3,
 ) -> Matrix {
-    let two = graph.constant(2.0);
     let g = cross(graph, gamma, omega);
     let gg = cross(graph, &g, omega);
     let gv = cross(graph, gamma, v);
     let m = cross(graph, &gv, omega);
     let other = cross(graph, &g, v);
     let m = sum(graph, &m, &other);
-    let s2 = dot(graph, omega, v);
-    let s2 = graph.mul(two, s2);
-    let along = scaled(graph, k.b_slope, &g);
-    let along = plus(graph, &along, k.c_slope, &gg);
-    let along2 = scaled(graph, curvature.0, &g);
-    let along2 = plus(graph, &along2, curvature.1, &gg);
-    let by_omega = scaled(graph, k.b_slope, &gv);
-    let by_omega = plus(graph, &by_omega, k.c_slope, &m);
-    let by_omega = plus(graph, &by_omega, s2, &along2);
-    let by_omega = scaled(graph, two, &by_omega);
-    let weight = graph.mul(s2, k.c_slope);
-    let back = graph.neg(weight);
-    let by_omega = plus(graph, &by_omega, back, gamma);
-    let by_v = scaled(graph, two, &along);
+    let s = dot(graph, omega, v);
+    let by_v = scaled(graph, k.b_slope, &g);
+    let by_v = plus(graph, &by_v, k.c_slope, &gg);
     let back = graph.neg(k.c);
     let by_v = plus(graph, &by_v, back, gamma);
+    let curved = scaled(graph, curvature.0, &g);
+    let curved = plus(graph, &curved, curvature.1, &gg);
+    let by_omega = scaled(graph, k.b_slope, &gv);
+    let by_omega = plus(graph, &by_omega, k.c_slope, &m);
+    let by_omega = plus(graph, &by_omega, s, &curved);
+    let weight = graph.mul(s, k.c_slope);
+    let back = graph.neg(weight);
+    let by_omega = plus(graph, &by_omega, back, gamma);
     let turn = scaled(graph, k.b_slope, gamma);
     let turn = plus(graph, &turn, k.c_slope, &g);
-    let turn = scaled(graph, s2, &turn);
+    let turn = scaled(graph, s, &turn);
     let turn = plus(graph, &turn, k.c, &gv);
     let across = dot(graph, gamma, omega);
     let diagonal = dot(graph, gamma, v);
@@ -179,7 +175,8 @@ fn bend(
 fn rotate(graph: &mut Graph, q: &[Id], v: &V3) -> V3 {
     let u = three(q, 1);
     let back = minus(graph, &u);
-    rotate_back(graph, q[0], &back, v)
+    let one = graph.constant(1.0);
+    rotate_back(graph, (q[0], one), &back, v)
 }
 
 impl Motion {
@@ -191,16 +188,16 @@ impl Motion {
         Angle { t: dot(graph, omega, omega), reach: QUARTER_TURN }
     }
 
-    /// (g, μ) moved by the increment with quaternion (w, u) and translation t.
-    fn moved(graph: &mut Graph, g: &[Id], mu: &[Id], w: Id, u: &V3, t: &V3) -> Moved {
+    /// (g, μ) moved by the increment with quaternion q = (w, s·ω) and translation t.
+    fn moved(graph: &mut Graph, (g, mu): (&[Id], &[Id]), q: (Id, Id), omega: &V3, t: &V3) -> Moved {
         let (pi, gamma) = (three(mu, 0), three(mu, 3));
         let lever = cross(graph, t, &gamma);
         let lifted = difference(graph, &pi, &lever);
-        let angular = rotate_back(graph, w, u, &lifted);
-        let linear = rotate_back(graph, w, u, &gamma);
+        let angular = rotate_back(graph, q, omega, &lifted);
+        let linear = rotate_back(graph, q, omega, &gamma);
         let carried = rotate(graph, g, t);
         let place = sum(graph, &carried, &three(g, 4));
-        let mut element = compose(graph, g, w, u);
+        let mut element = compose(graph, g, q, omega);
         element.extend(place);
         Moved { g: element, mu: join(&angular, &linear) }
     }
@@ -265,7 +262,7 @@ impl Part for Motion {
 
     fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let (omega, v) = (three(x, 0), three(x, 3));
-        let (w, u) = self.rotation().increment(graph, &omega);
+        let q = self.rotation().increment(graph, &omega);
         let t = match self.chart {
             Chart::Exponential => {
                 let angle = Self::angle(&omega, graph);
@@ -283,19 +280,19 @@ impl Part for Motion {
                 scaled(graph, f, &t)
             }
         };
-        Self::moved(graph, g, mu, w, &u, &t)
+        Self::moved(graph, (g, mu), q, &omega, &t)
     }
 
     fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let (omega, v) = (three(y, 0), three(y, 3));
         let t = dot(graph, &omega, &omega);
         let angle = WideAngle::new(graph, t);
-        let u = scaled(graph, angle.half_sine, &omega);
         let once = cross(graph, &omega, &v);
         let twice = cross(graph, &omega, &once);
         let place = plus(graph, &v, angle.b, &once);
         let place = plus(graph, &place, angle.c, &twice);
-        Some(Self::moved(graph, g, mu, angle.half_cosine, &u, &place))
+        let q = (angle.half_cosine, angle.half_sine);
+        Some(Self::moved(graph, (g, mu), q, &omega, &place))
     }
 
     fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {

@@ -4,7 +4,7 @@ use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
 use crate::step::part::{ESTIMATED, Moved, Part};
-use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, sum, three};
+use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, three};
 
 /// The largest θ² of a step: a quarter turn, and what is beyond it by rounding. Longer ones are not accepted at once.
 pub(crate) const QUARTER_TURN: f64 = 2.5;
@@ -18,7 +18,7 @@ pub(crate) struct Rotation {
     pub double_cover: bool,
 }
 
-/// b, c and their derivatives at θ², for (d^R exp_x)ᵀ.
+/// b, c and twice their derivatives at θ², for (d^R exp_x)ᵀ.
 pub(crate) struct Dexp {
     pub b: Id,
     pub c: Id,
@@ -52,12 +52,10 @@ pub(crate) fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3)
     let twice = cross(graph, &once, x);
     let near = plus(graph, mu, k.b, &once);
     let value = plus(graph, &near, k.c, &twice);
-    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
+    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + (x·v)(2b′ μ×x + 2c′ (μ×x)×x),
     // with (μ×v)×x = v (μ·x) − μ (v·x).
-    let two = graph.constant(2.0);
     let along = scaled(graph, k.b_slope, &once);
     let along = plus(graph, &along, k.c_slope, &twice);
-    let along = scaled(graph, two, &along);
     let minus_c = graph.neg(k.c);
     let along = plus(graph, &along, minus_c, mu);
     let turn = scaled(graph, k.b, mu);
@@ -77,25 +75,27 @@ pub(crate) fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
     Matrix::new(3, 3, |i, j| rows[i][j])
 }
 
-/// R(q)ᵀ v for the unit quaternion (w, u): v + 2 w (v × u) + 2 u × (u × v).
-pub(crate) fn rotate_back(graph: &mut Graph, w: Id, u: &V3, v: &V3) -> V3 {
+/// R(q)ᵀ v for the unit quaternion (w, s·x): v + 2 s w v×x + 2 s² (v×x)×x, whose products with x need not wait for w and s.
+pub(crate) fn rotate_back(graph: &mut Graph, (w, s): (Id, Id), x: &V3, v: &V3) -> V3 {
     let two = graph.constant(2.0);
-    let once = cross(graph, v, u);
-    let twice = scaled(graph, two, &once);
-    let bent = cross(graph, &twice, u);
-    let turned = plus(graph, v, w, &twice);
-    sum(graph, &turned, &bent)
+    let once = cross(graph, v, x);
+    let twice = cross(graph, &once, x);
+    let doubled = graph.mul(two, s);
+    let (near, far) = (graph.mul(doubled, w), graph.mul(doubled, s));
+    let turned = plus(graph, v, near, &once);
+    plus(graph, &turned, far, &twice)
 }
 
 /// The product of unit quaternions, pulled back onto the unit sphere to first order, so that rounding does not
-/// accumulate in the norm over many steps.
-pub(crate) fn compose(graph: &mut Graph, a: &[Id], w: Id, u: &V3) -> Vec<Id> {
+/// accumulate in the norm over many steps. The second one is (w, s·x).
+pub(crate) fn compose(graph: &mut Graph, a: &[Id], (w, s): (Id, Id), x: &V3) -> Vec<Id> {
+    let u = scaled(graph, s, x);
     let vector = three(a, 1);
-    let back = dot(graph, &vector, u);
+    let back = dot(graph, &vector, &u);
     let back = graph.neg(back);
     let real = graph.times_plus(a[0], w, back);
-    let turned = cross(graph, &vector, u);
-    let turned = plus(graph, &turned, a[0], u);
+    let turned = cross(graph, &vector, &u);
+    let turned = plus(graph, &turned, a[0], &u);
     let imaginary = plus(graph, &turned, w, &vector);
     let product = [real, imaginary[0], imaginary[1], imaginary[2]];
     let norm = dot(graph, &product, &product);
@@ -110,7 +110,7 @@ pub(crate) fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
     let back = minus(graph, &back);
     let (zero, one) = (graph.zero(), graph.constant(1.0));
     let columns = [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
-        .map(|unit| rotate_back(graph, w, &back, &unit));
+        .map(|unit| rotate_back(graph, (w, one), &back, &unit));
     Matrix::new(3, 3, |i, j| columns[j][i])
 }
 
@@ -140,26 +140,22 @@ impl Rotation {
         Angle { t: dot(graph, x, x), reach: QUARTER_TURN }
     }
 
-    /// τ(x) as a quaternion.
-    pub(crate) fn increment(self, graph: &mut Graph, x: &V3) -> (Id, V3) {
+    /// w and s of τ(x) as a quaternion (w, s·x).
+    pub(crate) fn increment(self, graph: &mut Graph, x: &V3) -> (Id, Id) {
         match self.chart {
             Chart::Exponential => {
                 let angle = self.angle(graph, x);
-                let (w, s) = (angle.half_cosine(graph), angle.half_sine(graph));
-                (w, scaled(graph, s, x))
+                (angle.half_cosine(graph), angle.half_sine(graph))
             }
             Chart::Cayley if self.double_cover => {
                 // (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
-                let (quarter, one, two) =
-                    (graph.constant(0.25), graph.constant(1.0), graph.constant(2.0));
+                let [quarter, half, one] = [0.25, 0.5, 1.0].map(|value| graph.constant(value));
                 let a = scaled(graph, quarter, x);
                 let n = dot(graph, &a, &a);
                 let below = graph.add(one, n);
                 let factor = graph.div(one, below);
                 let above = graph.sub(one, n);
-                let w = graph.mul(above, factor);
-                let factor = graph.mul(two, factor);
-                (w, scaled(graph, factor, &a))
+                (graph.mul(above, factor), graph.mul(half, factor))
             }
             Chart::Cayley => {
                 // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
@@ -169,7 +165,7 @@ impl Rotation {
                 let below = graph.add(one, n);
                 let below = graph.sqrt(below);
                 let w = graph.div(one, below);
-                (w, scaled(graph, w, &a))
+                (w, graph.mul(half, w))
             }
         }
     }
@@ -269,23 +265,23 @@ impl Part for Rotation {
 
     fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let (x, mu) = (three(x, 0), three(mu, 0));
-        let (w, u) = self.increment(graph, &x);
-        let moved = rotate_back(graph, w, &u, &mu);
-        Moved { g: compose(graph, g, w, &u), mu: moved.to_vec() }
+        let q = self.increment(graph, &x);
+        let moved = rotate_back(graph, q, &x, &mu);
+        Moved { g: compose(graph, g, q, &x), mu: moved.to_vec() }
     }
 
     fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let (y, mu) = (three(y, 0), three(mu, 0));
         let t = dot(graph, &y, &y);
         let angle = WideAngle::new(graph, t);
-        let u = scaled(graph, angle.half_sine, &y);
-        let moved = rotate_back(graph, angle.half_cosine, &u, &mu);
-        Some(Moved { g: compose(graph, g, angle.half_cosine, &u), mu: moved.to_vec() })
+        let q = (angle.half_cosine, angle.half_sine);
+        let moved = rotate_back(graph, q, &y, &mu);
+        Some(Moved { g: compose(graph, g, q, &y), mu: moved.to_vec() })
     }
 
     fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
-        let back = minus(graph, &three(g, 1));
-        rotate_back(graph, g[0], &back, &three(mu, 0)).to_vec()
+        let (back, one) = (minus(graph, &three(g, 1)), graph.constant(1.0));
+        rotate_back(graph, (g[0], one), &back, &three(mu, 0)).to_vec()
     }
 
     fn estimated(&self) -> f64 {

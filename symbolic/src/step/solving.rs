@@ -188,15 +188,14 @@ fn linearised(
     };
     let hessian = Matrix::new(n, n, |i, j| triangle[place(i, j)]);
     let (pulled, derivative) = group.pull_back_with_derivative(graph, x, mu);
-    let product = derivative.times(graph, &hessian);
     let (zero, one) = (graph.zero(), graph.constant(1.0));
-    let jacobian = Matrix::new(n, n, |i, j| {
-        let unit = if i == j { one } else { zero };
-        graph.sub(unit, product.at(i, j))
-    });
+    let unit = Matrix::new(n, n, |i, j| if i == j { one } else { zero });
+    let back = Matrix::new(n, n, |i, j| graph.neg(derivative.at(i, j)));
+    let matrix = back.times_plus(graph, &hessian, &unit);
     let residual = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
-    let jacobian = Eliminated::new(graph, &jacobian);
+    let jacobian = Eliminated::new(graph, &matrix);
     let rate = integrator.largest_rate.map(|largest| {
+        let product = Matrix::new(n, n, |i, j| graph.sub(unit.at(i, j), matrix.at(i, j)));
         let rate = square_of_rate(graph, &integrator.problem.algebra, x, &product);
         (rate, graph.constant(largest * largest))
     });

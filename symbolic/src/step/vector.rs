@@ -1,5 +1,7 @@
 //! Vectors and matrices of nodes.
 
+use std::ops::Range;
+
 use crate::graph::{Graph, Id};
 
 /// A vector of three nodes.
@@ -106,13 +108,40 @@ impl Matrix {
 
     /// self · other
     pub(crate) fn times(&self, graph: &mut Graph, other: &Self) -> Self {
+        let nothing = Self::zeros(graph, self.rows(), other.columns);
+        self.times_plus(graph, other, &nothing)
+    }
+
+    /// self · other + rest
+    pub(crate) fn times_plus(&self, graph: &mut Graph, other: &Self, rest: &Self) -> Self {
         Self::new(self.rows(), other.columns, |i, j| {
-            let mut sum = graph.zero();
+            let mut sum = rest.at(i, j);
             for k in 0..self.columns {
                 sum = graph.times_plus(self.at(i, k), other.at(k, j), sum);
             }
             sum
         })
+    }
+
+    /// The inverse of up to three rows and columns: the adjugate, and the inverse of the determinant.
+    fn inverse(&self, graph: &mut Graph) -> (Self, Id) {
+        let (n, one) = (self.rows(), graph.constant(1.0));
+        // The cofactor of entry (j, i): of three rows those after j, around the end, so that all signs are plus.
+        let adjugate = Self::new(n, n, |i, j| match n {
+            1 => one,
+            2 if i == j => self.at(1 - i, 1 - i),
+            2 => graph.neg(self.at(i, j)),
+            _ => {
+                let ([a, b], [c, d]) =
+                    ([j + 1, j + 2].map(|k| k % 3), [i + 1, i + 2].map(|k| k % 3));
+                let product = graph.mul(self.at(a, c), self.at(b, d));
+                let minus = graph.neg(self.at(a, d));
+                graph.times_plus(minus, self.at(b, c), product)
+            }
+        });
+        let column: Vec<Id> = (0..n).map(|i| adjugate.at(i, 0)).collect();
+        let determinant = dot(graph, &self.entries[..n], &column);
+        (adjugate, graph.div(one, determinant))
     }
 
     /// self + s·other
@@ -128,14 +157,17 @@ impl Matrix {
     }
 }
 
-/// A matrix eliminated without exchanges of rows: for matrices near the identity, which those of a step's equation are
-/// where it is accepted.
+/// The most rows and columns of a pivot: a division waits for the one before it, and takes as long as many products.
+const BLOCK: usize = 3;
+
+/// A matrix eliminated without exchanges of rows, by pivots of up to [`BLOCK`] rows and columns: for matrices near the
+/// identity, which those of a step's equation are where it is accepted.
 #[derive(Clone, Debug)]
 pub(crate) struct Eliminated {
-    /// Above the diagonal the rows that are left, below it what multiples of rows were added to others.
+    /// Above the pivots the rows that are left, below them what multiples of rows were added to others.
     rows: Matrix,
-    /// The inverses of the pivots.
-    inverses: Vec<Id>,
+    /// The inverse of each pivot: its adjugate, and the inverse of its determinant.
+    inverses: Vec<(Matrix, Id)>,
 }
 
 impl Eliminated {
@@ -143,23 +175,28 @@ impl Eliminated {
     pub(crate) fn new(graph: &mut Graph, matrix: &Matrix) -> Self {
         let n = matrix.rows();
         let mut a = matrix.clone();
-        let one = graph.constant(1.0);
-        let mut inverses = Vec::with_capacity(n);
-        for pivot in 0..n {
-            let inverse = graph.div(one, a.at(pivot, pivot));
-            inverses.push(inverse);
-            for row in pivot + 1..n {
-                if graph.is_zero(a.at(row, pivot)) {
-                    continue;
+        let mut inverses = Vec::new();
+        for pivot in blocks(n) {
+            let (first, size) = (pivot.start, pivot.len());
+            let block = Matrix::new(size, size, |i, j| a.at(first + i, first + j));
+            let (adjugate, scale) = block.inverse(graph);
+            for row in pivot.end..n {
+                let entries: Vec<Id> = pivot.clone().map(|column| a.at(row, column)).collect();
+                for (j, column) in pivot.clone().enumerate() {
+                    let by: Vec<Id> = (0..size).map(|i| adjugate.at(i, j)).collect();
+                    let factor = dot(graph, &entries, &by);
+                    let factor = graph.mul(factor, scale);
+                    a.set(row, column, graph.neg(factor));
                 }
-                let factor = graph.mul(a.at(row, pivot), inverse);
-                let factor = graph.neg(factor);
-                a.set(row, pivot, factor);
-                for column in pivot + 1..n {
-                    let value = graph.times_plus(factor, a.at(pivot, column), a.at(row, column));
+                for column in pivot.end..n {
+                    let mut value = a.at(row, column);
+                    for k in pivot.clone() {
+                        value = graph.times_plus(a.at(row, k), a.at(k, column), value);
+                    }
                     a.set(row, column, value);
                 }
             }
+            inverses.push((adjugate, scale));
         }
         Self { rows: a, inverses }
     }
@@ -168,34 +205,50 @@ impl Eliminated {
     pub(crate) fn solve(&self, graph: &mut Graph, b: &[Id]) -> Vec<Id> {
         let n = b.len();
         let mut y = b.to_vec();
-        for pivot in 0..n {
-            for row in pivot + 1..n {
-                y[row] = graph.times_plus(self.rows.at(row, pivot), y[pivot], y[row]);
+        for pivot in blocks(n) {
+            for row in pivot.end..n {
+                for k in pivot.clone() {
+                    y[row] = graph.times_plus(self.rows.at(row, k), y[k], y[row]);
+                }
             }
         }
-        for row in (0..n).rev() {
-            let mut rest = y[row];
-            for column in row + 1..n {
-                let minus = graph.neg(self.rows.at(row, column));
-                rest = graph.times_plus(minus, y[column], rest);
+        for (pivot, (adjugate, scale)) in blocks(n).zip(&self.inverses).rev() {
+            let mut rest = |row: usize| {
+                (pivot.end..n).fold(y[row], |rest, column| {
+                    let minus = graph.neg(self.rows.at(row, column));
+                    graph.times_plus(minus, y[column], rest)
+                })
+            };
+            let rest: Vec<Id> = pivot.clone().map(&mut rest).collect();
+            let solved = adjugate.apply(graph, &rest);
+            for (row, entry) in pivot.zip(solved) {
+                y[row] = graph.mul(entry, *scale);
             }
-            y[row] = graph.mul(rest, self.inverses[row]);
         }
         y
     }
 
     /// The same with other names for the numbers it is made of.
     pub(crate) fn map(&self, mut rename: impl FnMut(Id) -> Id) -> Self {
-        let n = self.inverses.len();
-        // The diagonal is not used.
+        let n = self.rows.rows();
+        // The pivots are not used.
         let entry = |i: usize, j: usize| {
             let entry = self.rows.at(i, j);
-            if i == j { entry } else { rename(entry) }
+            if i / BLOCK == j / BLOCK { entry } else { rename(entry) }
         };
         let rows = Matrix::new(n, n, entry);
-        let inverses = self.inverses.iter().map(|&inverse| rename(inverse)).collect();
+        let mut inverse = |(adjugate, scale): &(Matrix, Id)| {
+            let size = adjugate.rows();
+            (Matrix::new(size, size, |i, j| rename(adjugate.at(i, j))), rename(*scale))
+        };
+        let inverses = self.inverses.iter().map(&mut inverse).collect();
         Self { rows, inverses }
     }
+}
+
+/// The rows of the pivots of an elimination.
+fn blocks(n: usize) -> impl DoubleEndedIterator<Item = Range<usize>> + ExactSizeIterator {
+    (0..n.div_ceil(BLOCK)).map(move |block| block * BLOCK..n.min((block + 1) * BLOCK))
 }
 
 /// The solution of `matrix` · y = b by [elimination](Eliminated).
