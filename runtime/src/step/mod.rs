@@ -59,7 +59,16 @@ pub fn advance<S: Integrator + ?Sized>(
     if driven.steps == 1 {
         return Ok(StepReport { iterations: driven.iterations, residual: driven.residual });
     }
-    by_hand(generating, phase, driven.refused, Settings::default())
+    refused(generating, phase)
+}
+
+/// The step that programs have refused, made anew: every step would have to keep its candidate in memory to hand it on.
+#[cold]
+fn refused<S: Integrator + ?Sized>(
+    generating: &S,
+    phase: &mut Phase<S::Group>,
+) -> Result<StepReport<ScalarOf<S>>, StepError> {
+    advance_by(generating, phase, 1).map_err(|stopped| stopped.error)
 }
 
 /// Many steps of [`advance`], faster than one by one: a comoving frame moves on, and the state is checked, for many at
