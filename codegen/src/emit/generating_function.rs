@@ -21,12 +21,12 @@ pub(crate) fn generating_function(
     let Options { krate, name, .. } = options;
     let [p, mu, c, motion] = ["p", "mu", "c", "motion"].map(|name| options.bound(name));
     let Types { dim, group, chart, vector, matrix, .. } = types;
-    let value = scalar_function(&integrator.value, options, "p", slots);
-    let gradient = vector_function(&integrator.gradient, vector, options, "p", slots);
+    let value = scalar_function(&integrator.value, options, "p");
+    let gradient = vector_function(&integrator.gradient, vector, options, "p");
     let index = Literal::usize_unsuffixed;
     let n = index(*dim);
     let hessian = integrator.hessian.as_ref().map(|program| {
-        let function = hessian_function(program, types, options, slots);
+        let function = hessian_function(program, types, options);
         quote! {
             #[inline(never)]
             fn gradient_and_hessian(&self, #p: &#vector) -> (#vector, #matrix) {
@@ -37,7 +37,7 @@ pub(crate) fn generating_function(
     });
     let frame = (!integrator.frame.is_empty()).then(|| {
         let parts = integrator.frame.iter().enumerate().map(|(part, program)| {
-            let function = vector_function(program, vector, options, "mu", slots);
+            let function = vector_function(program, vector, options, "mu");
             quote!(#part => ::core::option::Option::Some({ #function }),)
         });
         quote! {
@@ -124,13 +124,12 @@ pub(crate) fn without_programs(
     integrator: &Integrator,
     options: &Options,
     types: &Types,
-    slots: usize,
 ) -> TokenStream {
     let Options { krate, name, .. } = options;
     let [at, mu, c, x, group] = ["at", "mu", "c", "x", "group"].map(|name| options.bound(name));
     let Types { vector, chart, dim, .. } = types;
     let n = Literal::usize_unsuffixed(*dim);
-    let guess = vector_function(&integrator.predictor, vector, options, "mu", slots);
+    let guess = vector_function(&integrator.predictor, vector, options, "mu");
     let guess = match integrator.plan.predictor {
         Predictor::Explicit(_) => guess,
         Predictor::Flow(_) => quote! {
@@ -152,21 +151,16 @@ pub(crate) fn without_programs(
     }
 }
 
-fn written(program: &Program, options: &Options, input: &str, slots: usize) -> Body {
+fn written(program: &Program, options: &Options, input: &str) -> Body {
     let inputs = vec![Field::array(options.bound(input), program.inputs())];
     let Options { krate, suffix, .. } = options;
-    body(program, &Scope { krate, inputs, slots, lifted: false, suffix })
+    body(program, &Scope { krate, inputs, operations: None, suffix })
 }
 
 /// The body of a function with one output; it reads `input` and `c`.
 #[must_use]
-pub(crate) fn scalar_function(
-    program: &Program,
-    options: &Options,
-    input: &str,
-    slots: usize,
-) -> TokenStream {
-    let Body { statements, outputs } = written(program, options, input, slots);
+pub(crate) fn scalar_function(program: &Program, options: &Options, input: &str) -> TokenStream {
+    let Body { statements, outputs } = written(program, options, input);
     quote!(#statements #(#outputs)*)
 }
 
@@ -177,21 +171,15 @@ pub(crate) fn vector_function(
     vector: &TokenStream,
     options: &Options,
     input: &str,
-    slots: usize,
 ) -> TokenStream {
-    let Body { statements, outputs } = written(program, options, input, slots);
+    let Body { statements, outputs } = written(program, options, input);
     quote!(#statements <#vector as From<_>>::from([#(#outputs),*]))
 }
 
-fn hessian_function(
-    program: &Program,
-    types: &Types,
-    options: &Options,
-    slots: usize,
-) -> TokenStream {
+fn hessian_function(program: &Program, types: &Types, options: &Options) -> TokenStream {
     let Types { dim, vector, matrix, .. } = types;
     let dim = *dim;
-    let Body { statements, outputs } = written(program, options, "p", slots);
+    let Body { statements, outputs } = written(program, options, "p");
     let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
     // Entry (i, j) of an upper triangle, row by row.
     let entry = |i: usize, j: usize| triangle.get(i * dim - i * (i + 1) / 2 + j);

@@ -53,13 +53,13 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let constructor = constructor(integrator, krate, group);
     let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
-        Some(step) => programs(step, options, group, count, &solver(integrator, krate)),
-        None => without_programs(integrator, options, &types, count),
+        Some(step) => programs(step, options, group, &solver(integrator, krate)),
+        None => without_programs(integrator, options, &types),
     };
     let n = Literal::usize_unsuffixed(types.dim);
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let lanes = lanes(options, step.is_some());
-    let energy = scalar_function(&integrator.energy, options, "mu", count);
+    let energy = scalar_function(&integrator.energy, options, "mu");
     let (table, last) = (fold_item(krate, &fold), last_item(krate, integrator));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
@@ -179,10 +179,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     Items { opening, struct_and_methods, programs }
 }
 
-/// `impl Lanes`: the coefficients in every lane, and steps in lanes where the programs of the step are printed.
+/// `impl Lanes`: steps in lanes, where the programs of the step are printed.
 fn lanes(options: &Options, printed: bool) -> TokenStream {
     let Options { krate, name, .. } = options;
-    let lane = quote!(#krate::Scalar + #krate::nalgebra::SimdValue<Element = f64>);
     let names = ["registers", "phases", "asked", "state", "run", "c"];
     let [registers, phases, asked, state, run, c] = names.map(|name| options.bound(name));
     let drive = printed.then(|| {
@@ -203,16 +202,6 @@ fn lanes(options: &Options, printed: bool) -> TokenStream {
     });
     quote! {
         impl #krate::lanes::Lanes for #name<f64> {
-            type Over<L: #lane> = #name<L>;
-
-            fn splat<L: #lane>(&self) -> #name<L> {
-                #name {
-                    step: L::splat(self.step),
-                    symbols: self.symbols.map(L::splat),
-                    coefficients: self.coefficients.map(L::splat),
-                }
-            }
-
             #drive
         }
     }

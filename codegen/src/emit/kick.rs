@@ -32,9 +32,8 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
     let table = fold_item(krate, &FoldTable::of_kick(kick));
 
-    let count = kick.coefficients.slots().len();
-    let energy = scalar_function(&kick.energy, options, "g", count);
-    let torque = vector_function(&kick.torque, vector, options, "g", count);
+    let energy = scalar_function(&kick.energy, options, "g");
+    let torque = vector_function(&kick.torque, vector, options, "g");
     let cost = kick.torque.cost();
     let summary = [
         format!(" Potential: `{}`", rust_comment(&potential.source)),

@@ -70,10 +70,8 @@ pub struct Scope<'a> {
     pub krate: &'a TokenStream,
     /// The inputs, in the order of their numbers.
     pub inputs: Vec<Field>,
-    /// The length of `c`, where it is a reference to an array of coefficients.
-    pub slots: usize,
-    /// Whether `c` is of a type `C` that makes numbers of coefficients and constants; else it is an array of `T`.
-    pub lifted: bool,
+    /// The operations of the step that the program is part of, where it is of one.
+    pub operations: Option<usize>,
     /// The suffix of the names that are bound.
     pub suffix: &'a str,
 }
@@ -126,9 +124,7 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
             fn #name #generics (#parameters, #shared: &mut [T; #places]) { #statements }
         });
         let call = quote!(#name(#call, &mut #shared));
-        // Numbers of functions that no program of a step calls are never registers.
-        let operations = if scope.lifted { operations(program) } else { usize::MAX };
-        calls.extend(apart(scope.krate, &call, operations));
+        calls.extend(apart(scope.krate, &call, scope.operations.unwrap_or(usize::MAX)));
         calls.extend(quote!(;));
     }
     let zero = scope.constant(0.0);
@@ -148,20 +144,13 @@ impl Scope<'_> {
 
     /// The generics and the parameters of a part of a program, and the arguments of a call.
     fn part(&self) -> (TokenStream, TokenStream, TokenStream) {
-        let Self { krate, inputs, slots, lifted, .. } = self;
+        let Self { krate, inputs, .. } = self;
         let c = self.bound("c");
-        let slots = Literal::usize_unsuffixed(*slots);
         let parameters = inputs.iter().map(Field::parameter);
         let names = inputs.iter().map(|field| &field.name);
-        let (generics, coefficients) = match lifted {
-            false => (quote!(T: #krate::Scalar), quote!(&[T; #slots])),
-            true => (
-                quote!(T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>),
-                quote!(C),
-            ),
-        };
-        let parameters = quote!(#c: #coefficients, #(#parameters),*);
-        (quote!(<#generics>), parameters, quote!(#c, #(#names),*))
+        let generics = quote!(<T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>>);
+        let parameters = quote!(#c: C, #(#parameters),*);
+        (generics, parameters, quote!(#c, #(#names),*))
     }
 
     /// How input number `index` is read.
@@ -183,7 +172,7 @@ impl Scope<'_> {
     /// A constant as a number.
     fn constant(&self, value: f64) -> TokenStream {
         let (c, value) = (self.bound("c"), Literal::f64_unsuffixed(value));
-        if self.lifted { quote!(#c.of(#value)) } else { quote!(T::of(#value)) }
+        quote!(#c.of(#value))
     }
 }
 
@@ -201,16 +190,14 @@ impl Writer<'_> {
     fn write(&mut self, index: usize) {
         let node = &self.program.nodes()[index];
         let operand = |id: Id| &self.read[id.index()];
-        let krate = self.scope.krate;
         let c = self.scope.bound("c");
         let value = match *node {
             Node::Zero => self.scope.constant(0.0),
             Node::Constant(bits) => self.scope.constant(f64::from_bits(bits)),
-            Node::Epsilon if self.scope.lifted => quote!(#c.epsilon()),
-            Node::Epsilon => quote!(<T as #krate::Scalar>::epsilon()),
+            Node::Epsilon => quote!(#c.epsilon()),
             Node::Slot(i) => {
                 let i = Literal::u32_unsuffixed(i);
-                if self.scope.lifted { quote!(#c.at(#i)) } else { quote!(#c[#i]) }
+                quote!(#c.at(#i))
             }
             Node::Input(i) => self.scope.input(i as usize),
             Node::Add(a, b) => {

@@ -21,22 +21,20 @@ pub fn step_operations(step: &Step) -> usize {
     programs.map(operations).sum()
 }
 
-/// The programs and the loop as functions, `impl Integrator`, and `impl Lanes`, which run them; `slots` is the number of
-/// coefficients.
+/// The programs and the loop as functions, and `impl Integrator`, which runs them.
 #[must_use]
 pub fn programs(
     step: &Step,
     options: &Options,
     group: &TokenStream,
-    slots: usize,
     solver: &TokenStream,
 ) -> TokenStream {
     let Options { krate, name, .. } = options;
-    let kernel = step.kernel();
+    let (kernel, operations) = (step.kernel(), step_operations(step));
     let functions = Part::ALL.iter().filter_map(|&(part, name)| {
-        Some(function(kernel, (part, name), part.program(kernel)?, options, slots))
+        Some(function(kernel, (part, name), part.program(kernel)?, options, operations))
     });
-    let steps = steps(kernel, options, step_operations(step));
+    let steps = steps(kernel, options, operations);
     let [phase, asked, state] = ["phase", "asked", "state"].map(|name| options.bound(name));
     quote! {
         #(#functions)*
@@ -65,7 +63,7 @@ fn function(
     (part, name): (Part, &str),
     program: &Program,
     options: &Options,
-    slots: usize,
+    operations: usize,
 ) -> TokenStream {
     let krate = &options.krate;
     let name = format_ident!("{name}");
@@ -79,7 +77,7 @@ fn function(
     };
     let inputs: Vec<Field> = inputs.iter().map(field).collect();
     let parameters: Vec<_> = inputs.iter().map(Field::parameter).collect();
-    let scope = Scope { krate, inputs, slots, lifted: true, suffix: options.suffix };
+    let scope = Scope { krate, inputs, operations: Some(operations), suffix: options.suffix };
     let Body { statements, outputs: values } = body(program, &scope);
     let mut values = values.into_iter();
     let (kinds, results): (Vec<_>, Vec<_>) = outputs

@@ -59,6 +59,7 @@ impl Types {
             aliases: quote! {
                 // Whatever names the user has in scope.
                 use ::core::prelude::v1::*;
+                use #krate::plumbing::Coefficients as _;
 
                 type #vector<T> = #krate::nalgebra::SVector<T, #n>;
                 type #matrix<T> = #krate::nalgebra::SMatrix<T, #n, #n>;

@@ -1,7 +1,7 @@
 //! One wrong name is one error, whatever is done with what should have been generated.
 use coadjoint::{GeneratingFunction, Phase, SO3};
 use coadjoint::groups::SO4;
-use coadjoint::lanes::{F64x4, Lanes};
+use coadjoint::lanes::Lanes;
 use coadjoint::steps::{Kicked, Rkn4};
 use coadjoint::{lie_poisson, potential};
 
@@ -24,7 +24,7 @@ fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
 fn end<S: GeneratingFunction<Group = SO3> + Lanes + Clone + std::fmt::Debug>(step: S) {
     let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
     let _ = coadjoint::steps::advance(&step, &mut phase);
-    let _ = (step.splat::<F64x4>(), format!("{step:?}"));
+    let _ = format!("{step:?}");
 }
 
 fn main() -> Result<(), coadjoint::StepError> {

@@ -83,13 +83,11 @@ impl<S: Simd> Number for Register<S> {
 
     #[inline(always)]
     fn simd_round(self) -> Self {
-        let of = |value| Self(self.0, self.0.splat_f64s(value));
-        // Numbers from here on are whole.
-        let whole = of(1.0 / f64::EPSILON);
+        // As a single number has it.
+        let whole = Self(self.0, self.0.splat_f64s(1.0 / f64::EPSILON));
         let size = self.simd_abs();
-        let even = size + whole - whole;
-        let up = of(1.0).select(of(0.5).simd_le(size - even), of(0.0));
-        let size = (even + up).select(size.simd_le(whole), size);
+        let rounded = size + whole - whole;
+        let size = rounded.select(size.simd_le(whole), size);
         let sign = self.0.and_f64s(self.1, self.0.splat_f64s(-0.0));
         Self(self.0, self.0.or_f64s(size.1, sign))
     }

@@ -27,7 +27,7 @@ pub trait Number:
     fn simd_abs(self) -> Self;
     /// √self
     fn simd_sqrt(self) -> Self;
-    /// The nearest integer, of two that with the larger absolute value.
+    /// The nearest integer, of two the even one.
     fn simd_round(self) -> Self;
     /// Where self ≤ other.
     fn simd_le(self, other: Self) -> Self::Mask;
@@ -56,7 +56,12 @@ impl<T: Scalar> Number for T {
     }
     #[inline(always)]
     fn simd_round(self) -> Self {
-        nalgebra::SimdComplexField::simd_round(self)
+        // Numbers from here on are whole, and so is what is added to it.
+        let whole = T::of(1.0) / <T as Scalar>::epsilon();
+        let size = self.simd_abs();
+        let rounded = size + whole - whole;
+        let size = rounded.select(size.simd_le(whole), size);
+        nalgebra::SimdRealField::simd_copysign(size, self)
     }
     #[inline(always)]
     fn simd_le(self, other: Self) -> Self::Mask {

@@ -569,23 +569,6 @@ impl Brackets {
     }
 }
 
-impl<const CAYLEY: bool> DynamicTables<CAYLEY> {
-    /// A bound on [`Tables::exp_extent`].
-    pub(crate) fn exp_bound<T: Scalar>(&self, x: &DVector<T>) -> T {
-        domain::exp_extent(&self.elliptic, self.dim, x)
-    }
-
-    /// A bound on [`Tables::cayley_extent`].
-    pub(crate) fn cayley_bound<T: Scalar>(&self, x: &DVector<T>) -> T {
-        domain::cayley_extent(&self.cayley, self.dim, x)
-    }
-
-    /// The terms of Casimir number `index`; none for an index out of range.
-    pub(crate) fn casimir_terms(&self, index: usize) -> &[(f64, Vec<(usize, u32)>)] {
-        self.casimirs.get(index).map(Vec::as_slice).unwrap_or_default()
-    }
-}
-
 impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     type Scalar = f64;
     type Vector = DVector<f64>;
@@ -659,7 +642,7 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     }
 
     fn exp_extent(&self, x: &DVector<f64>) -> f64 {
-        let bound = self.exp_bound(x);
+        let bound = domain::exp_extent(&self.elliptic, self.dim, x);
         if bound <= 1.0 || !bound.is_finite() {
             return bound;
         }
@@ -676,7 +659,7 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     }
 
     fn cayley_extent(&self, x: &DVector<f64>) -> f64 {
-        self.cayley_bound(x)
+        domain::cayley_extent(&self.cayley, self.dim, x)
     }
 
     fn casimir_count(&self) -> usize {
@@ -684,10 +667,8 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     }
 
     fn casimir(&self, index: usize, mu: &DVector<f64>) -> f64 {
-        self.casimir_terms(index)
-            .iter()
-            .map(|(c, factors)| monomial::<f64, _>(*c, factors, mu))
-            .sum()
+        let terms = self.casimirs.get(index).into_iter().flatten();
+        terms.map(|(c, factors)| monomial::<f64, _>(*c, factors, mu)).sum()
     }
 }
 

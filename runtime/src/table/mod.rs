@@ -13,8 +13,6 @@ mod linear;
 mod logarithm;
 mod membership;
 
-#[cfg(feature = "alloc")]
-pub(crate) use algebra::monomial;
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables};
 pub use catalogue::{
     Aff1, Aff1Algebra, Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, U2, U3,

@@ -91,7 +91,6 @@ impl<S: Integrator> Runner<S> {
     pub fn in_lanes(mut self) -> Self
     where
         S: Lanes + Sync,
-        S::Over<coadjoint::lanes::F64x8>: Sync,
         Phase<S::Group>: Send,
     {
         self.together = Some(|steps, states, count| {

@@ -1,15 +1,17 @@
 //! SIMD lanes compute the bits of the scalar integrator.
 
-use coadjoint::nalgebra::SimdValue;
+use coadjoint::nalgebra::{SVector, SimdValue};
+use coadjoint::plumbing::Number;
 use coadjoint::{
-    Phase, SO3, StepError, lanes::F64x4, lanes::F64x8, lanes::LaneGroup, lanes::Lanes,
-    lanes::ensemble, lie_poisson,
+    Phase, SO3, Scalar, StepError, lanes::F64x4, lanes::F64x8, lanes::ensemble, lie_poisson,
 };
 
 #[lie_poisson(group = SO3, truncation = 7)]
 fn rigid_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
 }
+
+const INERTIA: [f64; 3] = [1.5, 2.0, 2.5];
 
 /// States of very different speed, so that lanes need different numbers of Newton steps.
 fn states(count: usize) -> Vec<Phase<SO3>> {
@@ -37,21 +39,25 @@ fn assert_same_bits(left: &[Phase<SO3>], right: &[Phase<SO3>]) {
     }
 }
 
-fn in_lanes<L>(step: &RigidBody, states: &[Phase<SO3>], steps: u64) -> Result<(), StepError>
+fn in_lanes<L>(h: f64, states: &[Phase<SO3>], steps: u64) -> Result<(), StepError>
 where
-    L: coadjoint::Scalar + SimdValue<Element = f64>,
+    L: Scalar + SimdValue<Element = f64>,
 {
-    let expected = one_by_one(step, states.to_vec(), steps);
-    let packed = step.splat::<L>();
+    let expected = one_by_one(&RigidBody::new(h, INERTIA)?, states.to_vec(), steps);
+    let packed = RigidBody::<L>::new(L::splat(h), INERTIA.map(L::splat))?;
     for (states, expected) in states.chunks(L::LANES).zip(expected.chunks(L::LANES)) {
-        let mut lanes = <SO3 as LaneGroup>::splat::<L>(&states[0]);
+        let mut lanes = Phase::<SO3<L>>::new(
+            SimdValue::splat(states[0].group_element),
+            SVector::<L, 3>::splat(states[0].momentum),
+        );
         for (lane, state) in states.iter().enumerate() {
-            <SO3 as LaneGroup>::insert(&mut lanes, lane, state);
+            lanes.group_element.replace(lane, state.group_element);
+            lanes.momentum.replace(lane, state.momentum);
         }
         packed.advance_by(&mut lanes, steps)?;
-        let got: Vec<_> =
-            (0..states.len()).map(|lane| <SO3 as LaneGroup>::extract(&lanes, lane)).collect();
-        assert_same_bits(&got, expected);
+        let alone =
+            |lane| Phase::new(lanes.group_element.extract(lane), lanes.momentum.extract(lane));
+        assert_same_bits(&(0..states.len()).map(alone).collect::<Vec<_>>(), expected);
     }
     Ok(())
 }
@@ -59,9 +65,8 @@ where
 #[test]
 fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
     for h in [0.01, 0.3, 0.5] {
-        let step = RigidBody::new(h, [1.5, 2.0, 2.5])?;
-        in_lanes::<F64x4>(&step, &states(16), 40)?;
-        in_lanes::<F64x8>(&step, &states(16), 40)?;
+        in_lanes::<F64x4>(h, &states(16), 40)?;
+        in_lanes::<F64x8>(h, &states(16), 40)?;
     }
     Ok(())
 }
@@ -69,7 +74,7 @@ fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
 /// Steps of more than a quarter turn have to be confirmed, which ensembles do one by one.
 #[test]
 fn long_steps_of_an_ensemble_are_those_of_its_trajectories() -> Result<(), StepError> {
-    let step = RigidBody::new(0.9, [1.5, 2.0, 2.5])?;
+    let step = RigidBody::new(0.9, INERTIA)?;
     let mut advanced = states(16);
     assert!(ensemble::advance_all(&step, &mut advanced, 40).is_empty());
     assert_same_bits(&advanced, &one_by_one(&step, states(16), 40));
@@ -78,7 +83,7 @@ fn long_steps_of_an_ensemble_are_those_of_its_trajectories() -> Result<(), StepE
 
 #[test]
 fn an_ensemble_equals_its_trajectories_and_reports_the_bad_ones() -> Result<(), StepError> {
-    let step = RigidBody::new(0.4, [1.5, 2.0, 2.5])?;
+    let step = RigidBody::new(0.4, INERTIA)?;
     let mut initial = states(1003);
     initial[17].momentum[1] = f64::INFINITY;
     initial[640].momentum *= 1e4;
@@ -93,4 +98,18 @@ fn an_ensemble_equals_its_trajectories_and_reports_the_bad_ones() -> Result<(), 
 #[test]
 fn ensembles_check_their_states_where_printed_loops_do() {
     assert_eq!(coadjoint::plumbing::BLOCK, coadjoint_program::BLOCK);
+}
+
+/// As the interpreter of programs rounds: to the even one of two integers, in scalars and in lanes.
+#[test]
+fn numbers_are_rounded_as_programs_round_them() {
+    for x in [0.0, 0.3, 0.5, 1.5, 2.5, 2.7, 1e9 + 0.5, 4503599627370495.5, 1e300, f64::INFINITY] {
+        for x in [x, -x] {
+            let rounded = x.round_ties_even();
+            assert_eq!(Number::simd_round(x).to_bits(), rounded.to_bits(), "{x}");
+            assert_eq!(Number::simd_round(F64x4::splat(x)), F64x4::splat(rounded), "{x}");
+            let x = x as f32;
+            assert_eq!(Number::simd_round(x).to_bits(), x.round_ties_even().to_bits(), "{x}");
+        }
+    }
 }

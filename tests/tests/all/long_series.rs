@@ -1,8 +1,8 @@
 //! Printed steps of long series in more than three dimensions: those of the reference, in every lane.
 
 use coadjoint::generating::VectorOf;
+use coadjoint::lanes::Lanes;
 use coadjoint::lanes::ensemble::advance_all;
-use coadjoint::lanes::{F64x8, Lanes};
 use coadjoint::nalgebra::{SVector, Vector6};
 use coadjoint::solve::Integrator;
 use coadjoint::solve::Settings;
@@ -112,7 +112,6 @@ fn a_state_that_is_not_finite_is_an_error() -> Result<(), StepError> {
 fn lanes_are_scalars<S>(step: &S) -> Result<(), StepError>
 where
     S: Integrator<Group = SE3> + Lanes + Sync,
-    S::Over<F64x8>: Sync,
 {
     let sizes = [0.05, 0.3, 1.0, 2.6, 0.0, 0.7, 1.7, 0.2];
     let mut states: Vec<_> = momenta::<6>(1.0)
