@@ -23,9 +23,9 @@
 // and everything used is known to hold there. For other steps the library follows the solution from
 // the identity, or says why there is none.
 //
-// Cost of a step with one correction, as most have: 287 multiplications, 228 additions, 4 divisions
+// Cost of a step with one correction, as most have: 303 multiplications, 234 additions, 2 divisions
 // and roots.
-// Cost at most (12 corrections, and a check of the state): 2007 multiplications, 1591 additions, 38
+// Cost at most (12 corrections, and a check of the state): 2166 multiplications, 1663 additions, 14
 // divisions and roots.
 //
 // Programs have one operation a line: `c.at(i)` is a coefficient, folded once for the step size and
@@ -36,7 +36,7 @@
 ///
 /// Group: SO3. Chart exp, truncation K = 1, order of accuracy 2.
 /// Terms: S1: 10.
-/// A step takes 382 operations, and 282 more for each further correction.
+/// A step takes 398 operations, and 299 more for each further correction.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 #[allow(clippy::trailing_empty_array)]
 pub struct Learned<T = f64> {
@@ -65,6 +65,7 @@ pub struct Learned<T = f64> {
 )]
 const _: () = {
     use ::core::prelude::v1::*;
+    use ::coadjoint::plumbing::Coefficients as _;
     type Vector<T> = ::coadjoint::nalgebra::SVector<T, 3>;
     type Matrix<T> = ::coadjoint::nalgebra::SMatrix<T, 3, 3>;
     impl<T: ::coadjoint::Scalar> Learned<T> {
@@ -185,6 +186,7 @@ const _: () = {
 )]
 const _: () = {
     use ::core::prelude::v1::*;
+    use ::coadjoint::plumbing::Coefficients as _;
     type Vector<T> = ::coadjoint::nalgebra::SVector<T, 3>;
     type Matrix<T> = ::coadjoint::nalgebra::SMatrix<T, 3, 3>;
     #[inline(always)]
@@ -324,194 +326,209 @@ const _: () = {
         let t71 = t47.times_plus(t68, t67);
         let t72 = t51.times_plus(t71, t70);
         let t73 = t53.times_plus(t69, t72);
-        let t80 = t31
-            .times_plus(c.of(0.002777777777777778), c.of(-0.041666666666666664));
-        let t81 = t31
-            .times_plus(c.of(0.0000011022927689594355), c.of(-0.00007440476190476191));
+        let t81 = t31.times_plus(c.of(0.005555555555555556), c.of(-0.08333333333333333));
         let t82 = t31
+            .times_plus(c.of(0.000002204585537918871), c.of(-0.00014880952380952382));
+        let t83 = t31
             .times_plus(
-                c.of(0.00000000006882447358637835),
-                c.of(-0.00000001043837849393405),
+                c.of(0.0000000001376489471727567),
+                c.of(-0.0000000208767569878681),
             );
-        let t83 = t47.times_plus(t81, t80);
-        let t84 = t47.times_plus(c.of(-0.00000000000033456341326711696), t82);
-        let t85 = t51.times_plus(t84, t83);
-        let t92 = t31
-            .times_plus(c.of(0.0003968253968253968), c.of(-0.008333333333333333));
-        let t93 = t31
-            .times_plus(c.of(0.00000010020843354176688), c.of(-0.000008267195767195768));
+        let t84 = t47.times_plus(t82, t81);
+        let t85 = t47.times_plus(c.of(-0.0000000000006691268265342339), t83);
+        let t86 = t51.times_plus(t85, t84);
         let t94 = t31
+            .times_plus(c.of(0.0007936507936507937), c.of(-0.016666666666666666));
+        let t95 = t31
+            .times_plus(c.of(0.00000020041686708353376), c.of(-0.000016534391534391536));
+        let t96 = t31
             .times_plus(
-                c.of(0.00000000000458829823909189),
-                c.of(-0.0000000008029521918410806),
+                c.of(0.00000000000917659647818378),
+                c.of(-0.0000000016059043836821613),
             );
-        let t95 = t47.times_plus(t93, t92);
-        let t96 = t47.times_plus(c.of(-0.000000000000019680200780418645), t94);
-        let t97 = t51.times_plus(t96, t95);
-        let t98 = mu[1] * t25;
-        let t99 = -mu[2];
-        let t100 = t20.times_plus(t99, t98);
-        let t101 = mu[2] * t14;
-        let t102 = -mu[0];
-        let t103 = t25.times_plus(t102, t101);
-        let t104 = mu[0] * t20;
-        let t105 = -mu[1];
-        let t106 = t14.times_plus(t105, t104);
-        let t107 = t25 * t103;
-        let t108 = -t106;
-        let t109 = t20.times_plus(t108, t107);
-        let t110 = t14 * t106;
-        let t111 = -t100;
-        let t112 = t25.times_plus(t111, t110);
-        let t113 = t20 * t100;
-        let t114 = -t103;
-        let t115 = t14.times_plus(t114, t113);
-        let t116 = t54.times_plus(t100, mu[0]);
-        let t117 = t54.times_plus(t103, mu[1]);
-        let t118 = t54.times_plus(t106, mu[2]);
-        let t119 = t73.times_plus(t109, t116);
-        let t120 = t73.times_plus(t112, t117);
-        let t121 = t73.times_plus(t115, t118);
-        let t123 = t85 * t100;
-        let t124 = t85 * t103;
-        let t125 = t85 * t106;
-        let t126 = t97.times_plus(t109, t123);
-        let t127 = t97.times_plus(t112, t124);
-        let t128 = t97.times_plus(t115, t125);
-        let t129 = c.of(2.0) * t126;
-        let t130 = c.of(2.0) * t127;
-        let t131 = c.of(2.0) * t128;
-        let t132 = -t73;
-        let t133 = mu[0].times_plus(t132, t129);
-        let t134 = mu[1].times_plus(t132, t130);
-        let t135 = mu[2].times_plus(t132, t131);
-        let t136 = mu[0] * t54;
-        let t137 = mu[1] * t54;
-        let t138 = mu[2] * t54;
-        let t139 = t73.times_plus(t100, t136);
-        let t140 = t73.times_plus(t103, t137);
-        let t141 = t73.times_plus(t106, t138);
-        let t142 = mu[0] * t14;
-        let t143 = mu[1].times_plus(t20, t142);
-        let t144 = mu[2].times_plus(t25, t143);
-        let t145 = t73 * t144;
+        let t97 = t47.times_plus(t95, t94);
+        let t98 = t47.times_plus(c.of(-0.00000000000003936040156083729), t96);
+        let t99 = t51.times_plus(t98, t97);
+        let t100 = mu[1] * t25;
+        let t101 = -mu[2];
+        let t102 = t20.times_plus(t101, t100);
+        let t103 = mu[2] * t14;
+        let t104 = -mu[0];
+        let t105 = t25.times_plus(t104, t103);
+        let t106 = mu[0] * t20;
+        let t107 = -mu[1];
+        let t108 = t14.times_plus(t107, t106);
+        let t109 = t25 * t105;
+        let t110 = -t108;
+        let t111 = t20.times_plus(t110, t109);
+        let t112 = t14 * t108;
+        let t113 = -t102;
+        let t114 = t25.times_plus(t113, t112);
+        let t115 = t20 * t102;
+        let t116 = -t105;
+        let t117 = t14.times_plus(t116, t115);
+        let t118 = t54.times_plus(t102, mu[0]);
+        let t119 = t54.times_plus(t105, mu[1]);
+        let t120 = t54.times_plus(t108, mu[2]);
+        let t121 = t73.times_plus(t111, t118);
+        let t122 = t73.times_plus(t114, t119);
+        let t123 = t73.times_plus(t117, t120);
+        let t124 = t86 * t102;
+        let t125 = t86 * t105;
+        let t126 = t86 * t108;
+        let t127 = t99.times_plus(t111, t124);
+        let t128 = t99.times_plus(t114, t125);
+        let t129 = t99.times_plus(t117, t126);
+        let t130 = -t73;
+        let t131 = mu[0].times_plus(t130, t127);
+        let t132 = mu[1].times_plus(t130, t128);
+        let t133 = mu[2].times_plus(t130, t129);
+        let t134 = mu[0] * t54;
+        let t135 = mu[1] * t54;
+        let t136 = mu[2] * t54;
+        let t137 = t73.times_plus(t102, t134);
+        let t138 = t73.times_plus(t105, t135);
+        let t139 = t73.times_plus(t108, t136);
+        let t140 = mu[0] * t14;
+        let t141 = mu[1].times_plus(t20, t140);
+        let t142 = mu[2].times_plus(t25, t141);
+        let t143 = t73 * t142;
+        let t144 = -t137;
+        let t145 = -t138;
         let t146 = -t139;
-        let t147 = -t140;
-        let t148 = -t141;
-        let t149 = t14.times_plus(t133, t145);
-        let t150 = t20.times_plus(t133, t148);
-        let t151 = t25.times_plus(t133, t140);
-        let t152 = t14.times_plus(t134, t141);
-        let t153 = t20.times_plus(t134, t145);
-        let t154 = t25.times_plus(t134, t146);
-        let t155 = t14.times_plus(t135, t147);
-        let t156 = t20.times_plus(t135, t139);
-        let t157 = t25.times_plus(t135, t145);
-        let t158 = c.at(0) * t149;
-        let t159 = c.at(3).times_plus(t150, t158);
-        let t160 = c.at(2).times_plus(t151, t159);
-        let t161 = c.at(3) * t149;
-        let t162 = c.at(4).times_plus(t150, t161);
-        let t163 = c.at(6).times_plus(t151, t162);
-        let t164 = c.at(2) * t149;
-        let t165 = c.at(6).times_plus(t150, t164);
-        let t166 = c.at(7).times_plus(t151, t165);
-        let t167 = c.at(0) * t152;
-        let t168 = c.at(3).times_plus(t153, t167);
-        let t169 = c.at(2).times_plus(t154, t168);
-        let t170 = c.at(3) * t152;
-        let t171 = c.at(4).times_plus(t153, t170);
-        let t172 = c.at(6).times_plus(t154, t171);
-        let t173 = c.at(2) * t152;
-        let t174 = c.at(6).times_plus(t153, t173);
-        let t175 = c.at(7).times_plus(t154, t174);
-        let t176 = c.at(0) * t155;
-        let t177 = c.at(3).times_plus(t156, t176);
-        let t178 = c.at(2).times_plus(t157, t177);
-        let t179 = c.at(3) * t155;
-        let t180 = c.at(4).times_plus(t156, t179);
-        let t181 = c.at(6).times_plus(t157, t180);
-        let t182 = c.at(2) * t155;
-        let t183 = c.at(6).times_plus(t156, t182);
-        let t184 = c.at(7).times_plus(t157, t183);
-        let t185 = c.of(1.0) - t160;
-        let t186 = -t163;
-        let t187 = -t166;
-        let t188 = -t169;
-        let t189 = c.of(1.0) - t172;
-        let t190 = -t175;
-        let t191 = -t178;
-        let t192 = -t181;
-        let t193 = c.of(1.0) - t184;
-        let t194 = p[0] - t119;
-        let t195 = p[1] - t120;
-        let t196 = p[2] - t121;
-        let t197 = c.of(1.0) / t185;
-        let t198 = t188 * t197;
-        let t199 = -t198;
-        let t200 = t186.times_plus(t199, t189);
-        let t201 = t187.times_plus(t199, t190);
-        let t202 = t191 * t197;
-        let t203 = -t202;
-        let t204 = t186.times_plus(t203, t192);
-        let t205 = t187.times_plus(t203, t193);
-        let t206 = c.of(1.0) / t200;
-        let t207 = t204 * t206;
-        let t208 = -t207;
-        let t209 = t201.times_plus(t208, t205);
-        let t210 = c.of(1.0) / t209;
-        let t211 = t194.times_plus(t199, t195);
-        let t212 = t194.times_plus(t203, t196);
-        let t213 = t208.times_plus(t211, t212);
-        let t214 = t210 * t213;
-        let t215 = -t201;
-        let t216 = t214.times_plus(t215, t211);
-        let t217 = t206 * t216;
-        let t218 = t163.times_plus(t217, t194);
-        let t219 = t166.times_plus(t214, t218);
-        let t220 = t197 * t219;
-        let t221 = c.at(0) * t220;
-        let t222 = c.at(3).times_plus(t217, t221);
-        let t223 = c.at(2).times_plus(t214, t222);
-        let t224 = c.at(3) * t220;
-        let t225 = c.at(4).times_plus(t217, t224);
-        let t226 = c.at(6).times_plus(t214, t225);
-        let t227 = c.at(2) * t220;
-        let t228 = c.at(6).times_plus(t217, t227);
-        let t229 = c.at(7).times_plus(t214, t228);
-        let t230 = p[0] - t220;
-        let t231 = p[1] - t217;
-        let t232 = p[2] - t214;
-        let t233 = t14 - t223;
-        let t234 = t20 - t226;
-        let t235 = t25 - t229;
-        let t236 = t220.simd_abs();
-        let t237 = t217.simd_abs();
-        let t238 = T::select(t236, T::simd_le(t237, t236), t237);
-        let t239 = t214.simd_abs();
-        let t240 = T::select(t238, T::simd_le(t239, t238), t239);
-        let t241 = k[0] * t240;
-        let t242 = t223.simd_abs();
-        let t243 = t226.simd_abs();
-        let t244 = T::select(t242, T::simd_le(t243, t242), t243);
-        let t245 = t229.simd_abs();
-        let t246 = T::select(t244, T::simd_le(t245, t244), t245);
-        let t247 = t14.simd_abs();
-        let t248 = t20.simd_abs();
-        let t249 = T::select(t247, T::simd_le(t248, t247), t248);
-        let t250 = t25.simd_abs();
-        let t251 = T::select(t249, T::simd_le(t250, t249), t250);
-        let t252 = t251 * t251;
-        let t253 = c.of(0.25) * t252;
-        let t254 = t241 * t253;
-        let t255 = c.of(0.5).times_plus(t246, t254);
-        let t256 = k[1] * t241;
-        let t257 = t246.times_plus(t255, t256);
-        let t261 = c.epsilon() * c.of(4.0);
-        let t262 = T::select(t257, T::simd_le(t241, c.of(0.001)), t241);
-        let t263 = T::select(t262, T::simd_le(t262, t241), t241);
-        let t264 = T::select(t263, T::simd_le(t241, t261), t262);
-        ([t230, t231, t232], [t233, t234, t235], t264, t241)
+        let t147 = t14.times_plus(t131, t143);
+        let t148 = t20.times_plus(t131, t146);
+        let t149 = t25.times_plus(t131, t138);
+        let t150 = t14.times_plus(t132, t139);
+        let t151 = t20.times_plus(t132, t143);
+        let t152 = t25.times_plus(t132, t144);
+        let t153 = t14.times_plus(t133, t145);
+        let t154 = t20.times_plus(t133, t137);
+        let t155 = t25.times_plus(t133, t143);
+        let t156 = -t147;
+        let t157 = -t148;
+        let t158 = -t149;
+        let t159 = -t150;
+        let t160 = -t151;
+        let t161 = -t152;
+        let t162 = -t153;
+        let t163 = -t154;
+        let t164 = -t155;
+        let t165 = c.at(0).times_plus(t156, c.of(1.0));
+        let t166 = c.at(3).times_plus(t157, t165);
+        let t167 = c.at(2).times_plus(t158, t166);
+        let t168 = c.at(3) * t156;
+        let t169 = c.at(4).times_plus(t157, t168);
+        let t170 = c.at(6).times_plus(t158, t169);
+        let t171 = c.at(2) * t156;
+        let t172 = c.at(6).times_plus(t157, t171);
+        let t173 = c.at(7).times_plus(t158, t172);
+        let t174 = c.at(0) * t159;
+        let t175 = c.at(3).times_plus(t160, t174);
+        let t176 = c.at(2).times_plus(t161, t175);
+        let t177 = c.at(3).times_plus(t159, c.of(1.0));
+        let t178 = c.at(4).times_plus(t160, t177);
+        let t179 = c.at(6).times_plus(t161, t178);
+        let t180 = c.at(2) * t159;
+        let t181 = c.at(6).times_plus(t160, t180);
+        let t182 = c.at(7).times_plus(t161, t181);
+        let t183 = c.at(0) * t162;
+        let t184 = c.at(3).times_plus(t163, t183);
+        let t185 = c.at(2).times_plus(t164, t184);
+        let t186 = c.at(3) * t162;
+        let t187 = c.at(4).times_plus(t163, t186);
+        let t188 = c.at(6).times_plus(t164, t187);
+        let t189 = c.at(2).times_plus(t162, c.of(1.0));
+        let t190 = c.at(6).times_plus(t163, t189);
+        let t191 = c.at(7).times_plus(t164, t190);
+        let t192 = p[0] - t121;
+        let t193 = p[1] - t122;
+        let t194 = p[2] - t123;
+        let t195 = t179 * t191;
+        let t196 = -t182;
+        let t197 = t188.times_plus(t196, t195);
+        let t198 = t173 * t188;
+        let t199 = -t191;
+        let t200 = t170.times_plus(t199, t198);
+        let t201 = t170 * t182;
+        let t202 = -t173;
+        let t203 = t179.times_plus(t202, t201);
+        let t204 = t182 * t185;
+        let t205 = -t176;
+        let t206 = t191.times_plus(t205, t204);
+        let t207 = t167 * t191;
+        let t208 = -t185;
+        let t209 = t173.times_plus(t208, t207);
+        let t210 = t173 * t176;
+        let t211 = -t167;
+        let t212 = t182.times_plus(t211, t210);
+        let t213 = t176 * t188;
+        let t214 = -t179;
+        let t215 = t185.times_plus(t214, t213);
+        let t216 = t170 * t185;
+        let t217 = -t188;
+        let t218 = t167.times_plus(t217, t216);
+        let t219 = t167 * t179;
+        let t220 = -t170;
+        let t221 = t176.times_plus(t220, t219);
+        let t222 = t167 * t197;
+        let t223 = t170.times_plus(t206, t222);
+        let t224 = t173.times_plus(t215, t223);
+        let t225 = c.of(1.0) / t224;
+        let t226 = t192 * t197;
+        let t227 = t193.times_plus(t200, t226);
+        let t228 = t194.times_plus(t203, t227);
+        let t229 = t192 * t206;
+        let t230 = t193.times_plus(t209, t229);
+        let t231 = t194.times_plus(t212, t230);
+        let t232 = t192 * t215;
+        let t233 = t193.times_plus(t218, t232);
+        let t234 = t194.times_plus(t221, t233);
+        let t235 = t225 * t228;
+        let t236 = t225 * t231;
+        let t237 = t225 * t234;
+        let t238 = c.at(0) * t235;
+        let t239 = c.at(3).times_plus(t236, t238);
+        let t240 = c.at(2).times_plus(t237, t239);
+        let t241 = c.at(3) * t235;
+        let t242 = c.at(4).times_plus(t236, t241);
+        let t243 = c.at(6).times_plus(t237, t242);
+        let t244 = c.at(2) * t235;
+        let t245 = c.at(6).times_plus(t236, t244);
+        let t246 = c.at(7).times_plus(t237, t245);
+        let t247 = p[0] - t235;
+        let t248 = p[1] - t236;
+        let t249 = p[2] - t237;
+        let t250 = t14 - t240;
+        let t251 = t20 - t243;
+        let t252 = t25 - t246;
+        let t253 = t235.simd_abs();
+        let t254 = t236.simd_abs();
+        let t255 = T::select(t253, T::simd_le(t254, t253), t254);
+        let t256 = t237.simd_abs();
+        let t257 = T::select(t255, T::simd_le(t256, t255), t256);
+        let t258 = k[0] * t257;
+        let t259 = t240.simd_abs();
+        let t260 = t243.simd_abs();
+        let t261 = T::select(t259, T::simd_le(t260, t259), t260);
+        let t262 = t246.simd_abs();
+        let t263 = T::select(t261, T::simd_le(t262, t261), t262);
+        let t264 = t14.simd_abs();
+        let t265 = t20.simd_abs();
+        let t266 = T::select(t264, T::simd_le(t265, t264), t265);
+        let t267 = t25.simd_abs();
+        let t268 = T::select(t266, T::simd_le(t267, t266), t267);
+        let t269 = t268 * t268;
+        let t270 = c.of(0.25) * t269;
+        let t271 = t258 * t270;
+        let t272 = c.of(0.5).times_plus(t263, t271);
+        let t273 = k[1] * t258;
+        let t274 = t263.times_plus(t272, t273);
+        let t278 = c.epsilon() * c.of(4.0);
+        let t279 = T::select(t274, T::simd_le(t258, c.of(0.001)), t258);
+        let t280 = T::select(t279, T::simd_le(t279, t258), t258);
+        let t281 = T::select(t280, T::simd_le(t258, t278), t279);
+        ([t247, t248, t249], [t250, t251, t252], t281, t258)
     }
 
     #[inline(always)]
@@ -595,53 +612,53 @@ const _: () = {
         let t47 = t26.times_plus(t45, t44);
         let t48 = t29.times_plus(t47, t46);
         let t49 = t31.times_plus(c.of(0.000000000000000000021449716601146855), t48);
-        let t50 = x[0] * t49;
-        let t51 = x[1] * t49;
-        let t52 = x[2] * t49;
-        let t54 = mu[1] * t52;
-        let t55 = -mu[2];
-        let t56 = t51.times_plus(t55, t54);
-        let t57 = mu[2] * t50;
-        let t58 = -mu[0];
-        let t59 = t52.times_plus(t58, t57);
-        let t60 = mu[0] * t51;
-        let t61 = -mu[1];
-        let t62 = t50.times_plus(t61, t60);
-        let t63 = c.of(2.0) * t56;
-        let t64 = c.of(2.0) * t59;
-        let t65 = c.of(2.0) * t62;
-        let t66 = t52 * t64;
-        let t67 = -t65;
-        let t68 = t51.times_plus(t67, t66);
-        let t69 = t50 * t65;
-        let t70 = -t63;
-        let t71 = t52.times_plus(t70, t69);
-        let t72 = t51 * t63;
-        let t73 = -t64;
-        let t74 = t50.times_plus(t73, t72);
-        let t75 = t32.times_plus(t63, mu[0]);
-        let t76 = t32.times_plus(t64, mu[1]);
-        let t77 = t32.times_plus(t65, mu[2]);
-        let t78 = t68 + t75;
-        let t79 = t71 + t76;
-        let t80 = t74 + t77;
-        let t81 = g[1] * t50;
-        let t82 = g[2].times_plus(t51, t81);
-        let t83 = g[3].times_plus(t52, t82);
+        let t51 = mu[1] * x[2];
+        let t52 = -mu[2];
+        let t53 = x[1].times_plus(t52, t51);
+        let t54 = mu[2] * x[0];
+        let t55 = -mu[0];
+        let t56 = x[2].times_plus(t55, t54);
+        let t57 = mu[0] * x[1];
+        let t58 = -mu[1];
+        let t59 = x[0].times_plus(t58, t57);
+        let t60 = x[2] * t56;
+        let t61 = -t59;
+        let t62 = x[1].times_plus(t61, t60);
+        let t63 = x[0] * t59;
+        let t64 = -t53;
+        let t65 = x[2].times_plus(t64, t63);
+        let t66 = x[1] * t53;
+        let t67 = -t56;
+        let t68 = x[0].times_plus(t67, t66);
+        let t69 = t49 * c.of(2.0);
+        let t70 = t32 * t69;
+        let t71 = t49 * t69;
+        let t72 = t53.times_plus(t70, mu[0]);
+        let t73 = t56.times_plus(t70, mu[1]);
+        let t74 = t59.times_plus(t70, mu[2]);
+        let t75 = t62.times_plus(t71, t72);
+        let t76 = t65.times_plus(t71, t73);
+        let t77 = t68.times_plus(t71, t74);
+        let t78 = x[0] * t49;
+        let t79 = x[1] * t49;
+        let t80 = x[2] * t49;
+        let t81 = g[1] * t78;
+        let t82 = g[2].times_plus(t79, t81);
+        let t83 = g[3].times_plus(t80, t82);
         let t84 = -t83;
         let t85 = g[0].times_plus(t32, t84);
-        let t86 = g[2] * t52;
+        let t86 = g[2] * t80;
         let t87 = -g[3];
-        let t88 = t51.times_plus(t87, t86);
-        let t89 = g[3] * t50;
+        let t88 = t79.times_plus(t87, t86);
+        let t89 = g[3] * t78;
         let t90 = -g[1];
-        let t91 = t52.times_plus(t90, t89);
-        let t92 = g[1] * t51;
+        let t91 = t80.times_plus(t90, t89);
+        let t92 = g[1] * t79;
         let t93 = -g[2];
-        let t94 = t50.times_plus(t93, t92);
-        let t95 = g[0].times_plus(t50, t88);
-        let t96 = g[0].times_plus(t51, t91);
-        let t97 = g[0].times_plus(t52, t94);
+        let t94 = t78.times_plus(t93, t92);
+        let t95 = g[0].times_plus(t78, t88);
+        let t96 = g[0].times_plus(t79, t91);
+        let t97 = g[0].times_plus(t80, t94);
         let t98 = g[1].times_plus(t32, t95);
         let t99 = g[2].times_plus(t32, t96);
         let t100 = g[3].times_plus(t32, t97);
@@ -654,7 +671,7 @@ const _: () = {
         let t109 = t98 * t107;
         let t110 = t99 * t107;
         let t111 = t100 * t107;
-        ([t108, t109, t110, t111], [t78, t79, t80])
+        ([t108, t109, t110, t111], [t75, t76, t77])
     }
 
     #[inline(always)]
@@ -775,19 +792,6 @@ const _: () = {
     }
 
     impl ::coadjoint::lanes::Lanes for Learned<f64> {
-        type Over<
-            L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
-        > = Learned<L>;
-        fn splat<
-            L: ::coadjoint::Scalar + ::coadjoint::nalgebra::SimdValue<Element = f64>,
-        >(&self) -> Learned<L> {
-            Learned {
-                step: L::splat(self.step),
-                symbols: self.symbols.map(L::splat),
-                coefficients: self.coefficients.map(L::splat),
-            }
-        }
-
         #[inline(always)]
         fn drive_lanes<R: ::coadjoint::plumbing::Registers>(
             &self,
@@ -815,13 +819,13 @@ const _: () = {
 
         fn value(&self, p: &Vector<T>) -> T {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t7 = p[2].times_plus(c[2], c[1]);
-            let t8 = p[1].times_plus(c[3], t7);
-            let t9 = p[0].times_plus(c[69], t8);
-            let t13 = p[2].times_plus(c[6], c[5]);
-            let t14 = p[1].times_plus(c[68], t13);
-            let t17 = p[2].times_plus(c[67], c[8]);
-            let t19 = p[2].times_plus(t17, c[66]);
+            let t7 = p[2].times_plus(c.at(2), c.at(1));
+            let t8 = p[1].times_plus(c.at(3), t7);
+            let t9 = p[0].times_plus(c.at(69), t8);
+            let t13 = p[2].times_plus(c.at(6), c.at(5));
+            let t14 = p[1].times_plus(c.at(68), t13);
+            let t17 = p[2].times_plus(c.at(67), c.at(8));
+            let t19 = p[2].times_plus(t17, c.at(66));
             let t20 = p[1].times_plus(t14, t19);
             let t21 = p[0].times_plus(t9, t20);
             t21
@@ -829,35 +833,39 @@ const _: () = {
 
         fn gradient(&self, p: &Vector<T>) -> Vector<T> {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t6 = p[2].times_plus(c[2], c[1]);
-            let t7 = p[1].times_plus(c[3], t6);
-            let t9 = c[0].times_plus(p[0], t7);
-            let t13 = p[2].times_plus(c[6], c[5]);
-            let t14 = c[3].times_plus(p[0], t13);
-            let t15 = p[1].times_plus(c[4], t14);
-            let t18 = p[1].times_plus(c[6], c[8]);
-            let t19 = c[2].times_plus(p[0], t18);
-            let t20 = p[2].times_plus(c[7], t19);
+            let t6 = p[2].times_plus(c.at(2), c.at(1));
+            let t7 = p[1].times_plus(c.at(3), t6);
+            let t9 = c.at(0).times_plus(p[0], t7);
+            let t13 = p[2].times_plus(c.at(6), c.at(5));
+            let t14 = c.at(3).times_plus(p[0], t13);
+            let t15 = p[1].times_plus(c.at(4), t14);
+            let t18 = p[1].times_plus(c.at(6), c.at(8));
+            let t19 = c.at(2).times_plus(p[0], t18);
+            let t20 = p[2].times_plus(c.at(7), t19);
             <Vector<T> as From<_>>::from([t9, t15, t20])
         }
 
         #[inline(never)]
         fn gradient_and_hessian(&self, p: &Vector<T>) -> (Vector<T>, Matrix<T>) {
             let (p, c): (&[T; 3], _) = (&p.data.0[0], &self.coefficients);
-            let t6 = p[2].times_plus(c[2], c[1]);
-            let t7 = p[1].times_plus(c[3], t6);
-            let t9 = c[0].times_plus(p[0], t7);
-            let t13 = p[2].times_plus(c[6], c[5]);
-            let t14 = c[3].times_plus(p[0], t13);
-            let t15 = p[1].times_plus(c[4], t14);
-            let t18 = p[1].times_plus(c[6], c[8]);
-            let t19 = c[2].times_plus(p[0], t18);
-            let t20 = p[2].times_plus(c[7], t19);
+            let t6 = p[2].times_plus(c.at(2), c.at(1));
+            let t7 = p[1].times_plus(c.at(3), t6);
+            let t9 = c.at(0).times_plus(p[0], t7);
+            let t13 = p[2].times_plus(c.at(6), c.at(5));
+            let t14 = c.at(3).times_plus(p[0], t13);
+            let t15 = p[1].times_plus(c.at(4), t14);
+            let t18 = p[1].times_plus(c.at(6), c.at(8));
+            let t19 = c.at(2).times_plus(p[0], t18);
+            let t20 = p[2].times_plus(c.at(7), t19);
             (
                 <Vector<T>>::from([t9, t15, t20]),
                 <Matrix<
                     T,
-                >>::from([[c[0], c[3], c[2]], [c[3], c[4], c[6]], [c[2], c[6], c[7]]]),
+                >>::from([
+                    [c.at(0), c.at(3), c.at(2)],
+                    [c.at(3), c.at(4), c.at(6)],
+                    [c.at(2), c.at(6), c.at(7)],
+                ]),
             )
         }
     }
@@ -867,13 +875,13 @@ const _: () = {
         #[inline]
         pub fn energy(&self, mu: &Vector<T>) -> T {
             let (mu, c): (&[T; 3], _) = (&mu.data.0[0], &self.coefficients);
-            let t7 = mu[2].times_plus(c[77], c[76]);
-            let t8 = mu[1].times_plus(c[78], t7);
-            let t9 = mu[0].times_plus(c[79], t8);
-            let t13 = mu[2].times_plus(c[74], c[73]);
-            let t14 = mu[1].times_plus(c[75], t13);
-            let t17 = mu[2].times_plus(c[72], c[71]);
-            let t19 = mu[2].times_plus(t17, c[70]);
+            let t7 = mu[2].times_plus(c.at(77), c.at(76));
+            let t8 = mu[1].times_plus(c.at(78), t7);
+            let t9 = mu[0].times_plus(c.at(79), t8);
+            let t13 = mu[2].times_plus(c.at(74), c.at(73));
+            let t14 = mu[1].times_plus(c.at(75), t13);
+            let t17 = mu[2].times_plus(c.at(72), c.at(71));
+            let t19 = mu[2].times_plus(t17, c.at(70));
             let t20 = mu[1].times_plus(t14, t19);
             let t21 = mu[0].times_plus(t9, t20);
             t21
