@@ -7,8 +7,6 @@ use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_run::{meet_tolerance as meet, read_with};
 
-pub(crate) use coadjoint_run::integrator;
-
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
 

@@ -61,11 +61,7 @@ fn derive(
     if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
         return Ok(found);
     }
-    let system = if ensemble {
-        System { problem: ensemble::problem_of(system.clone())?, potential: None, ..system }
-    } else {
-        system
-    };
+    let system = if ensemble { ensemble::in_lanes(system) } else { system };
     let made = Arc::new(Derived::of_file(Path::new(name), system)?);
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
     if known(&list).is_none() {
@@ -266,8 +262,7 @@ impl Core {
             let derived = derive(&cache, &here.name, system, true)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
-            let (integrator, kept) = (&derived.integrator, &derived.kept);
-            let engine = Engine::new(path, integrator, schedule.step, how, kept)?;
+            let engine = Engine::new(&derived, schedule.step, how)?;
             let layout = Found::of(engine.shape(), &Known::default(), &[], width)?.layout;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.

@@ -108,8 +108,8 @@ def test_a_potential_kicks() -> None:
     energy = np.einsum("ni,i->n", run.momentum**2, [0.5, 0.5, 1 / 1.2]) + 2 * run.group_element[:, 2, 2]
     np.testing.assert_allclose(run.energy, energy, rtol=1e-12)
     assert run.largest_drift.energy < 1e-6
-    with pytest.raises(InputError, match="potential"):
-        top.ensemble(np.ones((2, 3)), time=1, step=0.1)
+    many = top.ensemble([[0.1, 0.2, 3], [0.3, 0.2, 1]], time=10, step=0.02)
+    np.testing.assert_allclose(many[0], run.final_momentum, rtol=1e-11, atol=1e-11)
 
 
 def test_groups_by_basis_and_by_brackets() -> None:

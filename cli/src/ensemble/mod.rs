@@ -14,8 +14,8 @@ use std::path::Path;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
-use coadjoint_run::engine::Kept;
-use coadjoint_run::ensemble::{Asked, Engine, How, Known, Use, problem_of};
+use coadjoint_run::Derived;
+use coadjoint_run::ensemble::{Asked, Engine, How, Known, Use, in_lanes};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -34,19 +34,19 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     load::meet_tolerance(path, &mut system, accuracy, options.source.truncation, options.time)?;
     let run = system.run.clone();
     let known = Known::of(&system.problem, &system.parameters);
-    let problem = problem_of(system)?;
     let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
     // Refused before the derivation, which may take long.
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
     options.threads.map_or(Ok(()), check_threads)?;
-    let integrator = load::integrator(path, problem)?;
+    let derived = Derived::of_file(path, in_lanes(system))?;
+    let integrator = &derived.integrator;
     let precision = options.precision;
     let device = options.device.map(|device| Asked { device, precision });
     // Little is left of what a device makes.
-    let work = if device.is_some() { 0.0 } else { work(options, &integrator, steps) };
+    let work = if device.is_some() { 0.0 } else { work(options, integrator, steps) };
     let how = How { backend: options.backend, work, device };
-    let engine = Engine::new(path, &integrator, step, how, &Kept::default())?;
+    let engine = Engine::new(&derived, step, how)?;
     let states = States::open(initial, form, engine.shape(), &known)?;
     let problem = &integrator.problem;
     let mut identity: Identity = [
@@ -89,7 +89,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(text) = report::warning(&outcome) {
         eprintln!("warning: {text}");
     }
-    let report = report::report(&outcome, &integrator, (step, steps), &engine, options.format);
+    let report = report::report(&outcome, integrator, (step, steps), &engine, options.format);
     out!("{report}");
     let failed = outcome.journal.rejected;
     if outcome.trajectories > 0 && failed == outcome.trajectories {

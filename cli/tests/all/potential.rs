@@ -1,6 +1,6 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
 
-use crate::support::{Folder, json, text_of};
+use crate::support::{Folder, distance, json, numbers, text_of};
 use serde_json::Value;
 
 const SATELLITE: &str = "examples/satellite.toml";
@@ -80,6 +80,40 @@ time = 2.0
     ]);
     assert!(folder.json("simulate system.toml")["drift"]["spatial_momentum"].is_null());
     folder.run("emit system.toml").ok().prints(&["SystemPotential", "pub fn torque"]);
+}
+
+/// Each row is kicked as `simulate` kicks its state; a row that cannot be moved stops alone.
+#[test]
+fn ensembles_take_potentials() {
+    let folder = Folder::with(
+        r#"
+group = "SO3"
+hamiltonian = "mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4"
+potential = "g[2][2] + 0.5*g[2][0]"
+[integrator]
+step = 0.05
+[initial]
+momentum = [0.3, 0.2, 0.1]
+[run]
+time = 2.0
+"#,
+    );
+    folder.write("in.csv", "mu_1,mu_2,mu_3\n0.3,0.2,0.1\n1e3,2e3,3e3\n0.3,0.2,0.1\n");
+    for backend in ["interpreter", "auto"] {
+        let report = folder.json(&format!(
+            "ensemble system.toml --initial in.csv --out out.csv --backend {backend} --restart"
+        ));
+        assert_eq!(report["failed"], 1, "{report}");
+        // The vertical component of the spatial momentum stays; no Casimir does.
+        assert!(report["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-13, "{report}");
+        assert!(report["drift"]["casimirs"].is_null(), "{report}");
+        let ends = folder.table("out.csv");
+        let single = folder.json("simulate system.toml");
+        for row in [1, 3] {
+            let end: Vec<f64> = ends[row].iter().map(|cell| cell.parse().unwrap()).collect();
+            assert!(distance(&end, &numbers(&single["momentum"])) < 1e-12, "{end:?}");
+        }
+    }
 }
 
 #[test]

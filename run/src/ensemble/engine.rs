@@ -1,11 +1,10 @@
 //! Rows of states in memory, and what advances them: by the programs where there are any, eight side by side, or one by one.
 
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::{Problem, Solver};
+use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::{Invariants, nudge};
 use coadjoint_codegen::system::System;
 use coadjoint_native::cards::{Card, Device};
@@ -16,25 +15,14 @@ use super::drift::{Drift, larger};
 use super::layout::{Layout, Shape};
 use super::march::{March, Way};
 use crate::backend::Backend;
-use crate::engine::{Charted, Compiled, Kept, Motion, Numbers, STEEP, card, product_group};
+use crate::engine::{Compiled, Motion, Numbers, STEEP, card};
 use crate::error::RunError;
+use crate::load::Derived;
 
-/// The problem of an ensemble of this system.
-///
-/// # Errors
-/// Where it has a potential.
-pub fn problem_of(system: System) -> Result<Problem, RunError> {
-    let System { mut problem, potential, .. } = system;
-    if potential.is_some() {
-        return Err(RunError::Option(
-            "ensembles do not run systems with a potential: simulate them one by one, or emit the step \
-             and see `Kicked`"
-                .into(),
-        ));
-    }
-    // Lanes are solved by Newton's method whatever the dimension: its Hessian is then exact.
-    problem.solver = Some(Solver::Newton);
-    Ok(problem)
+/// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
+pub fn in_lanes(mut system: System) -> System {
+    system.problem.solver = Some(Solver::Newton);
+    system
 }
 
 /// A row that has no end state.
@@ -120,6 +108,8 @@ pub struct How {
 /// Advances rows of states of one system by steps of one size.
 pub struct Engine<'a> {
     integrator: &'a Integrator,
+    /// Rows of the group's matrices.
+    size: usize,
     motion: Box<dyn Motion + 'a>,
     compiled: Option<Arc<Compiled>>,
     card: Option<Mutex<Card>>,
@@ -131,34 +121,31 @@ pub struct Engine<'a> {
 }
 
 impl<'a> Engine<'a> {
-    /// Of a system, which is called by its path in messages; what is kept of the same integrator is used again.
+    /// Of a system that is meant for [lanes](in_lanes).
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend or device that the user named cannot be had.
-    pub fn new(
-        path: &Path,
-        integrator: &'a Integrator,
-        step: f64,
-        how: How,
-        kept: &Kept,
-    ) -> Result<Self, RunError> {
-        let problem = &integrator.problem;
-        let group = Charted::new(path, product_group(path, &problem.algebra)?, problem.chart)?;
+    pub fn new(system: &'a Derived, step: f64, how: How) -> Result<Self, RunError> {
+        let Derived { integrator, forces, kept, .. } = system;
+        let group = system.charted()?;
         let compiled =
             Compiled::new(integrator, step, how.backend, how.work, Trajectories::Lanes, kept)?;
         let card = how.device.map(|asked| card(integrator, step, asked.device, asked.precision));
         let card = card.transpose()?.map(Mutex::new);
-        let motion = group.steps(integrator, None, step, compiled.clone());
+        let motion = group.steps(integrator, forces.as_ref(), step, compiled.clone());
         let size = motion.space().size();
         let identity = (0..size * size).map(|at| f64::from(u8::from(at / size == at % size)));
         let identity = motion.space().numbers(&identity.collect::<Vec<_>>());
-        let (redone, invariants) = (AtomicU64::new(0), Invariants::of(&problem.algebra));
-        Ok(Self { integrator, motion, compiled, card, redone, invariants, identity })
+        // Energies are not measured.
+        let invariants =
+            Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
+        let redone = AtomicU64::new(0);
+        Ok(Self { integrator, size, motion, compiled, card, redone, invariants, identity })
     }
 
     /// The shape of a row.
     pub fn shape(&self) -> Shape {
-        Shape::of(&self.integrator.problem.algebra)
+        Shape { matrix_size: self.size, ..Shape::of(&self.integrator.problem.algebra) }
     }
 
     /// How many Casimirs are watched.
@@ -319,7 +306,8 @@ impl<'a> Engine<'a> {
         nudge(&mut beside.g);
         nudge(&mut beside.mu);
         let conserved = start.measured(&conserved(after), conserved(&beside));
-        let hidden = conserved.spatial_momentum.is_none()
+        let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
+        let hidden = known && conserved.spatial_momentum.is_none()
             || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
         Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
     }

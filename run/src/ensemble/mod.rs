@@ -7,5 +7,5 @@ mod layout;
 mod march;
 
 pub use drift::Drift;
-pub use engine::{Asked, Engine, How, Rejected, Rows, Use, Watch, problem_of};
+pub use engine::{Asked, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
 pub use layout::{Attitude, Found, Known, Layout, Shape, matrix_size};
