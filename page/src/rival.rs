@@ -60,15 +60,16 @@ impl Rival {
         momentum.iter().copied().chain(self.entries.iter().map(identity)).collect()
     }
 
-    /// One step.
-    pub fn advance(&self, state: &mut [f64], h: f64, scratch: &mut Vec<f64>) {
-        let input: Vec<f64> = state.iter().copied().chain([h]).collect();
-        self.step.run(&input, &[], scratch, state);
+    /// The state after one step.
+    #[must_use]
+    pub fn advance(&self, state: &[f64], h: f64) -> Vec<f64> {
+        self.step.run(&[state, &[h]].concat(), &[])
     }
 
     /// μ̇ at μ.
-    pub fn rate(&self, momentum: &[f64], scratch: &mut Vec<f64>, out: &mut [f64]) {
-        self.rate.run(momentum, &[], scratch, out);
+    #[must_use]
+    pub fn rate(&self, momentum: &[f64]) -> Vec<f64> {
+        self.rate.run(momentum, &[])
     }
 
     /// The spatial momentum Ad\*_g μ of a state as it is, wherever it has left the group; NaN where g has no inverse.

@@ -53,13 +53,11 @@ impl Run {
     /// A run from the identity with this momentum.
     #[must_use]
     pub fn new(system: &System, momentum: &[f64]) -> Self {
-        let n = system.dim();
         let size: usize = system.factors.iter().map(|factor| factor.size).sum();
         let identity: Vec<f64> =
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let g = system.step.element_of(&identity);
-        let mut rate = vec![0.0; n];
-        system.rival.rate(momentum, &mut Vec::new(), &mut rate);
+        let rate = system.rival.rate(momentum);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
         let start = system.invariants.start(momentum, momentum, Vec::new);
         let mut run = Self {
@@ -85,7 +83,6 @@ impl Run {
     /// Makes up to `count` steps; returns how many were made.
     pub fn advance(&mut self, system: &System, count: u32) -> u32 {
         let kernel = system.step.kernel();
-        let mut scratch = Vec::new();
         for made in 0..count {
             if self.refusal.is_some() {
                 return made;
@@ -98,14 +95,14 @@ impl Run {
                 self.refusal = Some(Refusal { reason, usable });
                 return made;
             }
-            system.rival.rate(&next.mu, &mut scratch, &mut next.rate);
+            next.rate = system.rival.rate(&next.mu);
             self.before = std::mem::replace(&mut self.now, next);
             self.steps += 1;
             let h = self.h / self.substeps as f64;
             for _ in 0..self.substeps {
-                system.rival.advance(&mut self.rival, h, &mut scratch);
+                self.rival = system.rival.advance(&self.rival, h);
             }
-            system.rival.rate(&self.rival[..system.dim()], &mut scratch, &mut self.rival_rate);
+            self.rival_rate = system.rival.rate(&self.rival[..system.dim()]);
             self.leave_trail();
             self.record(system);
         }

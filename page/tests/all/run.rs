@@ -68,7 +68,7 @@ fn the_method_beside_is_of_order_four() {
         let end = |steps: u32| {
             let mut state = system.rival.start(&system.momentum);
             for _ in 0..steps {
-                system.rival.advance(&mut state, 0.8 / f64::from(steps), &mut Vec::new());
+                state = system.rival.advance(&state, 0.8 / f64::from(steps));
             }
             state
         };
