@@ -54,7 +54,7 @@ impl Style {
 
     /// The same, paler and thinner.
     #[must_use]
-    pub fn faint(self) -> Self {
+    pub(crate) fn faint(self) -> Self {
         Self { faint: true, ..self }
     }
 

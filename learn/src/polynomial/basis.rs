@@ -77,7 +77,7 @@ impl Basis {
 
     /// As [`Basis::size`]; `None` if there are more than an address can count.
     #[must_use]
-    pub fn checked_size(dim: usize, degree: usize) -> Option<usize> {
+    pub(crate) fn checked_size(dim: usize, degree: usize) -> Option<usize> {
         // Each intermediate count is a binomial, so the division leaves no remainder.
         let mut count = 1_u128;
         for k in 1..=degree {
@@ -94,7 +94,7 @@ impl Basis {
     ///
     /// # Errors
     /// [`LearnError::InvalidOption`] with the number of terms and the limit.
-    pub fn check_fit(dim: usize, degree: usize, samples: usize) -> Result<(), LearnError> {
+    pub(crate) fn check_fit(dim: usize, degree: usize, samples: usize) -> Result<(), LearnError> {
         let refused = |terms: String| {
             let most = LARGEST_FIT / samples.saturating_mul(dim).max(1);
             let requirement = format!(
