@@ -29,17 +29,14 @@ where
     DMatrix::from_row_slice(dim, dim, &rows)
 }
 
-/// (d^L exp_x)⁻¹.
+/// (d^L exp_x)⁻¹; not finite where there is none.
 pub(crate) fn left_exp_derivative_inverse<G>(group: &G, x: &G::Vector) -> DMatrix<f64>
 where
     G: LieGroup<Scalar = f64>,
 {
     let dim = x.dim();
-    let minus = negative::<G>(x);
-    let rows: Vec<f64> = units::<G>(dim)
-        .flat_map(|e| entries(&Exponential.left_momentum(group, &minus, &e)))
-        .collect();
-    DMatrix::from_row_slice(dim, dim, &rows)
+    let inverse = left_derivative(group, Exponential, x).try_inverse();
+    inverse.unwrap_or_else(|| DMatrix::from_element(dim, dim, f64::NAN))
 }
 
 /// The matrix of ξ ↦ ad\*_ξ μ.

@@ -17,11 +17,11 @@ pub use crate::group::product::DirectProduct;
 pub use crate::group::product::{Power, Product};
 pub use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
-pub use crate::linear::coordinates::{Coordinates, Factors};
+pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{
-    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, CayleyTables, Rotations, SL2,
-    SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, StaticAlgebra, StaticMatrixGroup, StaticTables,
-    StructureConstant, TableGroup, Tables, U2, U3, Unitary,
+    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Rotations, SL2, SL2Algebra, SO4,
+    SO5, SU3, SU4, SpecialUnitary, StaticAlgebra, StaticMatrixGroup, StructureConstant, TableGroup,
+    U2, U3, Unitary,
 };
 #[cfg(feature = "alloc")]
-pub use crate::table::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};
+pub use crate::table::{CayleyMatrixGroup, MatrixGroup, TableError};

@@ -6,10 +6,9 @@ use std::rc::Rc;
 
 use coadjoint::LieGroup;
 use coadjoint::groups::{CayleyGroup, Coordinates, ElementError};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 type Vector = DVector<f64>;
-type Matrix = DMatrix<f64>;
 
 /// An element of whatever group.
 #[derive(Clone)]
@@ -43,10 +42,6 @@ fn known<G: LieGroup<Scalar = f64>>(x: &Vector) -> G::Vector {
 
 fn forgotten<V: Coordinates<f64>>(x: &V) -> Vector {
     DVector::from_fn(x.dim(), |i, _| x[i])
-}
-
-fn with_matrix<V: Coordinates<f64>>((x, m): (V, V::Matrix)) -> (Vector, Matrix) {
-    (forgotten(&x), DMatrix::from_fn(x.dim(), x.dim(), |i, j| m[(i, j)]))
 }
 
 fn wrapped<E: 'static>(g: E) -> Element {
@@ -98,7 +93,6 @@ macro_rules! erased {
     (@result number) => { f64 };
     (@result maybe) => { Option<Vector> };
     (@result moved) => { (Element, Vector) };
-    (@result slope) => { (Vector, Matrix) };
     (@in vector $x:ident) => { &known::<G>($x) };
     (@in element $x:ident) => { unwrapped::<G::Element>($x) };
     (@in index $x:ident) => { $x };
@@ -111,7 +105,6 @@ macro_rules! erased {
         let (g, x) = $e;
         (wrapped(g), forgotten(&x))
     }};
-    (@out slope $e:expr) => { with_matrix($e) };
 }
 
 erased! {
@@ -122,14 +115,10 @@ erased! {
         inverse(g: element) -> element;
         exp(x: vector) -> element;
         log(g: element) -> maybe;
-        bracket(x: vector, y: vector) -> vector;
         ad_star(x: vector, mu: vector) -> vector;
-        adjoint(g: element, x: vector) -> vector;
         coadjoint(g: element, mu: vector) -> vector;
         exp_transport(x: vector, mu: vector) -> moved;
         dexp_transpose(x: vector, mu: vector) -> vector;
-        dexp_transpose_with_derivative(x: vector, mu: vector) -> slope;
-        dexp_inverse_transpose(x: vector, p: vector) -> vector;
         exp_extent(x: vector) -> number;
         element_defect(g: element) -> number;
         casimir_count() -> index;
@@ -149,11 +138,9 @@ erased! {
         }
     }
     CayleyGroup {
-        cayley_transport(x: vector, mu: vector) -> moved;
+        cayley(x: vector) -> element;
         cayley_extent(x: vector) -> number;
         cayley_inverse(g: element) -> maybe;
         dcay_transpose(x: vector, mu: vector) -> vector;
-        dcay_transpose_with_derivative(x: vector, mu: vector) -> slope;
-        dcay_inverse_transpose(x: vector, p: vector) -> vector;
     } with {}
 }

@@ -2,8 +2,12 @@
 
 use core::fmt::Debug;
 
+use nalgebra::{SimdComplexField, SimdPartialOrd};
+
 use crate::group::{CayleyGroup, LieGroup};
 use crate::linear::coordinates::Coordinates;
+use crate::linear::differences;
+use crate::number::scalar::Scalar;
 
 type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Matrix;
 
@@ -25,16 +29,34 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
     /// (d^R τ_x)ᵀ μ: the canonical momentum p of the covector with J_L = μ over τ(x).
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector;
 
-    /// [`Chart::pull_back`] and its derivative in x (rows: coordinates of p; columns: of x).
+    /// [`Chart::pull_back`] and its derivative in x (rows: coordinates of p; columns: of x), by differences: to about
+    /// 1e-10, which serves Newton's method.
     fn pull_back_with_derivative(
         self,
         group: &G,
         x: &G::Vector,
         mu: &G::Vector,
-    ) -> (G::Vector, Matrix<G>);
+    ) -> (G::Vector, Matrix<G>) {
+        // Angles vary p on the scale of one, whatever the length of a translation beside them.
+        let spacing = |x: G::Scalar| {
+            differences::spacing::<G::Scalar>() * x.simd_abs().simd_max(G::Scalar::of(1.0))
+        };
+        let derivative = differences::central(x, spacing, |x| self.pull_back(group, x, mu));
+        (self.pull_back(group, x, mu), derivative)
+    }
 
     /// J_L(x, p) = (d^R τ_x)^{−T} p, the momentum on the left: the body momentum before the step.
-    fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector;
+    fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
+        let dim = p.dim();
+        let mut matrix = G::Vector::zero_matrix(dim);
+        for j in 0..dim {
+            let column = self.pull_back(group, x, &G::Vector::unit(dim, j));
+            for i in 0..dim {
+                matrix[(i, j)] = column[i];
+            }
+        }
+        G::Vector::solve(&matrix, p)
+    }
 
     /// J_R(x, p) = J_L(−x, p), the momentum on the right: the body momentum after the step.
     fn right_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
@@ -54,77 +76,41 @@ pub struct Cayley;
 impl<G: LieGroup> Chart<G> for Exponential {
     const NAME: &'static str = "exp";
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
         group.exp_transport(x, mu)
     }
 
-    #[inline(always)]
     fn extent(self, group: &G, x: &G::Vector) -> G::Scalar {
         group.exp_extent(x)
     }
 
-    #[inline(always)]
     fn coordinate(self, group: &G, g: &G::Element) -> Option<G::Vector> {
         group.log(g)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dexp_transpose(x, mu)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn pull_back_with_derivative(
-        self,
-        group: &G,
-        x: &G::Vector,
-        mu: &G::Vector,
-    ) -> (G::Vector, Matrix<G>) {
-        group.dexp_transpose_with_derivative(x, mu)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
-        group.dexp_inverse_transpose(x, p)
     }
 }
 
 impl<G: CayleyGroup> Chart<G> for Cayley {
     const NAME: &'static str = "cayley";
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector) {
-        group.cayley_transport(x, mu)
+        let g = group.cayley(x);
+        let moved = group.coadjoint(&group.inverse(&g), mu);
+        (g, moved)
     }
 
-    #[inline(always)]
     fn extent(self, group: &G, x: &G::Vector) -> G::Scalar {
         group.cayley_extent(x)
     }
 
-    #[inline(always)]
     fn coordinate(self, group: &G, g: &G::Element) -> Option<G::Vector> {
         group.cayley_inverse(g)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dcay_transpose(x, mu)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn pull_back_with_derivative(
-        self,
-        group: &G,
-        x: &G::Vector,
-        mu: &G::Vector,
-    ) -> (G::Vector, Matrix<G>) {
-        group.dcay_transpose_with_derivative(x, mu)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
-        group.dcay_inverse_transpose(x, p)
     }
 }

@@ -9,11 +9,10 @@ pub(crate) mod series;
 pub use polynomial::PolynomialFunction;
 pub use reversed::Reversed;
 
-use nalgebra::SimdComplexField;
-
 use crate::chart::Chart;
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
+use crate::linear::differences;
 use crate::number::scalar::Scalar;
 
 /// The number type of a generating function's group.
@@ -90,22 +89,6 @@ pub fn hessian_by_differences<S: GeneratingFunction + ?Sized>(
     generating: &S,
     p: &VectorOf<S>,
 ) -> MatrixOf<S> {
-    let dim = p.dim();
-    // The third root of rounding balances both errors.
-    let spacing =
-        (p.largest_entry() + ScalarOf::<S>::of(1e-3)) * ScalarOf::<S>::epsilon().simd_cbrt();
-    let factor = ScalarOf::<S>::of(0.5) / spacing;
-    let mut hessian = VectorOf::<S>::zero_matrix(dim);
-    for j in 0..dim {
-        let shifted = |by| {
-            let mut shifted = p.clone();
-            shifted[j] += by;
-            generating.gradient(&shifted)
-        };
-        let (right, left) = (shifted(spacing), shifted(-spacing));
-        for i in 0..dim {
-            hessian[(i, j)] = (right[i] - left[i]) * factor;
-        }
-    }
-    hessian
+    let spacing = (p.largest_entry() + Scalar::of(1e-3)) * differences::spacing::<ScalarOf<S>>();
+    differences::central(p, |_| spacing, |p| generating.gradient(p))
 }

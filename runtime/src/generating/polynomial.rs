@@ -33,10 +33,7 @@ use crate::table::TableError;
 pub struct PolynomialFunction<G, C> {
     group: G,
     chart: PhantomData<C>,
-    coefficients: Vec<f64>,
-    /// Where the factors of each term end in `factors`.
-    ends: Vec<usize>,
-    factors: Vec<(usize, u32)>,
+    terms: Vec<(f64, Vec<(usize, u32)>)>,
     /// Where it is a truncated series, how that is judged.
     series: Option<TruncatedSeries>,
 }
@@ -65,32 +62,23 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
         terms: impl IntoIterator<Item = (f64, Vec<(usize, u32)>)>,
     ) -> Result<Self, TableError> {
         let dim = group.dim();
-        let mut result = Self {
-            group,
-            chart: PhantomData,
-            coefficients: Vec::new(),
-            ends: Vec::new(),
-            factors: Vec::new(),
-            series: None,
-        };
-        for (c, mut factors) in terms {
-            factors.retain(|f| f.1 > 0);
-            if let Some(&(index, _)) = factors.iter().find(|f| f.0 >= dim) {
-                return Err(TableError::IndexOutOfRange { index, dim });
-            }
+        let merged = |(c, mut factors): (f64, Vec<(usize, u32)>)| {
+            factors.retain(|factor| factor.1 > 0);
             factors.sort_unstable();
-            let start = result.factors.len();
-            for (i, power) in factors {
-                // Of this term alone: the last factor may still be one of the term before.
-                match result.factors.get_mut(start..).and_then(<[_]>::last_mut) {
-                    Some(last) if last.0 == i => last.1 += power,
-                    _ => result.factors.push((i, power)),
+            factors.dedup_by(|next, last| {
+                let same = next.0 == last.0;
+                last.1 += if same { next.1 } else { 0 };
+                same
+            });
+            match factors.last() {
+                Some(&(index, _)) if index >= dim => {
+                    Err(TableError::IndexOutOfRange { index, dim })
                 }
+                _ => Ok((c, factors)),
             }
-            result.coefficients.push(c);
-            result.ends.push(result.factors.len());
-        }
-        Ok(result)
+        };
+        let terms = terms.into_iter().map(merged).collect::<Result<_, _>>()?;
+        Ok(Self { group, chart: PhantomData, terms, series: None })
     }
 
     /// The truncated series with these terms (order k of the S_k they belong to, c, [(i, power), …]): steps are then
@@ -116,34 +104,18 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
         let function = Self::new(group, chart, terms.into_iter().map(|(_, c, f)| (c, f)))?;
         Ok(Self { series: Some(TruncatedSeries { last, factors }), ..function })
     }
-
-    fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, u32)])> {
-        let mut start = 0;
-        self.coefficients.iter().zip(&self.ends).map(move |(&c, &end)| {
-            let factors = self.factors.get(start..end).unwrap_or_default();
-            start = end;
-            (c, factors)
-        })
-    }
 }
 
 /// The number of the direct factor that each coordinate belongs to, ascending from 0: consecutive coordinates belong to one
 /// where a bracket leads across.
 fn factor_of_coordinates<G: LieGroup>(group: &G) -> Vec<u32> {
     let dim = group.dim();
-    let one = |i| {
-        let entry = |j| G::Scalar::of(if i == j { 1.0 } else { 0.0 });
-        G::Vector::from_entries(dim, entry)
-    };
     let mut begins = alloc::vec![true; dim];
-    for i in 0..dim {
-        for j in i + 1..dim {
-            let bracket = group.bracket(&one(i), &one(j));
-            let reached = (0..dim).filter(|&k| bracket[k].largest_lane() != 0.0);
-            let (first, last) = reached.fold((dim, 0), |(a, b), k| (a.min(k), b.max(k)));
-            if first < dim {
-                begins[first.min(i) + 1..=last.max(j)].fill(false);
-            }
+    for (i, k) in (0..dim * dim).map(|at| (at / dim, at % dim)) {
+        // Not zero for the j where [e_i, e_j] leads to e_k.
+        let constants = group.ad_star(&G::Vector::unit(dim, i), &G::Vector::unit(dim, k));
+        for j in (0..dim).filter(|&j| constants[j].largest_lane() != 0.0) {
+            begins[i.min(j).min(k) + 1..=i.max(j).max(k)].fill(false);
         }
     }
     let mut factor = 0;
@@ -154,13 +126,16 @@ fn factor_of_coordinates<G: LieGroup>(group: &G) -> Vec<u32> {
     begins.into_iter().enumerate().map(count).collect()
 }
 
-/// p^power
-fn power<T: Scalar>(p: T, power: u32) -> T {
-    let mut result = T::of(1.0);
-    for _ in 0..power {
-        result *= p;
-    }
-    result
+/// c ∏ pᵢ^power, each power less what is lowered of the factor at that place.
+fn product<T: Scalar, V: Coordinates<T>>(
+    c: f64,
+    factors: &[(usize, u32)],
+    p: &V,
+    lowered: impl Fn(usize) -> u32,
+) -> T {
+    factors.iter().enumerate().fold(T::of(c), |product, (at, &(i, power))| {
+        (lowered(at)..power).fold(product, |product, _| product * p[i])
+    })
 }
 
 impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
@@ -172,28 +147,15 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
     }
 
     fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        let mut sum = ScalarOf::<Self>::of(0.0);
-        for (c, factors) in self.terms() {
-            let mut product = ScalarOf::<Self>::of(c);
-            for &(i, n) in factors {
-                product *= power(p[i], n);
-            }
-            sum += product;
-        }
-        sum
+        let terms = self.terms.iter();
+        terms.fold(Scalar::of(0.0), |sum, (c, factors)| sum + product(*c, factors, p, |_| 0))
     }
 
     fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
         let mut x = VectorOf::<Self>::zeros(self.group.dim());
-        for (c, factors) in self.terms() {
+        for (c, factors) in &self.terms {
             for (at, &(i, n)) in factors.iter().enumerate() {
-                let mut product = ScalarOf::<Self>::of(c * f64::from(n)) * power(p[i], n - 1);
-                for (other, &(j, m)) in factors.iter().enumerate() {
-                    if other != at {
-                        product *= power(p[j], m);
-                    }
-                }
-                x[i] += product;
+                x[i] += product(c * f64::from(n), factors, p, |other| u32::from(other == at));
             }
         }
         x
@@ -211,27 +173,18 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
 
     fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
         let mut hessian = VectorOf::<Self>::zero_matrix(self.group.dim());
-        for (c, factors) in self.terms() {
+        for (c, factors) in &self.terms {
             for (first, &(i, n)) in factors.iter().enumerate() {
                 for (second, &(j, m)) in factors.iter().enumerate().take(first + 1) {
                     let degrees = if first == second { n * (n - 1) } else { n * m };
                     if degrees == 0 {
                         continue;
                     }
-                    let mut product = ScalarOf::<Self>::of(c * f64::from(degrees));
-                    product *= if first == second {
-                        power(p[i], n - 2)
-                    } else {
-                        power(p[i], n - 1) * power(p[j], m - 1)
-                    };
-                    for (other, &(k, l)) in factors.iter().enumerate() {
-                        if other != first && other != second {
-                            product *= power(p[k], l);
-                        }
-                    }
-                    hessian[(i, j)] += product;
+                    let lowered = |at| u32::from(at == first) + u32::from(at == second);
+                    let entry = product(c * f64::from(degrees), factors, p, lowered);
+                    hessian[(i, j)] += entry;
                     if i != j {
-                        hessian[(j, i)] += product;
+                        hessian[(j, i)] += entry;
                     }
                 }
             }

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
@@ -39,7 +39,6 @@ impl<T: Scalar> LieGroup for Heisenberg<T> {
     type Vector = Vector3<T>;
     type Element = Vector3<T>;
 
-    #[inline(always)]
     fn dim(&self) -> usize {
         3
     }
@@ -48,17 +47,14 @@ impl<T: Scalar> LieGroup for Heisenberg<T> {
         Vector3::repeat(T::of(0.0))
     }
 
-    #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         Vector3::new(g.x + h.x, g.y + h.y, g.z + h.z + g.x * h.y)
     }
 
-    #[inline(always)]
     fn inverse(&self, g: &Self::Element) -> Self::Element {
         Vector3::new(-g.x, -g.y, g.x * g.y - g.z)
     }
 
-    #[inline(always)]
     fn exp(&self, x: &Self::Vector) -> Self::Element {
         Vector3::new(x.x, x.y, x.z + x.x * x.y * T::of(0.5))
     }
@@ -67,60 +63,24 @@ impl<T: Scalar> LieGroup for Heisenberg<T> {
         Some(Vector3::new(g.x, g.y, g.z - g.x * g.y * T::of(0.5)))
     }
 
-    #[inline(always)]
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        Vector3::new(T::of(0.0), T::of(0.0), x.x * y.y - x.y * y.x)
-    }
-
-    #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         Vector3::new(-x.y * mu.z, x.x * mu.z, T::of(0.0))
     }
 
-    #[inline(always)]
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        Vector3::new(x.x, x.y, x.z + g.x * x.y - g.y * x.x)
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
         Vector3::new(mu.x + g.y * mu.z, mu.y - g.x * mu.z, mu.z)
     }
 
-    #[inline(always)]
-    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        (self.exp(x), mu + self.ad_star(x, mu))
-    }
-
     /// μ + ½ ad_xᵀ μ: higher powers of ad vanish.
-    #[inline(always)]
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         mu + self.ad_star(x, mu) * T::of(0.5)
     }
 
-    #[inline(always)]
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let (zero, half) = (T::of(0.0), mu.z * T::of(0.5));
-        let slope = Matrix3::new(zero, -half, zero, half, zero, zero, zero, zero, zero);
-        (self.dexp_transpose(x, mu), slope)
-    }
-
-    #[inline(always)]
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        p - self.ad_star(x, p) * T::of(0.5)
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
         // Nilpotent: exp is a chart everywhere; x must be finite.
         (x.x + x.y + x.z) * T::of(0.0)
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
         (g.x + g.y + g.z) * T::of(0.0)
     }
@@ -161,15 +121,10 @@ impl<T: Scalar> LieGroup for Heisenberg<T> {
 }
 
 impl<T: Scalar> CayleyGroup for Heisenberg<T> {
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        self.exp_transport(x, mu)
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        self.exp(x)
     }
 
-    #[inline(always)]
     fn cayley_extent(&self, x: &Self::Vector) -> T {
         self.exp_extent(x)
     }
@@ -180,17 +135,5 @@ impl<T: Scalar> CayleyGroup for Heisenberg<T> {
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         self.dexp_transpose(x, mu)
-    }
-
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        self.dexp_transpose_with_derivative(x, mu)
-    }
-
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        self.dexp_inverse_transpose(x, p)
     }
 }

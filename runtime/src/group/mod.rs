@@ -1,6 +1,7 @@
 //! The trait of Lie groups, implemented once per group.
 
 pub(crate) mod element_error;
+pub(crate) mod entire;
 pub(crate) mod heisenberg;
 pub(crate) mod phase;
 pub(crate) mod product;
@@ -47,17 +48,25 @@ pub trait LieGroup: Clone + Debug {
     /// The x nearest to 0 with exp(x) = g; `None` where there is none, or none can be found.
     fn log(&self, g: &Self::Element) -> Option<Self::Vector>;
 
-    /// The Lie bracket \[x, y\], in coordinates.
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector;
-
     /// The infinitesimal coadjoint action ad\*_x μ, coordinates Σ xᵢ cᵢⱼˡ μₗ: the transpose of ad_x applied to μ.
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
 
-    /// The adjoint action Ad_g x: the coordinates of g x g⁻¹.
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector;
-
     /// Ad\*_g μ, the left coadjoint action: for a phase point (g, μ), its spatial momentum.
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector;
+
+    /// The Lie bracket \[x, y\], in coordinates; if not given, from its transpose [`LieGroup::ad_star`].
+    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
+        let covector = |k| self.ad_star(x, &Self::Vector::unit(x.dim(), k));
+        Self::Vector::from_entries(x.dim(), |k| covector(k).pairing(y))
+    }
+
+    /// The adjoint action Ad_g x: the coordinates of g x g⁻¹; if not given, from its transpose
+    /// [`LieGroup::coadjoint`].
+    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
+        let back = self.inverse(g);
+        let covector = |k| self.coadjoint(&back, &Self::Vector::unit(x.dim(), k));
+        Self::Vector::from_entries(x.dim(), |k| covector(k).pairing(x))
+    }
 
     /// The element exp(x) together with Ad\*_{exp(−x)} μ, computed from x (not from a rounded group element).
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
@@ -68,18 +77,6 @@ pub trait LieGroup: Clone + Debug {
 
     /// The canonical momentum of the exponential chart, (d^R exp_x)ᵀ μ = Σₖ (ad_xᵀ)ᵏ μ / (k+1)!, to rounding, where dexp·exp⁻¹ = d^R exp_x dx.
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
-
-    /// [`LieGroup::dexp_transpose`] and its derivative D(x, μ) in x: entry (i, j) is ∂ᵢ-th
-    /// coordinate by ∂xⱼ. The derivative serves Newton's method; a relative error of 1e-9 does
-    /// no harm.
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix);
-
-    /// (d^R exp_x)^{−T} p = Σₖ Bₖ⁺… p, the inverse of [`LieGroup::dexp_transpose`], to rounding.
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector;
 
     /// How far x goes into the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
     /// it. The chart reaches to one. NaN where x is not finite. The elliptic part alone counts: nilpotent
@@ -122,12 +119,8 @@ pub trait FixedDimension {
 ///
 /// Only for groups where ξ, x ∈ 𝔤 implies xξx ∈ 𝔤 (so(n), sp(n), se(3), u(n); not su(3)).
 pub trait CayleyGroup: LieGroup {
-    /// cay(x), together with Ad\*_{cay(−x)} μ.
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector);
+    /// cay(x).
+    fn cayley(&self, x: &Self::Vector) -> Self::Element;
 
     /// How far x goes into the Cayley chart: max |λ/2|² over the eigenvalues λ of the matrix of x, or a bound on
     /// it. The chart is used up to one, its own half turn (|x| = 2 on SO(3)). NaN where x is not finite.
@@ -138,14 +131,4 @@ pub trait CayleyGroup: LieGroup {
 
     /// (d^R cay_x)ᵀ μ: ⟨μ, (1 − x/2)⁻¹ ξ (1 + x/2)⁻¹⟩ for every ξ.
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
-
-    /// [`CayleyGroup::dcay_transpose`] and its derivative in x, as for the exponential.
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix);
-
-    /// (d^R cay_x)^{−T} p: ⟨p, (1 − x/2) ξ (1 + x/2)⟩ = ⟨p, ξ − ½[x, ξ] − ¼ xξx⟩, polynomial in x.
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector;
 }

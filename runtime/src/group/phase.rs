@@ -38,7 +38,6 @@ impl<G: LieGroup> Phase<G> {
 
 // Derived impls would ask for `G: Clone` where the fields' types are what matters.
 impl<G: LieGroup> Clone for Phase<G> {
-    #[inline(always)]
     fn clone(&self) -> Self {
         Self { group_element: self.group_element.clone(), momentum: self.momentum.clone() }
     }

@@ -3,13 +3,12 @@
 use core::marker::PhantomData;
 
 use nalgebra::{
-    Complex, Isometry2, Isometry3, Matrix3, Matrix6, SimdBool, Translation2, Unit, Vector2,
-    Vector3, Vector6,
+    Complex, Isometry2, Isometry3, SimdBool, Translation2, Unit, Vector2, Vector3, Vector6,
 };
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
+use crate::group::entire::{dexp_inverse, entire};
 use crate::group::se3::SE3;
-use crate::group::so3::kernel;
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
 
@@ -55,11 +54,6 @@ fn drop<T: Scalar>(x: &Vector6<T>) -> Vector3<T> {
     Vector3::from_fn(|i, _| x[PLACES[i]])
 }
 
-#[inline(always)]
-fn drop_matrix<T: Scalar>(m: &Matrix6<T>) -> Matrix3<T> {
-    Matrix3::from_fn(|i, j| m[(PLACES[i], PLACES[j])])
-}
-
 /// The motion of the plane that a motion of space keeping the third axis makes.
 #[inline(always)]
 fn flatten<T: Scalar>(g: &Isometry3<T>) -> Isometry2<T> {
@@ -87,7 +81,6 @@ impl<T: Scalar> LieGroup for SE2<T> {
     type Vector = Vector3<T>;
     type Element = Isometry2<T>;
 
-    #[inline(always)]
     fn dim(&self) -> usize {
         3
     }
@@ -97,7 +90,6 @@ impl<T: Scalar> LieGroup for SE2<T> {
     }
 
     /// The product; the rotation is pulled back onto the unit circle to first order.
-    #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         let ((c, s, x, y), (d, r, u, v)) = (parts(g), parts(h));
         let (cosine, sine) = (c * d - s * r, c * r + s * d);
@@ -105,24 +97,16 @@ impl<T: Scalar> LieGroup for SE2<T> {
         motion(cosine * factor, sine * factor, c * u - s * v + x, s * u + c * v + y)
     }
 
-    #[inline(always)]
     fn inverse(&self, g: &Self::Element) -> Self::Element {
         let (c, s, x, y) = parts(g);
         motion(c, -s, -(c * x + s * y), s * x - c * y)
     }
 
-    #[inline(always)]
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        // With b = (1 − cos ω)/ω² and c = (ω − sin ω)/ω³, the translation is
-        // (sin ω/ω) v + ((1 − cos ω)/ω) Jv.
-        let t = x.x * x.x;
-        let k = kernel::dexp(t);
-        let half = kernel::half_angle(t);
-        let sine = T::of(2.0) * half.cosine * half.sine_over_angle * x.x;
-        let cosine = T::of(1.0) - t * k.b;
-        let along = T::of(1.0) - t * k.c;
-        let across = x.x * k.b;
-        motion(cosine, sine, along * x.y - across * x.z, across * x.y + along * x.z)
+        // The translation is (sin ω/ω) v + ((1 − cos ω)/ω) Jv.
+        let [cosine, along, b, ..] = entire(x.x * x.x);
+        let across = x.x * b;
+        motion(cosine, along * x.x, along * x.y - across * x.z, across * x.y + along * x.z)
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -130,68 +114,30 @@ impl<T: Scalar> LieGroup for SE2<T> {
         let angle = s.simd_atan2(c);
         // V⁻¹ = 1 − ½ω̂ + κ ω̂², κ = (1 − (ω/2) cot(ω/2))/ω².
         let t = angle * angle;
-        let along = T::of(1.0) - t * kernel::dexp_inverse(t);
+        let along = T::of(1.0) - t * dexp_inverse(t);
         let across = angle * T::of(0.5);
         Some(Vector3::new(angle, along * x + across * y, along * y - across * x))
     }
 
-    #[inline(always)]
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        Vector3::new(T::of(0.0), y.x * x.z - x.x * y.z, x.x * y.y - y.x * x.y)
-    }
-
-    #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         Vector3::new(x.z * mu.y - x.y * mu.z, x.x * mu.z, -x.x * mu.y)
     }
 
-    #[inline(always)]
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let (c, s, u, v) = parts(g);
-        Vector3::new(x.x, c * x.y - s * x.z + v * x.x, s * x.y + c * x.z - u * x.x)
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
         let (c, s, u, v) = parts(g);
         let (first, second) = (c * mu.y - s * mu.z, s * mu.y + c * mu.z);
         Vector3::new(mu.x + u * second - v * first, first, second)
     }
 
-    #[inline(always)]
-    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let g = self.exp(x);
-        let moved = self.coadjoint(&self.inverse(&g), mu);
-        (g, moved)
-    }
-
-    #[inline(always)]
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         drop(&SE3::new().dexp_transpose(&lift(x), &lift(mu)))
     }
 
-    #[inline(always)]
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let (p, slope) = SE3::new().dexp_transpose_with_derivative(&lift(x), &lift(mu));
-        (drop(&p), drop_matrix(&slope))
-    }
-
-    #[inline(always)]
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        drop(&SE3::new().dexp_inverse_transpose(&lift(x), &lift(p)))
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
         let finite = (x.y + x.z) * T::of(0.0);
         (x.x * x.x).times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
         let turn = g.rotation.complex();
         let off = (turn.re * turn.re + turn.im * turn.im - T::of(1.0)).simd_abs();
@@ -244,16 +190,10 @@ impl<T: Scalar> LieGroup for SE2<T> {
 }
 
 impl<T: Scalar> CayleyGroup for SE2<T> {
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        let (g, moved) = SE3::new().cayley_transport(&lift(x), &lift(mu));
-        (flatten(&g), drop(&moved))
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        flatten(&SE3::new().cayley(&lift(x)))
     }
 
-    #[inline(always)]
     fn cayley_extent(&self, x: &Self::Vector) -> T {
         (x.x * x.x).times_plus(T::of(0.25), (x.y + x.z) * T::of(0.0))
     }
@@ -271,18 +211,5 @@ impl<T: Scalar> CayleyGroup for SE2<T> {
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         drop(&SE3::new().dcay_transpose(&lift(x), &lift(mu)))
-    }
-
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let (p, slope) = SE3::new().dcay_transpose_with_derivative(&lift(x), &lift(mu));
-        (drop(&p), drop_matrix(&slope))
-    }
-
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        drop(&SE3::new().dcay_inverse_transpose(&lift(x), &lift(p)))
     }
 }

@@ -1,12 +1,11 @@
 //! SO(3): rotations of space, as unit quaternions.
 
-pub(crate) mod kernel;
-
 use core::marker::PhantomData;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
 use crate::group::element_error::{ElementError, finite, within};
+use crate::group::entire::{entire, half_angle, log_factor};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
 
@@ -71,12 +70,6 @@ pub(crate) fn sum<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
     V::new(a.x + b.x, a.y + b.y, a.z + b.z)
 }
 
-/// a − b
-#[inline(always)]
-pub(crate) fn difference<T: Scalar>(a: &V<T>, b: &V<T>) -> V<T> {
-    V::new(a.x - b.x, a.y - b.y, a.z - b.z)
-}
-
 /// s·a
 #[inline(always)]
 pub(crate) fn scaled<T: Scalar>(s: T, a: &V<T>) -> V<T> {
@@ -86,37 +79,6 @@ pub(crate) fn scaled<T: Scalar>(s: T, a: &V<T>) -> V<T> {
 #[inline(always)]
 pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
     UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
-}
-
-/// (d^R exp_x)ᵀ μ and its derivative D in x, from the functions of |x|².
-#[inline(always)]
-pub(crate) fn dexp_with_derivative<T: Scalar>(
-    k: &kernel::Dexp<T>,
-    x: &V<T>,
-    mu: &V<T>,
-) -> (V<T>, Matrix3<T>) {
-    let once = cross(mu, x);
-    let twice = cross(&once, x);
-    let value = plus(&plus(mu, k.b, &once), k.c, &twice);
-    // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + 2 (x·v)(b′ μ×x + c′ (μ×x)×x),
-    // with (μ×v)×x = v (μ·x) − μ (v·x).
-    let two = T::of(2.0);
-    let along = plus(&scaled(k.b_slope, &once), k.c_slope, &twice);
-    let along = plus(&scaled(two, &along), -k.c, mu);
-    let turn = plus(&scaled(k.b, mu), k.c, &once);
-    let diagonal = k.c * dot(mu, x);
-    let derivative = Matrix3::new(
-        along.x.times_plus(x.x, diagonal),
-        along.x.times_plus(x.y, -turn.z),
-        along.x.times_plus(x.z, turn.y),
-        along.y.times_plus(x.x, turn.z),
-        along.y.times_plus(x.y, diagonal),
-        along.y.times_plus(x.z, -turn.x),
-        along.z.times_plus(x.x, -turn.y),
-        along.z.times_plus(x.y, turn.x),
-        along.z.times_plus(x.z, diagonal),
-    );
-    (value, derivative)
 }
 
 /// The rotation whose matrix has these (finite) entries.
@@ -152,19 +114,16 @@ impl<T: Scalar> LieGroup for SO3<T> {
     type Vector = Vector3<T>;
     type Element = UnitQuaternion<T>;
 
-    #[inline(always)]
     fn dim(&self) -> usize {
         3
     }
 
-    #[inline(always)]
     fn identity(&self) -> Self::Element {
         quaternion(T::of(1.0), &V::repeat(T::of(0.0)))
     }
 
     /// The product, pulled back onto the unit sphere to first order so that rounding does not
     /// accumulate in the norm over many steps.
-    #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         // Written out: in wide lanes nalgebra's product stays a call.
         let (a, b) = (g.as_ref(), h.as_ref());
@@ -182,15 +141,13 @@ impl<T: Scalar> LieGroup for SO3<T> {
         ))
     }
 
-    #[inline(always)]
     fn inverse(&self, g: &Self::Element) -> Self::Element {
         g.conjugate()
     }
 
-    #[inline(always)]
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        let half = kernel::half_angle(dot(x, x));
-        quaternion(half.cosine, &(x * half.sine_over_angle))
+        let (cosine, sine) = half_angle(dot(x, x));
+        quaternion(cosine, &(x * sine))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -198,83 +155,42 @@ impl<T: Scalar> LieGroup for SO3<T> {
         let q = g.as_ref();
         let sign = T::of(1.0).simd_copysign(q.w);
         let u = V::new(q.i, q.j, q.k) * sign;
-        let factor = kernel::log_factor(q.w * sign, dot(&u, &u));
+        let factor = log_factor(q.w * sign, dot(&u, &u));
         Some(u * factor)
     }
 
-    #[inline(always)]
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        cross(x, y)
-    }
-
-    #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         cross(mu, x)
     }
 
-    #[inline(always)]
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let q = g.as_ref();
-        rotate_back(q.w, &V::new(-q.i, -q.j, -q.k), x)
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        self.adjoint(g, mu)
+        let q = g.as_ref();
+        rotate_back(q.w, &V::new(-q.i, -q.j, -q.k), mu)
     }
 
-    #[inline(always)]
-    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let half = kernel::half_angle(dot(x, x));
-        let u = x * half.sine_over_angle;
-        (quaternion(half.cosine, &u), rotate_back(half.cosine, &u, mu))
-    }
-
-    #[inline(always)]
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        let k = kernel::dexp(dot(x, x));
+        // Σ ad_xᵀᵏ μ/(k + 1)! with ad_xᵀ³ = −|x|² ad_xᵀ.
+        let [_, _, b, c, ..] = entire(dot(x, x));
         let once = cross(mu, x);
-        plus(&plus(mu, k.b, &once), k.c, &cross(&once, x))
+        plus(&plus(mu, b, &once), c, &cross(&once, x))
     }
 
-    #[inline(always)]
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let k = kernel::dexp(dot(x, x));
-        dexp_with_derivative(&k, x, mu)
-    }
-
-    #[inline(always)]
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        let c = kernel::dexp_inverse(dot(x, x));
-        let once = cross(x, p);
-        p + once * T::of(0.5) + cross(x, &once) * c
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
         dot(x, x) * T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI))
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
         (g.as_ref().norm_squared() - T::of(1.0)).simd_abs()
     }
 
-    #[inline(always)]
     fn casimir_count(&self) -> usize {
         1
     }
 
-    #[inline(always)]
     fn casimir(&self, _index: usize, mu: &Self::Vector) -> T {
         dot(mu, mu)
     }
 
-    #[inline(always)]
     fn matrix_size(&self) -> usize {
         3
     }
@@ -282,7 +198,7 @@ impl<T: Scalar> LieGroup for SO3<T> {
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
         let mut unit = V::repeat(T::of(0.0));
         unit[column] = T::of(1.0);
-        self.adjoint(g, &unit)[row]
+        self.coadjoint(g, &unit)[row]
     }
 
     fn element_from_matrix(
@@ -295,20 +211,13 @@ impl<T: Scalar> LieGroup for SO3<T> {
 }
 
 impl<T: Scalar> CayleyGroup for SO3<T> {
-    #[inline(always)]
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        // The rotation with quaternion (1, x/2)/√(1 + |x|²/4).
         let half = x * T::of(0.5);
         let w = T::of(1.0) / (T::of(1.0) + dot(&half, &half)).simd_sqrt();
-        let u = half * w;
-        (quaternion(w, &u), rotate_back(w, &u, mu))
+        quaternion(w, &(half * w))
     }
 
-    #[inline(always)]
     fn cayley_extent(&self, x: &Self::Vector) -> T {
         dot(x, x) * T::of(0.25)
     }
@@ -322,31 +231,9 @@ impl<T: Scalar> CayleyGroup for SO3<T> {
         Some(V::new(q.i, q.j, q.k) * factor)
     }
 
-    #[inline(always)]
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
         let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
         (mu + cross(mu, x) * T::of(0.5)) * factor
-    }
-
-    #[inline(always)]
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
-        let value = (mu + cross(mu, x) * T::of(0.5)) * factor;
-        let turn = mu * (T::of(0.5) * factor);
-        let along = value * (T::of(-0.5) * factor);
-        let zero = T::of(0.0);
-        let turn_matrix =
-            Matrix3::new(zero, -turn.z, turn.y, turn.z, zero, -turn.x, -turn.y, turn.x, zero);
-        (value, turn_matrix + along * x.transpose())
-    }
-
-    #[inline(always)]
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        p + cross(x, p) * T::of(0.5) + x * (dot(x, p) * T::of(0.25))
     }
 }

@@ -2,10 +2,11 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::{Matrix3, SimdBool, UnitQuaternion, Vector3};
+use nalgebra::{SimdBool, UnitQuaternion, Vector3};
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
-use crate::group::so3::{SO3, cross, dot, kernel, quaternion, rotate_back};
+use crate::group::entire::log_factor;
+use crate::group::so3::{SO3, cross, dot, quaternion};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
 
@@ -44,7 +45,6 @@ impl<T: Scalar> LieGroup for SU2<T> {
     type Vector = V<T>;
     type Element = UnitQuaternion<T>;
 
-    #[inline(always)]
     fn dim(&self) -> usize {
         3
     }
@@ -53,17 +53,14 @@ impl<T: Scalar> LieGroup for SU2<T> {
         SO3::new().identity()
     }
 
-    #[inline(always)]
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         SO3::new().compose(g, h)
     }
 
-    #[inline(always)]
     fn inverse(&self, g: &Self::Element) -> Self::Element {
         g.conjugate()
     }
 
-    #[inline(always)]
     fn exp(&self, x: &Self::Vector) -> Self::Element {
         SO3::new().exp(x)
     }
@@ -76,59 +73,25 @@ impl<T: Scalar> LieGroup for SU2<T> {
         if q.w.simd_lt(T::of(0.0)).any() && squared.simd_le(T::epsilon() * T::epsilon()).any() {
             return None;
         }
-        Some(u * kernel::log_factor(q.w, squared))
+        Some(u * log_factor(q.w, squared))
     }
 
-    #[inline(always)]
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        SO3::new().bracket(x, y)
-    }
-
-    #[inline(always)]
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         SO3::new().ad_star(x, mu)
     }
 
-    #[inline(always)]
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        SO3::new().adjoint(g, x)
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
         SO3::new().coadjoint(g, mu)
     }
 
-    #[inline(always)]
-    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        SO3::new().exp_transport(x, mu)
-    }
-
-    #[inline(always)]
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         SO3::new().dexp_transpose(x, mu)
     }
 
-    #[inline(always)]
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        SO3::new().dexp_transpose_with_derivative(x, mu)
-    }
-
-    #[inline(always)]
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        SO3::new().dexp_inverse_transpose(x, p)
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
         SO3::new().exp_extent(x)
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
         (g.as_ref().norm_squared() - T::of(1.0)).simd_abs()
     }
@@ -180,30 +143,15 @@ impl<T: Scalar> LieGroup for SU2<T> {
     }
 }
 
-/// (1 + |a|²) and (1 − |a|²)μ + 2(a·μ)a + 2 μ×a, a = x/4: with them (d^R cay_x)ᵀ μ is the second
-/// by the square of the first.
-#[inline(always)]
-fn turned<T: Scalar>(a: &V<T>, mu: &V<T>) -> (T, V<T>) {
-    let one = T::of(1.0);
-    let n = dot(a, a);
-    (one + n, mu * (one - n) + (a * dot(a, mu) + cross(mu, a)) * T::of(2.0))
-}
-
 impl<T: Scalar> CayleyGroup for SU2<T> {
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
         // (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
         let a = x * T::of(0.25);
         let n = dot(&a, &a);
         let factor = T::of(1.0) / (T::of(1.0) + n);
-        let (w, u) = ((T::of(1.0) - n) * factor, a * (T::of(2.0) * factor));
-        (quaternion(w, &u), rotate_back(w, &u, mu))
+        quaternion((T::of(1.0) - n) * factor, &(a * (T::of(2.0) * factor)))
     }
 
-    #[inline(always)]
     fn cayley_extent(&self, x: &Self::Vector) -> T {
         // Eigenvalues of x are ±i|x|/2.
         dot(x, x) * T::of(0.0625)
@@ -219,33 +167,10 @@ impl<T: Scalar> CayleyGroup for SU2<T> {
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        let (m, y) = turned(&(x * T::of(0.25)), mu);
-        y / (m * m)
-    }
-
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, Matrix3<T>) {
-        let a = x * T::of(0.25);
-        let (m, y) = turned(&a, mu);
-        let factor = T::of(1.0) / (m * m);
-        let value = y * factor;
-        let (zero, half) = (T::of(0.0), T::of(0.5));
-        // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
-        let turn = Matrix3::new(zero, -mu.z, mu.y, mu.z, zero, -mu.x, -mu.y, mu.x, zero);
-        let mut slope = turn + a * mu.transpose() - mu * a.transpose();
-        for i in 0..3 {
-            slope[(i, i)] += dot(&a, mu);
-        }
-        (value, slope * (half * factor) - value * a.transpose() / m)
-    }
-
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
+        // ((1 − |a|²)μ + 2(a·μ)a + 2 μ×a)/(1 + |a|²)², a = x/4
         let a = x * T::of(0.25);
         let n = dot(&a, &a);
-        let two = T::of(2.0);
-        p * (T::of(1.0) - n) + (cross(&a, p) + a * dot(&a, p)) * two
+        let (above, below) = (T::of(1.0) - n, T::of(1.0) + n);
+        (mu * above + (a * dot(&a, mu) + cross(mu, &a)) * T::of(2.0)) / (below * below)
     }
 }

@@ -39,10 +39,6 @@ fn derivative<V: Coordinates<f64>, const K: usize>(
     Ok(Some(sum))
 }
 
-fn unit<V: Coordinates<f64>>(dim: usize, i: usize) -> V {
-    V::from_entries(dim, |k| if k == i { 1.0 } else { 0.0 })
-}
-
 fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
     let mut result = v.clone();
     result[i] += by;
@@ -51,10 +47,7 @@ fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
 
 /// DΦ B(μ) DΦᵀ = B(Φ(μ)), with B_jk(μ) = −⟨μ, [e_j, e_k]⟩: the largest difference of an entry,
 /// relative to the largest entry of B or of the products summed.
-///
-/// # Errors
-/// [`StepError`] where the map cannot be made.
-pub fn poisson_defect<S>(map: &S, mu: &Vector<S>) -> Result<f64, StepError>
+pub(super) fn poisson_defect<S>(map: &S, mu: &Vector<S>) -> Result<f64, StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
@@ -100,7 +93,7 @@ where
 fn tensor<G: LieGroup<Scalar = f64>>(group: &G, mu: &G::Vector) -> Vec<Vec<f64>> {
     let dim = group.dim();
     let row = |j: usize| {
-        let moved = group.ad_star(&unit(dim, j), mu);
+        let moved = group.ad_star(&Coordinates::unit(dim, j), mu);
         (0..dim).map(|k| -moved[k]).collect()
     };
     (0..dim).map(row).collect()
@@ -115,10 +108,7 @@ struct Tangent<V> {
 /// Φ\*ω = ω on T\*G, ω((ξ₁, ν₁), (ξ₂, ν₂)) = ⟨ν₂, ξ₁⟩ − ⟨ν₁, ξ₂⟩ + ⟨μ, [ξ₁, ξ₂]⟩: the largest
 /// difference on pairs of basis vectors, relative to the largest pairing. Where the group has no
 /// logarithm (adjoint matrices of an algebra with a centre), the chart gives the derivative.
-///
-/// # Errors
-/// [`StepError`] where the map cannot be made.
-pub fn symplectic_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
+pub(super) fn symplectic_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
@@ -157,13 +147,14 @@ where
     let back = group.inverse(&chart.transport(group, &x, mu).0);
     // Row i of d^Rτ_x: the transpose applied to a basis vector.
     let rows: Vec<Vector<S>> =
-        (0..dim).map(|i| chart.pull_back(group, &x, &unit(dim, i))).collect();
+        (0..dim).map(|i| chart.pull_back(group, &x, &Coordinates::unit(dim, i))).collect();
     let step = STEP * mu.largest_entry().max(f64::MIN_POSITIVE);
     let zero = Vector::<S>::zeros(dim);
     let mut pairs = Vec::with_capacity(2 * dim);
     for i in 0..dim {
-        let turned = Tangent { xi: group.adjoint(&back, &unit(dim, i)), nu: zero.clone() };
-        pairs.push((Tangent { xi: unit(dim, i), nu: zero.clone() }, turned));
+        let turned =
+            Tangent { xi: group.adjoint(&back, &Coordinates::unit(dim, i)), nu: zero.clone() };
+        pairs.push((Tangent { xi: Coordinates::unit(dim, i), nu: zero.clone() }, turned));
     }
     for i in 0..dim {
         let mut both = |s: f64| {
@@ -174,13 +165,14 @@ where
         if let Some([slope, nu]) = derivative::<Vector<S>, 2>(dim, step, &mut both)? {
             let right = Vector::<S>::from_entries(dim, |row| rows[row].pairing(&slope));
             let image = Tangent { xi: group.adjoint(&back, &right), nu };
-            pairs.push((Tangent { xi: zero.clone(), nu: unit(dim, i) }, image));
+            pairs.push((Tangent { xi: zero.clone(), nu: Coordinates::unit(dim, i) }, image));
         }
     }
     Ok(pairs)
 }
 
-/// [`symplectic_defect`] of any map of T\*G, given as what advances a state.
+/// How far any map of T\*G, given as what advances a state, is from symplectic: the largest change of the canonical form
+/// on pairs of basis vectors, relative to the largest pairing. `None` where the group has no logarithm.
 ///
 /// # Errors
 /// Those that `map` returns.
@@ -198,9 +190,9 @@ pub fn symplectic_defect_of<G: LieGroup<Scalar = f64>>(
     for direction in 0..2 * dim {
         let zero = G::Vector::zeros(dim);
         let (before, size) = if direction < dim {
-            (Tangent { xi: unit(dim, direction), nu: zero }, STEP)
+            (Tangent { xi: Coordinates::unit(dim, direction), nu: zero }, STEP)
         } else {
-            (Tangent { xi: zero, nu: unit(dim, direction - dim) }, step)
+            (Tangent { xi: zero, nu: Coordinates::unit(dim, direction - dim) }, step)
         };
         let mut at = |s: f64| -> Result<Phase<G>, StepError> {
             let turn = G::Vector::from_entries(dim, |i| s * before.xi[i]);

@@ -1,9 +1,10 @@
 //! The order of accuracy, measured by step halving.
 
-use super::{element_difference, relative, worse};
+use super::{element_difference, relative};
 use crate::error::StepError;
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
+use crate::number::scalar::Scalar;
 
 /// Why an order could not be measured.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -45,7 +46,7 @@ pub fn measured_order<G: LieGroup<Scalar = f64>>(
     let ends = [end(steps)?, end(2 * steps)?, end(4 * steps)?];
     let difference = |a: &Phase<G>, b: &Phase<G>| {
         let elements = element_difference(group, &a.group_element, &b.group_element);
-        worse(elements, relative(&a.momentum, &b.momentum))
+        elements.worse(relative(&a.momentum, &b.momentum))
     };
     let coarse = difference(&ends[0], &ends[1]);
     let fine = difference(&ends[1], &ends[2]);

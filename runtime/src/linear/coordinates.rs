@@ -5,7 +5,7 @@ use core::ops::{Index, IndexMut};
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::linear::block_elimination;
+use crate::linear::square;
 use crate::number::scalar::Scalar;
 
 /// Coordinates of an element of 𝔤 (in its basis) or of 𝔤\* (in the dual basis).
@@ -37,6 +37,11 @@ pub trait Coordinates<T: Scalar>:
         result
     }
 
+    /// The vector whose coordinate `at` is one, and all others zero.
+    fn unit(dim: usize, at: usize) -> Self {
+        Self::from_entries(dim, |i| T::of(if i == at { 1.0 } else { 0.0 }))
+    }
+
     /// The matrix with entries `entry(row, column)`.
     #[inline(always)]
     fn matrix_from_entries(dim: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self::Matrix {
@@ -50,16 +55,6 @@ pub trait Coordinates<T: Scalar>:
     }
 
     // Loops, not closures, from here on: in wide lanes the compiler leaves closures as calls.
-
-    /// self + other.
-    #[inline(always)]
-    #[must_use]
-    fn plus(mut self, other: &Self) -> Self {
-        for i in 0..self.dim() {
-            self[i] += other[i];
-        }
-        self
-    }
 
     /// self − other.
     #[inline(always)]
@@ -84,23 +79,13 @@ pub trait Coordinates<T: Scalar>:
     /// 1 − a·b.
     #[inline(always)]
     fn one_minus_product(dim: usize, a: &Self::Matrix, b: &Self::Matrix) -> Self::Matrix {
-        let mut result = Self::zero_matrix(dim);
-        if dim == 3 {
-            // Written out: a loop over the rows is vectorised as such, with gathers across the lanes.
-            macro_rules! entries {
-                ($(($i:literal, $j:literal)),*) => {$(
-                    result[($i, $j)] = one_minus_entry(a, b, dim, $i, $j);
-                )*};
+        Self::matrix_from_entries(dim, |i, j| {
+            let mut sum = a[(i, 0)] * b[(0, j)];
+            for k in 1..dim {
+                sum = a[(i, k)].times_plus(b[(k, j)], sum);
             }
-            entries!((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2));
-            return result;
-        }
-        for i in 0..dim {
-            for j in 0..dim {
-                result[(i, j)] = one_minus_entry(a, b, dim, i, j);
-            }
-        }
-        result
+            if i == j { T::of(1.0) - sum } else { -sum }
+        })
     }
 
     /// The product of a matrix with this vector.
@@ -138,43 +123,10 @@ pub trait Coordinates<T: Scalar>:
         largest
     }
 
-    /// The factors of `matrix` for [`Coordinates::solve`]: elimination by blocks of three.
-    ///
-    /// Blocks are not pivoted (SIMD lanes cannot swap rows one by one): meant for matrices near the
-    /// identity, as the solver's are. A singular matrix gives non-finite entries, which the caller
-    /// must look for.
-    #[inline(always)]
-    fn factor(dim: usize, mut matrix: Self::Matrix) -> Factors<Self::Matrix, T> {
-        let last = block_elimination::factor(dim, &mut matrix);
-        Factors { matrix, last }
+    /// Solves `matrix · y = right` for `y`; entries are not finite where the matrix is singular.
+    fn solve(matrix: &Self::Matrix, right: &Self) -> Self {
+        right.left_multiply(&square::invert(right.dim(), matrix).0)
     }
-
-    /// Solves `matrix · y = right` for `y`, given the factors of `matrix`.
-    #[inline(always)]
-    fn solve(factors: &Factors<Self::Matrix, T>, mut right: Self) -> Self {
-        block_elimination::solve(right.dim(), &factors.matrix, factors.last, &mut right);
-        right
-    }
-}
-
-/// Entry (i, j) of 1 − a·b.
-#[inline(always)]
-fn one_minus_entry<T: Scalar, M>(a: &M, b: &M, dim: usize, i: usize, j: usize) -> T
-where
-    M: Index<(usize, usize), Output = T>,
-{
-    let mut sum = a[(i, 0)] * b[(0, j)];
-    for k in 1..dim {
-        sum = a[(i, k)].times_plus(b[(k, j)], sum);
-    }
-    if i == j { T::of(1.0) - sum } else { -sum }
-}
-
-/// A matrix made ready for solving, by [`Coordinates::factor`].
-#[derive(Clone, Debug)]
-pub struct Factors<M, T> {
-    matrix: M,
-    last: T,
 }
 
 impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {

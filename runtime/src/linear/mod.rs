@@ -1,4 +1,5 @@
 //! Linear algebra of few dimensions, over scalars and lanes.
 
-mod block_elimination;
 pub(crate) mod coordinates;
+pub(crate) mod differences;
+pub(crate) mod square;

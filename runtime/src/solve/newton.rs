@@ -44,7 +44,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
             let branch = branch::<S>(dim, &derivative, jacobian);
             return Candidate { x, moved, residual, branch, iterations };
         }
-        let correction = VectorOf::<S>::solve(&VectorOf::<S>::factor(dim, jacobian), left);
+        let correction = VectorOf::<S>::solve(&jacobian, &left);
         let relative = correction.largest_entry() * inverse_scale;
         moved += relative;
         if !relative.simd_le(allowed).all() || iterations == MAX_ITERATIONS {

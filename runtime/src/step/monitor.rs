@@ -56,11 +56,6 @@ fn or_one<T: Scalar>(scale: T) -> T {
     T::of(1.0).select(scale.simd_eq(zero), scale)
 }
 
-/// The larger of two, NaN if either is: a run that left the numbers must not look well.
-fn worse<T: Scalar>(so_far: T, now: T) -> T {
-    so_far.simd_max(now) + (so_far + now) * T::of(0.0)
-}
-
 impl<G: LieGroup> Monitor<G> {
     /// Starts at this state of this energy.
     #[must_use]
@@ -91,16 +86,16 @@ impl<G: LieGroup> Monitor<G> {
         let spatial = state.spatial_momentum(&self.group);
         for i in 0..spatial.dim() {
             let change = (spatial[i] - self.spatial[i]).simd_abs() / self.spatial_scale;
-            self.drift.spatial_momentum = worse(self.drift.spatial_momentum, change);
+            self.drift.spatial_momentum = self.drift.spatial_momentum.worse(change);
         }
         for index in 0..self.group.casimir_count() {
             let start = self.group.casimir(index, &self.momentum);
             let change = (self.group.casimir(index, &state.momentum) - start).simd_abs();
             let relative = change / self.casimir_scale(index);
-            self.drift.casimirs = worse(self.drift.casimirs, relative);
+            self.drift.casimirs = self.drift.casimirs.worse(relative);
         }
         let change = (energy - self.energy).simd_abs() / self.energy_scale;
-        self.drift.energy = worse(self.drift.energy, change);
+        self.drift.energy = self.drift.energy.worse(change);
     }
 
     /// The maxima so far.

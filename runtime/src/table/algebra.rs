@@ -1,11 +1,5 @@
 //! The tables a matrix group is made of, wherever they are stored.
 
-use core::fmt::Debug;
-
-use super::linear;
-use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
-
 /// (i, j, k, c): [eᵢ, eⱼ] contains c·eₖ. Both (i, j, …) and (j, i, …) are listed.
 pub type StructureConstant = (usize, usize, usize, f64);
 
@@ -15,86 +9,149 @@ pub type BasisEntry = (usize, usize, usize, f64);
 /// A term c·∏ μ_i^power of a Casimir, as (c, [(i, power), …]).
 pub type CasimirTerm = (f64, &'static [(usize, u32)]);
 
-/// Matrices of the representation.
-pub type MatrixOf<K> = <<K as Tables>::Column as Coordinates<<K as Tables>::Scalar>>::Matrix;
-
-/// A Lie algebra as tables, with the types its coordinates and matrices are stored in.
-///
-/// Implemented by [`StaticTables`](crate::groups::StaticTables) (tables in the program, no allocation)
-/// and `DynamicTables` (tables known at run time). Everything a group does follows from this; see
-/// [`TableGroup`](crate::groups::TableGroup).
-pub trait Tables: Clone + Debug {
-    /// The number type of coordinates.
-    type Scalar: Scalar;
-    /// Coordinates of 𝔤 and 𝔤\*; length n.
-    type Vector: Coordinates<Self::Scalar>;
-    /// Columns of the representation; its matrices are d×d.
-    type Column: Coordinates<Self::Scalar>;
-
-    /// n, the dimension of the algebra.
-    fn dim(&self) -> usize;
-
+/// A Lie algebra as tables, and what follows from them.
+#[derive(Clone, Copy, Debug)]
+pub struct Algebra<'a> {
+    /// n, the dimension.
+    pub(super) dim: usize,
     /// d, the size of the matrices; n where the adjoint representation is used.
-    fn matrix_size(&self) -> usize;
-
+    pub(super) size: usize,
     /// The non-zero structure constants.
-    fn structure(&self) -> &[StructureConstant];
-
-    /// The matrices of the basis; `None` where only the brackets are known. Elements are then
-    /// matrices of the adjoint representation.
-    fn basis(&self) -> Option<&[BasisEntry]>;
-
-    /// Entry (i, j) of the inverse of the Gram matrix ⟨eᵢ, eⱼ⟩ = Σ entries of eᵢ times entries of
-    /// eⱼ, in the representation in use.
-    fn gram_inverse(&self, i: usize, j: usize) -> f64;
-
-    /// Whether the Gram matrix is diagonal.
-    fn gram_is_diagonal(&self) -> bool;
-
-    /// Whether the matrices in use are linearly independent. Always so for a matrix basis; the
-    /// adjoint representation has it only if the centre is trivial.
-    fn is_faithful(&self) -> bool;
-
-    /// Whether every matrix in use is antisymmetric, so that elements are orthogonal.
-    fn is_orthogonal(&self) -> bool;
-
-    /// Whether every matrix in use has trace 0, so that elements have determinant 1.
-    fn is_traceless(&self) -> bool;
-
-    /// See [`LieGroup::exp_extent`](crate::LieGroup::exp_extent).
-    fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
-
-    /// See [`CayleyGroup::cayley_extent`](crate::groups::CayleyGroup::cayley_extent).
-    fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
-
-    /// The product of two matrices of the representation.
-    fn multiply(&self, a: &MatrixOf<Self>, b: &MatrixOf<Self>) -> MatrixOf<Self> {
-        linear::multiply(self.matrix_size(), a, b)
-    }
-
-    /// The inverse of a matrix of the representation; entries that are not finite where there is none.
-    fn invert(&self, m: &MatrixOf<Self>) -> MatrixOf<Self> {
-        linear::invert(self.matrix_size(), m)
-    }
-
-    /// How many Casimirs are known.
-    fn casimir_count(&self) -> usize;
-
-    /// The Casimir number `index` at μ; zero for an index out of range.
-    fn casimir(&self, index: usize, mu: &Self::Vector) -> Self::Scalar;
+    pub(super) structure: &'a [StructureConstant],
+    /// The matrices of the basis; `None` where only the brackets are known. Elements are then matrices of the adjoint
+    /// representation.
+    pub(super) basis: Option<&'a [BasisEntry]>,
+    /// What follows from the matrices in use.
+    pub(super) facts: Facts,
+    /// The inverse of their Gram matrix ⟨eᵢ, eⱼ⟩ = Σ entries of eᵢ times entries of eⱼ, row by row.
+    pub(super) gram_inverse: &'a [f64],
+    /// The quadratic form that bounds eigenvalues of ad_x: see `domain`.
+    pub(super) elliptic: &'a [f64],
+    /// The same of the matrix of x.
+    pub(super) cayley: &'a [f64],
 }
 
-/// c·∏ μ_i^power
-pub(crate) fn monomial<T: Scalar, V: Coordinates<T>>(
-    c: f64,
-    factors: &[(usize, u32)],
-    mu: &V,
-) -> T {
-    let mut product = T::of(c);
-    for &(i, power) in factors {
-        for _ in 0..power {
-            product *= mu[i];
+/// What holds of the matrices in use.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts {
+    /// The first that is a combination of those before it. Only adjoint matrices may have one: that of an algebra with a
+    /// centre.
+    pub(super) dependent: Option<usize>,
+    /// Whether the Gram matrix is diagonal.
+    pub(super) diagonal: bool,
+    /// Whether all are antisymmetric, so that elements are orthogonal.
+    pub(super) orthogonal: bool,
+    /// Whether all have trace 0, so that elements have determinant 1.
+    pub(super) traceless: bool,
+}
+
+impl<'a> Algebra<'a> {
+    /// Entry number `index` of the matrices in use: of the basis, or adjoint, (ad_i)ₖⱼ = cᵢⱼᵏ.
+    const fn entry(
+        basis: Option<&'a [BasisEntry]>,
+        structure: &'a [StructureConstant],
+        index: usize,
+    ) -> Option<BasisEntry> {
+        match basis {
+            Some(entries) if index < entries.len() => Some(entries[index]),
+            None if index < structure.len() => {
+                let (i, j, k, c) = structure[index];
+                Some((i, k, j, c))
+            }
+            _ => None,
         }
     }
-    product
+}
+
+/// The facts about the matrices of an algebra of dimension `n`, whose inverse Gram matrix is written to `gram_inverse`
+/// (n×n). `gram` (n×n) and `dense` (d×d) are room to work in; both matrices are zero before.
+///
+/// A function of the compiler's, where the tables are in the program.
+pub(super) const fn facts(
+    structure: &[StructureConstant],
+    basis: Option<&[BasisEntry]>,
+    (n, d): (usize, usize),
+    gram: &mut [f64],
+    gram_inverse: &mut [f64],
+    dense: &mut [f64],
+) -> Facts {
+    let (mut orthogonal, mut traceless) = (true, true);
+    let mut i = 0;
+    while i < n {
+        let mut at = 0;
+        while at < d * d {
+            dense[at] = 0.0;
+            at += 1;
+        }
+        at = 0;
+        while let Some((index, row, column, value)) = Algebra::entry(basis, structure, at) {
+            if index == i {
+                dense[row * d + column] += value;
+            }
+            at += 1;
+        }
+        at = 0;
+        while let Some((index, row, column, value)) = Algebra::entry(basis, structure, at) {
+            gram[i * n + index] += dense[row * d + column] * value;
+            at += 1;
+        }
+        let (mut trace, mut place) = (0.0, 0);
+        while place < d * d {
+            let (row, column) = (place / d, place % d);
+            if row == column {
+                trace += dense[place];
+            }
+            orthogonal = orthogonal && dense[place] == -dense[column * d + row];
+            place += 1;
+        }
+        traceless = traceless && trace == 0.0;
+        i += 1;
+    }
+    let (mut diagonal, mut at) = (true, 0);
+    while at < n * n {
+        diagonal = diagonal && (at / n == at % n || gram[at] == 0.0);
+        at += 1;
+    }
+    Facts { dependent: invert(n, gram, gram_inverse), diagonal, orthogonal, traceless }
+}
+
+/// Replaces b, which is zero, by the inverse of a Gram matrix; else returns the first vector that depends on those before
+/// it. A Gram matrix needs no pivoting.
+const fn invert(n: usize, a: &mut [f64], b: &mut [f64]) -> Option<usize> {
+    // The squares of the lengths, until it is their turn.
+    let mut k = 0;
+    while k < n {
+        b[k * n + k] = a[k * n + k];
+        k += 1;
+    }
+    k = 0;
+    while k < n {
+        // The square of the vector's distance from the span of those before it.
+        let rest = a[k * n + k];
+        if rest.is_nan() || rest <= 1e-12 * b[k * n + k] {
+            return Some(k);
+        }
+        b[k * n + k] = 1.0;
+        let mut j = 0;
+        while j < n {
+            a[k * n + j] /= rest;
+            b[k * n + j] /= rest;
+            j += 1;
+        }
+        let mut i = 0;
+        while i < n {
+            let factor = a[i * n + k];
+            if i != k && factor != 0.0 {
+                j = 0;
+                while j < n {
+                    a[i * n + j] -= factor * a[k * n + j];
+                    b[i * n + j] -= factor * b[k * n + j];
+                    j += 1;
+                }
+            }
+            i += 1;
+        }
+        k += 1;
+    }
+    None
 }

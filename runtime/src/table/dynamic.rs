@@ -8,10 +8,12 @@ use core::f64::consts::PI;
 
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
-use super::algebra::{BasisEntry, StructureConstant, Tables, monomial};
+use super::algebra::{Algebra, BasisEntry, Facts, StructureConstant, facts};
 use super::domain;
 use super::group::TableGroup;
-use super::linear;
+use super::tables::{Tables, monomial};
+use crate::linear::coordinates::Coordinates;
+use crate::linear::square;
 use crate::number::scalar::Scalar;
 
 /// A matrix group known at run time, coordinates in `DVector<f64>`.
@@ -49,20 +51,54 @@ pub type Terms = Vec<(f64, Vec<(usize, u32)>)>;
 
 /// The tables of a [`MatrixGroup`]; `CAYLEY` says that xξx ∈ 𝔤 was checked.
 #[derive(Clone, Debug)]
-pub struct DynamicTables<const CAYLEY: bool> {
+pub struct DynamicTables<const CAYLEY: bool>(Data);
+
+#[derive(Clone, Debug)]
+struct Data {
     dim: usize,
-    matrix_size: usize,
+    size: usize,
     structure: Vec<StructureConstant>,
     basis: Option<Vec<BasisEntry>>,
-    gram_inverse: DMatrix<f64>,
-    diagonal: bool,
-    faithful: bool,
-    orthogonal: bool,
-    traceless: bool,
-    /// Quadratic forms that bound eigenvalues: see `domain`.
+    facts: Facts,
+    gram_inverse: Vec<f64>,
     elliptic: Vec<f64>,
     cayley: Vec<f64>,
     casimirs: Vec<Terms>,
+}
+
+impl Data {
+    /// The tables, with what follows from them.
+    fn new(
+        (dim, size): (usize, usize),
+        structure: &[StructureConstant],
+        basis: Option<Vec<BasisEntry>>,
+    ) -> Self {
+        let square = || vec![0.0; dim * dim];
+        let (mut gram_inverse, mut elliptic, mut cayley) = (square(), square(), square());
+        let facts = facts(
+            structure,
+            basis.as_deref(),
+            (dim, size),
+            &mut square(),
+            &mut gram_inverse,
+            &mut vec![0.0; size * size],
+        );
+        let ideal = if dim > domain::MAX_DIM {
+            large_form(dim, structure, &mut elliptic);
+            0
+        } else {
+            let mut ad = vec![0.0; dim * dim * dim];
+            domain::elliptic_form(dim, structure, &mut ad, &mut elliptic)
+        };
+        match &basis {
+            Some(entries) => {
+                domain::cayley_form(dim, entries, facts.orthogonal, ideal, &mut cayley);
+            }
+            None => cayley.clone_from(&elliptic),
+        }
+        let (structure, casimirs) = (structure.to_vec(), Vec::new());
+        Self { dim, size, structure, basis, facts, gram_inverse, elliptic, cayley, casimirs }
+    }
 }
 
 /// Why tables do not describe a Lie algebra.
@@ -176,27 +212,15 @@ impl TableGroup<DynamicTables<false>> {
     /// [`TableError`] when matrices are not square, of one size, finite, independent and closed
     /// under the bracket.
     pub fn from_basis(basis: &[DMatrix<f64>]) -> Result<Self, TableError> {
-        let (gram_inverse, scale) = gram(basis)?;
-        let dim = basis.len();
+        let scale = scale(basis)?;
+        let span = Self::spanned(&[], basis)?;
         let mut structure = Vec::new();
-        for i in 0..dim {
-            for j in 0..dim {
-                if i == j {
-                    continue;
-                }
+        for i in 0..basis.len() {
+            for j in (0..basis.len()).filter(|&j| j != i) {
                 let bracket = &basis[i] * &basis[j] - &basis[j] * &basis[i];
-                let x = &gram_inverse * DVector::from_fn(dim, |k, _| basis[k].dot(&bracket));
-                let mut outside = bracket;
-                for k in 0..dim {
-                    outside -= &basis[k] * x[k];
-                    if x[k].abs() > TOLERANCE * scale {
-                        structure.push((i, j, k, x[k]));
-                    }
-                }
-                let defect = outside.amax();
-                if defect > TOLERANCE * scale * scale {
-                    return Err(TableError::NotClosed { i, j, defect });
-                }
+                let x = span.coordinates_of(&bracket);
+                let constants = x.iter().enumerate().filter(|(_, c)| c.abs() > TOLERANCE * scale);
+                structure.extend(constants.map(|(k, &c)| (i, j, k, c)));
             }
         }
         Self::from_structure_and_basis(&structure, basis)
@@ -211,11 +235,11 @@ impl TableGroup<DynamicTables<false>> {
         structure: &[StructureConstant],
         basis: &[DMatrix<f64>],
     ) -> Result<Self, TableError> {
-        let (gram_inverse, scale) = gram(basis)?;
-        let dim = basis.len();
-        let brackets = Brackets::new(dim, structure)?;
-        for i in 0..dim {
-            for j in i + 1..dim {
+        let scale = scale(basis)?;
+        let brackets = Brackets::new(basis.len(), structure)?;
+        let group = Self::spanned(structure, basis)?;
+        for i in 0..basis.len() {
+            for j in i + 1..basis.len() {
                 let mut rest = &basis[i] * &basis[j] - &basis[j] * &basis[i];
                 for (k, c) in brackets.of(i, j) {
                     rest -= &basis[k] * c;
@@ -226,33 +250,25 @@ impl TableGroup<DynamicTables<false>> {
                 }
             }
         }
-        let mut entries = Vec::new();
-        for (i, e) in basis.iter().enumerate() {
-            for row in 0..e.nrows() {
-                for column in 0..e.ncols() {
-                    if e[(row, column)] != 0.0 {
-                        entries.push((i, row, column, e[(row, column)]));
-                    }
-                }
-            }
+        Ok(group)
+    }
+
+    /// The group of independent matrices, whose brackets are not yet compared with them.
+    fn spanned(
+        structure: &[StructureConstant],
+        basis: &[DMatrix<f64>],
+    ) -> Result<Self, TableError> {
+        let (dim, size) = (basis.len(), basis[0].nrows());
+        let places = (0..size).flat_map(|row| (0..size).map(move |column| (row, column)));
+        let entries = basis.iter().enumerate().flat_map(|(i, e)| {
+            places.clone().map(move |(row, column)| (i, row, column, e[(row, column)]))
+        });
+        let entries = entries.filter(|entry| entry.3 != 0.0).collect();
+        let data = Data::new((dim, size), structure, Some(entries));
+        match data.facts.dependent {
+            Some(index) => Err(TableError::Dependent { index }),
+            None => Ok(Self { tables: DynamicTables(data) }),
         }
-        let orthogonal = basis.iter().all(|e| *e == -e.transpose());
-        let (elliptic, cayley) = forms(dim, structure, Some((&entries, orthogonal)));
-        let tables = DynamicTables {
-            dim,
-            matrix_size: basis[0].nrows(),
-            structure: structure.to_vec(),
-            basis: Some(entries),
-            elliptic,
-            cayley,
-            diagonal: is_diagonal(&gram_inverse),
-            gram_inverse,
-            faithful: true,
-            orthogonal,
-            traceless: basis.iter().all(|e| e.trace() == 0.0),
-            casimirs: Vec::new(),
-        };
-        Ok(Self { tables })
     }
 
     /// The group of adjoint matrices of an algebra known by its structure constants: all non-zero
@@ -265,36 +281,8 @@ impl TableGroup<DynamicTables<false>> {
         dim: usize,
         structure: &[StructureConstant],
     ) -> Result<Self, TableError> {
-        let Brackets(brackets) = Brackets::new(dim, structure)?;
-        // The matrices ad_i: row k, column j.
-        let entries = |row: &BTreeMap<(usize, usize), f64>| {
-            row.iter().map(|(&(j, k), &c)| (j * dim + k, c)).collect()
-        };
-        let adjoint: Vec<Entries> = brackets.iter().map(entries).collect();
-        let (gram_inverse, faithful) = match gram_inverse(&adjoint, dim) {
-            Ok(inverse) => (inverse, true),
-            Err(_) => (DMatrix::zeros(dim, dim), false),
-        };
-        let (elliptic, cayley) = forms(dim, structure, None);
-        let tables = DynamicTables {
-            dim,
-            matrix_size: dim,
-            structure: structure.to_vec(),
-            basis: None,
-            elliptic,
-            cayley,
-            diagonal: is_diagonal(&gram_inverse),
-            gram_inverse,
-            faithful,
-            orthogonal: brackets.iter().all(|row| {
-                row.iter().all(|(&(j, k), &c)| row.get(&(k, j)).map_or(0.0, |&d| -d) == c)
-            }),
-            traceless: brackets.iter().all(|row| {
-                row.iter().filter(|((j, k), _)| j == k).map(|(_, c)| c).sum::<f64>() == 0.0
-            }),
-            casimirs: Vec::new(),
-        };
-        Ok(Self { tables })
+        Brackets::new(dim, structure)?;
+        Ok(Self { tables: DynamicTables(Data::new((dim, dim), structure, None)) })
     }
 
     /// The same group with the Cayley map.
@@ -303,12 +291,12 @@ impl TableGroup<DynamicTables<false>> {
     /// [`TableError::NoCayley`] where xξx leaves the algebra; [`TableError::NotFaithful`] for an
     /// algebra with a centre known by brackets alone.
     pub fn into_cayley(self) -> Result<CayleyMatrixGroup, TableError> {
-        let dim = self.tables.dim;
-        if !self.tables.faithful {
+        let Algebra { dim, facts, .. } = self.algebra();
+        if facts.dependent.is_some() {
             return Err(TableError::NotFaithful);
         }
-        let unit = |i: usize| DVector::from_fn(dim, |k, _| f64::from(u8::from(k == i)));
-        let basis: Vec<DMatrix<f64>> = (0..dim).map(|i| self.matrix_of(&unit(i))).collect();
+        let basis = |i| self.matrix_of(&<DVector<f64> as Coordinates<f64>>::unit(dim, i));
+        let basis: Vec<DMatrix<f64>> = (0..dim).map(basis).collect();
         for i in 0..dim {
             for k in i..dim {
                 for j in 0..dim {
@@ -321,22 +309,7 @@ impl TableGroup<DynamicTables<false>> {
                 }
             }
         }
-        let t = self.tables;
-        let tables = DynamicTables {
-            dim: t.dim,
-            matrix_size: t.matrix_size,
-            structure: t.structure,
-            basis: t.basis,
-            gram_inverse: t.gram_inverse,
-            diagonal: t.diagonal,
-            faithful: t.faithful,
-            orthogonal: t.orthogonal,
-            traceless: t.traceless,
-            elliptic: t.elliptic,
-            cayley: t.cayley,
-            casimirs: t.casimirs,
-        };
-        Ok(TableGroup { tables })
+        Ok(TableGroup { tables: DynamicTables(self.tables.0) })
     }
 }
 
@@ -349,7 +322,7 @@ impl<const CAYLEY: bool> TableGroup<DynamicTables<CAYLEY>> {
     /// not zero at a few points.
     pub fn with_casimirs(mut self, casimirs: Vec<Terms>) -> Result<Self, TableError> {
         use crate::group::LieGroup;
-        let dim = self.tables.dim;
+        let dim = self.algebra().dim;
         for (number, terms) in casimirs.iter().enumerate() {
             for &(index, _) in terms.iter().flat_map(|(_, factors)| factors) {
                 if index >= dim {
@@ -368,7 +341,7 @@ impl<const CAYLEY: bool> TableGroup<DynamicTables<CAYLEY>> {
                 }
             }
         }
-        self.tables.casimirs = casimirs;
+        self.tables.0.casimirs = casimirs;
         Ok(self)
     }
 }
@@ -386,30 +359,6 @@ fn derivative(terms: &Terms, i: usize, mu: &DVector<f64>) -> f64 {
         }
     }
     sum
-}
-
-/// The quadratic forms that bound eigenvalues, for exp and for Cayley's map; with the entries of the basis and
-/// whether all its matrices are antisymmetric, or for adjoint matrices.
-fn forms(
-    dim: usize,
-    structure: &[StructureConstant],
-    basis: Option<(&[BasisEntry], bool)>,
-) -> (Vec<f64>, Vec<f64>) {
-    let (mut elliptic, mut cayley) = (vec![0.0; dim * dim], vec![0.0; dim * dim]);
-    let ideal = if dim > domain::MAX_DIM {
-        large_form(dim, structure, &mut elliptic);
-        0
-    } else {
-        let mut ad = vec![0.0; dim * dim * dim];
-        domain::elliptic_form(dim, structure, &mut ad, &mut elliptic)
-    };
-    match basis {
-        Some((entries, antisymmetric)) => {
-            domain::cayley_form(dim, entries, antisymmetric, ideal, &mut cayley);
-        }
-        None => cayley.clone_from(&elliptic),
-    }
-    (elliptic, cayley)
 }
 
 /// The form of [`domain::elliptic_form`] without a search for ideals and without the matrices ad_i: ½ ‖½(A − Aᵀ)‖² plus
@@ -435,12 +384,8 @@ fn large_form(dim: usize, structure: &[StructureConstant], form: &mut [f64]) {
     }
 }
 
-fn is_diagonal(m: &DMatrix<f64>) -> bool {
-    (0..m.nrows()).all(|i| (0..m.ncols()).all(|j| i == j || m[(i, j)] == 0.0))
-}
-
-/// The inverse Gram matrix and the scale of the entries, with the checks a basis needs.
-fn gram(basis: &[DMatrix<f64>]) -> Result<(DMatrix<f64>, f64), TableError> {
+/// The scale of the entries of basis matrices, which must be finite, square, and of one size.
+fn scale(basis: &[DMatrix<f64>]) -> Result<f64, TableError> {
     let size = basis.first().ok_or(TableError::Empty)?.nrows();
     let mut scale = 1.0_f64;
     for (index, e) in basis.iter().enumerate() {
@@ -452,48 +397,7 @@ fn gram(basis: &[DMatrix<f64>]) -> Result<(DMatrix<f64>, f64), TableError> {
         }
         scale = scale.max(e.amax());
     }
-    let entries = |e: &DMatrix<f64>| {
-        e.iter().copied().enumerate().filter(|&(_, value)| value != 0.0).collect()
-    };
-    let entries: Vec<Entries> = basis.iter().map(entries).collect();
-    Ok((gram_inverse(&entries, size)?, scale))
-}
-
-/// The entries of a matrix that are not zero, with their places column by column.
-type Entries = Vec<(usize, f64)>;
-
-/// The inverse Gram matrix of matrices of this size, which must be independent.
-fn gram_inverse(matrices: &[Entries], rows: usize) -> Result<DMatrix<f64>, TableError> {
-    let dim = matrices.len();
-    let dot = |a: &Entries, b: &[f64]| a.iter().map(|&(at, value)| value * b[at]).sum::<f64>();
-    let mut gram = DMatrix::zeros(dim, dim);
-    // Gram–Schmidt tells which matrix depends on the ones before it.
-    let mut orthogonal: Vec<Entries> = Vec::with_capacity(dim);
-    for (index, e) in matrices.iter().enumerate() {
-        let mut rest = vec![0.0; rows * rows];
-        for &(at, value) in e {
-            rest[at] = value;
-        }
-        for (i, other) in matrices.iter().enumerate() {
-            gram[(i, index)] = dot(other, &rest);
-        }
-        let size = gram[(index, index)].sqrt();
-        for _ in 0..2 {
-            for q in &orthogonal {
-                let along = dot(q, &rest);
-                if along != 0.0 {
-                    q.iter().for_each(|&(at, value)| rest[at] -= value * along);
-                }
-            }
-        }
-        let norm = rest.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if norm <= 1e-10 * size || norm == 0.0 {
-            return Err(TableError::Dependent { index });
-        }
-        let rest = rest.into_iter().enumerate().filter(|&(_, value)| value != 0.0);
-        orthogonal.push(rest.map(|(at, value)| (at, value / norm)).collect());
-    }
-    gram.try_inverse().ok_or(TableError::Dependent { index: dim - 1 })
+    Ok(scale)
 }
 
 /// Structure constants that were checked: for each i the components of [eᵢ, eⱼ] along eₖ, by (j, k).
@@ -574,52 +478,29 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     type Vector = DVector<f64>;
     type Column = DVector<f64>;
 
-    fn dim(&self) -> usize {
-        self.dim
-    }
-
-    fn matrix_size(&self) -> usize {
-        self.matrix_size
-    }
-
-    fn structure(&self) -> &[StructureConstant] {
-        &self.structure
-    }
-
-    fn basis(&self) -> Option<&[BasisEntry]> {
-        self.basis.as_deref()
-    }
-
-    fn gram_inverse(&self, i: usize, j: usize) -> f64 {
-        self.gram_inverse[(i, j)]
-    }
-
-    fn gram_is_diagonal(&self) -> bool {
-        self.diagonal
-    }
-
-    fn is_faithful(&self) -> bool {
-        self.faithful
-    }
-
-    fn is_orthogonal(&self) -> bool {
-        self.orthogonal
-    }
-
-    fn is_traceless(&self) -> bool {
-        self.traceless
+    fn algebra(&self) -> Algebra<'_> {
+        Algebra {
+            dim: self.0.dim,
+            size: self.0.size,
+            structure: &self.0.structure,
+            basis: self.0.basis.as_deref(),
+            facts: self.0.facts,
+            gram_inverse: &self.0.gram_inverse,
+            elliptic: &self.0.elliptic,
+            cayley: &self.0.cayley,
+        }
     }
 
     fn multiply(&self, a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
         let n = a.nrows();
         if n < LARGE {
-            return linear::multiply(n, a, b);
+            return square::multiply(n, a, b);
         }
         // Column by column and without zeros, which most entries of adjoint matrices are; sums as in `linear`.
-        let entries = |column: &[f64]| -> Entries {
+        let entries = |column: &[f64]| -> Vec<(usize, f64)> {
             column.iter().copied().enumerate().filter(|&(_, value)| value != 0.0).collect()
         };
-        let left: Vec<Entries> = a.as_slice().chunks_exact(n).map(entries).collect();
+        let left: Vec<_> = a.as_slice().chunks_exact(n).map(entries).collect();
         let mut product = DMatrix::zeros(n, n);
         for (sums, b) in
             product.as_mut_slice().chunks_exact_mut(n).zip(b.as_slice().chunks_exact(n))
@@ -636,38 +517,35 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     fn invert(&self, m: &DMatrix<f64>) -> DMatrix<f64> {
         let n = m.nrows();
         if n < LARGE {
-            return linear::invert(n, m);
+            return square::invert(n, m).0;
         }
         m.clone().try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN))
     }
 
     fn exp_extent(&self, x: &DVector<f64>) -> f64 {
-        let bound = domain::exp_extent(&self.elliptic, self.dim, x);
+        let Algebra { dim, structure, elliptic, .. } = self.algebra();
+        let bound = domain::exp_extent(elliptic, dim, x);
         if bound <= 1.0 || !bound.is_finite() {
             return bound;
         }
         // The bound may be larger than it need be: the eigenvalues themselves decide.
-        let mut ad = DMatrix::zeros(self.dim, self.dim);
-        for &(i, j, k, c) in &self.structure {
+        let mut ad = DMatrix::zeros(dim, dim);
+        for &(i, j, k, c) in structure {
             ad[(k, j)] += x[i] * c;
         }
         let trace = ad.trace();
-        let Some(schur) = Schur::try_new(ad, f64::EPSILON, 100 * self.dim) else { return bound };
+        let Some(schur) = Schur::try_new(ad, f64::EPSILON, 100 * dim) else { return bound };
         let eigenvalues: DVector<Complex<f64>> = schur.complex_eigenvalues();
         let largest = eigenvalues.iter().fold(0.0_f64, |worst, z| worst.worse(z.im.abs()));
         bound.min((largest * largest + trace * trace) / (PI * PI))
     }
 
-    fn cayley_extent(&self, x: &DVector<f64>) -> f64 {
-        domain::cayley_extent(&self.cayley, self.dim, x)
-    }
-
     fn casimir_count(&self) -> usize {
-        self.casimirs.len()
+        self.0.casimirs.len()
     }
 
     fn casimir(&self, index: usize, mu: &DVector<f64>) -> f64 {
-        let terms = self.casimirs.get(index).into_iter().flatten();
+        let terms = self.0.casimirs.get(index).into_iter().flatten();
         terms.map(|(c, factors)| monomial::<f64, _>(*c, factors, mu)).sum()
     }
 }

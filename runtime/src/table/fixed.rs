@@ -5,9 +5,10 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables, monomial};
+use super::algebra::{Algebra, BasisEntry, CasimirTerm, Facts, StructureConstant, facts};
 use super::domain;
 use super::group::TableGroup;
+use super::tables::{Tables, monomial};
 use crate::group::FixedDimension;
 use crate::number::scalar::Scalar;
 
@@ -73,14 +74,10 @@ impl<A, const N: usize, const D: usize, T> Debug for StaticTables<A, N, D, T> {
     }
 }
 
-/// Facts that follow from a matrix basis and are costly: evaluated by the compiler.
+/// What follows from the tables and is costly: evaluated by the compiler.
 struct Derived<const N: usize> {
+    facts: Facts,
     gram_inverse: [[f64; N]; N],
-    diagonal: bool,
-    faithful: bool,
-    orthogonal: bool,
-    traceless: bool,
-    /// Quadratic forms that bound eigenvalues: see `domain`.
     elliptic: [[f64; N]; N],
     cayley: [[f64; N]; N],
 }
@@ -92,7 +89,7 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T> StaticTables<A, N, D, 
         assert!(A::BASIS.is_some() || N == D, "adjoint matrices are as large as the algebra");
     };
 
-    const DERIVED: Derived<N> = derive::<N, D>(A::BASIS, A::STRUCTURE);
+    const DERIVED: &'static Derived<N> = &derive::<N, D>(A::BASIS, A::STRUCTURE);
 
     pub(super) const fn new() -> Self {
         const { Self::SIZES_AGREE };
@@ -100,114 +97,30 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T> StaticTables<A, N, D, 
     }
 }
 
-/// Entry number `index` of the matrices in use: of the basis, or adjoint, (ad_i)ₖⱼ = cᵢⱼᵏ.
-const fn entry(
-    basis: Option<&[BasisEntry]>,
-    structure: &[StructureConstant],
-    index: usize,
-) -> Option<BasisEntry> {
-    match basis {
-        Some(entries) if index < entries.len() => Some(entries[index]),
-        None if index < structure.len() => {
-            let (i, j, k, c) = structure[index];
-            Some((i, k, j, c))
-        }
-        _ => None,
-    }
-}
-
 const fn derive<const N: usize, const D: usize>(
     basis: Option<&[BasisEntry]>,
     structure: &[StructureConstant],
 ) -> Derived<N> {
-    let mut gram = [[0.0; N]; N];
-    let (mut orthogonal, mut traceless) = (true, true);
-    let mut i = 0;
-    while i < N {
-        let mut dense = [[0.0; D]; D];
-        let mut at = 0;
-        while let Some((index, row, column, value)) = entry(basis, structure, at) {
-            if index == i {
-                dense[row][column] += value;
-            }
-            at += 1;
-        }
-        at = 0;
-        while let Some((index, row, column, value)) = entry(basis, structure, at) {
-            gram[i][index] += dense[row][column] * value;
-            at += 1;
-        }
-        let mut trace = 0.0;
-        let mut row = 0;
-        while row < D {
-            trace += dense[row][row];
-            let mut column = 0;
-            while column < D {
-                orthogonal = orthogonal && dense[row][column] == -dense[column][row];
-                column += 1;
-            }
-            row += 1;
-        }
-        traceless = traceless && trace == 0.0;
-        i += 1;
-    }
-    let mut diagonal = true;
-    let mut j = 0;
-    while j < N * N {
-        diagonal = diagonal && (j / N == j % N || gram[j / N][j % N] == 0.0);
-        j += 1;
-    }
-    let (gram_inverse, faithful) = invert(gram);
+    let [mut gram, mut gram_inverse, mut elliptic, mut cayley] = [[[0.0; N]; N]; 4];
+    let mut dense = [[0.0; D]; D];
+    let facts = facts(
+        structure,
+        basis,
+        (N, D),
+        gram.as_flattened_mut(),
+        gram_inverse.as_flattened_mut(),
+        dense.as_flattened_mut(),
+    );
     let mut ad = [[[0.0; N]; N]; N];
-    let (mut elliptic, mut cayley) = ([[0.0; N]; N], [[0.0; N]; N]);
     let flat = ad.as_flattened_mut().as_flattened_mut();
     let ideal = domain::elliptic_form(N, structure, flat, elliptic.as_flattened_mut());
     if let Some(entries) = basis {
-        domain::cayley_form(N, entries, orthogonal, ideal, cayley.as_flattened_mut());
+        domain::cayley_form(N, entries, facts.orthogonal, ideal, cayley.as_flattened_mut());
     } else {
         // The adjoint matrices themselves.
         cayley = elliptic;
     }
-    Derived { gram_inverse, diagonal, faithful, orthogonal, traceless, elliptic, cayley }
-}
-
-/// The inverse of a Gram matrix, and whether there is one. A Gram matrix needs no pivoting.
-const fn invert<const N: usize>(mut a: [[f64; N]; N]) -> ([[f64; N]; N], bool) {
-    let mut b = [[0.0; N]; N];
-    let mut k = 0;
-    while k < N {
-        b[k][k] = 1.0;
-        k += 1;
-    }
-    k = 0;
-    while k < N {
-        // Entries are of order one: a pivot this small is zero up to rounding.
-        if a[k][k] < 1e-12 {
-            return (b, false);
-        }
-        let inverse = 1.0 / a[k][k];
-        let mut j = 0;
-        while j < N {
-            a[k][j] *= inverse;
-            b[k][j] *= inverse;
-            j += 1;
-        }
-        let mut i = 0;
-        while i < N {
-            let factor = a[i][k];
-            if i != k && factor != 0.0 {
-                j = 0;
-                while j < N {
-                    a[i][j] -= factor * a[k][j];
-                    b[i][j] -= factor * b[k][j];
-                    j += 1;
-                }
-            }
-            i += 1;
-        }
-        k += 1;
-    }
-    (b, true)
+    Derived { facts, gram_inverse, elliptic, cayley }
 }
 
 impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
@@ -218,59 +131,18 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
     type Column = SVector<T, D>;
 
     #[inline(always)]
-    fn dim(&self) -> usize {
-        N
-    }
-
-    #[inline(always)]
-    fn matrix_size(&self) -> usize {
-        D
-    }
-
-    #[inline(always)]
-    fn structure(&self) -> &[StructureConstant] {
-        A::STRUCTURE
-    }
-
-    #[inline(always)]
-    fn basis(&self) -> Option<&[BasisEntry]> {
-        A::BASIS
-    }
-
-    #[inline(always)]
-    fn gram_inverse(&self, i: usize, j: usize) -> f64 {
-        let derived: &'static Derived<N> = &Self::DERIVED;
-        derived.gram_inverse[i][j]
-    }
-
-    #[inline(always)]
-    fn gram_is_diagonal(&self) -> bool {
-        Self::DERIVED.diagonal
-    }
-
-    #[inline(always)]
-    fn is_faithful(&self) -> bool {
-        Self::DERIVED.faithful
-    }
-
-    #[inline(always)]
-    fn is_orthogonal(&self) -> bool {
-        Self::DERIVED.orthogonal
-    }
-
-    #[inline(always)]
-    fn is_traceless(&self) -> bool {
-        Self::DERIVED.traceless
-    }
-
-    fn exp_extent(&self, x: &Self::Vector) -> T {
-        let derived: &'static Derived<N> = &Self::DERIVED;
-        domain::exp_extent(derived.elliptic.as_flattened(), N, x)
-    }
-
-    fn cayley_extent(&self, x: &Self::Vector) -> T {
-        let derived: &'static Derived<N> = &Self::DERIVED;
-        domain::cayley_extent(derived.cayley.as_flattened(), N, x)
+    fn algebra(&self) -> Algebra<'_> {
+        let Derived { facts, gram_inverse, elliptic, cayley } = Self::DERIVED;
+        Algebra {
+            dim: N,
+            size: D,
+            structure: A::STRUCTURE,
+            basis: A::BASIS,
+            facts: *facts,
+            gram_inverse: gram_inverse.as_flattened(),
+            elliptic: elliptic.as_flattened(),
+            cayley: cayley.as_flattened(),
+        }
     }
 
     fn casimir_count(&self) -> usize {

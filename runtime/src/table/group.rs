@@ -2,11 +2,12 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::algebra::{BasisEntry, Tables};
-use super::linear;
+use super::algebra::{Algebra, BasisEntry};
+use super::tables::Tables;
 use crate::group::LieGroup;
 use crate::group::element_error::ElementError;
 use crate::linear::coordinates::Coordinates;
+use crate::linear::square;
 use crate::number::scalar::Scalar;
 
 /// A Lie group given by the tables of its Lie algebra: structure constants, and a matrix basis
@@ -22,39 +23,37 @@ pub struct TableGroup<K> {
     pub(crate) tables: K,
 }
 
-pub use super::algebra::MatrixOf as Element;
+pub use super::tables::MatrixOf as Element;
 
 /// Terms of the exponential series for norms up to 1; rounding needs 18 in f64.
 const TERMS: usize = 24;
 
 impl<K: Tables> TableGroup<K> {
     /// The tables this group is made of.
-    pub fn tables(&self) -> &K {
-        &self.tables
+    pub(super) fn algebra(&self) -> Algebra<'_> {
+        self.tables.algebra()
     }
 
     /// Calls `visit` with every non-zero entry of the matrices in use.
-    #[inline(always)]
     pub(super) fn for_each_entry(&self, mut visit: impl FnMut(BasisEntry)) {
-        match self.tables.basis() {
+        match self.algebra().basis {
             Some(entries) => entries.iter().for_each(|&entry| visit(entry)),
             // (ad_i)ₖⱼ = cᵢⱼᵏ
-            None => self.tables.structure().iter().for_each(|&(i, j, k, c)| visit((i, k, j, c))),
+            None => self.algebra().structure.iter().for_each(|&(i, j, k, c)| visit((i, k, j, c))),
         }
     }
 
     /// Whether elements are matrices Ad_g.
-    #[inline(always)]
     pub(super) fn is_adjoint(&self) -> bool {
-        self.tables.basis().is_none()
+        self.algebra().basis.is_none()
     }
 
     pub(super) fn zero_matrix(&self) -> Element<K> {
-        K::Column::zero_matrix(self.tables.matrix_size())
+        K::Column::zero_matrix(self.algebra().size)
     }
 
     pub(super) fn unit_matrix(&self) -> Element<K> {
-        linear::identity(self.tables.matrix_size(), &self.zero_matrix())
+        square::identity(self.algebra().size, &self.zero_matrix())
     }
 
     /// The matrix Σ xᵢ eᵢ.
@@ -68,7 +67,7 @@ impl<K: Tables> TableGroup<K> {
 
     /// The vector of ⟨m, eᵢ⟩ = Σ entries of m times entries of eᵢ.
     pub(super) fn products(&self, m: &Element<K>) -> K::Vector {
-        let mut result = K::Vector::zeros(self.tables.dim());
+        let mut result = K::Vector::zeros(self.algebra().dim);
         self.for_each_entry(|(i, row, column, value)| {
             result[i] = m[(row, column)].times_plus(K::Scalar::of(value), result[i]);
         });
@@ -77,23 +76,22 @@ impl<K: Tables> TableGroup<K> {
 
     /// The inverse of the Gram matrix, applied to v.
     pub(super) fn gram_solve(&self, v: &K::Vector) -> K::Vector {
-        let dim = self.tables.dim();
-        if self.tables.gram_is_diagonal() {
-            return K::Vector::from_entries(dim, |i| {
-                v[i] * K::Scalar::of(self.tables.gram_inverse(i, i))
-            });
+        let Algebra { dim, gram_inverse, facts, .. } = self.algebra();
+        let entry = |i, j| K::Scalar::of(gram_inverse[i * dim + j]);
+        if facts.diagonal {
+            return K::Vector::from_entries(dim, |i| v[i] * entry(i, i));
         }
         K::Vector::from_entries(dim, |i| {
             let mut sum = K::Scalar::of(0.0);
             for j in 0..dim {
-                sum = v[j].times_plus(K::Scalar::of(self.tables.gram_inverse(i, j)), sum);
+                sum = v[j].times_plus(entry(i, j), sum);
             }
             sum
         })
     }
 
     /// The coordinates of the matrix of 𝔤 nearest to m.
-    pub fn coordinates_of(&self, m: &Element<K>) -> K::Vector {
+    pub(super) fn coordinates_of(&self, m: &Element<K>) -> K::Vector {
         self.gram_solve(&self.products(m))
     }
 
@@ -104,20 +102,20 @@ impl<K: Tables> TableGroup<K> {
 
     /// exp of a matrix of the representation, by scaling and squaring.
     pub(super) fn matrix_exponential(&self, m: &Element<K>) -> Element<K> {
-        let size = self.tables.matrix_size();
-        let Some(count) = linear::halvings(linear::row_sum_norm(size, m), 1.5) else {
+        let size = self.algebra().size;
+        let Some(count) = square::halvings(square::row_sum_norm(size, m), 1.5) else {
             return K::Column::matrix_from_entries(size, |_, _| K::Scalar::of(f64::NAN));
         };
         let one = K::Scalar::of(1.0);
         let rounding = K::Scalar::epsilon() * K::Scalar::of(0.125);
-        let m = linear::scale(size, m, linear::half_power(count));
-        let mut sum = linear::plus_scaled(size, &self.unit_matrix(), one, &m);
+        let m = square::scale(size, m, square::half_power(count));
+        let mut sum = square::plus_scaled(size, &self.unit_matrix(), one, &m);
         let mut term = m.clone();
         for k in 2..TERMS {
             term = self.tables.multiply(&m, &term);
-            term = linear::scale(size, &term, K::Scalar::of(1.0 / k as f64));
-            sum = linear::plus_scaled(size, &sum, one, &term);
-            if linear::largest_entry(size, &term).simd_le(rounding).all() {
+            term = square::scale(size, &term, K::Scalar::of(1.0 / k as f64));
+            sum = square::plus_scaled(size, &sum, one, &term);
+            if square::largest_entry(size, &term).simd_le(rounding).all() {
                 break;
             }
         }
@@ -130,14 +128,14 @@ impl<K: Tables> TableGroup<K> {
     /// For groups of orthogonal matrices: pulls g back onto them to first order, so that rounding
     /// does not accumulate in gᵀg over many steps.
     pub(super) fn straighten(&self, g: Element<K>) -> Element<K> {
-        if !self.tables.is_orthogonal() {
+        if !self.algebra().facts.orthogonal {
             return g;
         }
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let (half, three_halves) = (K::Scalar::of(-0.5), K::Scalar::of(1.5));
-        let squared = linear::transpose_multiply(size, &g, &g);
+        let squared = square::transpose_multiply(size, &g, &g);
         let mut correction = squared.clone();
-        linear::fill(size, &mut correction, |i, j| {
+        square::fill(size, &mut correction, |i, j| {
             let value = squared[(i, j)] * half;
             if i == j { value + three_halves } else { value }
         });
@@ -150,9 +148,8 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     type Vector = K::Vector;
     type Element = Element<K>;
 
-    #[inline(always)]
     fn dim(&self) -> usize {
-        self.tables.dim()
+        self.algebra().dim
     }
 
     fn identity(&self) -> Self::Element {
@@ -164,8 +161,12 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn inverse(&self, g: &Self::Element) -> Self::Element {
-        let size = self.tables.matrix_size();
-        if self.tables.is_orthogonal() { linear::transpose(size, g) } else { self.tables.invert(g) }
+        let size = self.algebra().size;
+        if self.algebra().facts.orthogonal {
+            square::transpose(size, g)
+        } else {
+            self.tables.invert(g)
+        }
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
@@ -179,8 +180,8 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        let mut result = K::Vector::zeros(self.tables.dim());
-        for &(i, j, k, c) in self.tables.structure() {
+        let mut result = K::Vector::zeros(self.algebra().dim);
+        for &(i, j, k, c) in self.algebra().structure {
             result[k] = (x[i] * K::Scalar::of(c)).times_plus(y[j], result[k]);
         }
         result
@@ -191,7 +192,7 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         if self.is_adjoint() {
             return K::Vector::from_entries(size, |i| {
                 let mut sum = K::Scalar::of(0.0);
@@ -206,7 +207,7 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let back = self.inverse(g);
         if self.is_adjoint() {
             return K::Vector::from_entries(size, |i| {
@@ -218,8 +219,8 @@ impl<K: Tables> LieGroup for TableGroup<K> {
             });
         }
         // ⟨Ad*_g μ, eⱼ⟩ = ⟨P, g⁻¹ eⱼ g⟩ = ⟨g⁻ᵀ P gᵀ, eⱼ⟩
-        let turned = linear::transpose_multiply(size, &back, &self.dual_matrix(mu));
-        self.products(&linear::multiply_transpose(size, &turned, g))
+        let turned = square::transpose_multiply(size, &back, &self.dual_matrix(mu));
+        self.products(&square::multiply_transpose(size, &turned, g))
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
@@ -231,30 +232,16 @@ impl<K: Tables> LieGroup for TableGroup<K> {
         self.act(x, mu).phi
     }
 
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, <Self::Vector as Coordinates<Self::Scalar>>::Matrix) {
-        self.phi_with_derivative(x, mu)
-    }
-
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        self.phi_inverse(x, p)
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> K::Scalar {
         self.tables.exp_extent(x)
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> K::Scalar {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let one = K::Scalar::of(1.0);
         let mut defect = K::Scalar::of(0.0);
-        if self.tables.is_orthogonal() {
-            let squared = linear::transpose_multiply(size, g, g);
+        if self.algebra().facts.orthogonal {
+            let squared = square::transpose_multiply(size, g, g);
             for i in 0..size {
                 for j in 0..size {
                     let unit = if i == j { one } else { K::Scalar::of(0.0) };
@@ -280,7 +267,7 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn matrix_size(&self) -> usize {
-        self.tables.matrix_size()
+        self.algebra().size
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> Self::Scalar {

@@ -5,11 +5,11 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::algebra::Tables;
 use super::group::{Element, TableGroup};
-use super::linear;
+use super::tables::Tables;
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
+use crate::linear::square;
 use crate::number::scalar::Scalar;
 
 /// Square roots taken at most; more than enough for any finite element near which log exists.
@@ -19,51 +19,51 @@ const ROOT_ITERATIONS: u32 = 20;
 
 impl<K: Tables> TableGroup<K> {
     pub(super) fn logarithm(&self, g: &Element<K>) -> Option<K::Vector> {
-        if !self.tables.is_faithful() {
+        if self.algebra().facts.dependent.is_some() {
             return None;
         }
-        let dim = self.tables.dim();
+        let dim = self.algebra().dim;
         let mut x = self.coordinates_of(&self.matrix_logarithm(g)?);
         // The roots lose a few digits; one or two Newton steps in the group bring them back:
         // g = exp(r)·exp(x) and x + (d^R exp_x)⁻¹ r is the better logarithm.
         let one = K::Scalar::of(1.0);
         for _ in 0..2 {
             let back = self.exp(&K::Vector::from_entries(dim, |i| -x[i]));
-            let rest = linear::multiply(self.tables.matrix_size(), g, &back);
-            let rest =
-                linear::plus_scaled(self.tables.matrix_size(), &rest, -one, &self.unit_matrix());
+            let rest = square::multiply(self.algebra().size, g, &back);
+            let rest = square::plus_scaled(self.algebra().size, &rest, -one, &self.unit_matrix());
             let r = self.coordinates_of(&rest);
-            // (d^R exp_x)⁻¹ is the transpose of phi_inverse's matrix.
-            let inverse = linear::invert(dim, &self.phi_matrix(&x));
-            x = K::Vector::from_entries(dim, |i| {
-                let mut sum = x[i];
-                for j in 0..dim {
-                    sum = inverse[(j, i)].times_plus(r[j], sum);
+            // Row j of d^R exp_x: the transpose applied to a basis vector.
+            let mut turn = K::Vector::zero_matrix(dim);
+            for j in 0..dim {
+                let row = self.dexp_transpose(&x, &K::Vector::unit(dim, j));
+                for i in 0..dim {
+                    turn[(j, i)] = row[i];
                 }
-                sum
-            });
+            }
+            let better = K::Vector::solve(&turn, &r);
+            x = K::Vector::from_entries(dim, |i| x[i] + better[i]);
         }
         // Only a logarithm that gives g back is one.
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let again = self.exp(&x);
-        let difference = linear::plus_scaled(size, &again, -one, g);
-        let scale = linear::largest_entry(size, g) + one;
+        let difference = square::plus_scaled(size, &again, -one, g);
+        let scale = square::largest_entry(size, g) + one;
         let tolerance = K::Scalar::epsilon().simd_sqrt() * scale;
-        linear::largest_entry(size, &difference).simd_le(tolerance).all().then_some(x)
+        square::largest_entry(size, &difference).simd_le(tolerance).all().then_some(x)
     }
 
     /// The principal logarithm of a matrix to about half the digits or better; `None` where the
     /// square roots do not converge (an eigenvalue on the negative axis).
     fn matrix_logarithm(&self, g: &Element<K>) -> Option<Element<K>> {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let one = K::Scalar::of(1.0);
         let unit = self.unit_matrix();
         let mut root = g.clone();
         let mut scale = one;
         let mut roots = 0;
         let rest = loop {
-            let rest = linear::plus_scaled(size, &root, -one, &unit);
-            let norm = linear::row_sum_norm(size, &rest);
+            let rest = square::plus_scaled(size, &root, -one, &unit);
+            let norm = square::row_sum_norm(size, &rest);
             if norm.simd_le(K::Scalar::of(0.3)).all() {
                 break rest;
             }
@@ -75,35 +75,35 @@ impl<K: Tables> TableGroup<K> {
             roots += 1;
         };
         // log A = 2 artanh((A − 1)(A + 1)⁻¹)
-        let sum = linear::plus_scaled(size, &root, one, &unit);
-        let z = linear::multiply(size, &rest, &linear::invert(size, &sum));
-        let square = linear::multiply(size, &z, &z);
+        let sum = square::plus_scaled(size, &root, one, &unit);
+        let z = square::multiply(size, &rest, &square::invert(size, &sum).0);
+        let square = square::multiply(size, &z, &z);
         let mut power = z.clone();
         let mut total = z;
         for k in 1..20 {
-            power = linear::multiply(size, &power, &square);
+            power = square::multiply(size, &power, &square);
             let factor = K::Scalar::of(1.0 / (2 * k + 1) as f64);
-            total = linear::plus_scaled(size, &total, factor, &power);
+            total = square::plus_scaled(size, &total, factor, &power);
         }
-        Some(linear::scale(size, &total, scale + scale))
+        Some(square::scale(size, &total, scale + scale))
     }
 
     fn square_root(&self, a: &Element<K>) -> Element<K> {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let (one, half) = (K::Scalar::of(1.0), K::Scalar::of(0.5));
         let unit = self.unit_matrix();
         let mut m = a.clone();
         let mut root = a.clone();
         for _ in 0..ROOT_ITERATIONS {
-            let inverse = linear::invert(size, &m);
-            let factor = linear::plus_scaled(size, &unit, one, &inverse);
-            root = linear::scale(size, &linear::multiply(size, &root, &factor), half);
+            let inverse = square::invert(size, &m).0;
+            let factor = square::plus_scaled(size, &unit, one, &inverse);
+            root = square::scale(size, &square::multiply(size, &root, &factor), half);
             // M ← ½ (1 + ½ (M + M⁻¹))
-            let sum = linear::plus_scaled(size, &m, one, &inverse);
-            m = linear::scale(size, &linear::plus_scaled(size, &unit, half, &sum), half);
-            let change = linear::plus_scaled(size, &m, -one, &unit);
+            let sum = square::plus_scaled(size, &m, one, &inverse);
+            m = square::scale(size, &square::plus_scaled(size, &unit, half, &sum), half);
+            let change = square::plus_scaled(size, &m, -one, &unit);
             let limit = K::Scalar::epsilon() * K::Scalar::of(8.0);
-            if linear::largest_entry(size, &change).simd_le(limit).all() {
+            if square::largest_entry(size, &change).simd_le(limit).all() {
                 break;
             }
         }

@@ -1,13 +1,13 @@
 //! Group elements from a user's matrix, checked.
 
-use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::algebra::Tables;
 use super::group::{Element, TableGroup};
-use super::linear;
+use super::tables::Tables;
 use crate::group::LieGroup;
 use crate::group::element_error::{ElementError, within};
 use crate::linear::coordinates::Coordinates;
+use crate::linear::square;
 use crate::number::scalar::Scalar;
 
 impl<K: Tables> TableGroup<K> {
@@ -19,7 +19,7 @@ impl<K: Tables> TableGroup<K> {
         &self,
         entry: impl Fn(usize, usize) -> K::Scalar,
     ) -> Result<Element<K>, ElementError> {
-        let size = self.tables.matrix_size();
+        let size = self.algebra().size;
         let mut g = self.zero_matrix();
         for row in 0..size {
             for column in 0..size {
@@ -31,17 +31,17 @@ impl<K: Tables> TableGroup<K> {
             }
         }
         let one = K::Scalar::of(1.0);
-        let scale = linear::largest_entry(size, &g);
-        if self.tables.is_orthogonal() {
-            let gram = linear::transpose_multiply(size, &g, &g);
-            let difference = linear::plus_scaled(size, &gram, -one, &self.unit_matrix());
-            let defect = linear::largest_entry(size, &difference);
+        let scale = square::largest_entry(size, &g);
+        if self.algebra().facts.orthogonal {
+            let gram = square::transpose_multiply(size, &g, &g);
+            let difference = square::plus_scaled(size, &gram, -one, &self.unit_matrix());
+            let defect = square::largest_entry(size, &difference);
             if !within(defect, one) {
                 return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
             }
         }
-        let determinant = determinant::<K>(size, &g);
-        let traceless = self.tables.is_traceless() && !self.is_adjoint();
+        let determinant = square::invert(size, &g).1;
+        let traceless = self.algebra().facts.traceless && !self.is_adjoint();
         let fits = if traceless {
             within((determinant - one).simd_abs(), one + scale)
         } else {
@@ -58,7 +58,7 @@ impl<K: Tables> TableGroup<K> {
         }
         let g = self.straighten(self.straighten(g));
         let defect = self.action_defect(&g);
-        let inverse = linear::largest_entry(size, &self.inverse(&g));
+        let inverse = square::largest_entry(size, &self.inverse(&g));
         if !within(defect, one + scale * inverse) {
             return Err(ElementError::NotInGroup { defect: defect.largest_lane() });
         }
@@ -67,12 +67,10 @@ impl<K: Tables> TableGroup<K> {
 
     /// How far g is from acting on 𝔤 by automorphisms.
     fn action_defect(&self, g: &Element<K>) -> K::Scalar {
-        let (dim, size) = (self.tables.dim(), self.tables.matrix_size());
+        let (dim, size) = (self.algebra().dim, self.algebra().size);
         let minus = K::Scalar::of(-1.0);
         let mut defect = K::Scalar::of(0.0);
-        let unit = |i: usize| {
-            K::Vector::from_entries(dim, |k| K::Scalar::of(if k == i { 1.0 } else { 0.0 }))
-        };
+        let unit = |i| K::Vector::unit(dim, i);
         if self.is_adjoint() {
             for i in 0..dim {
                 for j in i + 1..dim {
@@ -90,37 +88,9 @@ impl<K: Tables> TableGroup<K> {
             let moved = self.tables.multiply(g, &self.matrix_of(&unit(i)));
             let moved = self.tables.multiply(&moved, &back);
             let inside = self.matrix_of(&self.coordinates_of(&moved));
-            let outside = linear::plus_scaled(size, &moved, minus, &inside);
-            defect = defect.simd_max(linear::row_sum_norm(size, &outside));
+            let outside = square::plus_scaled(size, &moved, minus, &inside);
+            defect = defect.simd_max(square::row_sum_norm(size, &outside));
         }
         defect
     }
-}
-
-/// The determinant, by elimination with partial pivoting in each lane.
-fn determinant<K: Tables>(size: usize, m: &Element<K>) -> K::Scalar {
-    let mut m = m.clone();
-    let mut product = K::Scalar::of(1.0);
-    for k in 0..size {
-        for i in k + 1..size {
-            let better = m[(i, k)].simd_abs().simd_gt(m[(k, k)].simd_abs());
-            for j in 0..size {
-                let (upper, lower) = (m[(k, j)], m[(i, j)]);
-                m[(k, j)] = lower.select(better, upper);
-                m[(i, j)] = (-upper).select(better, lower);
-            }
-        }
-        product *= m[(k, k)];
-        // A zero column has only zeros to clear: dividing by one instead keeps them.
-        let zero = K::Scalar::of(0.0);
-        let pivot = K::Scalar::of(1.0).select(m[(k, k)].simd_eq(zero), m[(k, k)]);
-        for i in k + 1..size {
-            let factor = m[(i, k)] / pivot;
-            for j in k..size {
-                let upper = m[(k, j)];
-                m[(i, j)] -= factor * upper;
-            }
-        }
-    }
-    product
 }

@@ -9,17 +9,16 @@ mod domain;
 mod dynamic;
 mod fixed;
 mod group;
-mod linear;
 mod logarithm;
 mod membership;
+mod tables;
 
-pub use algebra::{BasisEntry, CasimirTerm, StructureConstant, Tables};
+pub use algebra::{BasisEntry, CasimirTerm, StructureConstant};
 pub use catalogue::{
     Aff1, Aff1Algebra, Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, U2, U3,
     Unitary,
 };
-pub use cayley::CayleyTables;
 #[cfg(feature = "alloc")]
-pub use dynamic::{CayleyMatrixGroup, DynamicTables, MatrixGroup, TableError, Terms};
-pub use fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup, StaticTables};
+pub use dynamic::{CayleyMatrixGroup, MatrixGroup, TableError};
+pub use fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup};
 pub use group::TableGroup;

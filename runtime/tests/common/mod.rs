@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
 use coadjoint::LieGroup;
-use coadjoint::groups::{CayleyGroup, Coordinates};
+use coadjoint::groups::{Chart, Coordinates, Exponential};
 
 /// A small deterministic generator (xorshift64*); numbers in (−1, 1).
 pub struct Random(u64);
@@ -60,7 +60,17 @@ pub fn small(what: &str, value: f64, bound: f64) {
     assert!(value <= bound, "{what}: {value:e} exceeds {bound:e}");
 }
 
-/// Every law of [`LieGroup`] at random points with coordinates up to `size`.
+/// The largest entry of the matrices of g and g⁻¹, at least one.
+fn growth_of<G: LieGroup<Scalar = f64>>(group: &G, g: &G::Element) -> f64 {
+    let (size, back) = (group.matrix_size(), group.inverse(g));
+    let entry = |at: usize| {
+        let (i, j) = (at / size, at % size);
+        group.matrix_entry(g, i, j).abs().max(group.matrix_entry(&back, i, j).abs())
+    };
+    (0..size * size).map(entry).fold(1.0, f64::max)
+}
+
+/// Every law of [`LieGroup`] and of the exponential chart at random points with coordinates up to `size`.
 pub fn group_laws<G: LieGroup<Scalar = f64>>(group: &G, size: f64, log: bool) {
     let mut random = Random::new(7);
     let dim = group.dim();
@@ -71,13 +81,7 @@ pub fn group_laws<G: LieGroup<Scalar = f64>>(group: &G, size: f64, log: bool) {
         let mu = random.vector(group, 2.0);
         let g = group.exp(&x);
         let h = group.exp(&y);
-        let back = group.inverse(&g);
-        let growth = (0..group.matrix_size())
-            .flat_map(|i| (0..group.matrix_size()).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                group.matrix_entry(&g, i, j).abs().max(group.matrix_entry(&back, i, j).abs())
-            })
-            .fold(1.0, f64::max);
+        let growth = growth_of(group, &g);
         let eps = 1e-14 * growth * growth * (1.0 + size);
         let negative = plus::<G>(&x, -2.0, &x);
 
@@ -93,17 +97,18 @@ pub fn group_laws<G: LieGroup<Scalar = f64>>(group: &G, size: f64, log: bool) {
             element_distance(group, &group.exp(&twice), &square),
             10.0 * eps,
         );
-        if log {
-            let x = plus::<G>(&x, 1.0 / size.max(1.0) - 1.0, &x);
-            let found = group.log(&group.exp(&x)).expect("a logarithm near 0");
-            small("log∘exp", distance::<G>(&found, &x), 1e-13 * (1.0 + size));
-        }
-
         // Actions.
         let gh = group.compose(&g, &h);
-        let left = group.adjoint(&gh, &z);
-        let right = group.adjoint(&g, &group.adjoint(&h, &z));
-        small("Ad is an action", distance::<G>(&left, &right), 20.0 * eps);
+        let turned = group.exp(&group.adjoint(&g, &y));
+        let conjugated = group.compose(&group.compose(&g, &h), &group.inverse(&g));
+        let bound = 20.0 * eps * growth_of(group, &turned);
+        small("exp(Ad_g y) = g·exp(y)·g⁻¹", element_distance(group, &turned, &conjugated), bound);
+        let step = 1e-5;
+        let ahead = group.adjoint(&group.exp(&plus::<G>(&y, step - 1.0, &y)), &z);
+        let behind = group.adjoint(&group.exp(&plus::<G>(&y, -step - 1.0, &y)), &z);
+        let bracket = group.bracket(&y, &z);
+        let slope = G::Vector::from_entries(dim, |i| (ahead[i] - behind[i]) / (2.0 * step));
+        small("[y, z] by differences", distance::<G>(&slope, &bracket), 1e-8);
         let left = group.coadjoint(&gh, &mu);
         let right = group.coadjoint(&g, &group.coadjoint(&h, &mu));
         small("Ad* is an action", distance::<G>(&left, &right), 50.0 * eps);
@@ -112,48 +117,6 @@ pub fn group_laws<G: LieGroup<Scalar = f64>>(group: &G, size: f64, log: bool) {
         small("⟨Ad*_g μ, z⟩ = ⟨μ, Ad_{g⁻¹} z⟩", paired.abs(), 50.0 * eps);
         let paired = group.ad_star(&y, &mu).pairing(&z) - mu.pairing(&group.bracket(&y, &z));
         small("⟨ad*_y μ, z⟩ = ⟨μ, [y, z]⟩", paired.abs(), 1e-13);
-        let (element, moved) = group.exp_transport(&x, &mu);
-        small("exp_transport's element", element_distance(group, &element, &g), eps);
-        let expected = group.coadjoint(&group.inverse(&g), &mu);
-        small("exp_transport's momentum", distance::<G>(&moved, &expected), 50.0 * eps);
-        for index in 0..group.casimir_count() {
-            let (before, after) = (group.casimir(index, &mu), group.casimir(index, &moved));
-            small("Casimir", (before - after).abs(), 100.0 * eps * (1.0 + before.abs()));
-        }
-
-        // (d^R exp)ᵀ by its definition, its derivative and its inverse.
-        let p = group.dexp_transpose(&x, &mu);
-        let (again, derivative) = group.dexp_transpose_with_derivative(&x, &mu);
-        small("dexpᵀ, both ways", distance::<G>(&p, &again), 20.0 * eps);
-        let step = 1e-5;
-        for j in 0..dim {
-            let unit = G::Vector::from_entries(dim, |i| f64::from(u8::from(i == j)));
-            let ahead = group.dexp_transpose(&plus::<G>(&x, step, &unit), &mu);
-            let behind = group.dexp_transpose(&plus::<G>(&x, -step, &unit), &mu);
-            for i in 0..dim {
-                let slope = (ahead[i] - behind[i]) / (2.0 * step);
-                small(
-                    "derivative of dexpᵀ",
-                    (slope - derivative[(i, j)]).abs(),
-                    1e-8 * growth * growth,
-                );
-            }
-        }
-        if log {
-            let ahead = group.compose(&group.exp(&plus::<G>(&x, step, &y)), &group.inverse(&g));
-            let behind = group.compose(&group.exp(&plus::<G>(&x, -step, &y)), &group.inverse(&g));
-            let (ahead, behind) = (group.log(&ahead).unwrap(), group.log(&behind).unwrap());
-            let slope = G::Vector::from_entries(dim, |i| (ahead[i] - behind[i]) / (2.0 * step));
-            let paired = p.pairing(&y) - mu.pairing(&slope);
-            small("dexpᵀ by differences", paired.abs(), 1e-7 * growth * growth);
-        }
-        let inverse = group.dexp_inverse_transpose(&x, &p);
-        small("dexp⁻ᵀ ∘ dexpᵀ", distance::<G>(&inverse, &mu), 1e3 * eps);
-        let near = plus::<G>(&x, -1.0 + 0.3 / size, &x);
-        let p = group.dexp_transpose(&near, &mu);
-        let inverse = group.dexp_inverse_transpose(&near, &p);
-        small("dexp⁻ᵀ ∘ dexpᵀ near 0", distance::<G>(&inverse, &mu), 1e-14);
-
         // Reading elements.
         let read = group.element_from_matrix(|i, j| group.matrix_entry(&g, i, j)).unwrap();
         small("element_from_matrix", element_distance(group, &read, &g), eps);
@@ -162,19 +125,16 @@ pub fn group_laws<G: LieGroup<Scalar = f64>>(group: &G, size: f64, log: bool) {
     matrix[0][0] = f64::NAN;
     assert!(group.element_from_matrix(|i, j| matrix[i][j]).is_err());
     assert!(group.element_from_matrix(|_, _| 0.0).is_err());
-
-    // No input panics or hangs.
-    for bad in [f64::NAN, f64::INFINITY, 1e300, 1e12, 1e5] {
-        let x = G::Vector::from_entries(dim, |i| if i == 0 { bad } else { 0.1 });
-        let mu = G::Vector::from_entries(dim, |_| 1.0);
-        let (g, _) = group.exp_transport(&x, &mu);
-        let _ = (group.dexp_transpose(&x, &mu), group.dexp_inverse_transpose(&x, &mu));
-        let _ = (group.dexp_transpose_with_derivative(&x, &mu), group.log(&g));
-    }
+    chart_laws(group, Exponential, size, log);
 }
 
-/// Every law of [`CayleyGroup`].
-pub fn cayley_laws<G: CayleyGroup<Scalar = f64>>(group: &G, size: f64) {
+/// Every law of a chart at random points with coordinates up to `size`; with `log`, its coordinate of a known element is
+/// asked for, too.
+pub fn chart_laws<G, C>(group: &G, chart: C, size: f64, log: bool)
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+{
     let mut random = Random::new(11);
     let dim = group.dim();
     for _ in 0..12 {
@@ -182,34 +142,60 @@ pub fn cayley_laws<G: CayleyGroup<Scalar = f64>>(group: &G, size: f64) {
         let y = random.vector(group, 1.0);
         let mu = random.vector(group, 2.0);
         let negative = plus::<G>(&x, -2.0, &x);
-        let (g, moved) = group.cayley_transport(&x, &mu);
-        let expected = group.coadjoint(&group.inverse(&g), &mu);
-        small("cayley_transport's momentum", distance::<G>(&moved, &expected), 1e-12);
-        let back = group.compose(&group.cayley_transport(&negative, &mu).0, &g);
-        small("cay(−x)·cay(x)", element_distance(group, &back, &group.identity()), 1e-13);
-        let found = group.cayley_inverse(&g).unwrap();
-        small("cay⁻¹∘cay", distance::<G>(&found, &x), 1e-12);
+        let (g, moved) = chart.transport(group, &x, &mu);
+        let back = group.inverse(&g);
+        let growth = growth_of(group, &g);
+        let eps = 1e-14 * growth * growth * (1.0 + size);
 
-        let p = group.dcay_transpose(&x, &mu);
-        let (again, derivative) = group.dcay_transpose_with_derivative(&x, &mu);
-        small("dcayᵀ, both ways", distance::<G>(&p, &again), 1e-13);
-        let step = 1e-5;
+        let expected = group.coadjoint(&back, &mu);
+        small("the transported momentum", distance::<G>(&moved, &expected), 50.0 * eps);
+        for index in 0..group.casimir_count() {
+            let (before, after) = (group.casimir(index, &mu), group.casimir(index, &moved));
+            small("Casimir", (before - after).abs(), 100.0 * eps * (1.0 + before.abs()));
+        }
+        let round = group.compose(&chart.transport(group, &negative, &mu).0, &g);
+        small("τ(−x)·τ(x)", element_distance(group, &round, &group.identity()), eps);
+
+        // (d^R τ)ᵀ by its definition, its derivative and its inverse.
+        let p = chart.pull_back(group, &x, &mu);
+        let (again, derivative) = chart.pull_back_with_derivative(group, &x, &mu);
+        small("both ways", distance::<G>(&p, &again), 0.0);
+        let step = 1e-3;
         for j in 0..dim {
-            let unit = G::Vector::from_entries(dim, |i| f64::from(u8::from(i == j)));
-            let ahead = group.dcay_transpose(&plus::<G>(&x, step, &unit), &mu);
-            let behind = group.dcay_transpose(&plus::<G>(&x, -step, &unit), &mu);
+            let at = |s: f64| {
+                chart.pull_back(group, &plus::<G>(&x, s * step, &G::Vector::unit(dim, j)), &mu)
+            };
+            let (near, far) = ([at(1.0), at(-1.0)], [at(2.0), at(-2.0)]);
             for i in 0..dim {
-                let slope = (ahead[i] - behind[i]) / (2.0 * step);
-                small("derivative of dcayᵀ", (slope - derivative[(i, j)]).abs(), 1e-8);
+                let slope = 8.0 * (near[0][i] - near[1][i]) - (far[0][i] - far[1][i]);
+                let slope = slope / (12.0 * step);
+                let bound = 1e-9 * growth * growth;
+                small("the derivative", (slope - derivative[(i, j)]).abs(), bound);
             }
         }
-        let tau = |s: f64| group.cayley_transport(&plus::<G>(&x, s, &y), &mu).0;
-        let ahead = group.compose(&tau(step), &group.inverse(&g));
-        let behind = group.compose(&tau(-step), &group.inverse(&g));
-        let (ahead, behind) = (group.log(&ahead).unwrap(), group.log(&behind).unwrap());
-        let slope = G::Vector::from_entries(dim, |i| (ahead[i] - behind[i]) / (2.0 * step));
-        small("dcayᵀ by differences", (p.pairing(&y) - mu.pairing(&slope)).abs(), 1e-7);
-        let inverse = group.dcay_inverse_transpose(&x, &p);
-        small("dcay⁻ᵀ ∘ dcayᵀ", distance::<G>(&inverse, &mu), 1e-12);
+        let inverse = chart.left_momentum(group, &x, &p);
+        small("dτ⁻ᵀ ∘ dτᵀ", distance::<G>(&inverse, &mu), 1e3 * eps);
+        if log {
+            let near = plus::<G>(&x, 1.0 / size.max(1.0) - 1.0, &x);
+            let found = chart.coordinate(group, &chart.transport(group, &near, &mu).0);
+            small("τ⁻¹∘τ", distance::<G>(&found.unwrap(), &near), 1e-13 * (1.0 + size));
+            let step = 1e-5;
+            let moved = |s: f64| {
+                let ahead = chart.transport(group, &plus::<G>(&x, s, &y), &mu).0;
+                group.log(&group.compose(&ahead, &back)).unwrap()
+            };
+            let (ahead, behind) = (moved(step), moved(-step));
+            let slope = G::Vector::from_entries(dim, |i| (ahead[i] - behind[i]) / (2.0 * step));
+            let paired = p.pairing(&y) - mu.pairing(&slope);
+            small("dτᵀ by differences", paired.abs(), 1e-7 * growth * growth);
+        }
+    }
+    // No input panics or hangs.
+    for bad in [f64::NAN, f64::INFINITY, 1e300, 1e12, 1e5] {
+        let x = G::Vector::from_entries(dim, |i| if i == 0 { bad } else { 0.1 });
+        let mu = G::Vector::from_entries(dim, |_| 1.0);
+        let (g, _) = chart.transport(group, &x, &mu);
+        let _ = (chart.pull_back_with_derivative(group, &x, &mu), chart.coordinate(group, &g));
+        let _ = (chart.left_momentum(group, &x, &mu), chart.extent(group, &x));
     }
 }

@@ -22,7 +22,10 @@ fn agree<G: LieGroup<Scalar = f64>>(closed: &G, name: &str) {
     for _ in 0..4 {
         let (direction, mu) = (numbers(), numbers());
         let turning: f64 = direction.iter().take(3.min(n)).map(|v| v * v).sum::<f64>().sqrt();
-        for angle in [0.0, 1e-10, 1e-5, 0.01, 0.5, 1.4999, 1.5001, 3.1, 3.2, 5.0, 6.25, 6.3, 20.0] {
+        for angle in [
+            0.0, 1e-10, 1e-5, 0.01, 0.5, 1.4999, 1.5001, 2.0, 2.39, 2.41, 3.1, 3.2, 4.79, 4.81,
+            5.0, 6.25, 6.3, 7.0, 20.0, 40.0, 80.0,
+        ] {
             let x: Vec<f64> = direction.iter().map(|v| v * angle / turning).collect();
             let what = format!("{name} at {angle}");
             let (xf, muf) = (fixed(&x), fixed(&mu));
@@ -43,22 +46,8 @@ fn agree<G: LieGroup<Scalar = f64>>(closed: &G, name: &str) {
             let carried = closed.adjoint(&g, &muf);
             assert!(gap(&carried, &table.adjoint(&gd, &mud)) <= bound, "{what}: Ad");
 
-            let (p, slope) = closed.dexp_transpose_with_derivative(&xf, &muf);
-            let (pd, sloped) = table.dexp_transpose_with_derivative(&xd, &mud);
-            assert!(gap(&p, &pd) <= bound, "{what}: dexp");
-            for i in 0..n {
-                for j in 0..n {
-                    let d = (slope[(i, j)] - sloped[(i, j)]).abs();
-                    assert!(d <= bound, "{what}: slope of dexp differs by {d:e}");
-                }
-            }
-            if angle < 6.0 {
-                let found = closed.dexp_inverse_transpose(&xf, &muf);
-                let expected = table.dexp_inverse_transpose(&xd, &mud);
-                // A pole of second order at a full turn.
-                let bound = bound * (1.0 + 40.0 / (std::f64::consts::TAU - angle).powi(2));
-                assert!(gap(&found, &expected) <= bound, "{what}: dexp⁻¹");
-            }
+            let p = closed.dexp_transpose(&xf, &muf);
+            assert!(gap(&p, &table.dexp_transpose(&xd, &mud)) <= bound, "{what}: dexp");
             if angle < 3.12 {
                 let (log, logd) = (closed.log(&g).unwrap(), table.log(&gd).unwrap());
                 let bound = bound * (1.0 + 1.0 / (std::f64::consts::PI - angle));

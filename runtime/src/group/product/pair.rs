@@ -3,11 +3,11 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use super::{part, place, place_block};
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
 /// The direct product A × B of two groups of fixed dimension, `N` the sum of the dimensions
@@ -62,44 +62,39 @@ impl<A, B, const N: usize> FixedDimension for Product<A, B, N> {
     const DIM: usize = N;
 }
 
-/// Splits coordinates, applies the factors' functions, and joins the results.
-macro_rules! by_factor {
-    ($x:ident, $y:ident, $method:ident) => {{
+impl<T: Scalar, A, B, const N: usize> Product<A, B, N>
+where
+    A: LieGroup<Scalar = T> + Default,
+    B: LieGroup<Scalar = T> + Default,
+{
+    /// The coordinates of both factors.
+    fn split(x: &SVector<T, N>) -> (A::Vector, B::Vector) {
         let (n, m) = (A::default().dim(), B::default().dim());
+        (A::Vector::from_entries(n, |i| x[i]), B::Vector::from_entries(m, |i| x[n + i]))
+    }
+
+    fn join((a, b): (A::Vector, B::Vector)) -> SVector<T, N> {
+        let n = a.dim();
         let mut result = SVector::repeat(T::of(0.0));
-        place(&A::default().$method(&part($x, 0, n), &part($y, 0, n)), 0, &mut result);
-        place(&B::default().$method(&part($x, n, m), &part($y, n, m)), n, &mut result);
+        for i in 0..n {
+            result[i] = a[i];
+        }
+        for i in 0..b.dim() {
+            result[n + i] = b[i];
+        }
         result
-    }};
-}
+    }
 
-/// The same for functions with a derivative.
-macro_rules! by_factor_with_derivative {
-    ($x:ident, $mu:ident, $method:ident) => {{
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let mut value = SVector::repeat(T::of(0.0));
-        let mut slope = SMatrix::repeat(T::of(0.0));
-        let (p, d) = A::default().$method(&part($x, 0, n), &part($mu, 0, n));
-        place(&p, 0, &mut value);
-        place_block::<T, A::Vector, N>(&d, 0, n, &mut slope);
-        let (p, d) = B::default().$method(&part($x, n, m), &part($mu, n, m));
-        place(&p, n, &mut value);
-        place_block::<T, B::Vector, N>(&d, n, m, &mut slope);
-        (value, slope)
-    }};
-}
-
-/// The same for the transport of a chart.
-macro_rules! by_factor_transport {
-    ($x:ident, $mu:ident, $method:ident) => {{
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let mut moved = SVector::repeat(T::of(0.0));
-        let (g, nu) = A::default().$method(&part($x, 0, n), &part($mu, 0, n));
-        place(&nu, 0, &mut moved);
-        let (h, nu) = B::default().$method(&part($x, n, m), &part($mu, n, m));
-        place(&nu, n, &mut moved);
-        ((g, h), moved)
-    }};
+    /// Coordinates from two others, factor by factor.
+    fn by_factor(
+        x: &SVector<T, N>,
+        y: &SVector<T, N>,
+        f: impl Fn(&A, &A::Vector, &A::Vector) -> A::Vector,
+        g: impl Fn(&B, &B::Vector, &B::Vector) -> B::Vector,
+    ) -> SVector<T, N> {
+        let ((a, b), (c, d)) = (Self::split(x), Self::split(y));
+        Self::join((f(&A::default(), &a, &c), g(&B::default(), &b, &d)))
+    }
 }
 
 impl<T, A, B, const N: usize> LieGroup for Product<A, B, N>
@@ -112,7 +107,6 @@ where
     type Vector = SVector<T, N>;
     type Element = (A::Element, B::Element);
 
-    #[inline(always)]
     fn dim(&self) -> usize {
         N
     }
@@ -130,69 +124,39 @@ where
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        (A::default().exp(&part(x, 0, n)), B::default().exp(&part(x, n, m)))
+        let (a, b) = Self::split(x);
+        (A::default().exp(&a), B::default().exp(&b))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
-        let mut result = SVector::repeat(T::of(0.0));
-        place(&A::default().log(&g.0)?, 0, &mut result);
-        place(&B::default().log(&g.1)?, A::default().dim(), &mut result);
-        Some(result)
-    }
-
-    fn bracket(&self, x: &Self::Vector, y: &Self::Vector) -> Self::Vector {
-        by_factor!(x, y, bracket)
+        Some(Self::join((A::default().log(&g.0)?, B::default().log(&g.1)?)))
     }
 
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(x, mu, ad_star)
-    }
-
-    fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let mut result = SVector::repeat(T::of(0.0));
-        place(&A::default().adjoint(&g.0, &part(x, 0, n)), 0, &mut result);
-        place(&B::default().adjoint(&g.1, &part(x, n, m)), n, &mut result);
-        result
+        Self::by_factor(x, mu, A::ad_star, B::ad_star)
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let mut result = SVector::repeat(T::of(0.0));
-        place(&A::default().coadjoint(&g.0, &part(mu, 0, n)), 0, &mut result);
-        place(&B::default().coadjoint(&g.1, &part(mu, n, m)), n, &mut result);
-        result
+        let (a, b) = Self::split(mu);
+        Self::join((A::default().coadjoint(&g.0, &a), B::default().coadjoint(&g.1, &b)))
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        by_factor_transport!(x, mu, exp_transport)
+        let ((a, b), (c, d)) = (Self::split(x), Self::split(mu));
+        let (g, left) = A::default().exp_transport(&a, &c);
+        let (h, right) = B::default().exp_transport(&b, &d);
+        ((g, h), Self::join((left, right)))
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(x, mu, dexp_transpose)
+        Self::by_factor(x, mu, A::dexp_transpose, B::dexp_transpose)
     }
 
-    fn dexp_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_factor_with_derivative!(x, mu, dexp_transpose_with_derivative)
-    }
-
-    fn dexp_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_factor!(x, p, dexp_inverse_transpose)
-    }
-
-    #[inline(always)]
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let left = A::default().exp_extent(&part(x, 0, n));
-        left.worse(B::default().exp_extent(&part(x, n, m)))
+        let (a, b) = Self::split(x);
+        A::default().exp_extent(&a).worse(B::default().exp_extent(&b))
     }
 
-    #[inline(always)]
     fn element_defect(&self, g: &Self::Element) -> T {
         A::default().element_defect(&g.0).worse(B::default().element_defect(&g.1))
     }
@@ -202,10 +166,10 @@ where
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let (n, m) = (A::default().dim(), B::default().dim());
+        let (a, b) = Self::split(mu);
         match index.checked_sub(A::default().casimir_count()) {
-            None => A::default().casimir(index, &part(mu, 0, n)),
-            Some(index) => B::default().casimir(index, &part(mu, n, m)),
+            None => A::default().casimir(index, &a),
+            Some(index) => B::default().casimir(index, &b),
         }
     }
 
@@ -246,41 +210,21 @@ where
     A: CayleyGroup<Scalar = T> + Default,
     B: CayleyGroup<Scalar = T> + Default,
 {
-    fn cayley_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        by_factor_transport!(x, mu, cayley_transport)
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        let (a, b) = Self::split(x);
+        (A::default().cayley(&a), B::default().cayley(&b))
     }
 
-    #[inline(always)]
     fn cayley_extent(&self, x: &Self::Vector) -> T {
-        let (n, m) = (A::default().dim(), B::default().dim());
-        let left = A::default().cayley_extent(&part(x, 0, n));
-        left.worse(B::default().cayley_extent(&part(x, n, m)))
+        let (a, b) = Self::split(x);
+        A::default().cayley_extent(&a).worse(B::default().cayley_extent(&b))
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
-        let mut result = SVector::repeat(T::of(0.0));
-        place(&A::default().cayley_inverse(&g.0)?, 0, &mut result);
-        place(&B::default().cayley_inverse(&g.1)?, A::default().dim(), &mut result);
-        Some(result)
+        Some(Self::join((A::default().cayley_inverse(&g.0)?, B::default().cayley_inverse(&g.1)?)))
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        by_factor!(x, mu, dcay_transpose)
-    }
-
-    fn dcay_transpose_with_derivative(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Vector, SMatrix<T, N, N>) {
-        by_factor_with_derivative!(x, mu, dcay_transpose_with_derivative)
-    }
-
-    fn dcay_inverse_transpose(&self, x: &Self::Vector, p: &Self::Vector) -> Self::Vector {
-        by_factor!(x, p, dcay_inverse_transpose)
+        Self::by_factor(x, mu, A::dcay_transpose, B::dcay_transpose)
     }
 }

@@ -111,14 +111,17 @@ pub(crate) fn row_sum_norm<T: Scalar, M: Square<T>>(n: usize, a: &M) -> T {
     largest + poison
 }
 
-/// a⁻¹ by Gauss–Jordan elimination with partial pivoting, each lane choosing its own pivots by
-/// masked row exchange. A singular matrix gives non-finite entries.
-pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
+/// a⁻¹ and det a, by Gauss–Jordan elimination with partial pivoting, each lane choosing its own pivots by masked row
+/// exchange. The inverse of a singular matrix has entries that are not finite.
+pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> (M, T) {
+    let (zero, one) = (T::of(0.0), T::of(1.0));
     let mut left = a.clone();
     let mut right = identity(n, a);
+    let (mut determinant, mut poison) = (one, zero);
     for k in 0..n {
         for i in k + 1..n {
             let better = left[(i, k)].simd_abs().simd_gt(left[(k, k)].simd_abs());
+            determinant = (-determinant).select(better, determinant);
             for m in [&mut left, &mut right] {
                 for j in 0..n {
                     let (upper, lower) = (m[(k, j)], m[(i, j)]);
@@ -127,15 +130,16 @@ pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
                 }
             }
         }
-        let inverse = T::of(1.0) / left[(k, k)];
+        let pivot = left[(k, k)];
+        determinant *= pivot;
+        // NaN for a pivot that is zero; dividing by one instead keeps the determinant zero.
+        poison += zero / pivot;
+        let inverse = one / one.select(pivot.simd_eq(zero), pivot);
         for j in 0..n {
             left[(k, j)] *= inverse;
             right[(k, j)] *= inverse;
         }
-        for i in 0..n {
-            if i == k {
-                continue;
-            }
+        for i in (0..n).filter(|&i| i != k) {
             let factor = left[(i, k)];
             for j in 0..n {
                 let (l, r) = (left[(k, j)], right[(k, j)]);
@@ -144,7 +148,9 @@ pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> M {
             }
         }
     }
-    right
+    let regular = right.clone();
+    fill(n, &mut right, |i, j| regular[(i, j)] + poison);
+    (right, determinant)
 }
 
 /// How often a matrix or vector field of this norm must be halved to come below `limit`, taken
@@ -170,4 +176,27 @@ pub(crate) fn half_power<T: Scalar>(k: u32) -> T {
         result *= half;
     }
     result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DMatrix;
+
+    #[test]
+    fn matrices_are_inverted_and_singular_ones_are_told() {
+        for n in [1, 2, 3, 6, 10] {
+            let a = DMatrix::<f64>::from_fn(n, n, |i, j| {
+                let near = if (i + 1) % n == j { 1.0 } else { 0.0 };
+                near + 0.3 * (1.0 + (7 * i + 3 * j) as f64).sin()
+            });
+            let (inverse, determinant) = invert(n, &a);
+            let off = (&a * inverse - DMatrix::identity(n, n)).amax();
+            assert!(off < 1e-12, "{off:e}");
+            assert!((determinant - a.determinant()).abs() < 1e-12);
+        }
+        let singular = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0]);
+        let (inverse, determinant) = invert(2, &singular);
+        assert!(determinant == 0.0 && inverse.iter().all(|entry: &f64| entry.is_nan()));
+    }
 }
