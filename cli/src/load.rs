@@ -5,7 +5,7 @@ use std::path::Path;
 use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
-use coadjoint_run::{meet_tolerance as meet, read_with};
+use coadjoint_run::{meet_tolerance as meet, read_varying, read_with};
 
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
@@ -18,6 +18,18 @@ pub(crate) fn text(path: &Path) -> Result<String, CliError> {
 /// Reads the file at `path`.
 pub(crate) fn file(path: &Path, options: Options) -> Result<System, CliError> {
     Ok(read_with(&path.display().to_string(), &text(path)?, options)?)
+}
+
+/// Reads the system of a command again, with this truncation, where the parameters with these names vary.
+pub(crate) fn varying(
+    source: &Source,
+    truncation: usize,
+    names: &[String],
+) -> Result<System, CliError> {
+    let path = &source.file;
+    let options =
+        Options { truncation: Some(truncation), ..source.options(Parameters::Substituted) };
+    Ok(read_varying(&path.display().to_string(), &text(path)?, options, names)?)
 }
 
 /// Reads the system of a command.

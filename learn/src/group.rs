@@ -5,7 +5,7 @@ use coadjoint::{LieGroup, SE3, SO3};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// A group whose elements can be read from data.
-pub trait DataGroup: LieGroup<Scalar = f64> {
+pub trait DataGroup: LieGroup<Scalar = f64> + Sized {
     /// The element nearest to `matrix` (in the representation of [`LieGroup::matrix_entry`]);
     /// `None` where none exists or none is found.
     ///
@@ -21,6 +21,24 @@ pub trait DataGroup: LieGroup<Scalar = f64> {
     /// The element of the quaternion (w, x, y, z) of about unit length, where the group has them.
     fn element_of_quaternion(&self, _wxyz: [f64; 4]) -> Option<Self::Element> {
         None
+    }
+
+    /// The element that the columns of an attitude name, a quaternion w, x, y, z or a matrix row by row, if there is one, and
+    /// how far they are off the group: in an entry of the matrix, or in the length of the quaternion.
+    fn element_of_columns(
+        &self,
+        columns: &[f64],
+        quaternion: bool,
+    ) -> (Option<Self::Element>, f64) {
+        if let (true, &[w, x, y, z]) = (quaternion, columns) {
+            let norm = (w * w + x * x + y * y + z * z).sqrt();
+            return (self.element_of_quaternion([w, x, y, z]), (norm - 1.0).abs());
+        }
+        let size = self.matrix_size();
+        let given = DMatrix::from_row_slice(size, size, columns);
+        let found = self.element_near(&given);
+        let nearest = found.as_ref().map(|g| matrix_of(self, g));
+        (found, nearest.map_or(f64::INFINITY, |nearest| (nearest - given).amax()))
     }
 
     /// How far the increment with coordinate `x` is on the way to the fold of the chart's

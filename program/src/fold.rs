@@ -73,6 +73,20 @@ impl Fold<'_> {
         symbols: &[f64],
         coefficients: &mut [f64],
     ) -> Result<(), FoldError> {
+        self.fold_by(step, symbols, |number| self.product(number, symbols), coefficients)
+    }
+
+    /// The same where the products of symbols are known: [`Fold::products`] says how they are made.
+    ///
+    /// # Errors
+    /// As [`Fold::fold`].
+    pub fn fold_by(
+        &self,
+        step: f64,
+        symbols: &[f64],
+        product: impl Fn(u32) -> f64,
+        coefficients: &mut [f64],
+    ) -> Result<(), FoldError> {
         if step == 0.0 || !step.is_finite() {
             return Err(FoldError::Step);
         }
@@ -87,7 +101,7 @@ impl Fold<'_> {
         for (base, &end) in (0..).zip(self.bases) {
             let mut value = 0.0;
             while part < end as usize {
-                value += self.part(part, step, symbols);
+                value += self.part(part, step, &product);
                 part += 1;
             }
             if !value.is_finite() {
@@ -102,24 +116,22 @@ impl Fold<'_> {
             }
         }
         for &(part, place) in self.kept {
-            set(coefficients, place, self.part(part as usize, step, symbols));
+            set(coefficients, place, self.part(part as usize, step, &product));
         }
         if let Some(place) = self.radius {
-            let radius = self.radius(step, symbols, LARGEST_RATIO);
+            let radius = self.radius_by(step, &product, LARGEST_RATIO);
             set(coefficients, place, radius * radius);
         }
         Ok(())
     }
 
     /// The value of a part.
-    fn part(&self, number: usize, step: f64, symbols: &[f64]) -> f64 {
+    fn part(&self, number: usize, step: f64, product: &impl Fn(u32) -> f64) -> f64 {
         let Some(&(power, end)) = self.parts.get(number) else { return 0.0 };
         let start = number.checked_sub(1).and_then(|before| self.parts.get(before));
         let start = start.map_or(0, |&(_, end)| end as usize);
         let terms = self.terms.get(start..end as usize).unwrap_or(&[]);
-        let sum = terms
-            .iter()
-            .fold(0.0, |sum, &(factor, product)| sum + factor * self.product(product, symbols));
+        let sum = terms.iter().fold(0.0, |sum, &(factor, number)| sum + factor * product(number));
         sum * (0..power).fold(1.0, |product, _| product * step)
     }
 
@@ -136,7 +148,11 @@ impl Fold<'_> {
     /// every direction.
     #[must_use]
     pub fn radius(&self, step: f64, symbols: &[f64], ratio: f64) -> f64 {
-        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, symbols);
+        self.radius_by(step, &|number| self.product(number, symbols), ratio)
+    }
+
+    fn radius_by(&self, step: f64, product: &impl Fn(u32) -> f64, ratio: f64) -> f64 {
+        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, product);
         radius(self.last.iter().map(|term| (value(term), *term)), ratio)
     }
 }
@@ -200,10 +216,9 @@ fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f
 /// The largest r up to which the polynomial with the coefficients `last` is at most `ratio` times that with the
 /// coefficients `before`; neither has a negative one.
 fn within(last: &[f64; DEGREES], before: &[f64; DEGREES], ratio: f64) -> f64 {
-    let polynomial = |of: &[f64; DEGREES], r: f64| {
-        let top = of.iter().rposition(|&c| c != 0.0).map_or(0, |top| top + 1);
-        of.iter().take(top).rev().fold(0.0, |sum, &c| sum * r + c)
-    };
+    let whole = |of: &[f64; DEGREES]| of.iter().rposition(|&c| c != 0.0).map_or(0, |top| top + 1);
+    let (last, before) = (last.split_at(whole(last)).0, before.split_at(whole(before)).0);
+    let polynomial = |of: &[f64], r: f64| of.iter().rev().fold(0.0, |sum, &c| sum * r + c);
     let holds = |r: f64| {
         let (size, whole) = (polynomial(last, r), polynomial(before, r));
         // Without a term to compare with there is no ratio, and that of rounding, which is what is left of a term that

@@ -33,6 +33,7 @@ class Core:
         states: NDArray[np.float64],
         asked: _Asked,
         *,
+        parameters: list[str],
         backend: str,
         threads: int | None,
         progress: _Progress | None,
@@ -40,7 +41,7 @@ class Core:
     def layouts(self) -> list[list[str]]: ...
     def columns(
         self, names: list[str] | None, width: int
-    ) -> tuple[list[str], list[int | None], list[str]]: ...
+    ) -> tuple[list[str], list[int | None], list[str], int]: ...
     def hamiltonian(
         self, momenta: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

@@ -306,7 +306,8 @@ class System:
 
         A row is a momentum, (N, n), or a momentum and the entries of the matrix g row by row, (N, n + d²), or, for
         SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). Data frames, dictionaries and other tables go by
-        the names of :meth:`layouts`, or of the coordinates, in any order. The result has the columns of an array; rows that
+        the names of :meth:`layouts`, or of the coordinates, in any order; a column named after a parameter, or a number of
+        it such as ``J[0][1]``, gives each row a value of its own. The result has the columns of an array; rows that
         cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. The bits depend
         neither on ``threads`` nor on ``backend``, nor on the other rows.
 
@@ -316,7 +317,7 @@ class System:
         >>> final.shape, final.failed
         ((1000, 3), [])
         """
-        rows = self._table(states)
+        rows, parameters = self._rows(states)
         if rows.ndim != 2:
             raise InputError(
                 f"states must be a table with a row for each state; its shape is {rows.shape}: "
@@ -326,10 +327,13 @@ class System:
             array, failed, facts = self._core.ensemble(
                 rows,
                 self._asked(time, step, tolerance, region, truncation),
+                parameters=parameters,
                 backend=_arrays.text(backend, "backend"),
                 threads=None if threads is None else _arrays.count(threads, "threads", 1),
                 progress=told,
             )
+        if parameters:
+            array = np.ascontiguousarray(array[:, : -len(parameters)])
         found = States._of(array, failed, facts)
         if failed:
             row, at, reason = failed[0]
@@ -521,7 +525,21 @@ class System:
         }
 
     def _find(self, names: list[str]) -> tuple[list[int | None], list[str]]:
-        return self._core.columns(names, len(names))[1:]
+        found, places, others, varied = self._core.columns(names, len(names))
+        if varied:
+            raise InputError(f"column {found[-1]} is a parameter of the system; only the rows of an ensemble have their own")
+        return places, others
+
+    def _rows(self, states: Any) -> tuple[Floats, list[str]]:
+        """The rows of an ensemble, and the parameters that their last columns are."""
+        parameters: list[str] = []
+
+        def find(names: list[str]) -> tuple[list[int | None], list[str]]:
+            found, places, others, varied = self._core.columns(names, len(names))
+            parameters.extend(found[len(found) - varied :])
+            return places, others
+
+        return _arrays.table(states, "states", find, self._facts["units"]), parameters
 
     def _table(self, states: Any) -> Floats:
         return _arrays.table(states, "states", self._find, self._facts["units"])

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::values;
-use coadjoint_codegen::system::System;
+use coadjoint_codegen::system::{Options, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
@@ -15,7 +15,7 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, series, verify,
+    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -39,29 +39,33 @@ const MANY: f64 = 1e9;
 #[pyclass(frozen, module = "coadjoint._core", name = "Core")]
 pub struct Core {
     name: String,
+    text: Arc<str>,
     system: System,
-    /// The integrators derived so far, by truncation, and whether they are for ensembles.
+    /// The integrators derived so far.
     derived: Cache,
 }
 
-/// Systems that have been derived, by truncation, and whether they are for ensembles.
-type Cache = Arc<Mutex<Vec<((usize, bool), Arc<Derived>)>>>;
+/// What a system is derived for: a truncation, and, for ensembles, the parameters that vary.
+type Purpose = (usize, Option<Vec<String>>);
+
+/// Systems that have been derived.
+type Cache = Arc<Mutex<Vec<(Purpose, Arc<Derived>)>>>;
 
 /// Derived systems are shared by all that is done with them.
 fn derive(
     cache: &Cache,
     name: &str,
     system: System,
-    ensemble: bool,
+    ensemble: Option<Vec<String>>,
 ) -> Result<Arc<Derived>, RunError> {
     let key = (system.problem.truncation, ensemble);
-    let known = |list: &Vec<((usize, bool), Arc<Derived>)>| {
+    let known = |list: &Vec<(Purpose, Arc<Derived>)>| {
         list.iter().find(|(other, _)| *other == key).map(|(_, derived)| derived.clone())
     };
     if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
         return Ok(found);
     }
-    let system = if ensemble { ensemble::in_lanes(system) } else { system };
+    let system = if key.1.is_some() { ensemble::in_lanes(system) } else { system };
     let made = Arc::new(Derived::of_file(Path::new(name), system)?);
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
     if known(&list).is_none() {
@@ -73,8 +77,8 @@ fn derive(
 impl Core {
     /// The same text, with nothing derived yet, for another thread.
     fn here(&self) -> Self {
-        let (name, system) = (self.name.clone(), self.system.clone());
-        Self { name, system, derived: Cache::default() }
+        let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
+        Self { name, text, system, derived: Cache::default() }
     }
 
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
@@ -89,12 +93,7 @@ impl Core {
 
     /// The shape of a row.
     fn shape(&self) -> Shape {
-        let algebra = &self.system.problem.algebra;
-        let shape = Shape::of(algebra);
-        match self.system.potential {
-            Some(_) => Shape { matrix_size: matrix_size(algebra), ..shape },
-            None => shape,
-        }
+        Shape::of_system(&self.system)
     }
 }
 
@@ -113,7 +112,7 @@ impl Core {
     fn new(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
         let made = work(py, None, move |_| {
             let system = read(&name, &text)?;
-            Ok(Self { name, system, derived: Cache::default() })
+            Ok(Self { name, text: text.into(), system, derived: Cache::default() })
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }
@@ -189,7 +188,7 @@ impl Core {
             },
             ..self.system.clone()
         };
-        let here = Self { name: self.name.clone(), system, derived: Cache::default() };
+        let here = Self { system, ..self.here() };
         // Derived integrators stay for the next run.
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
@@ -214,7 +213,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.truncation;
-            let derived = derive(&cache, &here.name, system, false)?;
+            let derived = derive(&cache, &here.name, system, None)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
@@ -229,14 +228,16 @@ impl Core {
         Ok(found)
     }
 
-    /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts.
-    #[pyo3(signature = (states, asked, *, backend, threads, progress))]
-    #[allow(clippy::type_complexity)]
+    /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts. The last columns of
+    /// the states are those of the parameters that vary.
+    #[pyo3(signature = (states, asked, *, parameters, backend, threads, progress))]
+    #[allow(clippy::type_complexity, clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
         states: PyReadonlyArray2<'py, f64>,
         asked: Asked,
+        parameters: Vec<String>,
         backend: &str,
         threads: Option<usize>,
         progress: Option<Bound<'py, PyAny>>,
@@ -259,11 +260,24 @@ impl Core {
             let (system, choice) = here.accurate(&accuracy)?;
             let schedule = Schedule::new(path, accuracy.step, accuracy.time, &system.run)?;
             let truncation = system.problem.truncation;
-            let derived = derive(&cache, &here.name, system, true)?;
+            let layout = Found::of(
+                here.shape(),
+                &Known::default(),
+                &[],
+                width.saturating_sub(parameters.len()),
+            )?;
+            let layout = Layout { parameters, ..layout.layout };
+            let varied = layout.varied();
+            let system = if varied.is_empty() {
+                system
+            } else {
+                let options = Options { truncation: Some(truncation), ..Options::default() };
+                read_varying(&here.name, &here.text, options, &varied)?
+            };
+            let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             let engine = Engine::new(&derived, schedule.step, how)?;
-            let layout = Found::of(engine.shape(), &Known::default(), &[], width)?.layout;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -281,7 +295,7 @@ impl Core {
                 drift,
                 (engine.backend(), engine.casimirs()),
                 notes,
-                layout.names(),
+                layout.names().into_iter().take(layout.state()).collect::<Vec<_>>(),
                 schedule,
                 truncation,
                 choice,
@@ -326,22 +340,25 @@ impl Core {
         if shape.quaternions {
             forms.push(Attitude::Quaternion);
         }
-        forms.into_iter().map(|attitude| Layout { shape, attitude }.names()).collect()
+        let layout = |attitude| Layout { shape, attitude, parameters: Vec::new() };
+        forms.into_iter().map(|attitude| layout(attitude).names()).collect()
     }
 
     /// Which columns of a table are a state: the names of a row's numbers, the column of each (none where the number is
-    /// 0), and the columns that are no part of it. A table without names is known by its width.
+    /// 0), the columns that are no part of it, and how many of the last numbers are parameters that vary. A table without
+    /// names is known by its width.
     #[allow(clippy::type_complexity)]
     fn columns(
         &self,
         py: Python<'_>,
         names: Option<Vec<String>>,
         width: usize,
-    ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>)> {
+    ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>, usize)> {
         let known = Known::of(&self.system.problem, &self.system.parameters);
         let found = Found::of(self.shape(), &known, &names.unwrap_or_default(), width);
         let found = found.map_err(|error| raised(py, &error))?;
-        Ok((found.layout.names(), found.places, found.unused))
+        let varied = found.layout.parameters.len();
+        Ok((found.layout.names(), found.places, found.unused, varied))
     }
 
     /// H and its gradient at momenta, a row each; a potential is no part of it.
@@ -377,7 +394,7 @@ impl Core {
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = derive(&cache, &here.name, system, false)?;
+            let derived = derive(&cache, &here.name, system, None)?;
             Single::new(derived, step, backend, MANY)
         })?;
         let single = made.map_err(|error| raised(py, &error))?;
@@ -425,7 +442,7 @@ impl Core {
         let made = work(py, None, move |_| {
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
             let trial = check::Trial::new(step, &system.run, points, seed)?;
-            let derived = derive(&cache, &here.name, system, false)?;
+            let derived = derive(&cache, &here.name, system, None)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)

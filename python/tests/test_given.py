@@ -68,9 +68,20 @@ def test_columns_that_nobody_uses_are_told(body: ca.System) -> None:
         body.ensemble(table[["mu_1", *NAMES]], **ONCE)
 
 
-def test_columns_named_after_parameters_are_refused(body: ca.System) -> None:
-    with pytest.raises(InputError, match="column I1 is called as a parameter"):
-        body.ensemble(pandas.DataFrame(MOMENTA, columns=NAMES).assign(I1=[1, 2]), **ONCE)
+def test_columns_named_after_parameters_vary_them(body: ca.System) -> None:
+    frame = pandas.DataFrame(MOMENTA, columns=NAMES)
+    ends = body.ensemble(frame.assign(I1=[1.5, 1.75]), **ONCE)
+    assert ends.columns == NAMES
+    np.testing.assert_allclose(ends[0], body.ensemble(MOMENTA, **ONCE)[0], rtol=0, atol=1e-13)
+    assert np.abs(ends[1] - body.ensemble(MOMENTA, **ONCE)[1]).max() > 1e-3
+    with pytest.warns(CoadjointWarning, match="1 of 2 rows have no end state and are NaN; the first is row 1, with I1 = 0"):
+        assert np.isnan(body.ensemble(frame.assign(I1=[1.5, 0]), **ONCE)[1]).all()
+    with pytest.warns(CoadjointWarning, match="the first is row 0, I1 is NaN"):
+        body.ensemble(frame.assign(I1=[np.nan, 1]), **ONCE)
+    with pytest.raises(InputError, match="column i1 is no parameter of the system: did you mean I1"):
+        body.ensemble(frame.assign(i1=[1, 2]), **ONCE)
+    with pytest.raises(InputError, match="column I1 is a parameter of the system"):
+        body.simulate(frame.assign(I1=[1, 2]).iloc[0], **ONCE)
 
 
 @pytest.mark.parametrize(("group", "count"), [("SO3", 3), ("SE3", 6), ("SO3^2", 6), ("SO3*SO2", 4)])

@@ -6,17 +6,13 @@
 
 use std::process::ExitCode;
 
-use coadjoint::LieGroup;
-use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
-use coadjoint::steps::advance;
-use coadjoint_codegen::lie::{LieAlgebra, catalogue};
+use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::Trajectories;
 use coadjoint_run::engine::{
-    Compiled, Interpreter, Kept, Numbers, STEEP, Steepness, entries_of, product_group,
+    Charted, Compiled, Equations, Kept, Numbers, STEEP, identity, product_group,
 };
 use coadjoint_run::{Backend, integrator, read};
-use nalgebra::DVector;
 use num_traits::ToPrimitive;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -238,18 +234,14 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let velocity = velocity.iter().map(|rate| Numeric::new(rate, dim, &[])).collect();
     let truth = Truth::new(&algebra, velocity, compact);
     let group = product_group(name.as_ref(), &algebra).map_err(|error| said(&error))?;
-    let step = Interpreter::<DirectProduct<MatrixGroup>, Exponential>::new(
-        &integrator,
-        group.clone(),
-        1.0,
-    );
-    let step = step.map_err(|error| said(&error))?;
-    let kept = Kept::default();
-    let compiled =
-        Compiled::new(&integrator, 1.0, Backend::Interpreter, 1.0, Trajectories::One, &kept);
+    let group = Charted::new(name.as_ref(), group, Chart::Exponential);
+    let group = group.map_err(|error| said(&error))?;
+    let (backend, kept) = (Backend::Interpreter, Kept::default());
+    let compiled = Compiled::new(&integrator, 1.0, backend, 1.0, Trajectories::One, &kept);
     let compiled = compiled.map_err(|error| said(&error))?.ok_or_else(|| said(&"no programs"))?;
-    let steepness = Steepness::new(&step);
-    let identity = compiled.element_of(&entries_of(&group, &group.identity()));
+    let equations = Equations { integrator: &integrator, forces: None, parameters: Vec::new() };
+    let motion = group.steps(equations, 1.0, Some(compiled));
+    let identity = motion.space().numbers(&identity(motion.space().size()));
     let mut tally = Tally::default();
     for _ in 0..rows {
         let mu = momentum(&truth, &mut random);
@@ -257,13 +249,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut state = Numbers { g: identity.clone(), mu: mu.clone() };
-        let rescue = |own: &mut Numbers| {
-            compiled.rescue(&group, own, |phase| {
-                let made = advance(&step, phase)?;
-                Ok(Some((made.iterations, made.residual)))
-            })
-        };
-        let made = compiled.advance(&mut state, 1, rescue).is_ok();
+        let made = motion.advance(&mut state, 1).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);
@@ -271,7 +257,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
             continue;
         }
         let error = truth.error(&mu, &state.mu);
-        let warned = steepness.ratio(&DVector::from_column_slice(&mu)) > STEEP;
+        let warned = motion.ratio(&mu) > STEEP;
         tally.accepted += 1;
         tally.warned += usize::from(warned);
         tally.worst = tally.worst.max(error);

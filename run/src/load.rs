@@ -11,7 +11,7 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
-use crate::engine::{Charted, Forces, Kept, product_group, whole_group};
+use crate::engine::{Charted, Equations, Forces, Kept, defaults, product_group, whole_group};
 use crate::error::RunError;
 
 /// Reads the text of a system file as it stands; `name` is what mistakes call it.
@@ -27,7 +27,26 @@ pub fn read(name: &str, text: &str) -> Result<System, RunError> {
 /// # Errors
 /// All mistakes, rendered.
 pub fn read_with(name: &str, text: &str, options: Options) -> Result<System, RunError> {
-    system::read(text, options).map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
+    read_varying(name, text, options, &[])
+}
+
+/// The same where the parameters with these names vary.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_varying(
+    name: &str,
+    text: &str,
+    options: Options,
+    varied: &[String],
+) -> Result<System, RunError> {
+    let read = system::read_varying(text, options, varied);
+    let read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
+    if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
+        let what = "parameters of a system with a potential do not vary from row to row";
+        return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
+    }
+    Ok(read)
 }
 
 /// Derives and lowers a problem.
@@ -107,6 +126,12 @@ impl Derived {
     /// The same with the chart of the steps.
     pub(crate) fn charted(&self) -> Result<Charted, RunError> {
         Charted::new(&self.file, self.group()?, self.integrator.problem.chart)
+    }
+
+    /// The equations, with the parameters as the file has them.
+    pub(crate) fn equations(&self) -> Equations<'_> {
+        let Self { integrator, forces, .. } = self;
+        Equations { integrator, forces: forces.as_ref(), parameters: defaults(&integrator.problem) }
     }
 
     /// The method of a run, in a few words.

@@ -15,7 +15,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::Derived;
-use coadjoint_run::ensemble::{Asked, Engine, How, Known, Use, in_lanes};
+use coadjoint_run::ensemble::{Asked, Engine, How, Known, Shape, Use, in_lanes};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -39,6 +39,11 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
     options.threads.map_or(Ok(()), check_threads)?;
+    let states = States::open(initial, form, Shape::of_system(&system), &known)?;
+    let varied = states.found.layout.varied();
+    if !varied.is_empty() {
+        system = load::varying(&options.source, system.problem.truncation, &varied)?;
+    }
     let derived = Derived::of_file(path, in_lanes(system))?;
     let integrator = &derived.integrator;
     let precision = options.precision;
@@ -47,7 +52,6 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let work = if device.is_some() { 0.0 } else { work(options, integrator, steps) };
     let how = How { backend: options.backend, work, device };
     let engine = Engine::new(&derived, step, how)?;
-    let states = States::open(initial, form, engine.shape(), &known)?;
     let problem = &integrator.problem;
     let mut identity: Identity = [
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
@@ -65,6 +69,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(Use { precision: Precision::Single, name, device, .. }) = engine.device() {
         identity.insert("precision".to_owned(), format!("single, by {device} ({name})"));
     }
+    let parameters = states.found.layout.parameters.clone();
     let job = Job {
         engine: &engine,
         inputs,
@@ -89,7 +94,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(text) = report::warning(&outcome) {
         eprintln!("warning: {text}");
     }
-    let report = report::report(&outcome, integrator, (step, steps), &engine, options.format);
+    let problem = &integrator.problem;
+    let report =
+        report::report(&outcome, (problem, &parameters), (step, steps), &engine, options.format);
     out!("{report}");
     let failed = outcome.journal.rejected;
     if outcome.trajectories > 0 && failed == outcome.trajectories {

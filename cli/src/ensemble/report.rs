@@ -1,6 +1,6 @@
 //! The report of an ensemble, for people and for programs.
 
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::problem::Problem;
 use coadjoint_program::Precision;
 use coadjoint_run::engine::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
@@ -23,12 +23,12 @@ pub(crate) fn warning(outcome: &Outcome) -> Option<String> {
 /// The text to print.
 pub(crate) fn report(
     outcome: &Outcome,
-    integrator: &Integrator,
+    (problem, parameters): (&Problem, &[String]),
     (step, steps): (f64, u64),
     engine: &Engine<'_>,
     format: Format,
 ) -> String {
-    let (truncation, chart) = (integrator.problem.truncation, integrator.problem.chart);
+    let (truncation, chart) = (problem.truncation, problem.chart);
     let Outcome { trajectories, resumed, kept, first, list, journal, seconds } = outcome;
     let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
     let drift = journal.drift();
@@ -40,7 +40,7 @@ pub(crate) fn report(
         // An unknown value has no key.
         let known = drifts.iter().filter_map(|(name, drift)| Some((*name, (*drift)?)));
         let row = |r: &Rejected| json!({ "row": r.row, "step": r.step, "reason": r.reason });
-        let value = json!({
+        let mut value = json!({
             "trajectories": trajectories,
             "resumed_at": resumed,
             "kept": kept,
@@ -67,6 +67,9 @@ pub(crate) fn report(
             })).collect::<Value>(),
             "seconds": seconds,
         });
+        if !parameters.is_empty() {
+            value["parameters"] = json!(parameters);
+        }
         return format!("{value:#}\n");
     }
     let mut lines = vec![format!(
@@ -76,6 +79,9 @@ pub(crate) fn report(
         lines.push("  finished by an earlier run, and kept".to_owned());
     } else if *resumed > 0 {
         lines.push(format!("  {resumed} of them by an earlier run"));
+    }
+    if !parameters.is_empty() {
+        lines.push(format!("  each row with its own {}", parameters.join(", ")));
     }
     lines.push(format!("  steps by {}", made_by.join(", then by ")));
     if let Some(by) = engine.device() {

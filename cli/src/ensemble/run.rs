@@ -208,7 +208,7 @@ impl Run<'_> {
         self.job.states.seek(self.job.range.start + self.journal.rows, position)?;
         let (engine, steps) = (self.job.engine, self.job.steps.max(1));
         let bar = progress::bar(count.saturating_mul(steps), "trajectories");
-        let layout = self.job.states.found.layout;
+        let layout = self.job.states.found.layout.clone();
         let earlier = self.journal.redone;
         let (mut piece, stop) = (Piece::default(), AtomicBool::new(false));
         let mut noted = Instant::now();

@@ -108,7 +108,7 @@ impl States {
 
     /// Reads the next `count` rows in place of those of a piece.
     pub(crate) fn read(&mut self, count: u64, piece: &mut Piece) -> Result<(), CliError> {
-        let (width, layout) = (self.table.width(), self.found.layout);
+        let (width, layout) = (self.table.width(), &self.found.layout);
         piece.rows.clear(self.table.number() + 1);
         piece.cells.clear();
         let carries = self.written.iter().any(|(_, own)| own.is_none());

@@ -101,7 +101,7 @@ fn judge(
         chart: options.chart.or(said),
         ..Options::default()
     };
-    let System { problem, potential, run, .. } =
+    let System { problem, potential, run, parameters, .. } =
         read_with(&system.display().to_string(), &text, read)?;
     if potential.is_some() {
         return refuse(kicked);
@@ -117,6 +117,7 @@ fn judge(
     let judge = judge_of(&system, &problem)?;
     drop(phase);
     let mut follower = Follower::new(&judge, &problem, step)?;
+    follower.parameters = &parameters;
     // Rows are counted for a sample and for a bar; a file that cannot be read twice has neither.
     if options.sample.is_some() && !output.is_file() {
         return refuse("rows are counted before a sample of them is judged: give a file");

@@ -303,6 +303,81 @@ fn records_of_runs_are_states() {
     }
 }
 
+/// A body whose first moment of inertia is a parameter.
+fn body(inertia: &str) -> String {
+    format!(
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/I1 + y^2/4 + z^2/5\"\n\
+         [parameters]\nI1 = {inertia}\n[integrator]\nstep = 0.1\n[run]\ntime = 10\n"
+    )
+}
+
+/// The end of a row is that of a system file with the row's value, in every format; a bad value is told by its row.
+#[test]
+fn a_column_named_after_a_parameter_varies_it() {
+    let folder = Folder::with(&body("3"));
+    folder
+        .write("in.csv", "I1,mu_1,mu_2,mu_3,name\n4,1,2,3,a\n3,1,2,3,b\nnan,1,2,3,c\n0,1,2,3,d\n");
+    let advance = |initial: &str, out: &str| {
+        folder.run(&format!("ensemble system.toml --initial {initial} --out {out}")).ok()
+    };
+    advance("in.csv", "out.csv")
+        .prints(&["each row with its own I1", "failed                    2"]);
+    let table = folder.table("out.csv");
+    let state = |row: &[String]| cells(&row.join(","));
+    for (row, inertia) in [(&table[1], "4"), (&table[2], "3")] {
+        folder.write("own.toml", body(inertia));
+        folder.write("one.csv", "mu_1,mu_2,mu_3\n1,2,3\n");
+        folder.run("ensemble own.toml --initial one.csv --out one.out.csv").ok();
+        let expected = state(&folder.table("one.out.csv")[1]);
+        assert!(distance(&state(&row[1..4]), &expected) < 1e-12, "{row:?} {expected:?}");
+        assert_eq!(row[0], inertia);
+    }
+    assert_ne!(table[1][1..4], table[2][1..4]);
+    assert_eq!(table[4].join(","), "0,NaN,NaN,NaN,d");
+    let list = folder.text("out.csv.rejected.csv");
+    assert!(list.contains("\n3,0,\"I1 is NaN\"\n4,0,\"with I1 = 0: coefficient "), "{list}");
+    // Matrices have names in the file beside them; the row's value stays in its column.
+    folder.write("in.csv", "mu_1,mu_2,mu_3,I1\n1,2,3,4\n1,2,3,3\n");
+    for out in ["one.csv", "one.npy"] {
+        advance("in.csv", out);
+    }
+    folder.write("one.npy.json", "{\"columns\": [\"mu_1\", \"mu_2\", \"mu_3\", \"I1\"]}");
+    for initial in ["one.csv", "one.npy"] {
+        advance(initial, &format!("{initial}.out.csv"));
+    }
+    assert_eq!(folder.text("one.csv.out.csv"), folder.text("one.npy.out.csv"));
+    let report = folder.json("ensemble system.toml --initial in.csv --out out.csv");
+    assert_eq!(report["parameters"], serde_json::json!(["I1"]));
+}
+
+/// What cannot vary is refused by its name, at its place.
+#[test]
+fn parameters_that_cannot_vary_are_refused() {
+    let folder = Folder::with(&body("3"));
+    let run = "ensemble system.toml --out out.csv --initial";
+    folder.write("in.csv", "mu_1,mu_2,mu_3,I1\n1,2,3,4\n");
+    folder.refused(&[
+        (&format!("{run} in.csv --device opencl"), "are not made on devices"),
+        ("verify system.toml in.csv --input in.csv --steps 1 --step 0.1", "column I1: rows with"),
+    ]);
+    folder.write("system.toml", body("3").replace("I1 = 3", "I1 = 3\nI2 = \"2*I1\""));
+    folder.refused(&[(
+        &format!("{run} in.csv"),
+        "system.toml:5:1: error: the parameter `I1` cannot vary",
+    )]);
+    folder.write(
+        "system.toml",
+        body("3").replace("x^2/I1", "sum(i, 0..3, x^2/J[i])").replace("I1 = 3", "J = [1, 2, 3]"),
+    );
+    for column in ["J", "J[3]"] {
+        folder.write("in.csv", format!("mu_1,mu_2,mu_3,{column}\n1,2,3,4\n"));
+        let word = format!("column {column}: the parameter J has the numbers J[0] … J[2]");
+        folder.refused(&[(&format!("{run} in.csv"), &word)]);
+    }
+    folder.write("in.csv", "mu_1,mu_2,mu_3,J[1]\n1,2,3,4\n");
+    folder.run(&format!("{run} in.csv")).ok().prints(&["each row with its own J[1]"]);
+}
+
 #[test]
 fn mistakes_are_told_before_anything_runs() {
     let folder = Folder::new();
@@ -320,7 +395,7 @@ fn mistakes_are_told_before_anything_runs() {
         ("both", "mu_1,mu_2,mu_3,q_w,q_x,q_y,q_z,g_11"),
         ("part", "mu_1,mu_2,mu_3,g_12,g_13"),
         ("fourth", "mu_1,mu_2,mu_3,mu_4"),
-        ("parameter", "mu_1,mu_2,mu_3,I1"),
+        ("near", "mu_1,mu_2,mu_3,I_1"),
         ("bare", "1,2,3"),
     ] {
         folder.write(&format!("{name}.csv"), format!("{line}\n"));
@@ -330,7 +405,13 @@ fn mistakes_are_told_before_anything_runs() {
         (BODY, "both.csv", "out.csv", "", "columns g_11 and q_w both give the attitude"),
         (BODY, "part.csv", "out.csv", "", "column g_11 is missing"),
         (BODY, "fourth.csv", "out.csv", "", "column mu_4: the momentum of this system has"),
-        (BODY, "parameter.csv", "out.csv", "", "column I1 is called as a parameter of the system"),
+        (
+            BODY,
+            "near.csv",
+            "out.csv",
+            "",
+            "column I_1 is no parameter of the system: did you mean I1",
+        ),
         (BODY, "bare.csv", "out.csv", "", "it must name the columns"),
         (BODY, "long.npy", "out.csv", "", "header claims 4294967295 bytes; the file has 20 left"),
         (BODY, "good.csv", "out.csv", "--threads 1000000", "--threads 1000000: at most"),

@@ -56,7 +56,7 @@ use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
 use crate::pass::{Choice, Draft, assemble, assemble_potential};
 use crate::potential::Potential;
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use table::Table;
 
 pub use crate::splitting::Splitting;
@@ -78,8 +78,8 @@ pub struct System {
     pub run: Run,
     /// The units that plots and reports show.
     pub units: Units,
-    /// The names of all parameters, also of those whose values are put into the Hamiltonian.
-    pub parameters: Vec<String>,
+    /// All parameters, also those whose values are put into the Hamiltonian.
+    pub parameters: Vec<Parameter>,
 }
 
 /// Reads the text of a system file.
@@ -87,6 +87,18 @@ pub struct System {
 /// # Errors
 /// All mistakes, each at its place in `text`; [`Diagnostics::render`] writes them out.
 pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
+    read_varying(text, options, &[])
+}
+
+/// Reads the text of a system file in which the parameters with these names stay parameters, whatever the options say.
+///
+/// # Errors
+/// As [`read`], and where other numbers of the file follow from one of them.
+pub fn read_varying(
+    text: &str,
+    options: Options,
+    varied: &[String],
+) -> Result<System, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
     // After an unclosed quote the rest parses as nonsense: only the quote is reported.
@@ -103,19 +115,19 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
-    let system = system(document.get_ref(), text, options, &diagnostics);
+    let system = system(document.get_ref(), text, (options, varied), &diagnostics);
     diagnostics.into_result(system)
 }
 
 fn system(
     document: &DeTable<'_>,
     text: &str,
-    options: Options,
+    (options, varied): (Options, &[String]),
     diagnostics: &Diagnostics,
 ) -> Option<System> {
     let nothing = Names::default();
     let root = Table::root(document, text, &nothing, diagnostics);
-    let parameters = parameters::Parameters::read(&root, options);
+    let parameters = parameters::Parameters::read(&root, options, varied);
     let root = root.with(&parameters.constants);
     root.check_keys(&[
         "name",
@@ -157,7 +169,7 @@ fn system(
     }
     let potential =
         potential.map(|potential| (potential, splitting::choose(splitting, &problem, diagnostics)));
-    Some(System { problem, potential, run, units, parameters: parameters.names() })
+    Some(System { problem, potential, run, units, parameters: parameters.all() })
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.

@@ -33,8 +33,8 @@ struct Given {
 
 impl Parameters {
     /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices and in `inv(…)` are
-    /// numbers and never kept.
-    pub(super) fn read(root: &Table<'_>, options: Options) -> Self {
+    /// numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
+    pub(super) fn read(root: &Table<'_>, options: Options, varied: &[String]) -> Self {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
         let mut numbers =
@@ -64,7 +64,21 @@ impl Parameters {
                 .value(name, value, &known)
                 .unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
             let parameter = Parameter { name: name.to_owned(), shape, default: Some(values) };
-            let kept = options.parameters == Treatment::Kept && !numbers.contains(name);
+            let varies = varied.iter().any(|varied| varied == name);
+            let user = entries.iter().zip(&used).find(|(_, words)| words.contains(name));
+            let why = match user {
+                _ if numbers.contains(name) => {
+                    Some("it is a number of the algebra, of an index or of inv(…)".to_owned())
+                }
+                Some(((user, ..), _)) => Some(format!("`{user}` is computed from it")),
+                None => None,
+            };
+            if let Some(why) = why.filter(|_| varies) {
+                let what = format!("the parameter `{name}` cannot vary from row to row: {why}");
+                let help = "give each group of rows with the same value a system file of its own";
+                root.diagnostics.report_other(place, &what, help);
+            }
+            let kept = (varies || options.parameters == Treatment::Kept) && !numbers.contains(name);
             let inverse = if root.file.contains("inv(") { inverse(&parameter) } else { None };
             let given = Given { parameter, place, kept, inverse };
             given.add_to(&mut result.constants, None, root.diagnostics);
@@ -88,9 +102,9 @@ impl Parameters {
         kept
     }
 
-    /// The names of all parameters.
-    pub(super) fn names(&self) -> Vec<String> {
-        self.list.iter().map(|(_, given)| given.parameter.name.clone()).collect()
+    /// All of them.
+    pub(super) fn all(&self) -> Vec<Parameter> {
+        self.list.iter().map(|(_, given)| given.parameter.clone()).collect()
     }
 
     /// A number, an array of numbers, an array of such arrays, or the inverse of one.

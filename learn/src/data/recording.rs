@@ -8,7 +8,7 @@ use super::reduce::{PairRows, PhasePair};
 use super::samples::MomentumPairs;
 use crate::error::{BadRow, LearnError, RowProblem};
 use crate::function::vector;
-use crate::group::{DataGroup, matrix_of};
+use crate::group::DataGroup;
 use coadjoint::Phase;
 
 /// Attitudes as they stand in a file: a sample per column.
@@ -101,24 +101,13 @@ impl Recording {
         if *quaternions && group.element_of_quaternion([1.0, 0.0, 0.0, 0.0]).is_none() {
             return Err(LearnError::NoQuaternions);
         }
-        let size = group.matrix_size();
         let element = |column: &[f64]| -> Result<G::Element, RowProblem> {
             if !column.iter().all(|v| v.is_finite()) {
                 return Err(RowProblem::NonFinite);
             }
-            let (found, distance) = if let (true, &[w, x, y, z]) = (*quaternions, column) {
-                let norm = (w * w + x * x + y * y + z * z).sqrt();
-                (group.element_of_quaternion([w, x, y, z]), (norm - 1.0).abs())
-            } else {
-                let given = DMatrix::from_row_slice(size, size, column);
-                let found = group.element_near(&given);
-                let nearest = found.as_ref().map(|g| matrix_of(group, g));
-                let distance = nearest.map_or(f64::INFINITY, |m| (m - given).amax());
-                (found, distance)
-            };
-            match found {
-                Some(g) if distance <= tolerance => Ok(g),
-                _ => Err(RowProblem::OffGroup(distance)),
+            match group.element_of_columns(column, *quaternions) {
+                (Some(g), distance) if distance <= tolerance => Ok(g),
+                (_, distance) => Err(RowProblem::OffGroup(distance)),
             }
         };
         let (mut pairs, mut bad) = (Vec::new(), Vec::new());

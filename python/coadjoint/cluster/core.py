@@ -45,27 +45,28 @@ def pin(system: System, asked: dict[str, Any], backend: Backend) -> dict[str, An
         raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
     core = _core(system.text)
     none = np.empty((0, system.dimension))
-    _, _, facts = core.ensemble(none, system._asked(**asked), backend=text(backend, "backend"), threads=1, progress=None)
+    asked = system._asked(**asked)
+    _, _, facts = core.ensemble(none, asked, parameters=[], backend=text(backend, "backend"), threads=1, progress=None)
     return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
 
 
-def columns(job: dict[str, Any], available: Sequence[str] | int) -> tuple[list[str], list[str]]:
-    """The columns of a state among those of a file, in the order in which the steps want them, and the others. A file
-    without names has a width, which says what it holds."""
+def columns(job: dict[str, Any], available: Sequence[str] | int) -> tuple[list[str], list[str], list[str]]:
+    """The columns of a state among those of a file, in the order in which the steps want them, the others, and those of the
+    first that are parameters. A file without names has a width, which says what it holds."""
     if isinstance(available, int):
-        return _core(job["text"]).columns(None, available)[0], []
-    names, places, others = _core(job["text"]).columns(list(available), len(available))
+        return _core(job["text"]).columns(None, available)[0], [], []
+    names, places, others, varied = _core(job["text"]).columns(list(available), len(available))
     missing = [name for name, place in zip(names, places, strict=True) if place is None]
     if missing:
         raise InputError(f"column {missing[0]} is missing: files of states have all entries of the matrix, also zeros")
-    return [available[place] for place in places if place is not None], others
+    return [available[place] for place in places if place is not None], others, names[len(names) - varied :]
 
 
 def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     """Advances rows."""
     asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation")}
     states, failed, facts = _core(job["text"]).ensemble(
-        numbers, asked, backend=job["backend"], threads=threads, progress=None
+        numbers, asked, parameters=job.get("parameters", []), backend=job["backend"], threads=threads, progress=None
     )
     for key in _SCHEDULE:
         if facts[key] != job[key]:

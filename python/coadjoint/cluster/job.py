@@ -53,7 +53,9 @@ class Job:
         self.states = states.inspect(names, storage_options)
         # Everything that workers need to make the same steps, as text and numbers.
         self.core = core.pin(system, asked, backend)
-        self.columns, others = core.columns(self.core, self.states.columns)
+        self.columns, others, parameters = core.columns(self.core, self.states.columns)
+        if parameters:
+            self.core["parameters"] = parameters
         for name in self.columns:
             if name in self.states.others:
                 raise InputError(f"column {name} is of the type {self.states.others[name]}; numbers are needed")

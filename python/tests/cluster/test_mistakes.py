@@ -47,7 +47,7 @@ def test_files_that_hold_no_states(tmp_path):
         ("twice", pa.table([pa.array([1.0])] * 4, [*names, "mu_1"]), "column mu_1 is there twice"),
         ("part", pa.table({name: [1.0] for name in [*names, "q_w"]}), "column q_x is missing"),
         ("both", pa.table({name: [1.0] for name in [*names, "q_w", "g_11"]}), "g_11 and q_w both give the attitude"),
-        ("parameter", pa.table({name: [1.0] for name in [*names, "I1"]}), "column I1 is called as a parameter"),
+        ("parameter", pa.table({name: [1.0] for name in [*names, "i1"]}), "column i1 is no parameter of the system"),
         ("text", pa.table({"mu_1": ["1"], "mu_2": [1.0], "mu_3": [1.0]}), "column mu_1 is of the type string"),
         ("broken", b"PAR1 and no more", "broken.parquet: "),
         ("wide", four, "the array has 4 columns; this system needs 3 or 12 or 7"),

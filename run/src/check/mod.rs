@@ -107,7 +107,7 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
     let points: Vec<_> = (0..trial.points).map(|_| phase()).collect();
     let starts = [(); STARTS].map(|()| phase());
     let at = |source| RunError::Step { time: 0.0, source };
-    let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h);
+    let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
     let there = make(h).map_err(at)?;
     let steepness = Steepness::new(&there);
     let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));

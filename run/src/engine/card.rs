@@ -27,7 +27,7 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = coefficients(integrator, &step, step_size)
+    let slots = coefficients(integrator, &step, step_size, &[])
         .map_err(|source| RunError::Step { time: 0.0, source })?;
     Ok((step, slots))
 }

@@ -2,14 +2,14 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use coadjoint::{Phase, StepError};
+use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::{Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
+use num_traits::ToPrimitive;
 
-use super::Restore;
-use super::interpreter::coefficients;
-use super::restore::{entries_of, phase_of};
+use super::interpreter::{coefficients, refusal, symbols};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
@@ -81,17 +81,23 @@ impl Kept {
 /// Steps as straight-line programs.
 pub struct Compiled {
     programs: Arc<Programs>,
+    /// The coefficients of the programs, and behind them those of the series where parameters vary.
     slots: Vec<f64>,
-    code: Arc<Code>,
+    /// How many of them the programs read.
+    read: usize,
+    code: Arc<Running>,
     /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
 }
 
-/// Nothing is compiled any more when the run is over.
-impl Drop for Compiled {
+/// The code of a run; nothing is compiled any more when the run is over.
+#[derive(Debug)]
+struct Running(Arc<Code>);
+
+impl Drop for Running {
     fn drop(&mut self) {
-        self.code.stop();
+        self.0.stop();
     }
 }
 
@@ -137,7 +143,8 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let slots = coefficients(integrator, step, size)
+        let parameters = defaults(&integrator.problem);
+        let slots = coefficients(integrator, step, size, &parameters)
             .map_err(|source| RunError::Step { time: 0.0, source })?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
@@ -148,17 +155,50 @@ impl Compiled {
                 code
             }
         };
-        Ok(Some(Arc::new(Self { programs, slots, code, framed })))
+        let code = Arc::new(Running(code));
+        let read = slots.len();
+        Ok(Some(Arc::new(Self { programs, slots, read, code, framed })))
+    }
+
+    /// The same steps for other values of the parameters.
+    ///
+    /// # Errors
+    /// Where a coefficient is not finite.
+    pub fn varied(
+        &self,
+        integrator: &Integrator,
+        size: f64,
+        parameters: &[f64],
+    ) -> Result<Self, StepError> {
+        let Self { programs, code, framed, read, .. } = self;
+        let slots = if integrator.kicks.is_some() {
+            coefficients(integrator, &programs.step, size, parameters)?
+        } else {
+            let symbols = symbols(&integrator.problem, parameters);
+            let slots = integrator.fold_table().fold(size, &symbols);
+            slots.map_err(|error| refusal(error, size, &symbols))?
+        };
+        let (programs, code) = (programs.clone(), code.clone());
+        Ok(Self { programs, slots, read: *read, code, framed: *framed })
+    }
+
+    /// All coefficients of the integrator, where they were made for values of its parameters.
+    pub(super) fn of_series(&self) -> Option<&[f64]> {
+        (self.slots.len() > self.read).then_some(&self.slots)
+    }
+
+    fn coefficients(&self) -> &[f64] {
+        &self.slots[..self.read]
     }
 
     /// The backend that makes the steps.
     pub fn code(&self) -> &Code {
-        &self.code
+        &self.code.0
     }
 
     /// The backend that makes the steps now, in a few words.
     pub fn maker(this: Option<&Self>) -> String {
-        this.map_or("interpreter", |compiled| compiled.code.maker()).to_owned()
+        this.map_or("interpreter", |compiled| compiled.code().maker()).to_owned()
     }
 
     /// The programs.
@@ -166,23 +206,9 @@ impl Compiled {
         self.programs.step.kernel()
     }
 
-    /// A state as the programs have it.
-    pub fn numbers<G: Restore>(&self, group: &G, phase: &Phase<G>) -> Numbers {
-        let matrix = entries_of(group, &phase.group_element);
-        Numbers {
-            g: self.programs.step.element_of(&matrix),
-            mu: phase.momentum.as_slice().to_vec(),
-        }
-    }
-
     /// The spatial momentum Ad\*_g μ of a state.
     pub fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
         self.programs.spatial.momentum(&state.g, &state.mu)
-    }
-
-    /// A state as the group has it.
-    pub fn phase<G: Restore>(&self, group: &G, numbers: &Numbers) -> Phase<G> {
-        phase_of(group, &self.matrix_of(&numbers.g), &numbers.mu)
     }
 
     /// Makes `steps` steps. Steps that the programs refuse are made by `rescue`, which makes one step by other means (its
@@ -198,10 +224,11 @@ impl Compiled {
     ) -> Result<Outcome, (u64, StepError)> {
         let mut total = Outcome::default();
         while total.steps < steps {
-            let asked = (steps - total.steps).min(self.code.at_a_time());
+            let asked = (steps - total.steps).min(self.code().at_a_time());
             let asked = if self.framed { 1 } else { asked };
             let Numbers { g, mu } = numbers;
-            let made = self.code.stepper(self.kernel()).advance(&self.slots, g, mu, asked);
+            let made =
+                self.code().stepper(self.kernel()).advance(self.coefficients(), g, mu, asked);
             total.steps += made.steps;
             note(&mut total, made.corrections, made.residual);
             if made.steps < asked {
@@ -213,20 +240,6 @@ impl Compiled {
             }
         }
         Ok(total)
-    }
-
-    /// One step that the programs have refused, by `step`, which follows a solution from the identity or says why there
-    /// is none.
-    pub fn rescue<G: Restore, R>(
-        &self,
-        group: &G,
-        numbers: &mut Numbers,
-        step: impl FnOnce(&mut Phase<G>) -> Result<R, StepError>,
-    ) -> Result<R, StepError> {
-        let mut phase = self.phase(group, numbers);
-        let report = step(&mut phase)?;
-        *numbers = self.numbers(group, &phase);
-        Ok(report)
     }
 
     /// The numbers of the element with this matrix, row by row.
@@ -247,8 +260,14 @@ impl Compiled {
         steps: u64,
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
-        self.code.stepper(self.kernel()).advance_lanes(&self.slots, g, mu, steps, live)
+        self.code().stepper(self.kernel()).advance_lanes(self.coefficients(), g, mu, steps, live)
     }
+}
+
+/// The values that the parameters of a problem have in its file.
+pub fn defaults(problem: &Problem) -> Vec<f64> {
+    let values = problem.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
+    values.map(|value| value.to_f64().unwrap_or(f64::NAN)).collect()
 }
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {

@@ -10,7 +10,7 @@ use coadjoint::{GeneratingFunction, LieGroup, Scalar, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
-use coadjoint_codegen::problem;
+use coadjoint_codegen::problem::{self, Problem};
 use coadjoint_codegen::step::Step;
 use coadjoint_program::fold::FoldError;
 
@@ -28,6 +28,11 @@ impl<T: Copy> Outputs<'_, T> {
     fn get(&self, i: usize) -> T {
         self.nodes[self.ids[i].index()]
     }
+}
+
+/// The values of the symbols of a problem for these values of its parameters.
+pub(super) fn symbols(problem: &Problem, parameters: &[f64]) -> Vec<f64> {
+    problem.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
 }
 
 /// Why there are no coefficients for a step size and symbols.
@@ -48,9 +53,10 @@ pub(super) fn coefficients(
     integrator: &Integrator,
     step: &Step,
     size: f64,
+    parameters: &[f64],
 ) -> Result<Vec<f64>, StepError> {
-    let symbols = problem::values(&integrator.problem.symbols);
-    step.fold(size, &[]).map_err(|error| refusal(error, size, &symbols))
+    step.fold(size, parameters)
+        .map_err(|error| refusal(error, size, &symbols(&integrator.problem, parameters)))
 }
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.
@@ -68,14 +74,25 @@ pub struct Interpreter<'a, G, C> {
 }
 
 impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
-    /// Folds the coefficients for the step size.
-    pub fn new(integrator: &'a Integrator, group: G, step: f64) -> Result<Self, StepError> {
-        let table = FoldTable::new(integrator);
-        let symbols = problem::values(&integrator.problem.symbols);
+    /// Folds the coefficients for the step size and the values of the parameters that are kept.
+    pub fn new(
+        integrator: &'a Integrator,
+        group: G,
+        step: f64,
+        parameters: &[f64],
+    ) -> Result<Self, StepError> {
+        let table = integrator.fold_table();
+        let symbols = symbols(&integrator.problem, parameters);
         let slots = table.fold(step, &symbols).map_err(|error| refusal(error, step, &symbols))?;
         let quiet = table.lists().radius(step, &symbols, STEEP);
         let factors = integrator.problem.algebra.factor_of_coordinates();
         Ok(Self { integrator, group, slots, quiet, factors, chart: PhantomData })
+    }
+
+    /// With these coefficients of [`Integrator::fold_table`].
+    pub fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
+        let factors = integrator.problem.algebra.factor_of_coordinates();
+        Self { integrator, group, slots, quiet: 0.0, factors, chart: PhantomData }
     }
 
     /// The coefficients after those of the programs, from the square of the radius on.

@@ -32,11 +32,12 @@ pub fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     forces: Option<&'a Forces>,
     group: &G,
     size: f64,
+    parameters: &[f64],
 ) -> Result<Map<'a, G>, StepError> {
     if let Some(forces) = forces {
         return forces.step::<G, C>(integrator, group, size);
     }
-    let step = Interpreter::<G, C>::new(integrator, group.clone(), size)?;
+    let step = Interpreter::<G, C>::new(integrator, group.clone(), size, parameters)?;
     Ok(Box::new(move |phase| {
         let report = advance(&step, phase)?;
         Ok(Some((report.iterations, report.residual)))
@@ -64,7 +65,7 @@ impl Forces {
         step: f64,
     ) -> Result<Map<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone())?;
-        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), step * part);
+        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), step * part, &[]);
         let flows: Result<Vec<_>, _> = self.splitting.flows().into_iter().map(flow).collect();
         let (kicks, flows) = (self.splitting.kicks(), flows?);
         Ok(Box::new(move |phase| {

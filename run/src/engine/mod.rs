@@ -13,14 +13,15 @@ mod steep;
 
 pub use advise::advise;
 pub use card::{card, device_text};
-pub use compiled::{Compiled, Kept, Numbers, Solves};
+pub use compiled::{Compiled, Kept, Numbers, Solves, defaults};
 pub use group::{cayley_group, product_group, whole_group};
-pub use interpreter::{Interpreter, STEEP};
+pub(crate) use interpreter::Interpreter;
+pub use interpreter::STEEP;
 pub use kick::{Forces, Map, Torque};
-pub use motion::{Charted, Motion, one_by_one};
+pub use motion::{Charted, Equations, Motion, one_by_one};
 pub use restore::{Restore, entries_of, phase_of};
-pub use space::{Elements, Space};
-pub use steep::Steepness;
+pub use space::{Elements, Space, identity};
+pub(crate) use steep::Steepness;
 
 use coadjoint::LieGroup;
 use nalgebra::DVector;

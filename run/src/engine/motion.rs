@@ -67,6 +67,17 @@ pub fn one_by_one(
     Ok(total)
 }
 
+/// The equations of a motion: a flow, kicks where there are forces, and the values of the parameters that are kept.
+#[derive(Clone, Debug)]
+pub struct Equations<'a> {
+    /// The flow.
+    pub integrator: &'a Integrator,
+    /// The forces.
+    pub forces: Option<&'a Forces>,
+    /// The values of the parameters.
+    pub parameters: Vec<f64>,
+}
+
 /// A group known at run time, with its chart.
 #[derive(Debug)]
 pub enum Charted {
@@ -92,22 +103,21 @@ impl Charted {
         })
     }
 
-    /// The steps of this size of a flow, with kicks where there are forces: by programs where there are any.
+    /// The steps of this size: by programs where there are any.
     pub fn steps<'a>(
         &self,
-        integrator: &'a Integrator,
-        forces: Option<&'a Forces>,
+        equations: Equations<'a>,
         size: f64,
         compiled: Option<Arc<Compiled>>,
     ) -> Box<dyn Motion + 'a> {
         match self {
             Self::Exponential(group) => {
                 let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Exponential>::new(elements, integrator, forces, size))
+                Box::new(Steps::<_, Exponential>::new(elements, equations, size))
             }
             Self::Cayley(group) => {
                 let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Cayley>::new(elements, integrator, forces, size))
+                Box::new(Steps::<_, Cayley>::new(elements, equations, size))
             }
         }
     }
@@ -117,8 +127,7 @@ impl Charted {
 /// programs refuse.
 struct Steps<'a, G: Restore, C> {
     elements: Elements<G>,
-    integrator: &'a Integrator,
-    forces: Option<&'a Forces>,
+    equations: Equations<'a>,
     size: f64,
     /// The step of the generic solver, once one was needed.
     generic: OnceLock<Map<'a, G>>,
@@ -129,18 +138,14 @@ struct Steps<'a, G: Restore, C> {
 }
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
-    fn new(
-        elements: Elements<G>,
-        integrator: &'a Integrator,
-        forces: Option<&'a Forces>,
-        size: f64,
-    ) -> Self {
+    fn new(elements: Elements<G>, equations: Equations<'a>, size: f64) -> Self {
         let (generic, flow, shorter) = Default::default();
-        Self { elements, integrator, forces, size, generic, shorter, flow }
+        Self { elements, equations, size, generic, shorter, flow }
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
-        map::<G, C>(self.integrator, self.forces, &self.elements.group, size)
+        let Equations { integrator, forces, parameters } = &self.equations;
+        map::<G, C>(integrator, *forces, &self.elements.group, size, parameters)
     }
 
     /// The error of the next step of a state, with a step size that works there.
@@ -196,8 +201,13 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
 
     fn ratio(&self, mu: &[f64]) -> f64 {
         let flow = self.flow.get_or_init(|| {
-            let longest = self.size * self.forces.map_or(1.0, Forces::longest_flow);
-            Interpreter::new(self.integrator, (*self.elements.group).clone(), longest).ok()
+            let Equations { integrator, forces, parameters } = &self.equations;
+            let longest = self.size * forces.map_or(1.0, Forces::longest_flow);
+            let group = (*self.elements.group).clone();
+            match self.elements.compiled.as_ref().and_then(|compiled| compiled.of_series()) {
+                Some(slots) => Some(Interpreter::folded(integrator, group, slots.to_vec())),
+                None => Interpreter::new(integrator, group, longest, parameters).ok(),
+            }
         });
         let ratio = |flow| Steepness::new(flow).ratio(&DVector::from_column_slice(mu));
         flow.as_ref().map_or(0.0, ratio)

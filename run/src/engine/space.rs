@@ -32,6 +32,11 @@ pub trait Space {
     fn spatial_momentum(&self, state: &Numbers) -> Vec<f64>;
 }
 
+/// The unit matrix with this number of rows, row by row.
+pub fn identity(size: usize) -> Vec<f64> {
+    (0..size * size).map(|at| if at / size == at % size { 1.0 } else { 0.0 }).collect()
+}
+
 /// Elements as programs have them where there are any, else as matrices.
 pub struct Elements<G> {
     /// The group.

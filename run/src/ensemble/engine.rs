@@ -3,19 +3,18 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem::{Parameter, Solver};
 use coadjoint_codegen::step::{Invariants, nudge};
 use coadjoint_codegen::system::System;
 use coadjoint_native::cards::{Card, Device};
-use coadjoint_program::{Precision, Trajectories};
+use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
 use super::drift::{Drift, larger};
 use super::layout::{Layout, Shape};
-use super::march::{March, Way};
+use super::march::{March, STRETCH, Way};
 use crate::backend::Backend;
-use crate::engine::{Compiled, Motion, Numbers, STEEP, card};
+use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, card, identity};
 use crate::error::RunError;
 use crate::load::Derived;
 
@@ -107,9 +106,10 @@ pub struct How {
 
 /// Advances rows of states of one system by steps of one size.
 pub struct Engine<'a> {
-    integrator: &'a Integrator,
-    /// Rows of the group's matrices.
-    size: usize,
+    group: Charted,
+    equations: Equations<'a>,
+    step: f64,
+    /// With the parameters as the file has them.
     motion: Box<dyn Motion + 'a>,
     compiled: Option<Arc<Compiled>>,
     card: Option<Mutex<Card>>,
@@ -121,31 +121,38 @@ pub struct Engine<'a> {
 }
 
 impl<'a> Engine<'a> {
-    /// Of a system that is meant for [lanes](in_lanes).
+    /// Of a system that is meant for [lanes](in_lanes). Parameters that its integrator keeps vary from row to row.
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend or device that the user named cannot be had.
     pub fn new(system: &'a Derived, step: f64, how: How) -> Result<Self, RunError> {
-        let Derived { integrator, forces, kept, .. } = system;
-        let group = system.charted()?;
-        let compiled =
-            Compiled::new(integrator, step, how.backend, how.work, Trajectories::Lanes, kept)?;
+        let Derived { integrator, kept, .. } = system;
+        let (group, equations) = (system.charted()?, system.equations());
+        // Lanes have their coefficients in common.
+        let (trajectories, work) = if integrator.problem.parameters.is_empty() {
+            (Trajectories::Lanes, how.work)
+        } else if how.device.is_some() {
+            let what = "--device: parameters that vary from row to row are not made on devices";
+            return Err(RunError::Option(what.to_owned()));
+        } else {
+            (Trajectories::One, how.work * WIDTH as f64)
+        };
+        let compiled = Compiled::new(integrator, step, how.backend, work, trajectories, kept)?;
         let card = how.device.map(|asked| card(integrator, step, asked.device, asked.precision));
         let card = card.transpose()?.map(Mutex::new);
-        let motion = group.steps(integrator, forces.as_ref(), step, compiled.clone());
-        let size = motion.space().size();
-        let identity = (0..size * size).map(|at| f64::from(u8::from(at / size == at % size)));
-        let identity = motion.space().numbers(&identity.collect::<Vec<_>>());
+        let motion = group.steps(equations.clone(), step, compiled.clone());
+        let identity = motion.space().numbers(&identity(motion.space().size()));
         // Energies are not measured.
         let invariants =
             Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
         let redone = AtomicU64::new(0);
-        Ok(Self { integrator, size, motion, compiled, card, redone, invariants, identity })
+        Ok(Self { group, equations, step, motion, compiled, card, redone, invariants, identity })
     }
 
     /// The shape of a row.
     pub fn shape(&self) -> Shape {
-        Shape { matrix_size: self.size, ..Shape::of(&self.integrator.problem.algebra) }
+        let algebra = &self.equations.integrator.problem.algebra;
+        Shape { matrix_size: self.motion.space().size(), ..Shape::of(algebra) }
     }
 
     /// How many Casimirs are watched.
@@ -196,7 +203,7 @@ impl<'a> Engine<'a> {
         rows: &mut Rows,
         watch: &Watch<'_>,
     ) -> Result<Drift, RunError> {
-        let width = layout.width();
+        let (width, state) = (layout.width(), layout.state());
         let read: Vec<_> =
             rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
         let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
@@ -211,17 +218,23 @@ impl<'a> Engine<'a> {
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        let ways = self.march(before.clone(), steps, watch)?;
+        let ways = if layout.parameters.is_empty() {
+            self.march(before.clone(), steps, watch)?
+        } else {
+            let own = places.iter().map(|place| &rows.values[place * width..][state..width]);
+            let own: Vec<&[f64]> = own.collect();
+            self.march_varied(layout, before.clone(), &own, steps, watch)
+        };
         if watch.stop.load(Ordering::Relaxed) {
             return Err(RunError::Halted { time: 0.0, step: 0 });
         }
-        rows.values.fill(f64::NAN);
+        rows.values.chunks_mut(width).for_each(|row| row[..state].fill(f64::NAN));
         // The row at the end and its drift, or the step that was not made and why.
         let end = |(before, way): (&Numbers, &Way)| {
-            if let Some((step, error)) = &way.stopped {
-                return Err((step + 1, error.to_string()));
+            if let Some(stopped) = &way.stopped {
+                return Err(stopped.clone());
             }
-            let mut row = vec![0.0; width];
+            let mut row = vec![0.0; state];
             let (mu, attitude) = row.split_at_mut(before.mu.len());
             mu.copy_from_slice(&way.state.mu);
             if !attitude.is_empty() {
@@ -237,7 +250,7 @@ impl<'a> Engine<'a> {
         for (place, end) in places.into_iter().zip(ends) {
             match end {
                 Ok((row, drift)) => {
-                    rows.values[place * width..][..width].copy_from_slice(&row);
+                    rows.values[place * width..][..state].copy_from_slice(&row);
                     largest = largest.max(drift);
                 }
                 Err((step, reason)) => {
@@ -283,7 +296,7 @@ impl<'a> Engine<'a> {
     /// The state of a row, or what is wrong with it.
     fn read(&self, layout: &Layout, row: &[f64]) -> Result<Numbers, String> {
         check(layout, row)?;
-        let (mu, attitude) = row.split_at(layout.shape.dim);
+        let (mu, attitude) = row[..layout.state()].split_at(layout.shape.dim);
         let space = self.motion.space();
         let g = match layout.read_attitude(attitude)? {
             None => self.identity.clone(),
@@ -332,7 +345,64 @@ impl<'a> Engine<'a> {
         }
         Ok(ways)
     }
+
+    /// Makes the steps of all states, each with the values of its own of the parameters that vary.
+    fn march_varied(
+        &self,
+        layout: &Layout,
+        states: Vec<Numbers>,
+        own: &[&[f64]],
+        steps: u64,
+        watch: &Watch<'_>,
+    ) -> Vec<Way> {
+        let Equations { integrator, parameters, .. } = &self.equations;
+        let parameters_of = |parameter: &Parameter| parameter.scalar_names();
+        let scalars: Vec<String> =
+            integrator.problem.parameters.iter().flat_map(parameters_of).collect();
+        let place = |name: &String| scalars.iter().position(|scalar| scalar == name);
+        let places: Vec<Option<usize>> = layout.parameters.iter().map(place).collect();
+        let follow = |(state, own): (Numbers, &&[f64])| {
+            let mut parameters = parameters.clone();
+            for (place, value) in places.iter().zip(*own) {
+                place.into_iter().for_each(|place| parameters[*place] = *value);
+            }
+            let compiled = self.compiled.as_ref();
+            let compiled = compiled.map(|c| c.varied(integrator, self.step, &parameters));
+            let compiled = match compiled.transpose() {
+                Ok(compiled) => compiled.map(Arc::new),
+                Err(error) => {
+                    let values = layout.parameters.iter().zip(*own);
+                    let values: Vec<String> = values.map(|(n, x)| format!("{n} = {x}")).collect();
+                    let why = format!("with {}: {error}", values.join(", "));
+                    return Way { state, stopped: Some((0, why)), ratio: 0.0 };
+                }
+            };
+            let equations = Equations { parameters, ..self.equations.clone() };
+            let motion = self.group.steps(equations, self.step, compiled);
+            let march = March { motion: motion.as_ref(), stop: watch.stop };
+            let (mut way, mut done) = (march.way(state), 0);
+            while done < steps && way.stopped.is_none() && !watch.stop.load(Ordering::Relaxed) {
+                let end = steps.min(done + STRETCH);
+                march.alone(&mut way, done, end);
+                done = end;
+            }
+            way
+        };
+        let mut ways = Vec::with_capacity(states.len());
+        let count = states.len() as u64;
+        let mut states = states.into_iter().zip(own);
+        while ways.len() < count as usize {
+            let some: Vec<_> = states.by_ref().take(ROWS).collect();
+            ways.par_extend(some.into_par_iter().map(follow));
+            // As many steps as all rows had made if they had gone together.
+            (watch.made)(steps * ways.len() as u64 / count);
+        }
+        ways
+    }
 }
+
+/// Rows with parameters of their own that are followed to their ends before the next.
+const ROWS: usize = 4096;
 
 /// Refuses a row with a number that is not finite.
 fn check(layout: &Layout, row: &[f64]) -> Result<(), String> {
@@ -348,12 +418,15 @@ mod tests {
     #[test]
     fn no_number_that_is_not_finite_becomes_an_end_state() {
         let shape = Shape { dim: 3, matrix_size: 3, quaternions: true };
-        let layout = Layout { shape, attitude: Attitude::Quaternion };
-        let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];
+        let parameters = vec!["I1".to_owned()];
+        let layout = Layout { shape, attitude: Attitude::Quaternion, parameters };
+        let row = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 4.0];
         assert_eq!(check(&layout, &row), Ok(()));
-        for (place, value, expected) in
-            [(1, f64::NAN, "mu_2 is NaN"), (5, f64::INFINITY, "q_y is inf")]
-        {
+        for (place, value, expected) in [
+            (1, f64::NAN, "mu_2 is NaN"),
+            (5, f64::INFINITY, "q_y is inf"),
+            (7, f64::NAN, "I1 is NaN"),
+        ] {
             let mut wrong = row;
             wrong[place] = value;
             assert!(check(&layout, &wrong).unwrap_err().starts_with(expected));

@@ -2,10 +2,16 @@
 
 use std::collections::HashMap;
 
+use coadjoint::{LieGroup, SO3};
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{Parameter, Problem};
+use coadjoint_codegen::system::System;
+use coadjoint_learn::{DataGroup, matrix_of};
 
 use crate::error::RunError;
+
+/// How far an attitude may be from the group, as for `coadjoint learn`: far above rounding in files, far below noise.
+const TOLERANCE: f64 = 1e-6;
 
 /// How a row gives the attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +41,15 @@ impl Shape {
         let matrix_size = algebra.factors().iter().map(matrix_size).sum();
         Self { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
     }
+
+    /// Of a system: with a potential, its group is no product of factors.
+    pub fn of_system(system: &System) -> Self {
+        let shape = Self::of(&system.problem.algebra);
+        match system.potential {
+            Some(_) => Self { matrix_size: matrix_size(&system.problem.algebra), ..shape },
+            None => shape,
+        }
+    }
 }
 
 /// The columns of a quaternion.
@@ -44,19 +59,45 @@ const QUATERNION: [&str; 4] = ["q_w", "q_x", "q_y", "q_z"];
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     coordinates: Vec<String>,
-    parameters: Vec<String>,
+    parameters: Vec<Parameter>,
     /// The rows of each block of the matrix of a group element.
     blocks: Vec<usize>,
 }
 
 impl Known {
-    /// By this problem, and the names of its parameters.
-    pub fn of(problem: &Problem, parameters: &[String]) -> Self {
+    /// By this problem, and all parameters of its file.
+    pub fn of(problem: &Problem, parameters: &[Parameter]) -> Self {
         Self {
             coordinates: problem.coordinates.clone(),
             parameters: parameters.to_vec(),
             blocks: problem.algebra.factors().iter().map(matrix_size).collect(),
         }
+    }
+
+    /// Whether a column has the values of a parameter. One that is nearly called like a parameter is refused.
+    fn parameter(&self, column: &str) -> Result<bool, String> {
+        for parameter in &self.parameters {
+            let (name, scalars) = (&parameter.name, parameter.scalar_names());
+            if scalars.iter().any(|scalar| scalar == column) {
+                return Ok(true);
+            }
+            let entry = column == name || column.starts_with(&format!("{name}["));
+            let like = scalars.iter().find(|scalar| plain(scalar) == plain(column));
+            let (first, last) = (scalars.first(), scalars.last());
+            if let (true, None, Some(first), Some(last)) = (entry, like, first, last) {
+                return Err(format!(
+                    "column {column}: the parameter {name} has the numbers {first} … {last}, which vary each in a \
+                     column of its own"
+                ));
+            }
+            if let Some(scalar) = like {
+                return Err(format!(
+                    "column {column} is no parameter of the system: did you mean {scalar}? Else give the column \
+                     another name"
+                ));
+            }
+        }
+        Ok(false)
     }
 
     /// Whether this entry of the matrix is outside of all blocks, where entries are 0.
@@ -72,6 +113,11 @@ impl Known {
     }
 }
 
+/// A name without what is easily written otherwise.
+fn plain(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
 /// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
 pub fn matrix_size(algebra: &LieAlgebra) -> usize {
     match algebra.basis() {
@@ -83,11 +129,11 @@ pub fn matrix_size(algebra: &LieAlgebra) -> usize {
 /// Where named columns have the numbers of a state.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The layout of the state.
+    /// The layout of the state, and of the parameters that vary.
     pub layout: Layout,
     /// The column of each number; none where the number is 0 in every element of the group.
     pub places: Vec<Option<usize>>,
-    /// The columns that are no part of the state.
+    /// The columns that are no part of it.
     pub unused: Vec<String>,
 }
 
@@ -95,7 +141,7 @@ impl Found {
     /// By the names of columns, or by their number where they have no names.
     ///
     /// # Errors
-    /// A column is missing, is there twice, or is named after a parameter; or no state has this number of columns.
+    /// A column is missing, is there twice, or is nearly named after a parameter; or no state has this number of columns.
     pub fn of(
         shape: Shape,
         known: &Known,
@@ -113,7 +159,7 @@ impl Found {
     /// records of runs do.
     ///
     /// # Errors
-    /// Where a column is missing, is there twice, or is called what the system calls a parameter.
+    /// Where a column is missing, is there twice, or is nearly called what the system calls a parameter.
     fn find(shape: Shape, known: &Known, header: &[String]) -> Result<Self, RunError> {
         let refuse = |what: String| Err(RunError::Option(what));
         let mut first = HashMap::new();
@@ -143,7 +189,7 @@ impl Found {
                 first = entries.first().map_or("g_11", String::as_str)
             ));
         }
-        let layout = Layout { shape, attitude };
+        let mut layout = Layout { shape, attitude, parameters: Vec::new() };
         let names = layout.names();
         let mut places = Vec::with_capacity(names.len());
         for (number, name) in names.iter().enumerate() {
@@ -184,36 +230,53 @@ impl Found {
                     column + 1
                 ));
             }
-            if known.parameters.iter().any(|p| name == p || name.starts_with(&format!("{p}["))) {
-                return refuse(format!(
-                    "column {name} is called as a parameter of the system is, which is the same for all rows: \
-                     give a group of rows with other values a system of its own, or the column another name"
-                ));
+            match known.parameter(name).map_err(RunError::Option)? {
+                true => {
+                    used[column] = true;
+                    places.push(Some(column));
+                    layout.parameters.push(name.clone());
+                }
+                false => unused.push(name.clone()),
             }
-            unused.push(name.clone());
         }
         Ok(Self { layout, places, unused })
     }
 }
 
-/// The columns of a row: `mu_1` … `mu_n`, then the attitude.
-#[derive(Clone, Copy, Debug)]
+/// The columns of a row: `mu_1` … `mu_n`, then the attitude, then the parameters that vary.
+#[derive(Clone, Debug)]
 pub struct Layout {
     /// The shape of the group's rows.
     pub shape: Shape,
     /// The columns after the momentum.
     pub attitude: Attitude,
+    /// The names of the parameters after these.
+    pub parameters: Vec<String>,
 }
 
 impl Layout {
     /// The number of columns.
     pub fn width(&self) -> usize {
+        self.state() + self.parameters.len()
+    }
+
+    /// The number of those of the state.
+    pub fn state(&self) -> usize {
         let attitude = match self.attitude {
             Attitude::None => 0,
             Attitude::Matrix => self.shape.matrix_size.pow(2),
             Attitude::Quaternion => 4,
         };
         self.shape.dim + attitude
+    }
+
+    /// The names of the parameters that vary, without the places of their numbers.
+    pub fn varied(&self) -> Vec<String> {
+        let name = |column: &String| column.split('[').next().unwrap_or_default().to_owned();
+        let mut names: Vec<String> = self.parameters.iter().map(name).collect();
+        names.sort();
+        names.dedup();
+        names
     }
 
     /// Their names, as `coadjoint learn` has them.
@@ -224,17 +287,53 @@ impl Layout {
             Attitude::Matrix => names.extend(matrix(self.shape.matrix_size)),
             Attitude::Quaternion => names.extend(QUATERNION.map(str::to_owned)),
         }
+        names.extend(self.parameters.iter().cloned());
         names
+    }
+
+    /// The matrix, row by row, that the columns of an attitude name; none where there are none. Rotations are put on the
+    /// group.
+    ///
+    /// # Errors
+    /// The defect.
+    pub(super) fn read_attitude(&self, columns: &[f64]) -> Result<Option<Vec<f64>>, String> {
+        let rotations = SO3::<f64>::new();
+        let quaternion = match self.attitude {
+            Attitude::None => return Ok(None),
+            Attitude::Matrix if !self.shape.quaternions => return Ok(Some(columns.to_vec())),
+            form => form == Attitude::Quaternion,
+        };
+        match rotations.element_of_columns(columns, quaternion) {
+            (Some(g), distance) if distance <= TOLERANCE => {
+                Ok(Some(matrix_of(&rotations, &g).transpose().as_slice().to_vec()))
+            }
+            (Some(_), distance) => Err(format!("the attitude is off the group by {distance:.1e}")),
+            (None, _) => Err("the attitude is no element of the group".into()),
+        }
+    }
+
+    /// Writes the element with this matrix, row by row, into the columns of an attitude.
+    pub(super) fn write_attitude(&self, matrix: &[f64], columns: &mut [f64]) {
+        match self.attitude {
+            Attitude::None => {}
+            Attitude::Matrix => columns.copy_from_slice(matrix),
+            Attitude::Quaternion => {
+                let rotation = SO3::<f64>::new().element_from_matrix(|i, j| matrix[3 * i + j]);
+                // A matrix that is no rotation becomes NaN, which a check of rows tells.
+                let wxyz = rotation.map_or([f64::NAN; 4], |q| [q.w, q.i, q.j, q.k]);
+                columns.copy_from_slice(&wxyz);
+            }
+        }
     }
 
     /// The layout of a matrix without names, by its width.
     fn of_width(shape: Shape, width: usize) -> Result<Self, RunError> {
         let forms = [Attitude::None, Attitude::Matrix, Attitude::Quaternion];
-        let layouts = forms.map(|attitude| Self { shape, attitude });
+        let layouts = forms.map(|attitude| Self { shape, attitude, parameters: Vec::new() });
         let possible = |l: &&Self| l.attitude != Attitude::Quaternion || shape.quaternions;
         let widths: Vec<String> =
             layouts.iter().filter(possible).map(|l| l.width().to_string()).collect();
-        layouts.iter().filter(possible).find(|l| l.width() == width).copied().ok_or_else(|| {
+        layouts.iter().filter(possible).find(|l| l.width() == width).cloned().ok_or_else(|| {
             RunError::Option(format!(
                 "the array has {width} columns; this system needs {}: {} for the momentum alone, \
                  more with the attitude",

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coadjoint::StepError;
 use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
 use coadjoint_program::{Precision, WIDTH};
 use rayon::prelude::*;
@@ -14,7 +13,7 @@ use super::drift::larger;
 use crate::engine::{Motion, Numbers};
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
-const STRETCH: u64 = 256;
+pub(super) const STRETCH: u64 = 256;
 
 /// How steps are made.
 pub(super) struct March<'a> {
@@ -29,8 +28,9 @@ pub(super) struct March<'a> {
 pub(super) struct Way {
     /// Where it is.
     pub state: Numbers,
-    /// The number of the step that could not be made, from 0, and why. The state is the one before it.
-    pub stopped: Option<(u64, StepError)>,
+    /// The number of the step that could not be made, from 1, and why: the state is the one before it; 0 where the row itself
+    /// is at fault.
+    pub stopped: Option<(u64, String)>,
     /// The largest ratio seen.
     pub ratio: f64,
 }
@@ -42,9 +42,9 @@ impl March<'_> {
     }
 
     /// Makes steps `first` to `end` of a trajectory by itself.
-    fn alone(&self, way: &mut Way, first: u64, end: u64) {
+    pub(super) fn alone(&self, way: &mut Way, first: u64, end: u64) {
         let made = self.motion.advance(&mut way.state, end - first);
-        way.stopped = made.err().map(|(done, error)| (first + done, error));
+        way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
         way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
     }
 

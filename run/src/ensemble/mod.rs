@@ -1,6 +1,5 @@
 //! Many trajectories of one system, in memory.
 
-mod attitude;
 mod drift;
 mod engine;
 mod layout;

@@ -23,7 +23,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (backend, expected) = (setup.backend, schedule.steps as f64);
     let (step, kept) = (schedule.step, &system.kept);
     let compiled = Compiled::new(integrator, step, backend, expected, Trajectories::One, kept)?;
-    let motion = group.steps(integrator, system.forces.as_ref(), step, compiled.clone());
+    let motion = group.steps(system.equations(), step, compiled.clone());
     let start = setup.start(&system.file, motion.space())?;
     let subject = Subject { setup, watched: system.watched(), warnings: Vec::new() };
     let outcome = subject.run(motion.as_ref(), start, sink);

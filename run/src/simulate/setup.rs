@@ -8,7 +8,7 @@ use coadjoint_codegen::system::Run;
 use sha2::{Digest, Sha256};
 
 use crate::backend::Backend;
-use crate::engine::{Numbers, Space};
+use crate::engine::{Numbers, Space, identity};
 use crate::error::RunError;
 use crate::number::shortest;
 
@@ -217,9 +217,7 @@ impl Setup {
     pub fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
         let size = space.size();
         let matrix = match &self.group_element {
-            None => {
-                (0..size * size).map(|at| if at / size == at % size { 1.0 } else { 0.0 }).collect()
-            }
+            None => identity(size),
             Some(rows) if rows.len() != size || rows.iter().any(|row| row.len() != size) => {
                 return Err(RunError::Option(format!(
                     "the group element must be a matrix of {size} rows and columns"

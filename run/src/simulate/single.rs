@@ -41,8 +41,8 @@ impl<S: AsRef<Derived>> Single<S> {
     }
 
     fn motion(&self) -> Box<dyn Motion + '_> {
-        let Derived { integrator, forces, .. } = self.system.as_ref();
-        self.group.steps(integrator, forces.as_ref(), self.step, self.compiled.clone())
+        let equations = self.system.as_ref().equations();
+        self.group.steps(equations, self.step, self.compiled.clone())
     }
 
     /// Rows of the group's matrices.

@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_learn::table::Table;
 
 use super::course::{Course, Trouble};
@@ -60,6 +60,8 @@ pub struct Follower<'a> {
     invariants: Invariants,
     /// Rows of the group's matrices.
     size: usize,
+    /// All parameters of the system's file, after which no column may be named.
+    pub parameters: &'a [Parameter],
     /// The rows that are judged, where these are not all.
     pub sample: Option<Sample>,
     /// Is told how many steps have been judged.
@@ -81,8 +83,8 @@ impl<'a> Follower<'a> {
         judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;
         let invariants = Invariants::new(problem)?;
         let size = Shape::of(&problem.algebra).matrix_size;
-        let (sample, told): (_, &dyn Fn(u64)) = (None, &|_| {});
-        Ok(Self { judge, problem, step, symbols, invariants, size, sample, told })
+        let (parameters, sample, told): (_, _, &dyn Fn(u64)) = (&[], None, &|_| {});
+        Ok(Self { judge, problem, step, symbols, invariants, size, parameters, sample, told })
     }
 
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
@@ -90,7 +92,7 @@ impl<'a> Follower<'a> {
     /// # Errors
     /// Where the file cannot be read, or has no states with times.
     pub fn rows(&self, table: &mut Table) -> Result<Found, RunError> {
-        let columns = Columns::find(self.problem, table)?;
+        let columns = Columns::find(self.problem, self.parameters, table)?;
         let Some(time) = columns.time else {
             let what =
                 "no column time: for the output of an ensemble give --input STATES and --steps N";
@@ -167,7 +169,8 @@ impl<'a> Follower<'a> {
         steps: u64,
         listed: &BTreeSet<u64>,
     ) -> Result<Found, RunError> {
-        let [before, after] = [&*starts, ends].map(|table| Columns::find(self.problem, table));
+        let [before, after] =
+            [&*starts, ends].map(|table| Columns::find(self.problem, self.parameters, table));
         let (before, after) = (before?, after?);
         let mut found = Found::default();
         while let Some(end) = next(ends)? {

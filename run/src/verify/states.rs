@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_codegen::step;
 use coadjoint_learn::table::{Row, Table};
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
@@ -41,12 +41,21 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// By names, or by the number of columns where there are none.
-    pub(crate) fn find(problem: &Problem, table: &Table) -> Result<Self, RunError> {
+    /// By names, or by the number of columns where there are none. `parameters` are all those of the system's file.
+    pub(crate) fn find(
+        problem: &Problem,
+        parameters: &[Parameter],
+        table: &Table,
+    ) -> Result<Self, RunError> {
         let (shape, names) = (Shape::of(&problem.algebra), table.names());
         let shape = Shape { quaternions: shape.dim == 3 && shape.matrix_size == 3, ..shape };
-        let found = Found::of(shape, &Known::of(problem, &[]), names, table.width());
+        let found = Found::of(shape, &Known::of(problem, parameters), names, table.width());
         let found = found.map_err(|error| refused(table, error))?;
+        if let Some(name) = found.layout.parameters.first() {
+            let what =
+                format_args!("column {name}: rows with parameters of their own are not judged");
+            return Err(refused(table, what));
+        }
         let place = |name: &str| names.iter().position(|known| known == name);
         Ok(Self { time: place("time"), energy: place("energy"), found })
     }

@@ -154,7 +154,14 @@ impl FoldTable {
     /// [`FoldError`] where one is not finite.
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
         let mut coefficients = vec![0.0; self.len];
-        self.lists().fold(step, symbols, &mut coefficients)?;
+        // Each is made of an earlier one, once.
+        let mut products = vec![1.0];
+        for &(of, symbol) in &self.products {
+            let value = symbols.get(symbol as usize).copied().unwrap_or(f64::NAN);
+            products.push(products[of as usize] * value);
+        }
+        let product = |number: u32| products.get(number as usize).copied().unwrap_or(f64::NAN);
+        self.lists().fold_by(step, symbols, product, &mut coefficients)?;
         Ok(coefficients)
     }
 }

@@ -14,6 +14,8 @@ pub use kick::{Kick, Kicks};
 pub use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
 
+use std::sync::OnceLock;
+
 use crate::comoving::Frame;
 use crate::graph::Program;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
@@ -64,9 +66,16 @@ pub struct Integrator {
     /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₁ is the whole series, and
     /// for learned maps.
     pub largest_rate: Option<f64>,
+    /// What [`Self::fold_table`] has made.
+    table: OnceLock<FoldTable>,
 }
 
 impl Integrator {
+    /// All coefficients, as [`FoldTable::new`] orders them; made once.
+    pub fn fold_table(&self) -> &FoldTable {
+        self.table.get_or_init(|| FoldTable::new(self))
+    }
+
     /// Derives the series and lowers it.
     ///
     /// # Errors
@@ -171,6 +180,7 @@ impl Integrator {
             frame,
             kicks: None,
             largest_rate,
+            table: OnceLock::new(),
         })
     }
 
