@@ -121,7 +121,6 @@ fn panel(
         y: Axis::linear(low - margin, high + margin, 5),
         band,
         curves,
-        ..Panel::default()
     }
 }
 

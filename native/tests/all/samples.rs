@@ -1,5 +1,6 @@
 //! Kernels of random programs over all kinds of nodes: no step of anything, but every branch of the loop; and the
 //! comparison of machine code with the interpreter, bit for bit.
+#![allow(clippy::unwrap_used)]
 
 use coadjoint_native::Entry;
 use coadjoint_program::{Graph, Id, Kernel, KernelParts, Program, Programs, Stepper, WIDTH};

@@ -364,7 +364,7 @@ impl<'a> Engine<'a> {
         let follow = |(state, own): (Numbers, &&[f64])| {
             let mut parameters = parameters.clone();
             for (place, value) in places.iter().zip(*own) {
-                place.into_iter().for_each(|place| parameters[*place] = *value);
+                place.iter().for_each(|place| parameters[*place] = *value);
             }
             let compiled = self.compiled.as_ref();
             let compiled = compiled.map(|c| c.varied(integrator, self.step, &parameters));

@@ -46,10 +46,7 @@ where
         phase.group_element = G::read(&g);
         phase.momentum = mu.into();
     }
-    let refused = match refused {
-        Some((x, distance)) => Some((x.into(), distance)),
-        None => None,
-    };
+    let refused = refused.map(|(x, distance)| (x.into(), distance));
     Driven { steps, iterations, residual, refused }
 }
 

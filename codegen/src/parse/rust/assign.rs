@@ -6,6 +6,9 @@ use super::evaluate::{Evaluator, Flow};
 use super::value::Value;
 use crate::diagnostic::{Mistake, Span};
 
+/// The name of a variable, and the indices that lead to one of its entries.
+type Place = (String, Vec<Vec<usize>>);
+
 impl Evaluator<'_> {
     /// Binds the names of a pattern to a value.
     pub(super) fn bind(&mut self, pattern: &Pat, value: Value) {
@@ -115,7 +118,7 @@ impl Evaluator<'_> {
     }
 
     /// The variable of which an expression names an entry, and the indices that lead to it; `None` for other expressions.
-    fn place(&mut self, expression: &Expr) -> Result<Option<(String, Vec<Vec<usize>>)>, Flow> {
+    fn place(&mut self, expression: &Expr) -> Result<Option<Place>, Flow> {
         match expression {
             Expr::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string);

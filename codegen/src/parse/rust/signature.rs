@@ -42,13 +42,16 @@ impl Variable {
     }
 }
 
+/// The shape of the variable, the names of its entries, and its place.
+type Variables = (Shape, Vec<String>, Span);
+
 /// Reads a signature and binds its arguments: the shape of the first one, the names of its entries, and where, `None` if it
 /// is not usable; and the parameters.
 pub(super) fn read(
     signature: &syn::Signature,
     variable: Variable,
     evaluator: &mut Evaluator<'_>,
-) -> (Option<(Shape, Vec<String>, Span)>, Vec<Parameter>) {
+) -> (Option<Variables>, Vec<Parameter>) {
     qualifiers(signature, evaluator);
     let (mut first, mut parameters) = (None, Vec::new());
     let mut scalars = 0;
