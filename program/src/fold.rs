@@ -195,7 +195,7 @@ pub fn gradient_bound(
 
 /// The |p| of each direct factor of the group up to which the last two terms of a series have at most this ratio in every
 /// direction, given the coefficients of their monomials.
-fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
+pub fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
     let factors = terms.clone().map(|(_, term)| term.1 + 1).max().unwrap_or(0);
     let of_factor = |factor: u32| {
         // By the degree of the gradient: of S_K, and of S_{K−2}.

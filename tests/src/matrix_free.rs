@@ -32,6 +32,10 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
         self.0.frame(motion, mu)
     }
 
+    fn radius(&self) -> ScalarOf<S> {
+        self.0.radius()
+    }
+
     fn largest_rate(&self) -> f64 {
         self.0.largest_rate()
     }

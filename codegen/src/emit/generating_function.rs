@@ -50,11 +50,15 @@ pub(crate) fn generating_function(
             }
         }
     });
-    // The last terms come after the square of the radius.
-    let last_at = FoldTable::radius_at(integrator) + 1;
-    let judged = (slots > last_at).then(|| {
-        let last_at = index(last_at);
+    let radius_at = FoldTable::radius_at(integrator);
+    let (last_at, radius) = (index(radius_at + 1), index(radius_at));
+    let judged = (slots > radius_at + 1).then(|| {
         quote! {
+            #[inline]
+            fn radius(&self) -> T {
+                #krate::nalgebra::SimdComplexField::simd_sqrt(self.coefficients[#radius])
+            }
+
             fn series_ratio(&self, #p: &#vector) -> T {
                 #krate::plumbing::series_ratio::<T, #n>(
                     &LAST,

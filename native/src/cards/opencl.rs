@@ -52,7 +52,7 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     let text = device_unit(kernel, slots, DeviceLanguage::OpenCl, "Written by coadjoint.");
     let program = Program::create_from_source(&context, &text);
     let mut program = call.done("read the kernel", program)?;
-    if let Err(error) = program.build(&[found.id()], options(&found, kernel.precision())) {
+    if let Err(error) = program.build(&[found.id()], &options(&found, kernel.precision())) {
         let log = program.get_build_log(found.id()).unwrap_or_default();
         let log = if log.trim().is_empty() { error.to_string() } else { first_errors(&log) };
         return Err(DeviceError::Build { device, name, log });
@@ -68,16 +68,21 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     Ok(Opened { machine: Box::new(machine), name, processor, memory })
 }
 
-/// Divisions and roots of 32 bits as IEEE 754 has them, where the device can.
-fn options(found: &Found, precision: Precision) -> &'static str {
+/// Divisions and roots of 32 bits as IEEE 754 has them, where the device can. Optimised further, pocl fuses products with
+/// sums although the text forbids it.
+fn options(found: &Found, precision: Precision) -> String {
     let rounds = || {
         let config = found.single_fp_config();
         config.is_ok_and(|config| config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT != 0)
     };
-    match precision {
-        Precision::Single if rounds() => "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt",
-        _ => "-cl-std=CL1.2",
+    let mut options = "-cl-std=CL1.2".to_owned();
+    if precision == Precision::Single && rounds() {
+        options += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
+    if found.version().is_ok_and(|version| version.contains("pocl")) {
+        options += " -O1";
+    }
+    options
 }
 
 /// Held while devices are enumerated: pocl initialises on the first call, and not safely from two threads at once.

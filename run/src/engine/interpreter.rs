@@ -175,6 +175,11 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
         self.integrator.frame.get(motion).map(|program| self.vector(program, mu))
     }
 
+    fn radius(&self) -> ScalarOf<Self> {
+        let square = self.of_series().first().copied().unwrap_or(f64::INFINITY);
+        Scalar::of(if square.is_finite() { square.sqrt() } else { f64::MAX })
+    }
+
     fn largest_rate(&self) -> f64 {
         self.integrator.largest_rate.unwrap_or(f64::MAX)
     }

@@ -67,6 +67,13 @@ pub trait GeneratingFunction {
         None
     }
 
+    /// The Euclidean norm of μ, in each direct factor of the group, up to which [`GeneratingFunction::series_ratio`] is at
+    /// most ½ in every direction; larger momenta are judged one by one. Unbounded where S is no truncated series.
+    #[inline(always)]
+    fn radius(&self) -> ScalarOf<Self> {
+        Scalar::of(f64::MAX)
+    }
+
     /// The largest rate at which motions may part in a step, √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|) of Z = ad_xᵀ + 2 ∂p/∂x·Hess S; unbounded
     /// but where S is a series of so few terms that their ratio tells too little. The share of it counts as twice the
     /// ratio of terms.

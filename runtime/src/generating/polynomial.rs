@@ -3,6 +3,10 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use coadjoint_program::fold::{gradient_bound, radius};
+use coadjoint_program::limits::LARGEST_RATIO;
+use nalgebra::ComplexField;
+
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf, series};
 use crate::group::LieGroup;
@@ -48,6 +52,8 @@ struct TruncatedSeries {
     last: Vec<LastTerm>,
     /// The direct factor of the group that each coordinate belongs to.
     factors: Vec<u32>,
+    /// Up to which |p| of each factor their ratio is at most ½ in every direction.
+    radius: f64,
 }
 
 impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
@@ -102,7 +108,17 @@ impl<G: LieGroup, C: Chart<G>> PolynomialFunction<G, C> {
             .collect();
         let factors = factor_of_coordinates(&group);
         let function = Self::new(group, chart, terms.into_iter().map(|(_, c, f)| (c, f)))?;
-        Ok(Self { series: Some(TruncatedSeries { last, factors }), ..function })
+        let factor_of = |i: u32| factors.get(i as usize).copied().unwrap_or(0);
+        let count = factors.last().map_or(0, |last| last + 1);
+        let counted = last.iter().flat_map(|(c, highest, monomial)| {
+            (0..count).filter_map(move |factor| {
+                let bound = gradient_bound(monomial, factor_of, factor, ComplexField::sqrt);
+                let (degree, weight) = bound?;
+                Some((*c, (0, factor, *highest, degree, weight)))
+            })
+        });
+        let radius = radius(counted, LARGEST_RATIO);
+        Ok(Self { series: Some(TruncatedSeries { last, factors, radius }), ..function })
     }
 }
 
@@ -161,8 +177,12 @@ impl<G: LieGroup, C: Chart<G>> GeneratingFunction for PolynomialFunction<G, C> {
         x
     }
 
+    fn radius(&self) -> ScalarOf<Self> {
+        Scalar::of(self.series.as_ref().map_or(f64::MAX, |series| series.radius))
+    }
+
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        let Some(TruncatedSeries { last, factors }) = &self.series else {
+        let Some(TruncatedSeries { last, factors, .. }) = &self.series else {
             return Scalar::of(0.0);
         };
         let terms = last.iter();

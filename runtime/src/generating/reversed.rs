@@ -31,6 +31,10 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
         self.0.frame(motion, mu).map(|y| VectorOf::<S>::from_entries(y.dim(), |i| -y[i]))
     }
 
+    fn radius(&self) -> ScalarOf<Self> {
+        self.0.radius()
+    }
+
     fn largest_rate(&self) -> f64 {
         self.0.largest_rate()
     }

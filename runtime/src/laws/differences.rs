@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::Vector;
 use crate::chart::Chart;
 use crate::error::StepError;
+use crate::generating::VectorOf;
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
@@ -47,7 +47,7 @@ fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
 
 /// DΦ B(μ) DΦᵀ = B(Φ(μ)), with B_jk(μ) = −⟨μ, [e_j, e_k]⟩: the largest difference of an entry,
 /// relative to the largest entry of B or of the products summed.
-pub(super) fn poisson_defect<S>(map: &S, mu: &Vector<S>) -> Result<f64, StepError>
+pub(super) fn poisson_defect<S>(map: &S, mu: &VectorOf<S>) -> Result<f64, StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
@@ -124,7 +124,7 @@ where
 }
 
 /// x and μ″ of the map of S alone: the frame moves by exact flows of functions of μ.
-fn generated<S>(map: &S, mu: &Vector<S>) -> Result<(Vector<S>, Vector<S>), StepError>
+fn generated<S>(map: &S, mu: &VectorOf<S>) -> Result<(VectorOf<S>, VectorOf<S>), StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
@@ -136,7 +136,7 @@ where
 
 /// Basis vectors of T\*G with their images. g″ = g′τ(x) with x depending on μ′ only, so that
 /// g″⁻¹δg″ = Ad_{τ(x)⁻¹}(ξ + d^Rτ_x δx).
-fn pairs_by_chart<S>(map: &S, mu: &Vector<S>) -> Result<Pairs<Vector<S>>, StepError>
+fn pairs_by_chart<S>(map: &S, mu: &VectorOf<S>) -> Result<Pairs<VectorOf<S>>, StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
@@ -146,10 +146,10 @@ where
     let x = solve(map, mu)?.x;
     let back = group.inverse(&chart.transport(group, &x, mu).0);
     // Row i of d^Rτ_x: the transpose applied to a basis vector.
-    let rows: Vec<Vector<S>> =
+    let rows: Vec<VectorOf<S>> =
         (0..dim).map(|i| chart.pull_back(group, &x, &Coordinates::unit(dim, i))).collect();
     let step = STEP * mu.largest_entry().max(f64::MIN_POSITIVE);
-    let zero = Vector::<S>::zeros(dim);
+    let zero = VectorOf::<S>::zeros(dim);
     let mut pairs = Vec::with_capacity(2 * dim);
     for i in 0..dim {
         let turned =
@@ -162,8 +162,8 @@ where
             let (x, image) = generated(map, &mu)?;
             Ok(Some([x, image]))
         };
-        if let Some([slope, nu]) = derivative::<Vector<S>, 2>(dim, step, &mut both)? {
-            let right = Vector::<S>::from_entries(dim, |row| rows[row].pairing(&slope));
+        if let Some([slope, nu]) = derivative::<VectorOf<S>, 2>(dim, step, &mut both)? {
+            let right = VectorOf::<S>::from_entries(dim, |row| rows[row].pairing(&slope));
             let image = Tangent { xi: group.adjoint(&back, &right), nu };
             pairs.push((Tangent { xi: zero.clone(), nu: Coordinates::unit(dim, i) }, image));
         }

@@ -9,7 +9,6 @@ mod order;
 use alloc::vec::Vec;
 
 use crate::error::StepError;
-use crate::generating::GeneratingFunction;
 use crate::generating::Reversed;
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
@@ -23,9 +22,6 @@ use differences::{poisson_defect, symplectic_defect};
 
 pub use differences::symplectic_defect_of;
 pub use order::{OrderError, measured_order};
-
-/// The vectors of a group.
-type Vector<S> = <<S as GeneratingFunction>::Group as LieGroup>::Vector;
 
 /// A law tried on a map.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -66,8 +66,11 @@ fn check_domain<S: Integrator + ?Sized>(
         return Err(refuse(generating, mu, candidate, outside));
     }
     let p = S::Chart::default().pull_back(generating.group(), &candidate.x, mu);
-    let estimated = estimated_ratio(generating, mu, &candidate.x);
-    let ratio = generating.series_ratio(&p).worse(estimated);
+    // Of the ratio at p and the bound for all momenta as long as μ the smaller counts.
+    let radius = generating.radius();
+    let within = mu.pairing(mu).simd_le(radius * radius);
+    let of_terms = ScalarOf::<S>::of(0.0).select(within, generating.series_ratio(&p));
+    let ratio = of_terms.worse(estimated_ratio(generating, mu, &candidate.x));
     if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, candidate, |at| StepError::SeriesDiverges { at }));
     }

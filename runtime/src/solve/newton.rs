@@ -2,7 +2,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
+use super::candidate::{Branch, Candidate, CandidateOf, OWN_ROUNDING, inverse_scale, rounding};
 use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
@@ -48,7 +48,10 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let relative = correction.largest_entry() * inverse_scale;
         moved += relative;
         if !relative.simd_le(allowed).all() || iterations == MAX_ITERATIONS {
-            return Candidate { x, moved, residual, branch: Branch::Unknown, iterations };
+            let solved = residual.simd_le(ScalarOf::<S>::of(OWN_ROUNDING) * rounding).all();
+            let branch =
+                if solved { branch::<S>(dim, &derivative, jacobian) } else { Branch::Unknown };
+            return Candidate { x, moved, residual, branch, iterations };
         }
         p = p.minus(&correction);
         // Corrections by rounding do not shrink.
