@@ -68,7 +68,7 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     Ok(Opened { machine: Box::new(machine), name, processor, memory })
 }
 
-/// Divisions and roots of 32 bits as IEEE 754 has them, where the device can. Optimised further, pocl fuses products with
+/// Divisions and roots of 32 bits as IEEE 754 has them, where the device can. pocl, where it optimises, fuses products with
 /// sums although the text forbids it.
 fn options(found: &Found, precision: Precision) -> String {
     let rounds = || {
@@ -79,8 +79,8 @@ fn options(found: &Found, precision: Precision) -> String {
     if precision == Precision::Single && rounds() {
         options += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
-    if found.version().is_ok_and(|version| version.contains("pocl")) {
-        options += " -O1";
+    if found.version().is_ok_and(|version| version.to_lowercase().contains("pocl")) {
+        options += " -cl-opt-disable";
     }
     options
 }
