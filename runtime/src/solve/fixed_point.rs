@@ -3,7 +3,7 @@
 use coadjoint_program::limits::NEAR;
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::candidate::{Branch, Candidate, CandidateOf, OWN_ROUNDING, inverse_scale, rounding};
+use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
 use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
@@ -60,7 +60,7 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
         }
         p = next;
     }
-    if found.residual.simd_le(ScalarOf::<S>::of(OWN_ROUNDING) * rounding).all() {
+    if found.residual.simd_le(rounding).all() {
         found.branch = Branch::Only;
     }
     found
