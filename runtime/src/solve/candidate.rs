@@ -40,7 +40,7 @@ pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
 /// Where corrections no longer shrink, S has a rounding of its own, as a sum over many data points has: an equation solved
 /// up to this multiple of [`rounding`] is solved.
-pub(super) const OWN_ROUNDING: f64 = 64.0;
+pub(super) const OWN_ROUNDING: f64 = 24.0;
 
 /// The residual of a solved equation, relative to the largest coordinate of μ: rounding of many coordinates may stay above
 /// four units of it.
