@@ -23,6 +23,11 @@ pub trait MomentumFunction {
 
     /// Writes ∂f/∂p and the n×n Hessian (symmetric, so rows or columns) to the slices.
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]);
+
+    /// As [`GeneratingFunction::rounding`].
+    fn rounding(&self) -> f64 {
+        1.0
+    }
 }
 
 impl<M: MomentumFunction + ?Sized> MomentumFunction for &M {
@@ -40,6 +45,10 @@ impl<M: MomentumFunction + ?Sized> MomentumFunction for &M {
 
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         (**self).gradient_and_hessian(p, gradient, hessian);
+    }
+
+    fn rounding(&self) -> f64 {
+        (**self).rounding()
     }
 }
 
@@ -70,6 +79,10 @@ impl<M: MomentumFunction> MomentumFunction for Scaled<M> {
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         self.function.gradient_and_hessian(p, gradient, hessian);
         gradient.iter_mut().chain(hessian).for_each(|entry| *entry *= self.factor);
+    }
+
+    fn rounding(&self) -> f64 {
+        self.function.rounding()
     }
 }
 
@@ -127,6 +140,10 @@ where
         self.function.gradient_and_hessian(&entries(p), &mut gradient, &mut hessian);
         let matrix = G::Vector::matrix_from_entries(dim, |i, j| hessian[i * dim + j]);
         (vector::<G>(&gradient), matrix)
+    }
+
+    fn rounding(&self) -> f64 {
+        self.function.rounding()
     }
 }
 

@@ -80,4 +80,9 @@ impl MomentumFunction for Model {
             hessian.iter_mut().zip(&rest.1).for_each(|(a, b)| *a += b);
         }
     }
+
+    fn rounding(&self) -> f64 {
+        let (first, second) = self.parts();
+        second.map_or(1.0, MomentumFunction::rounding).max(first.rounding())
+    }
 }

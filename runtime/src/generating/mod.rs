@@ -74,6 +74,13 @@ pub trait GeneratingFunction {
         Scalar::of(f64::MAX)
     }
 
+    /// The rounding of the gradient, in units of that of a short sum: a step's equation is solved up to as many. More than 1
+    /// for sums of many terms that cancel.
+    #[inline(always)]
+    fn rounding(&self) -> f64 {
+        1.0
+    }
+
     /// The largest rate at which motions may part in a step, √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|) of Z = ad_xᵀ + 2 ∂p/∂x·Hess S; unbounded
     /// but where S is a series of so few terms that their ratio tells too little. The share of it counts as twice the
     /// ratio of terms.

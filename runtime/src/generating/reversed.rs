@@ -35,6 +35,10 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
         self.0.radius()
     }
 
+    fn rounding(&self) -> f64 {
+        self.0.rounding()
+    }
+
     fn largest_rate(&self) -> f64 {
         self.0.largest_rate()
     }

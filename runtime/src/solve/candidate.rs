@@ -1,10 +1,11 @@
 //! A step as a method of solution proposes it, and the sizes by which it is judged.
 
 use coadjoint_program::limits::NEAR;
-use nalgebra::SimdBool;
+use nalgebra::{SimdBool, SimdPartialOrd};
 
 use super::Settings;
-use crate::generating::{ScalarOf, VectorOf};
+use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
@@ -38,14 +39,14 @@ pub enum Branch {
 /// A candidate for a step of `S`.
 pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
-/// Where corrections no longer shrink, S has a rounding of its own, as a sum over many data points has: an equation solved
-/// up to this multiple of [`rounding`] is solved.
-pub(super) const OWN_ROUNDING: f64 = 24.0;
-
 /// The residual of a solved equation, relative to the largest coordinate of μ: rounding of many coordinates may stay above
-/// four units of it.
-pub(super) fn rounding<T: Scalar>(dim: usize, settings: Settings<T>) -> T {
-    (T::of((4.0 * dim as f64).min(32.0)) * T::epsilon()).simd_max(settings.tolerance())
+/// four units of it, and S may have more of its own.
+pub(super) fn rounding<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    settings: Settings<ScalarOf<S>>,
+) -> ScalarOf<S> {
+    let units = (4.0 * generating.group().dim() as f64).min(32.0) * generating.rounding();
+    (ScalarOf::<S>::of(units) * ScalarOf::<S>::epsilon()).simd_max(settings.tolerance())
 }
 
 impl<V, T: Scalar> Candidate<V, T> {

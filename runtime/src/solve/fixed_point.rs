@@ -28,7 +28,7 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
     let (near, zero) = (ScalarOf::<S>::of(NEAR), ScalarOf::<S>::of(0.0));
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(dim, settings));
+    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating, settings));
 
     let disturbance = ScalarOf::<S>::of(DISTURBANCE) / inverse_scale;
     let mut p = VectorOf::<S>::from_entries(dim, |i| {

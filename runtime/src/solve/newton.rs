@@ -2,7 +2,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::candidate::{Branch, Candidate, CandidateOf, OWN_ROUNDING, inverse_scale, rounding};
+use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
 use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
@@ -25,7 +25,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(dim, settings));
+    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating, settings));
     let mut p = guess;
     let mut moved = ScalarOf::<S>::of(0.0);
     let mut allowed = ScalarOf::<S>::of(f64::MAX);
@@ -48,10 +48,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let relative = correction.largest_entry() * inverse_scale;
         moved += relative;
         if !relative.simd_le(allowed).all() || iterations == MAX_ITERATIONS {
-            let solved = residual.simd_le(ScalarOf::<S>::of(OWN_ROUNDING) * rounding).all();
-            let branch =
-                if solved { branch::<S>(dim, &derivative, jacobian) } else { Branch::Unknown };
-            return Candidate { x, moved, residual, branch, iterations };
+            return Candidate { x, moved, residual, branch: Branch::Unknown, iterations };
         }
         p = p.minus(&correction);
         // Corrections by rounding do not shrink.
