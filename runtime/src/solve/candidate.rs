@@ -45,7 +45,8 @@ pub(super) fn rounding<S: GeneratingFunction + ?Sized>(
     generating: &S,
     settings: Settings<ScalarOf<S>>,
 ) -> ScalarOf<S> {
-    let units = (4.0 * generating.group().dim() as f64).min(32.0) * generating.rounding();
+    let dim = generating.group().dim();
+    let units = (4.0 * dim as f64).min(32.0) * generating.rounding();
     (ScalarOf::<S>::of(units) * ScalarOf::<S>::epsilon()).simd_max(settings.tolerance())
 }
 

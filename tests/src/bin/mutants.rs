@@ -126,14 +126,20 @@ const MUTANTS: &[Mutant] = &[
     mutant(
         "generic: rate ignored",
         ACCEPT,
-        "series_ratio(&p).worse(estimated)",
-        "series_ratio(&p)",
+        "of_terms.worse(estimated_ratio(generating, mu, &candidate.x))",
+        "of_terms",
     ),
     mutant(
         "generic: ratio ignored",
         ACCEPT,
-        "generating.series_ratio(&p).worse(estimated)",
-        "estimated",
+        "select(within, generating.series_ratio(&p))",
+        "select(within, ScalarOf::<S>::of(0.0))",
+    ),
+    mutant(
+        "generic: radius ignored",
+        ACCEPT,
+        "mu.pairing(mu).simd_le(radius * radius)",
+        "mu.pairing(mu).simd_lt(ScalarOf::<S>::of(0.0) * radius)",
     ),
     mutant(
         "generic: ratio times 10",
@@ -301,6 +307,20 @@ const MUTANTS: &[Mutant] = &[
     ),
 ];
 
+impl Mutant {
+    /// The text of its file in this tree, and the same changed.
+    fn change(&self, tree: &Path) -> Result<(String, String), String> {
+        let Self { name, file, from, to, .. } = self;
+        let text = std::fs::read_to_string(tree.join(file));
+        let text = text.map_err(|error| format!("{file}: {error}"))?;
+        if text.matches(from).count() != 1 {
+            return Err(format!("{name}: {file} has not exactly one {from:?}"));
+        }
+        let changed = text.replace(from, to);
+        Ok((text, changed))
+    }
+}
+
 /// The files that a build needs, copied.
 fn copy(from: &Path, to: &Path) -> Result<(), String> {
     let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(from).output();
@@ -355,15 +375,13 @@ fn run(only: &str) -> Result<bool, String> {
         }
     }
     let mut good = true;
-    for Mutant { name, file, from, to, equivalent } in chosen {
+    for mutant in chosen {
+        let (text, changed) = mutant.change(&tree)?;
+        let Mutant { name, file, equivalent, .. } = mutant;
         let path = tree.join(file);
-        let text = std::fs::read_to_string(&path).map_err(|error| format!("{file}: {error}"))?;
-        if text.matches(from).count() != 1 {
-            return Err(format!("{name}: {file} has not exactly one {from:?}"));
-        }
         let write =
             |text: &str| std::fs::write(&path, text).map_err(|error| format!("{file}: {error}"));
-        write(&text.replace(from, to))?;
+        write(&changed)?;
         let missed = passes(&tree, file);
         write(&text)?;
         let verdict = match (missed?, equivalent) {
@@ -387,5 +405,17 @@ fn main() -> ExitCode {
             eprintln!("{error}");
             ExitCode::from(2)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_mutant_changes_the_sources() {
+        let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+        let wrong: Vec<String> = MUTANTS.iter().filter_map(|m| m.change(root).err()).collect();
+        assert!(wrong.is_empty(), "{wrong:#?}");
     }
 }
