@@ -34,6 +34,10 @@ pub(crate) enum Mistake {
     Inverse(String),
     #[error("the index `{0}` is not an integer known here")]
     Index(String),
+    #[error("`{0}` is {1}, and an index must be a whole number")]
+    IndexNumber(String, String),
+    #[error("`{0}` is no list, so it has no length")]
+    NoList(String),
     #[error("unknown function `{0}`{did}", did = did_you_mean(.1))]
     UnknownFunction(String, Option<String>),
     #[error("`{0}` is a function and needs an argument")]
@@ -208,10 +212,11 @@ impl Mistake {
                 "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \
                  inv(J)[0][1]"
             }
-            Self::Index(..) => {
+            Self::Index(..) | Self::IndexNumber(..) => {
                 "an index is made of integers, indices of sums and parameters that are integers, with + - * % and \
                  parentheses"
             }
+            Self::NoList(_) => "give it as a list under [parameters], such as P = [0, 1, 2]",
             Self::UnknownFunction(..) => "known functions: sqrt, sin, cos, tan, exp, ln, abs",
             Self::FunctionWithoutArgument(name) => {
                 return Some(format!("write `{name}(…)` with parentheses"));

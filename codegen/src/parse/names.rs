@@ -80,6 +80,14 @@ impl Names {
         self.known.get(name)
     }
 
+    /// How many entries the list of this name has; `None` where there is none.
+    pub(crate) fn entries(&self, list: &str) -> Option<usize> {
+        let start = format!("{list}[");
+        let inside = self.known.range(start.clone()..).map(|(name, _)| name.strip_prefix(&start));
+        let indices = inside.map_while(|inside| inside?.split(']').next()?.parse::<usize>().ok());
+        indices.max().map(|last| last + 1)
+    }
+
     /// The mistake of using a name that is not known.
     pub(crate) fn unknown(&self, name: &str) -> Mistake {
         if matches!(name, "t" | "time") {

@@ -34,12 +34,43 @@ impl Scope<'_> {
         if let Some((_, value)) = self.indices.iter().find(|(index, _)| index == name) {
             return Ok(Name::Number(integer(*value)));
         }
+        if let Some(list) = name.strip_prefix("len(").and_then(|list| list.strip_suffix(')')) {
+            return self.length(list.trim()).map(|length| Name::Number(integer(length)));
+        }
         let full = self.resolved(name)?;
         match self.names.get(&full) {
             Some(meaning) => Ok(meaning.clone()),
             None if full == "pi" => Ok(Name::Number(pi())),
-            None => Err(self.names.unknown(&full)),
+            None => Err(self.unknown(&full)),
         }
+    }
+
+    /// `len(P)`.
+    fn length(&self, list: &str) -> Result<i64, Mistake> {
+        match self.names.entries(list) {
+            Some(count) => Ok(count as i64),
+            None if self.names.get(list).is_some() => Err(Mistake::NoList(list.to_owned())),
+            None => Err(self.names.unknown(list)),
+        }
+    }
+
+    /// The mistake of using a name that is not known, its indices worked out: one of them may be out of range.
+    fn unknown(&self, name: &str) -> Mistake {
+        for (at, _) in name.match_indices('[') {
+            let (list, rest) = (&name[..at], &name[at + 1..]);
+            let index = rest.split(']').next().unwrap_or(rest);
+            if let Some(count) = self.names.entries(list)
+                && !index.parse().is_ok_and(|index: usize| index < count)
+            {
+                let around = self.indices.iter().map(|(name, value)| format!("{name} = {value}"));
+                let mut shown = format!("{index} of `{list}`");
+                if !self.indices.is_empty() {
+                    shown.push_str(&format!(" ({})", around.collect::<Vec<_>>().join(", ")));
+                }
+                return Mistake::IndexRange(shown, count);
+            }
+        }
+        self.names.unknown(name)
     }
 
     /// `x[(i + 1) % 64]` as `x[1]` where i is 0.
@@ -48,8 +79,7 @@ impl Scope<'_> {
         let mut result: String = head.split_whitespace().collect();
         while let Some(length) = bracketed(rest) {
             let inside = &rest[1..length - 1];
-            let index = || Mistake::Index(inside.to_owned());
-            let value = self.integer(inside).ok_or_else(index)?;
+            let value = self.integer(inside)?;
             result.push_str(&format!("[{value}]"));
             rest = &rest[length..];
         }
@@ -58,21 +88,26 @@ impl Scope<'_> {
 
     /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses, in indices of sums and
     /// parameters that are integers; `%` is never negative, so that `(i - 1) % 64` goes round a ring.
-    pub(crate) fn integer(&self, text: &str) -> Option<i64> {
+    ///
+    /// # Errors
+    /// A text that is none, or an entry of a list that is out of range or no integer.
+    pub(crate) fn integer(&self, text: &str) -> Result<i64, Mistake> {
+        let mut reader = Reader { scope: self, rest: text.chars().peekable(), mistake: None };
         // They are read by recursion.
-        if text.matches(['(', '[']).count() > MOST_NESTED {
-            return None;
-        }
-        let mut reader = Reader { scope: self, rest: text.chars().peekable() };
-        let value = reader.sum()?;
+        let readable = text.matches(['(', '[']).count() <= MOST_NESTED;
+        let value = if readable { reader.sum() } else { None };
         reader.skip();
-        reader.rest.next().is_none().then_some(value)
+        value
+            .filter(|_| reader.rest.next().is_none())
+            .ok_or_else(|| reader.mistake.unwrap_or_else(|| Mistake::Index(text.to_owned())))
     }
 }
 
 struct Reader<'a> {
     scope: &'a Scope<'a>,
     rest: Peekable<Chars<'a>>,
+    /// The reason why there is no value, where more is known than that.
+    mistake: Option<Mistake>,
 }
 
 impl Reader<'_> {
@@ -128,17 +163,35 @@ impl Reader<'_> {
         if negative { value.checked_neg() } else { Some(value) }
     }
 
-    /// A parameter that is an integer, or such an entry of a list of numbers: `P[b]` in `x[P[b]]`.
+    /// A parameter that is an integer, such an entry of a list of numbers, as `P[b]` in `x[P[b]]`, or the length of a list.
     fn parameter(&mut self, mut name: String) -> Option<i64> {
+        if name == "len" && self.next_of(&['(']).is_some() {
+            let list: String = std::iter::from_fn(|| self.rest.next_if(|c| *c != ')')).collect();
+            self.next_of(&[')'])?;
+            let length = self.scope.length(list.trim());
+            return self.known(length);
+        }
+        let head = name.clone();
         while self.next_of(&['[']).is_some() {
             let at = self.sum()?;
             self.next_of(&[']'])?;
             name.push_str(&format!("[{at}]"));
         }
-        match self.scope.names.get(&name)? {
-            Name::Number(value) if value.is_integer() => value.to_integer().to_i64(),
+        match self.scope.names.get(&name) {
+            Some(Name::Number(value)) if value.is_integer() => value.to_integer().to_i64(),
+            Some(Name::Number(value)) => {
+                self.known(Err(Mistake::IndexNumber(name, value.to_string())))
+            }
+            None if self.scope.names.entries(&head).is_some() => {
+                self.known(Err(self.scope.unknown(&name)))
+            }
             _ => None,
         }
+    }
+
+    /// The value, or none, and why.
+    fn known(&mut self, value: Result<i64, Mistake>) -> Option<i64> {
+        value.map_err(|mistake| self.mistake = Some(mistake)).ok()
     }
 }
 

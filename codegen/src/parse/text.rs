@@ -242,30 +242,35 @@ impl Parser<'_> {
             }
         };
         let whole = self.span(start..form.end);
-        let bounds = text[form.values.clone()].split_once("..").and_then(|(first, last)| {
-            Some((self.scope.integer(first)?, self.scope.integer(last)?))
-        });
+        let bounds = match text[form.values.clone()].split_once("..") {
+            Some((first, last)) => {
+                let first = self.scope.integer(first);
+                let bounds = first.and_then(|first| Ok((first, self.scope.integer(last)?)));
+                bounds.map_err(|mistake| format!("its range is none of integers: {mistake}"))
+            }
+            None => Err("its range is none of integers".to_owned()),
+        };
         let taken = self.scope.get(&form.index).is_ok() || Function::lookup(&form.index).is_some();
-        let reason = match bounds {
+        let reason = match &bounds {
             _ if !is_word(&form.index) => "its index is no name",
             _ if self.scope.indices.len() >= sum::MOST_NESTED => "more than 64 sums are nested",
             _ if taken => "the name of its index is already in use",
-            None => "its range is none of integers",
-            Some((first, last)) if last.saturating_sub(first) > sum::MOST_TERMS => {
+            Err(reason) => reason,
+            Ok((first, last)) if last.saturating_sub(*first) > sum::MOST_TERMS => {
                 "it has more than 10000 terms"
             }
-            _ => "",
+            Ok(_) => "",
         };
-        let Some((first, last)) = bounds.filter(|_| reason.is_empty()) else {
+        let (Ok((first, last)), "") = (&bounds, reason) else {
             self.wrong(whole, Mistake::Sum(reason.to_owned()));
             return form.end;
         };
         let (body, offset) = (&text[form.body.clone()], self.offset + form.body.start);
         let before = self.diagnostics.len();
         let mut scope = self.scope.clone();
-        scope.indices.push((form.index, first));
+        scope.indices.push((form.index, *first));
         let mut total = None;
-        for value in first..last {
+        for value in *first..*last {
             if let Some(index) = scope.indices.last_mut() {
                 index.1 = value;
             }

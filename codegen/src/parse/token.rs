@@ -65,8 +65,8 @@ impl<'a> Tokens<'a> {
     fn name(&self) -> usize {
         let mut length = self.run(0, continues_name);
         let rest = self.rest();
-        // `inv(J)` is the name of a matrix.
-        if let Some(inside) = rest.strip_prefix("inv(")
+        // `inv(J)` is the name of a matrix, `len(P)` of a number.
+        if let Some(inside) = rest.strip_prefix("inv(").or_else(|| rest.strip_prefix("len("))
             && let Some((matrix, _)) = inside.split_once(')')
             && is_word(matrix.trim())
         {

@@ -32,8 +32,8 @@ struct Given {
 }
 
 impl Parameters {
-    /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices and in `inv(…)` are
-    /// numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
+    /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices, in ranges of sums and in
+    /// `inv(…)` are numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
     pub(super) fn read(root: &Table<'_>, options: Options, varied: &[String]) -> Self {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
@@ -44,7 +44,10 @@ impl Parameters {
             let after = |open, close| {
                 text.split(open).skip(1).flat_map(move |rest| rest.split(close).next())
             };
-            numbers.extend(after("inv(", ')').chain(after("[", ']')).flat_map(words));
+            // The bounds of sums stand between commas.
+            let range = |at: usize| [text[..at].rsplit(',').next(), text[at..].split(',').next()];
+            let ranges = text.match_indices("..").flat_map(|(at, _)| range(at)).flatten();
+            numbers.extend(after("inv(", ')').chain(after("[", ']')).chain(ranges).flat_map(words));
         }
         let entries = table.entries();
         let used: Vec<_> = entries.iter().map(|(.., value)| words_of(value.get_ref())).collect();
@@ -67,9 +70,10 @@ impl Parameters {
             let varies = varied.iter().any(|varied| varied == name);
             let user = entries.iter().zip(&used).find(|(_, words)| words.contains(name));
             let why = match user {
-                _ if numbers.contains(name) => {
-                    Some("it is a number of the algebra, of an index or of inv(…)".to_owned())
-                }
+                _ if numbers.contains(name) => Some(
+                    "it is a number of the algebra, an index, the range of a sum or inv(…)"
+                        .to_owned(),
+                ),
                 Some(((user, ..), _)) => Some(format!("`{user}` is computed from it")),
                 None => None,
             };

@@ -88,6 +88,14 @@ same_as_rust! { loops_with_an_accumulator, "SO3", h(&MU, INERTIA), MU, INERTIA,
     }
 }
 
+same_as_rust! { lists_of_edges, "SO3", h(MU, INERTIA), MU, INERTIA,
+    fn h(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+        const P: [usize; 3] = [0, 1, 2];
+        const Q: [usize; 3] = [1, 2, 0];
+        (0..P.len()).map(|b| inertia[b] * mu[P[b]] * mu[Q[b]]).sum()
+    }
+}
+
 same_as_rust! { iterators_and_closures, "SO3", h(MU, INERTIA), MU, INERTIA,
     fn h(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
         fn square(x: f64) -> f64 { x * x }
