@@ -184,6 +184,13 @@ class Run:
         return Drift(*self._found["drift_scale"])
 
     @property
+    def off_group(self) -> float | None:
+        """How far the last element is off its group: the largest entry of gᵀg - 1, of what in g is orthogonal or unitary;
+        None where nothing is."""
+        found: float | None = self._found["off_group"]
+        return found
+
+    @property
     def final_momentum(self) -> Floats:
         """The momentum at the end, (n,), recorded or not."""
         end: Floats = self._found["end"]["momentum"]

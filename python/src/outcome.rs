@@ -53,6 +53,7 @@ pub fn result_of<'py>(
     let scales = &outcome.scales;
     let scales = (scales.spatial_momentum, scales.casimirs.clone(), scales.energy);
     found.set_item("drift_scale", scales)?;
+    found.set_item("off_group", outcome.off_group)?;
     found.set_item("unknown", outcome.unknown)?;
     found.set_item("unmeasured", outcome.unmeasured)?;
     found.set_item("potential", outcome.potential)?;

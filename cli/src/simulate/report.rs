@@ -62,6 +62,9 @@ fn object(run: &Trajectory, units: &Units) -> Value {
         let times = times.filter_map(|(name, time)| Some((*name, json!(time?))));
         object["drift_not_measurable_after"] = object_of(times);
     }
+    if let Some(off) = end.off_group {
+        object["off_group"] = json!(off);
+    }
     if let Some([start, end]) = end.energy {
         object["energy"] = json!({ "start": start, "end": end });
     }
@@ -159,6 +162,10 @@ fn text(run: &Trajectory, units: &Units) -> String {
     }
     for line in lines(&end.blocks, &end.element) {
         let _ = writeln!(out, "  {line}");
+    }
+    // Rounding is not worth a line.
+    if let Some(off) = end.off_group.filter(|off| *off > 1e-12) {
+        let _ = writeln!(out, "  gᵀg − 1    {off:>24.1e}");
     }
     if let Some([_, energy]) = end.energy {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));

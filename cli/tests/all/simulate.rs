@@ -248,6 +248,26 @@ fn drifts_of_long_elements_are_not_measured() {
     }
 }
 
+/// Equal increments repeat their rounding, which must not add up in proportion to the steps.
+#[test]
+fn steady_motions_keep_momentum_and_casimirs() {
+    let steady = |group: &str, hamiltonian: &str, momentum: &str| {
+        let folder = Folder::with(&format!(
+            "group = \"{group}\"\nhamiltonian = \"{hamiltonian}\"\n[integrator]\nstep = 0.5\ntruncation = 3\n\
+             [initial]\nmomentum = {momentum}\n[run]\ntime = 100000\nevery = 200000\n",
+        ));
+        let report = folder.json("simulate system.toml");
+        let drift = ["spatial_momentum", "casimirs"].map(|name| report["drift"][name].as_f64());
+        (drift.map(Option::unwrap), report["off_group"].as_f64().unwrap())
+    };
+    let ([spatial, casimirs], off) = steady("SU3", "0.9*mu[0]", "[1, 2, 3, 4, 5, 6, 7, 8]");
+    assert!(spatial < 2e-12 && casimirs < 1e-13 && off < 4e-15, "{spatial} {casimirs} {off}");
+    // The translation grows to 2500, and the drift is that of a difference of such numbers.
+    let screw = "0.7*mu[0] + 0.2*mu[1] - 0.3*mu[2] + 0.1*mu[4]";
+    let ([spatial, casimirs], off) = steady("SE3", screw, "[1, 2, 3, 4, 5, 6]");
+    assert!(spatial < 1e-10 && casimirs < 1e-10 && off < 4e-15, "{spatial} {casimirs} {off}");
+}
+
 /// A drift follows from the columns of the file and the scale that it names.
 #[test]
 fn the_scale_of_the_energy_is_the_energy_at_the_start() {

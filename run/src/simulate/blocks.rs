@@ -5,6 +5,8 @@ use std::ops::Range;
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, catalogue};
 use nalgebra::DMatrix;
 
+use crate::number::maximum;
+
 /// The kind of a block of a group element's matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -80,6 +82,33 @@ fn kind(factor: &LieAlgebra) -> Kind {
         _ if rows % 2 == 0 && n == half * half && is(&format!("U{half}")) => Kind::Complex,
         _ => Kind::Real,
     }
+}
+
+/// The largest entry of RᵀR − 1, where R is what in these blocks of a group element is orthogonal or unitary; none where
+/// nothing is.
+pub(crate) fn off_group(algebra: &LieAlgebra, blocks: &[Block], entries: &[f64]) -> Option<f64> {
+    let factors = algebra.factors();
+    let off = |((place, block), own): ((usize, &Block), &[f64])| {
+        let rows = block.range.len();
+        let kept = match block.kind {
+            Kind::PlaneMotion | Kind::Motion => rows - 1,
+            _ if blocks.len() == factors.len() && orthogonal(&factors[place]) => rows,
+            _ => return None,
+        };
+        let turn = matrix(block, own).view((0, 0), (kept, kept)).into_owned();
+        Some((turn.tr_mul(&turn) - DMatrix::identity(kept, kept)).amax())
+    };
+    let places = (0..).zip(blocks).zip(split(blocks, entries).map(|(_, own)| own));
+    places.filter_map(off).reduce(maximum)
+}
+
+/// Whether the elements of a factor's group are orthogonal matrices.
+fn orthogonal(factor: &LieAlgebra) -> bool {
+    factor.basis().is_some_and(|basis| {
+        let mut entries =
+            basis.iter().flat_map(|matrix| matrix.entries().map(move |e| (matrix, e)));
+        entries.all(|(matrix, (i, j, value))| matrix.get(j, i) == -value.clone())
+    })
 }
 
 /// The block's entries, which lie row by row in a slice.

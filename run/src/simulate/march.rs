@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched};
 use super::setup::Setup;
 use super::sink::{Record, Resume, Sink};
@@ -21,7 +22,7 @@ impl Pace {
         const GOAL: f64 = 0.005;
         let each = time.as_secs_f64().max(1e-9) / steps.max(1) as f64;
         // At most twice as many as before: the first may have been cheap.
-        self.0 = ((GOAL / each) as u64).clamp(1, self.0.saturating_mul(2));
+        self.0 = ((GOAL / each) as u64).clamp(1, Orbit::EVERY.min(self.0.saturating_mul(2)));
     }
 }
 
@@ -42,6 +43,8 @@ struct March<'a> {
     state: Numbers,
     sink: &'a mut dyn Sink,
     recorder: Recorder<'a>,
+    /// The orbit of the momentum, where the spatial momentum is conserved.
+    orbit: Option<Orbit>,
     /// Steps made.
     n: u64,
     moment: Moment,
@@ -65,6 +68,7 @@ impl Subject<'_> {
         let Self { setup, watched, warnings } = self;
         warnings.iter().for_each(|warning| sink.warn(&warning.text()));
         let mut recorder = Recorder::new(watched, motion.space(), &state);
+        let orbit = recorder.orbit();
         let moment = recorder.visit(0.0, motion.space(), &state);
         let moment = moment.map_err(|what| RunError::Run { time: 0.0, step: 0, what })?;
         let found = sink.begin(&recorder.begun());
@@ -76,7 +80,8 @@ impl Subject<'_> {
             _ => every * steps.div_ceil(every.saturating_mul(LOOKS)).max(1),
         };
         let (n, times) = (0, 0);
-        let mut march = March { setup, motion, state, sink, recorder, n, moment, times, interval };
+        let mut march =
+            March { setup, motion, state, sink, recorder, orbit, n, moment, times, interval };
         match found {
             None => march.record()?,
             Some(resume) => march.resume(resume)?,
@@ -119,7 +124,8 @@ impl March<'_> {
     fn steps(&mut self, pace: &mut Pace) -> Result<(), RunError> {
         let schedule = &self.setup.schedule;
         let (first, next) = (self.n, self.next_look());
-        let count = (next - first).min(pace.0);
+        let restored = (first / Orbit::EVERY + 1).saturating_mul(Orbit::EVERY);
+        let count = (next.min(restored) - first).min(pace.0);
         let ratio = if self.watched() { self.motion.ratio(&self.state.mu) } else { 0.0 };
         // Where records come more often than the driver must, none of its time goes into clocks.
         let begun = (count == pace.0).then(Instant::now);
@@ -133,6 +139,9 @@ impl March<'_> {
             pace.took(count, begun.elapsed());
         }
         self.n = first + count;
+        if let Some(orbit) = self.orbit.as_ref().filter(|_| self.n == restored) {
+            orbit.restore(self.motion.space(), &mut self.state);
+        }
         if let Some((iterations, residual)) = made {
             let noted = self.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(what))?;

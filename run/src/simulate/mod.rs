@@ -3,6 +3,7 @@
 mod blocks;
 mod learned;
 mod march;
+mod orbit;
 mod recorder;
 mod run;
 mod setup;

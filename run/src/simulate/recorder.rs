@@ -4,7 +4,8 @@ use coadjoint_codegen::lie::LieAlgebra;
 pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, nudge};
 
-use super::blocks::{Block, blocks};
+use super::blocks::{Block, blocks, off_group};
+use super::orbit::Orbit;
 use super::sink::Begun;
 use super::tally::{Moment, Solver, Steep, Tally, Warning};
 use crate::backend::Used;
@@ -28,6 +29,8 @@ pub struct Outcome {
     pub blocks: Vec<Block>,
     /// The entries of the blocks at the end, row by row.
     pub element: Vec<f64>,
+    /// The largest entry of gᵀg − 1 at the end, of what in g is orthogonal or unitary; none where nothing is.
+    pub off_group: Option<f64>,
     /// The energy at the start and at the end; none of a learned map.
     pub energy: Option<[f64; 2]>,
     /// The maxima over all steps, recorded or not.
@@ -97,6 +100,14 @@ impl<'a> Recorder<'a> {
             start.conserved.momenta.clear();
         }
         Self { watched, blocks, start, unknown: watched.unknown(), tally: Tally::default() }
+    }
+
+    /// The orbit of the start, where all of the spatial momentum is conserved and known.
+    pub(super) fn orbit(&self) -> Option<Orbit> {
+        let Watched { algebra, invariants, .. } = self.watched;
+        let momenta = &self.start.conserved.momenta;
+        let known = invariants.directions.is_none() && momenta.len() == algebra.dim();
+        (known && !self.blocks.is_empty()).then(|| Orbit::new(algebra, momenta.clone()))
     }
 
     /// The facts before the first step.
@@ -199,13 +210,15 @@ impl<'a> Recorder<'a> {
     ) -> Outcome {
         let Tally { drift, unmeasured, solver, steep } = self.tally;
         let invariants = self.watched.invariants;
+        let element = self.entries(space, state);
         Outcome {
             steps,
             time,
             backend: None,
             warnings: steep.map(Warning::Steep).into_iter().collect(),
             momentum: state.mu.clone(),
-            element: self.entries(space, state),
+            off_group: off_group(self.watched.algebra, &self.blocks, &element),
+            element,
             energy: self.start.conserved.energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
             unmeasured,
