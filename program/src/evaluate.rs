@@ -37,6 +37,8 @@ impl Program {
                 Node::Abs(a) => at(a).abs(),
                 Node::Sqrt(a) => at(a).sqrt(),
                 Node::Round(a) => at(a).round(),
+                Node::Scale(a, k) => at(a).scale(at(k)),
+                Node::Exponent(a) => at(a).exponent(),
                 Node::Select(a, b, c, d) => at(a).select(at(b), at(c), at(d)),
             };
             scratch.push(value);

@@ -1,8 +1,10 @@
 //! Graphs under construction: hash-consed, so that equal sub-expressions are one node.
 
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::function::Function;
 use crate::node::{Cost, Id, Node};
 use crate::program::Program;
 
@@ -18,6 +20,8 @@ type Known = alloc::collections::BTreeMap<Node, Id>;
 pub struct Graph {
     nodes: Vec<Node>,
     known: Known,
+    /// The nodes that are a function's value, of which node.
+    calls: BTreeMap<Id, (Function, Id)>,
 }
 
 impl Graph {
@@ -36,6 +40,18 @@ impl Graph {
         self.nodes.push(node);
         self.known.insert(node, id);
         id
+    }
+
+    /// Remembers that `result` is a function's value at a, for derivatives.
+    pub(crate) fn name(&mut self, function: Function, a: Id, result: Id) {
+        if self.node(result).operands().next().is_some() {
+            self.calls.insert(result, (function, a));
+        }
+    }
+
+    /// The function and its argument that this is the value of, if it is one's.
+    pub(crate) fn called(&self, id: Id) -> Option<(Function, Id)> {
+        self.calls.get(&id).copied()
     }
 
     /// The operation that `id` stands for.
@@ -185,6 +201,19 @@ impl Graph {
         }
     }
 
+    /// a · 2ᵏ, for whole k from −1022 to 1023.
+    pub fn scale(&mut self, a: Id, k: Id) -> Id {
+        match self.is_zero(a) || self.is_zero(k) {
+            true => a,
+            false => self.intern(Node::Scale(a, k)),
+        }
+    }
+
+    /// The exponent of a, as [`Node::Exponent`] has it.
+    pub fn exponent(&mut self, a: Id) -> Id {
+        self.intern(Node::Exponent(a))
+    }
+
     /// `then` if a ≤ b, else `otherwise`; that also where a or b is not a number.
     pub fn select(&mut self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
         match then == otherwise {
@@ -244,12 +273,17 @@ impl Graph {
                 Node::Abs(a) => self.abs(ids[a.index()]),
                 Node::Sqrt(a) => self.sqrt(ids[a.index()]),
                 Node::Round(a) => self.round(ids[a.index()]),
+                Node::Scale(a, k) => self.scale(ids[a.index()], ids[k.index()]),
+                Node::Exponent(a) => self.exponent(ids[a.index()]),
                 Node::Select(a, b, c, d) => {
                     let [a, b, c, d] = [a, b, c, d].map(|operand| ids[operand.index()]);
                     self.select(a, b, c, d)
                 }
             };
             ids.push(id);
+        }
+        for &(result, function, a) in program.calls() {
+            self.name(function, ids[a.index()], ids[result.index()]);
         }
         program.outputs().iter().map(|output| ids[output.index()]).collect()
     }
@@ -265,6 +299,7 @@ impl Graph {
         for node in self.nodes.drain(mark..) {
             self.known.remove(&node);
         }
+        self.calls.retain(|result, _| result.index() < mark);
     }
 
     /// The operations of the nodes made after `mark`.
@@ -273,9 +308,8 @@ impl Graph {
         Cost::of(&self.nodes[mark..])
     }
 
-    /// The program that computes `outputs`, nodes nothing needs left out.
-    #[must_use]
-    pub fn finish(self, inputs: usize, outputs: &[Id]) -> Program {
+    /// Whether each node is needed for one of these.
+    pub(crate) fn needed(&self, outputs: &[Id]) -> Vec<bool> {
         let mut needed = vec![false; self.nodes.len()];
         for output in outputs {
             needed[output.index()] = true;
@@ -287,6 +321,13 @@ impl Graph {
                 }
             }
         }
+        needed
+    }
+
+    /// The program that computes `outputs`, nodes nothing needs left out.
+    #[must_use]
+    pub fn finish(self, inputs: usize, outputs: &[Id]) -> Program {
+        let needed = self.needed(outputs);
         let mut renamed = vec![Id(0); self.nodes.len()];
         let mut nodes = Vec::new();
         for (index, node) in self.nodes.iter().enumerate() {
@@ -296,6 +337,13 @@ impl Graph {
             }
         }
         let outputs = outputs.iter().map(|output| renamed[output.index()]).collect();
-        Program::of_graph(inputs, nodes, outputs)
+        let calls = self
+            .calls
+            .iter()
+            .filter(|(result, (_, a))| needed[result.index()] && needed[a.index()]);
+        let calls = calls.map(|(result, &(function, a))| {
+            (renamed[result.index()], function, renamed[a.index()])
+        });
+        Program::of_graph(inputs, nodes, outputs, calls.collect())
     }
 }

@@ -20,6 +20,9 @@ extern crate std;
 #[cfg(all(feature = "programs", not(any(feature = "std", feature = "libm"))))]
 compile_error!("coadjoint-program needs one of its features `std` (the default) and `libm`");
 
+pub mod bits;
+#[cfg(feature = "programs")]
+mod derivative;
 #[cfg(feature = "programs")]
 mod dispatch;
 #[cfg(feature = "programs")]
@@ -27,6 +30,8 @@ mod error;
 #[cfg(feature = "programs")]
 mod evaluate;
 pub mod fold;
+#[cfg(feature = "programs")]
+mod function;
 #[cfg(feature = "programs")]
 mod graph;
 #[cfg(feature = "programs")]
@@ -55,7 +60,11 @@ pub mod splitting;
 mod stepper;
 
 #[cfg(feature = "programs")]
+pub use derivative::Argument;
+#[cfg(feature = "programs")]
 pub use error::ProgramError;
+#[cfg(feature = "programs")]
+pub use function::Function;
 #[cfg(feature = "programs")]
 pub use graph::Graph;
 #[cfg(feature = "programs")]

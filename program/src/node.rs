@@ -46,6 +46,12 @@ pub enum Node {
     Sqrt(Id),
     /// The integer nearest to a, the even one of two.
     Round(Id),
+    /// a · 2ᵏ, for whole k from −1022 to 1023, rounded once where the result is too small: the product with the number
+    /// whose exponent field is that of k. Other k give other numbers, the same on every target.
+    Scale(Id, Id),
+    /// The exponent of a: ⌊log₂ |a|⌋; for numbers too small to have a leading 1, and 0, one less than that of the
+    /// smallest with one (−1023), for infinities and what is no number one more than that of the largest (1024).
+    Exponent(Id),
     /// c if a ≤ b, else d; d where a or b is not a number.
     Select(Id, Id, Id, Id),
 }
@@ -57,12 +63,14 @@ impl Node {
             Self::Zero | Self::Constant(_) | Self::Epsilon | Self::Input(_) | Self::Slot(_) => {
                 [None; 4]
             }
-            Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) | Self::Round(a) => {
+            Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) | Self::Round(a) | Self::Exponent(a) => {
                 [Some(a), None, None, None]
             }
-            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
-                [Some(a), Some(b), None, None]
-            }
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Scale(a, b) => [Some(a), Some(b), None, None],
             Self::TimesPlus(a, b, c) => [Some(a), Some(b), Some(c), None],
             Self::Select(a, b, c, d) => [Some(a), Some(b), Some(c), Some(d)],
         };
@@ -82,6 +90,8 @@ impl Node {
             Self::Abs(a) => Self::Abs(rename(a)),
             Self::Sqrt(a) => Self::Sqrt(rename(a)),
             Self::Round(a) => Self::Round(rename(a)),
+            Self::Scale(a, k) => Self::Scale(rename(a), rename(k)),
+            Self::Exponent(a) => Self::Exponent(rename(a)),
             Self::Select(a, b, c, d) => Self::Select(rename(a), rename(b), rename(c), rename(d)),
             leaf @ (Self::Zero
             | Self::Constant(_)
@@ -117,7 +127,7 @@ impl Cost {
         for node in nodes {
             match node {
                 Node::Add(..) | Node::Sub(..) => cost.additions += 1,
-                Node::Mul(..) => cost.multiplications += 1,
+                Node::Mul(..) | Node::Scale(..) => cost.multiplications += 1,
                 Node::TimesPlus(..) => {
                     cost.additions += 1;
                     cost.multiplications += 1;

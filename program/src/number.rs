@@ -22,10 +22,15 @@ pub(crate) trait Number: Copy {
     fn sqrt(self) -> Self;
     /// The integer nearest to a, the even one of two.
     fn round(self) -> Self;
+    /// a · 2ᵏ, by the exponent field of k.
+    fn scale(self, k: Self) -> Self;
+    /// The exponent of a.
+    fn exponent(self) -> Self;
     /// `then` where self ≤ b, else `otherwise`.
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self;
 }
 
+use crate::bits::{exponent, power_of_two};
 #[cfg(not(feature = "std"))]
 use libm::{fma as fused, rint as nearest, sqrt as root};
 #[cfg(feature = "std")]
@@ -91,6 +96,14 @@ impl Number for f64 {
         nearest(self)
     }
     #[inline(always)]
+    fn scale(self, k: Self) -> Self {
+        self * power_of_two(k)
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        exponent(self)
+    }
+    #[inline(always)]
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
         if self <= b { then } else { otherwise }
     }
@@ -152,6 +165,14 @@ impl<const L: usize> Number for Lanes<L> {
     #[inline(always)]
     fn round(self) -> Self {
         Self::each(|l| nearest(self.0[l]))
+    }
+    #[inline(always)]
+    fn scale(self, k: Self) -> Self {
+        Self::each(|l| Number::scale(self.0[l], k.0[l]))
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        Self::each(|l| Number::exponent(self.0[l]))
     }
     #[inline(always)]
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self {

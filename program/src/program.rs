@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::error::ProgramError;
+use crate::function::Function;
 use crate::node::{Cost, Id, Node};
 
 /// A straight-line program: numbers and folded coefficients in, numbers out, no branches and no loops.
@@ -15,6 +16,8 @@ pub struct Program {
     slots: usize,
     nodes: Vec<Node>,
     outputs: Vec<Id>,
+    /// The nodes that are a function's value, and at which node.
+    calls: Vec<(Id, Function, Id)>,
 }
 
 impl Program {
@@ -38,17 +41,22 @@ impl Program {
         if let Some(output) = outputs.iter().position(|&id| id as usize >= nodes.len()) {
             return Err(ProgramError::Output { output });
         }
-        Ok(Self::of_graph(inputs, nodes, outputs.into_iter().map(Id).collect()))
+        Ok(Self::of_graph(inputs, nodes, outputs.into_iter().map(Id).collect(), Vec::new()))
     }
 
     /// The program of a graph, whose nodes are in order.
-    pub(crate) fn of_graph(inputs: usize, nodes: Vec<Node>, outputs: Vec<Id>) -> Self {
+    pub(crate) fn of_graph(
+        inputs: usize,
+        nodes: Vec<Node>,
+        outputs: Vec<Id>,
+        calls: Vec<(Id, Function, Id)>,
+    ) -> Self {
         let slot = |node: &Node| match node {
             Node::Slot(i) => *i as usize + 1,
             _ => 0,
         };
         let slots = nodes.iter().map(slot).max().unwrap_or(0);
-        Self { inputs, slots, nodes, outputs }
+        Self { inputs, slots, nodes, outputs, calls }
     }
 
     /// How many inputs the program reads.
@@ -73,6 +81,12 @@ impl Program {
     #[must_use]
     pub fn outputs(&self) -> &[Id] {
         &self.outputs
+    }
+
+    /// The nodes that are a function's value, as (value, function, argument), in order.
+    #[must_use]
+    pub fn calls(&self) -> &[(Id, Function, Id)] {
+        &self.calls
     }
 
     /// The operations one evaluation takes.

@@ -236,6 +236,14 @@ impl Writer<'_> {
                 let x = operand(a);
                 quote!(#x.simd_round())
             }
+            Node::Scale(a, k) => {
+                let (x, k) = (operand(a), operand(k));
+                quote!(T::scale(#x, #k))
+            }
+            Node::Exponent(a) => {
+                let x = operand(a);
+                quote!(T::exponent(#x))
+            }
             Node::Select(a, b, c, d) => {
                 // A call, no method: a lint looks for the type of what a method of one argument is called on, through
                 // all statements before it, and would not end.

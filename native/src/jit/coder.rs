@@ -4,7 +4,7 @@ use coadjoint_program::Node;
 use coadjoint_program::schedule::{Part, Variable};
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::immediates::Ieee64;
-use cranelift_codegen::ir::types::{F64, F64X2, I64};
+use cranelift_codegen::ir::types::{F64, F64X2, I64, I64X2};
 use cranelift_codegen::ir::{
     Block, ConstantData, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Type,
     Value,
@@ -14,6 +14,12 @@ use cranelift_frontend::FunctionBuilder;
 
 use super::error::JitError;
 use super::frame::Frame;
+
+/// The bits of the fraction of a number, and the bias of its exponent.
+const FRACTION: i64 = 52;
+const BIAS: f64 = 1023.0;
+/// A number so large that the last bits of a sum with it are a whole number.
+const LARGE: f64 = 6_755_399_441_055_744.0;
 
 /// How a number of the program is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,6 +158,40 @@ impl<'f> Coder<'f> {
         }
     }
 
+    /// Numbers as words of bits.
+    fn words(&mut self, a: Value) -> Value {
+        let kind = if self.form == Form::Pair { I64X2 } else { I64 };
+        self.builder.ins().bitcast(kind, MemFlagsData::new(), a)
+    }
+
+    /// Words of bits as numbers.
+    fn numbers(&mut self, words: Value) -> Value {
+        self.builder.ins().bitcast(self.form.kind(), MemFlagsData::new(), words)
+    }
+
+    /// a · 2ᵏ, by the exponent field of k, which is in the last bits of a sum.
+    fn scale(&mut self, a: Value, k: Value) -> Value {
+        let large = self.number(LARGE + BIAS);
+        let sum = self.builder.ins().fadd(k, large);
+        let words = self.words(sum);
+        let field = self.builder.ins().ishl_imm_u(words, FRACTION);
+        let factor = self.numbers(field);
+        self.builder.ins().fmul(a, factor)
+    }
+
+    /// The exponent field of a, put into the last bits of a large number, less its bias.
+    fn exponent(&mut self, a: Value) -> Value {
+        let whole = (1_u64 << FRACTION) as f64;
+        let (sign, whole, less) =
+            (self.number(-0.0), self.number(whole), self.number(whole + BIAS));
+        let size = self.builder.ins().band_not(a, sign);
+        let words = self.words(size);
+        let field = self.builder.ins().ushr_imm_u(words, FRACTION);
+        let field = self.numbers(field);
+        let sum = self.builder.ins().bor(field, whole);
+        self.builder.ins().fsub(sum, less)
+    }
+
     /// Stores a value, in the lanes of a mask if there is one.
     pub(super) fn assign(&mut self, mask: Option<Value>, place: usize, new: Value) {
         let value = match mask {
@@ -224,6 +264,8 @@ impl<'f> Coder<'f> {
             Node::Abs(_) => self.builder.ins().fabs(a),
             Node::Sqrt(_) => self.builder.ins().sqrt(a),
             Node::Round(_) => self.builder.ins().nearest(a),
+            Node::Scale(..) => self.scale(a, b),
+            Node::Exponent(_) => self.exponent(a),
             Node::Select(..) => self.select([a, b, c, d]),
             Node::Zero | Node::Constant(_) | Node::Epsilon | Node::Input(_) | Node::Slot(_) => a,
         }

@@ -29,7 +29,7 @@ const COMPILERS: &[fn(&Kernel, Trajectories) -> Entry] = &[
 fn random_programs_have_the_same_bits() {
     for compile in COMPILERS {
         let (mut chance, mut seen) = (Chance(3), Seen::default());
-        for round in 0..24 {
+        for round in 0..32 {
             let shape = Shape {
                 dim: 1 + chance.below(6),
                 element: chance.below(10),

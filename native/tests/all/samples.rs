@@ -110,7 +110,7 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
             0 => ids[chance.below(ids.len())],
             _ => ids[ids.len() - 1 - chance.below(recent)],
         });
-        ids.push(match chance.below(13) {
+        ids.push(match chance.below(16) {
             0 | 1 => graph.add(a, b),
             2 | 3 => graph.sub(a, b),
             4 => graph.mul(a, b),
@@ -120,6 +120,11 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
             9 => graph.abs(a),
             10 => graph.sqrt(a),
             11 => graph.round(a),
+            12 => {
+                let k = graph.round(b);
+                graph.scale(a, k)
+            }
+            13 => graph.exponent(a),
             _ => graph.select(a, b, c, d),
         });
     }

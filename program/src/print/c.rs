@@ -48,8 +48,8 @@ pub struct C {
     pub slots: String,
     /// The text between the type of an array and its name: `*restrict `.
     pub pointer: String,
-    /// The names of the functions a·b + c, √a, |a|, and the nearest integer, the even one of two.
-    pub functions: [String; 4],
+    /// The names of the functions a·b + c, √a, |a|, the nearest integer, the even one of two, a·2ᵏ and the exponent of a.
+    pub functions: [String; 6],
     /// The suffix of a number: empty, or `f` for 32 bits.
     pub suffix: String,
 }
@@ -61,7 +61,7 @@ impl Default for C {
             number: "double".into(),
             slots: "const double *restrict".into(),
             pointer: "*restrict ".into(),
-            functions: ["fma", "sqrt", "fabs", "rint"].map(String::from),
+            functions: ["fma", "sqrt", "fabs", "rint", "scaled", "exponent"].map(String::from),
             suffix: String::new(),
         }
     }
@@ -145,7 +145,7 @@ impl C {
 
     /// An operation on operands as they are written.
     fn operation(&self, node: Node, operands: &[&str]) -> String {
-        let [fma, sqrt, abs, rint] = &self.functions;
+        let [fma, sqrt, abs, rint, scaled, exponent] = &self.functions;
         match (node, operands) {
             (Node::Add(..), [a, b]) => format!("{a} + {b}"),
             (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
@@ -156,6 +156,8 @@ impl C {
             (Node::Abs(_), [a]) => format!("{abs}({a})"),
             (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
             (Node::Round(_), [a]) => format!("{rint}({a})"),
+            (Node::Scale(..), [a, k]) => format!("{scaled}({a}, {k})"),
+            (Node::Exponent(_), [a]) => format!("{exponent}({a})"),
             (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
             // Leaves are written where they are used.
             _ => String::new(),

@@ -9,7 +9,7 @@ use super::function::function;
 use super::signature::signatures;
 use super::steps::{LoopStyle, steps};
 use crate::kernel::Kernel;
-use crate::node::Node;
+use crate::node::{Id, Node};
 use crate::precision::Precision;
 use crate::quoting::c_comment;
 use crate::schedule::BLOCK;
@@ -74,6 +74,7 @@ pub fn device_unit(
         DeviceLanguage::Cuda => HEAD_CUDA,
     });
     text.push_str(&device.sizes(kernel));
+    text.push_str(&device.exponents(kernel));
     text.push_str(&device.coefficients(kernel, slots));
     text.push_str(COPY);
     for signature in signatures(kernel, PREFIX) {
@@ -182,6 +183,40 @@ impl Device {
             array(m),
             literal(kernel.tolerance()),
             literal(kernel.near()),
+        )
+    }
+
+    /// The functions a·2ᵏ and the exponent of a, by their bits, where a program has them.
+    fn exponents(&self, kernel: &Kernel) -> String {
+        let asks = |node: &Node| matches!(node, Node::Scale(..) | Node::Exponent(_));
+        if !signatures(kernel, PREFIX).any(|one| one.program.nodes().iter().any(asks)) {
+            return String::new();
+        }
+        let (bits, fraction) = match self.precision {
+            Precision::Double => (64, 52),
+            Precision::Single => (32, 23),
+        };
+        let bias = (1_u64 << (bits - fraction - 2)) - 1;
+        let [to_bits, to_number, word] = match (self.language, self.precision) {
+            (DeviceLanguage::OpenCl, Precision::Double) => ["as_ulong", "as_double", "ulong"],
+            (DeviceLanguage::OpenCl, Precision::Single) => ["as_uint", "as_float", "uint"],
+            (DeviceLanguage::Cuda, Precision::Double) => {
+                ["__double_as_longlong", "__longlong_as_double", "unsigned long long"]
+            }
+            (DeviceLanguage::Cuda, Precision::Single) => {
+                ["__float_as_uint", "__uint_as_float", "unsigned int"]
+            }
+        };
+        let large = self.literal(1.5 * (1_u64 << fraction) as f64 + bias as f64);
+        let operation = |node, operands: &[&str]| self.operation(node, operands);
+        let sum = operation(Node::Add(Id(0), Id(0)), &["k", &large]);
+        let factor = format!("{to_number}(({word}){to_bits}({sum}) << {fraction})");
+        let product = operation(Node::Mul(Id(0), Id(0)), &["a", &factor]);
+        let mask = 2 * bias + 1;
+        format!(
+            "\nINLINE NUMBER scaled(const NUMBER a, const NUMBER k)\n{{\n    return {product};\n}}\n\n\
+             INLINE NUMBER exponent(const NUMBER a)\n{{\n    \
+             return (NUMBER)(int)((({word}){to_bits}(a) >> {fraction}) & {mask}u) - (NUMBER){bias};\n}}\n",
         )
     }
 

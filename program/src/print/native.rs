@@ -36,12 +36,13 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
     let calls = String::from("static __attribute__((noinline)) void");
     let total: usize = signatures(kernel, "").map(|one| one.program.cost().total()).sum();
     let head = if total <= INLINED { C::default().head } else { calls.clone() };
-    let functions = ["fma", "sqrt", "fabs", "rint"].map(|name| format!("__builtin_{name}"));
+    let [fma, sqrt, abs, rint, ..] = C::default().functions.map(|name| format!("__builtin_{name}"));
+    let functions = [fma, sqrt, abs, rint, "scaled_one".into(), "exponent_one".into()];
     let scalar = C { head, functions, ..C::default() };
     let lanes = Vectors(C {
         head: calls,
         number: "V".into(),
-        functions: ["fused", "root", "size", "nearest"].map(String::from),
+        functions: ["fused", "root", "size", "nearest", "scaled", "exponent"].map(String::from),
         ..C::default()
     });
     let mut text =

@@ -112,6 +112,32 @@ INLINE V size(V a)
     return (V)((M)a & 0x7fffffffffffffffLL);
 }
 
+/* a 2^k, by the exponent field of k, which is in the last bits of a sum */
+INLINE V scaled(V a, V k)
+{
+    return a * (V)((M)(k + 0x1.80000000003ffp52) << 52);
+}
+
+/* The exponent field of a, in the last bits of 2^52, less its bias */
+INLINE V exponent(V a)
+{
+    return (V)((((M)a >> 52) & 0x7ff) | 0x4330000000000000LL) - 0x1.00000000003ffp52;
+}
+
+/* The same of single numbers. */
+INLINE double scaled_one(double a, double k)
+{
+    const union { double number; unsigned long long bits; } sum = {k + 0x1.80000000003ffp52};
+    const union { unsigned long long bits; double number; } factor = {sum.bits << 52};
+    return a * factor.number;
+}
+
+INLINE double exponent_one(double a)
+{
+    const union { double number; unsigned long long bits; } own = {a};
+    return (double)((own.bits >> 52) & 0x7ff) - 1023.0;
+}
+
 INLINE M counts(long long a)
 {
     return (M){0} + a;

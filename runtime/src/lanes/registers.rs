@@ -2,6 +2,7 @@
 
 use core::ops::{Add, BitAnd, Div, Mul, Neg, Not, Sub};
 
+use coadjoint_program::bits::{exponent, power_of_two};
 use pulp::Simd;
 
 use crate::number::program::{Coefficients, Number, Registers};
@@ -56,6 +57,18 @@ impl<S: Simd> Not for Mask<S> {
     }
 }
 
+impl<S: Simd> Register<S> {
+    /// The numbers, each through a function.
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut list = [0.0; 8];
+        let list = &mut list[..S::F64_LANES];
+        self.0.partial_store_f64s(list, self.1);
+        list.iter_mut().for_each(|number| *number = f(*number));
+        Self(self.0, self.0.partial_load_f64s(list))
+    }
+}
+
 impl<S: Simd> Number for Register<S> {
     type Mask = Mask<S>;
 
@@ -90,6 +103,17 @@ impl<S: Simd> Number for Register<S> {
         let size = rounded.select(size.simd_le(whole), size);
         let sign = self.0.and_f64s(self.1, self.0.splat_f64s(-0.0));
         Self(self.0, self.0.or_f64s(size.1, sign))
+    }
+
+    #[inline(always)]
+    fn scale(self, k: Self) -> Self {
+        let powers = k.map(power_of_two);
+        self * powers
+    }
+
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        self.map(exponent)
     }
 
     #[inline(always)]

@@ -29,6 +29,10 @@ pub trait Number:
     fn simd_sqrt(self) -> Self;
     /// The nearest integer, of two the even one.
     fn simd_round(self) -> Self;
+    /// self · 2ᵏ, for whole k from −1022 to 1023 (−126 to 127 in 32 bits).
+    fn scale(self, k: Self) -> Self;
+    /// The exponent of self, ⌊log₂ |self|⌋ for normal numbers.
+    fn exponent(self) -> Self;
     /// Where self ≤ other.
     fn simd_le(self, other: Self) -> Self::Mask;
     /// self in the lanes of a mask, in others `other`.
@@ -62,6 +66,20 @@ impl<T: Scalar> Number for T {
         let rounded = size + whole - whole;
         let size = rounded.select(size.simd_le(whole), size);
         nalgebra::SimdRealField::simd_copysign(size, self)
+    }
+    #[inline(always)]
+    fn scale(self, k: Self) -> Self {
+        self.zip_map_lanes(k, |a, k| {
+            let k: f64 = nalgebra::try_convert(k).unwrap_or(f64::NAN);
+            a * nalgebra::convert::<f64, T::Element>(coadjoint_program::bits::power_of_two(k))
+        })
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        self.map_lanes(|a| {
+            let a: f64 = nalgebra::try_convert(a).unwrap_or(f64::NAN);
+            nalgebra::convert(coadjoint_program::bits::exponent(a))
+        })
     }
     #[inline(always)]
     fn simd_le(self, other: Self) -> Self::Mask {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use coadjoint_program::Node;
 use coadjoint_program::print::{C, Dialect};
 
 use super::names::Names;
@@ -23,7 +24,8 @@ impl Portable {
             head: "static inline void".into(),
             slots: format!("const double *{restrict}"),
             pointer: format!("*{restrict} "),
-            functions: [&format!("{}_FMA", names.upper), "sqrt", "fabs", "rint"].map(String::from),
+            functions: [&format!("{}_FMA", names.upper), "sqrt", "fabs", "rint", "ldexp", "ilogb"]
+                .map(String::from),
             ..C::default()
         };
         Self { c, places }
@@ -56,6 +58,16 @@ impl Dialect for Portable {
 
     fn slot(&self, index: usize) -> String {
         format!("c[{}]", self.places.get(&index).copied().unwrap_or(0))
+    }
+
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        match (node, operands) {
+            // Programs scale within the range of normal numbers, and ask for the exponents of such, where these are
+            // the same.
+            (Node::Scale(..), [a, k]) => format!("ldexp({a}, (int){k})"),
+            (Node::Exponent(_), [a]) => format!("(double)ilogb({a})"),
+            _ => self.c.operation(node, operands),
+        }
     }
 }
 
