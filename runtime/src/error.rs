@@ -45,6 +45,31 @@ pub enum StepError {
         /// The circumstances of the step.
         at: Circumstances,
     },
+    /// The velocity of a step of collocation varies too much for its nodes.
+    #[error(
+        "the step is too long for its nodes: the highest polynomial through them is {tail:.1e} of the velocity, and at most {limit:.0e} is accepted; {at}"
+    )]
+    Unresolved {
+        /// The share of the highest polynomial in the velocity.
+        tail: f64,
+        /// The largest share that is accepted.
+        limit: f64,
+        /// The circumstances of the step.
+        at: Circumstances,
+    },
+    /// The energy or its gradient is not finite at a momentum that the step needs: outside the domain of a function, or at
+    /// a pole.
+    #[error("the energy is not defined at time {time}: {expression} of {argument}{}", Hint(at))]
+    Undefined {
+        /// The expression as the Hamiltonian has it.
+        expression: &'static str,
+        /// The value its function is given; NaN where it is not known.
+        argument: f64,
+        /// The time.
+        time: f64,
+        /// The circumstances of the step; none where the energy is not defined at the momentum that the step starts from.
+        at: Option<Circumstances>,
+    },
     /// A coordinate of the momentum is infinite or not a number.
     #[error("the state is not finite: a coordinate of the momentum is NaN or infinite")]
     NonFiniteState,
@@ -102,6 +127,15 @@ impl fmt::Display for Circumstances {
     }
 }
 
+/// The circumstances of a step, after what went wrong at one of its nodes.
+struct Hint<'a>(&'a Option<Circumstances>);
+
+impl fmt::Display for Hint<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.as_ref().map_or(Ok(()), |at| write!(f, "; {at}"))
+    }
+}
+
 impl StepError {
     /// Whether a smaller step may work where this one failed.
     #[must_use]
@@ -116,7 +150,9 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
-            | Self::SeriesDiverges { at } => at.usable_step = Some(step),
+            | Self::SeriesDiverges { at }
+            | Self::Unresolved { at, .. }
+            | Self::Undefined { at: Some(at), .. } => at.usable_step = Some(step),
             _ => {}
         }
         self
@@ -129,7 +165,9 @@ impl StepError {
             Self::NotConverged { at, .. }
             | Self::NotFollowed { at, .. }
             | Self::OutsideChart { at, .. }
-            | Self::SeriesDiverges { at } => Some(at),
+            | Self::SeriesDiverges { at }
+            | Self::Unresolved { at, .. } => Some(at),
+            Self::Undefined { at, .. } => at.as_ref(),
             _ => None,
         }
     }

@@ -53,6 +53,7 @@ extern crate alloc;
 extern crate self as coadjoint;
 
 mod chart;
+pub mod collocation;
 mod error;
 pub mod generating;
 mod group;

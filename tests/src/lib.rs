@@ -5,6 +5,7 @@ pub mod backends;
 pub mod bridge;
 pub mod elliptic;
 pub mod emitted;
+pub mod energies;
 pub mod erased;
 pub mod golden;
 pub mod kernels;

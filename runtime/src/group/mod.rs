@@ -3,6 +3,7 @@
 pub(crate) mod element_error;
 pub(crate) mod entire;
 pub(crate) mod heisenberg;
+pub(crate) mod middle;
 pub(crate) mod phase;
 pub(crate) mod product;
 pub(crate) mod se2;
@@ -86,6 +87,47 @@ pub trait LieGroup: Clone + Debug {
     /// How far g is from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm
     /// less one for unit quaternions). NaN where g is not finite; zero where there is nothing to check.
     fn element_defect(&self, g: &Self::Element) -> Self::Scalar;
+
+    // The chart σ about the middle of a step of collocation: a step goes from σ(−x/2) to σ(x/2) = σ(−x/2)⁻¹, and the
+    // momentum in the middle is P. If not given, σ = exp by its series.
+
+    /// P, the canonical momentum in the middle of the step that moves μ by x: ½(p⁺ + p⁻) of its two ends.
+    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        self.dexp_transpose(x, mu)
+    }
+
+    /// The increment k = σ(x/2)² of that step together with Ad\*_{k⁻¹} μ.
+    fn middle_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        self.exp_transport(x, mu)
+    }
+
+    /// How far that step goes into the chart, which reaches to one; as [`LieGroup::exp_extent`].
+    fn middle_extent(&self, x: &Self::Vector) -> Self::Scalar {
+        self.exp_extent(x)
+    }
+
+    /// J_R(x, p), the body momentum at the point (x, p) of the chart. A series in x ends with the power `degree`.
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
+        middle::momentum(|x, p| self.ad_star(x, p), x, p, degree)
+    }
+
+    /// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω at (x, p): derivatives of [`LieGroup::node_momentum`] of the same degree,
+    /// and with ω = ∂H/∂μ Hamilton's equations of H∘J_R.
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        let (ad_star, bracket) =
+            (|x: &_, p: &_| self.ad_star(x, p), |x: &_, y: &_| self.bracket(x, y));
+        middle::rates(ad_star, bracket, [x, p, omega], degree)
+    }
 
     /// How many Casimirs [`LieGroup::casimir`] knows.
     fn casimir_count(&self) -> usize;

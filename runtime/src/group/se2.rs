@@ -138,6 +138,41 @@ impl<T: Scalar> LieGroup for SE2<T> {
         (x.x * x.x).times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
     }
 
+    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        drop(&SE3::new().middle_momentum(&lift(x), &lift(mu)))
+    }
+
+    fn middle_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        let g = self.cayley(&(x * T::of(0.5)));
+        let g = self.compose(&g, &g);
+        let moved = self.coadjoint(&self.inverse(&g), mu);
+        (g, moved)
+    }
+
+    fn middle_extent(&self, x: &Self::Vector) -> T {
+        self.cayley_extent(&(x * T::of(0.5)))
+    }
+
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
+        drop(&SE3::new().node_momentum(&lift(x), &lift(p), degree))
+    }
+
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        let (x, p, omega) = (lift(x), lift(p), lift(omega));
+        let (velocity, force) = SE3::new().node_rates(&x, &p, &omega, degree);
+        (drop(&velocity), drop(&force))
+    }
+
     fn element_defect(&self, g: &Self::Element) -> T {
         let turn = g.rotation.complex();
         let off = (turn.re * turn.re + turn.im * turn.im - T::of(1.0)).simd_abs();

@@ -150,6 +150,63 @@ impl<T: Scalar> LieGroup for SE3<T> {
         angle.times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
     }
 
+    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        // ½(q₀ + q₁), the pull-backs of μ and of the momentum in the middle by y = x/2.
+        let y = x * T::of(0.5);
+        let first = self.dcay_transpose(&y, mu);
+        let second = self.dcay_transpose(&y, &self.node_momentum(&y, &first, 2));
+        (first + second) * T::of(0.5)
+    }
+
+    fn middle_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        let g = self.cayley(&(x * T::of(0.5)));
+        let g = self.compose(&g, &g);
+        let moved = self.coadjoint(&self.inverse(&g), mu);
+        (g, moved)
+    }
+
+    fn middle_extent(&self, x: &Self::Vector) -> T {
+        self.cayley_extent(&(x * T::of(0.5)))
+    }
+
+    /// Cayley's chart, a polynomial in x = (a, b) and p = (n, f):
+    /// (n + ½(n×a + f×b) + ¼(a·n)a − ¼ b×(f×a), f + ½ f×a).
+    #[inline(always)]
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, _degree: usize) -> Self::Vector {
+        let ((a, b), (n, f)) = (split(x), split(p));
+        let (half, quarter) = (T::of(0.5), T::of(0.25));
+        let bent = cross(&f, &a);
+        let turned = sum(&cross(&n, &a), &cross(&f, &b));
+        let angular = plus(&plus(&n, half, &turned), quarter * dot(&a, &n), &a);
+        join(&plus(&angular, -quarter, &cross(&b, &bent)), &plus(&f, half, &bent))
+    }
+
+    #[inline(always)]
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        _degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        let ((a, b), (n, f), (w, v)) = (split(x), split(p), split(omega));
+        let (half, quarter) = (T::of(0.5), T::of(0.25));
+        let (bent, moved) = (cross(&f, &a), cross(&w, &b));
+        let (along_n, along_w) = (quarter * dot(&a, &n), quarter * dot(&a, &w));
+        let turn = plus(&plus(&w, half, &cross(&a, &w)), along_w, &a);
+        let shift = sum(&cross(&a, &v), &scaled(-T::of(1.0), &moved));
+        let shift = plus(&plus(&v, half, &shift), -quarter, &cross(&a, &moved));
+        let angular = scaled(half, &sum(&cross(&n, &w), &cross(&f, &v)));
+        let angular = plus(&angular, quarter, &cross(&moved, &f));
+        let angular = plus(&plus(&angular, -along_n, &w), -along_w, &n);
+        let linear = plus(&scaled(half, &cross(&f, &w)), quarter, &cross(&bent, &w));
+        (join(&turn, &shift), join(&angular, &linear))
+    }
+
     fn element_defect(&self, g: &Self::Element) -> T {
         let off = (g.rotation.as_ref().norm_squared() - T::of(1.0)).simd_abs();
         let place = &g.translation;

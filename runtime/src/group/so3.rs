@@ -81,6 +81,24 @@ pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
     UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
 }
 
+/// c(t) = Σ |B₂ₖ|/(2k)! tᵏ⁻¹ up to k = 6, t = |x|², and 2 dc/dt: the factors of exp's J_R.
+#[inline(always)]
+pub(crate) fn bernoulli<T: Scalar>(t: T) -> (T, T) {
+    const C: [f64; 6] = [
+        1.0 / 12.0,
+        1.0 / 720.0,
+        1.0 / 30_240.0,
+        1.0 / 1_209_600.0,
+        1.0 / 47_900_160.0,
+        691.0 / 1_307_674_368_000.0,
+    ];
+    let t2 = t * t;
+    let pair = |a: f64, b: f64| T::of(b).times_plus(t, T::of(a));
+    let c = pair(C[4], C[5]).times_plus(t2, pair(C[2], C[3])).times_plus(t2, pair(C[0], C[1]));
+    let high = T::of(10.0 * C[5]).times_plus(t2, pair(6.0 * C[3], 8.0 * C[4]));
+    (c, high.times_plus(t2, pair(2.0 * C[1], 4.0 * C[2])))
+}
+
 /// The rotation whose matrix has these (finite) entries.
 pub(crate) fn rotation_from<T: Scalar>(
     entry: impl Fn(usize, usize) -> T,
@@ -177,6 +195,32 @@ impl<T: Scalar> LieGroup for SO3<T> {
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
         dot(x, x) * T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI))
+    }
+
+    #[inline(always)]
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, _degree: usize) -> Self::Vector {
+        // p − ½ x×p + c x×(x×p)
+        let once = cross(x, p);
+        let (c, _) = bernoulli(dot(x, x));
+        plus(&plus(p, T::of(-0.5), &once), c, &cross(x, &once))
+    }
+
+    #[inline(always)]
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        _degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        // ẋ = ω + ½ x×ω + c x×(x×ω), −ṗ = ½ ω×p + c[(x×p)×ω + (x×ω)×p] + 2c′ (ω·x×(x×p)) x
+        let (c, slope) = bernoulli(dot(x, x));
+        let (turned, once) = (cross(x, omega), cross(x, p));
+        let velocity = plus(&plus(omega, T::of(0.5), &turned), c, &cross(x, &turned));
+        let bent = sum(&cross(&once, omega), &cross(&turned, p));
+        let along = slope * dot(omega, &cross(x, &once));
+        let force = plus(&scaled(T::of(0.5), &cross(p, omega)), -c, &bent);
+        (velocity, plus(&force, -along, x))
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -92,6 +92,20 @@ impl<T: Scalar> LieGroup for SU2<T> {
         SO3::new().exp_extent(x)
     }
 
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
+        SO3::new().node_momentum(x, p, degree)
+    }
+
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        SO3::new().node_rates(x, p, omega, degree)
+    }
+
     fn element_defect(&self, g: &Self::Element) -> T {
         (g.as_ref().norm_squared() - T::of(1.0)).simd_abs()
     }

@@ -33,3 +33,23 @@ pub(crate) fn central<T: Scalar, V: Coordinates<T>>(
     }
     derivative
 }
+
+/// The derivative of `f` at a point by one-sided differences; entries as those of [`central`].
+pub(crate) fn forward<T: Scalar, V: Coordinates<T>>(
+    at: &V,
+    spacing: T,
+    f: impl Fn(&V) -> V,
+) -> V::Matrix {
+    let (dim, here, factor) = (at.dim(), f(at), T::of(1.0) / spacing);
+    let mut derivative = V::zero_matrix(dim);
+    let mut point = at.clone();
+    for j in 0..dim {
+        point[j] = at[j] + spacing;
+        let there = f(&point);
+        point[j] = at[j];
+        for i in 0..dim {
+            derivative[(i, j)] = (there[i] - here[i]) * factor;
+        }
+    }
+    derivative
+}

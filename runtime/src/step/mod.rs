@@ -188,7 +188,7 @@ const OFF_GROUP: f64 = 1.0;
 ///
 /// # Errors
 /// The error of a state off the group, or not finite.
-fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
+pub(crate) fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
     let defect = group.element_defect(&phase.group_element) + finite_or_nan(&phase.momentum);
     match defect.simd_le(largest_defect()).all() {
         true => Ok(()),

@@ -64,8 +64,19 @@ const PARTS: &[Part] = &[
     Part {
         // Where a refusal gets its name: by the generic step, of functions that are no program and of what kernels refuse.
         name: "acceptance by the generic step",
-        words: &["StepError::OutsideChart {", "StepError::SeriesDiverges {", "fn accept<"],
+        words: &["StepError::SeriesDiverges {", "fn accept<"],
         files: &["runtime/src/solve/accept.rs"],
+    },
+    Part {
+        name: "acceptance by collocation",
+        words: &["StepError::Unresolved {", "const LARGEST_TAIL"],
+        files: &["runtime/src/collocation/mod.rs"],
+    },
+    Part {
+        // The charts of both.
+        name: "refusal of a step outside the chart",
+        words: &["StepError::OutsideChart {"],
+        files: &["runtime/src/collocation/mod.rs", "runtime/src/solve/accept.rs"],
     },
     Part {
         name: "rescue",

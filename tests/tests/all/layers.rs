@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use coadjoint_tests::sources;
 
 /// Folders and files of `src`, the lowest first: each may use those before it, and itself.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "number",
     "error",
     "linear",
@@ -16,6 +16,7 @@ const LAYERS: [&str; 16] = [
     "generating",
     "solve",
     "step",
+    "collocation",
     "lanes",
     "groups",
     "steps",

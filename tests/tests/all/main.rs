@@ -8,6 +8,7 @@ mod backend_laws;
 mod catalogue;
 mod circles;
 mod closed_form_groups;
+mod collocation;
 mod comoving;
 mod defects;
 mod devices;

@@ -157,6 +157,45 @@ where
         A::default().exp_extent(&a).worse(B::default().exp_extent(&b))
     }
 
+    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        Self::by_factor(x, mu, A::middle_momentum, B::middle_momentum)
+    }
+
+    fn middle_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        let ((a, b), (c, d)) = (Self::split(x), Self::split(mu));
+        let (g, left) = A::default().middle_transport(&a, &c);
+        let (h, right) = B::default().middle_transport(&b, &d);
+        ((g, h), Self::join((left, right)))
+    }
+
+    fn middle_extent(&self, x: &Self::Vector) -> T {
+        let (a, b) = Self::split(x);
+        A::default().middle_extent(&a).worse(B::default().middle_extent(&b))
+    }
+
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
+        let left = |group: &A, x: &A::Vector, p: &A::Vector| group.node_momentum(x, p, degree);
+        let right = |group: &B, x: &B::Vector, p: &B::Vector| group.node_momentum(x, p, degree);
+        Self::by_factor(x, p, left, right)
+    }
+
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        let ((xa, xb), (pa, pb), (wa, wb)) = (Self::split(x), Self::split(p), Self::split(omega));
+        let left = A::default().node_rates(&xa, &pa, &wa, degree);
+        let right = B::default().node_rates(&xb, &pb, &wb, degree);
+        (Self::join((left.0, right.0)), Self::join((left.1, right.1)))
+    }
+
     fn element_defect(&self, g: &Self::Element) -> T {
         A::default().element_defect(&g.0).worse(B::default().element_defect(&g.1))
     }

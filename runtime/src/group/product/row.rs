@@ -261,6 +261,25 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
         self.coordinates(|at, group| f(group, &self.part(at, x), &self.part(at, y)))
     }
 
+    /// Increments of the factors and the momentum they move.
+    fn transport_by_parts(
+        &self,
+        x: &R::Vector,
+        mu: &R::Vector,
+        f: impl Fn(&R::Group, &VectorOf<R>, &VectorOf<R>) -> (ElementOf<R>, VectorOf<R>),
+    ) -> (R::Element, R::Vector) {
+        let mut moved = R::Vector::zeros(mu.dim());
+        let element = self.0.element(|at| {
+            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
+            let (g, part) = f(group.borrow(), &self.part(at, x), &self.part(at, mu));
+            for i in 0..part.dim() {
+                moved[start + i] = part[i];
+            }
+            g
+        });
+        (element, moved)
+    }
+
     /// The largest of numbers, one for each factor; NaN if one is.
     fn largest(&self, f: impl Fn(usize, &R::Group) -> T) -> T {
         (0..self.0.count())
@@ -285,6 +304,8 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
 
 /// Coordinates of a factor.
 type VectorOf<R> = <<R as Row>::Group as LieGroup>::Vector;
+/// Elements of a factor.
+type ElementOf<R> = <<R as Row>::Group as LieGroup>::Element;
 
 impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> {
     type Scalar = T;
@@ -325,16 +346,7 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let mut moved = R::Vector::zeros(mu.dim());
-        let element = self.0.element(|at| {
-            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
-            let (g, part) = group.borrow().exp_transport(&self.part(at, x), &self.part(at, mu));
-            for i in 0..part.dim() {
-                moved[start + i] = part[i];
-            }
-            g
-        });
-        (element, moved)
+        self.transport_by_parts(x, mu, R::Group::exp_transport)
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
@@ -343,6 +355,46 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
         self.largest(|at, group| group.exp_extent(&self.part(at, x)))
+    }
+
+    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        self.by_parts(x, mu, R::Group::middle_momentum)
+    }
+
+    fn middle_transport(
+        &self,
+        x: &Self::Vector,
+        mu: &Self::Vector,
+    ) -> (Self::Element, Self::Vector) {
+        self.transport_by_parts(x, mu, R::Group::middle_transport)
+    }
+
+    fn middle_extent(&self, x: &Self::Vector) -> T {
+        self.largest(|at, group| group.middle_extent(&self.part(at, x)))
+    }
+
+    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
+        self.by_parts(x, p, |group, x, p| group.node_momentum(x, p, degree))
+    }
+
+    fn node_rates(
+        &self,
+        x: &Self::Vector,
+        p: &Self::Vector,
+        omega: &Self::Vector,
+        degree: usize,
+    ) -> (Self::Vector, Self::Vector) {
+        let mut force = R::Vector::zeros(p.dim());
+        let velocity = self.coordinates(|at, group| {
+            let start = self.0.place(at).coordinate;
+            let (x, p, omega) = (self.part(at, x), self.part(at, p), self.part(at, omega));
+            let (velocity, part) = group.node_rates(&x, &p, &omega, degree);
+            for i in 0..part.dim() {
+                force[start + i] = part[i];
+            }
+            velocity
+        });
+        (velocity, force)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -1,0 +1,270 @@
+//! Steps of any smooth Hamiltonian H(t, μ): collocation in a chart about the middle of the step.
+//!
+//! A step needs ∂H/∂μ alone, at `M` nodes, and has order 2M. In the canonical coordinates (x, p) of a chart centred on
+//! the middle of the step, in which it goes from −x/2 to x/2, Gauss's method with its `M` nodes is applied to H∘J_R: a
+//! method that is symplectic and symmetric in (x, p), and so are they on T\*G. Whatever x is found, the group acts on the
+//! state: the momentum J_L and all Casimirs are kept to rounding. With cᵢ, bᵢ, aᵢⱼ Gauss's coefficients and ω = ∂H/∂μ,
+//!
+//! ```text
+//! xᵢ = h Σ (aᵢⱼ − bⱼ/2) ẋⱼ      pᵢ = P + h Σ (aᵢⱼ − bⱼ/2) ṗⱼ      μᵢ = J_R(xᵢ, pᵢ)
+//! ẋᵢ = (∂J_R/∂p)ᵀ ωᵢ            ṗᵢ = −(∂J_R/∂x)ᵀ ωᵢ               ωᵢ = ω(t + cᵢ h, μᵢ)
+//! x = h Σ bᵢ ẋᵢ                 P: the momentum in the middle of the step from μ by x
+//! ```
+//!
+//! The chart belongs to the group: exp in closed form on SO(3) and SU(2), Cayley's on SE(3) and SE(2), exp by its series
+//! on other groups, and on products that of each factor. Gauss's method: E. Hairer, C. Lubich, G. Wanner, *Geometric
+//! Numerical Integration*, II.1.3.
+
+mod energy;
+mod nodes;
+mod rates;
+mod solving;
+
+pub use energy::{Energy, Undefined};
+pub use nodes::MAX_NODES;
+
+use nalgebra::SimdComplexField;
+
+use crate::error::{Circumstances, StepError, Stopped};
+use crate::group::LieGroup;
+use crate::group::phase::Phase;
+use crate::linear::coordinates::Coordinates;
+use crate::number::scalar::Scalar;
+use crate::step::{StepReport, check};
+
+use nodes::Nodes;
+use rates::{Rates, largest};
+use solving::{Attempt, Ending, Equations};
+
+/// Steps whose rates are kept, for the first guess of the next one.
+const KEPT: usize = 7;
+
+/// The most of these that serve steps longer than ½ in h|Ω|, over which rates vary too much.
+const KEPT_LONG: usize = 5;
+
+/// The largest share of the highest polynomial in the velocity for each number of nodes, up to which steps are accepted.
+const LARGEST_TAIL: [f64; MAX_NODES] = [0.5, 0.2, 0.05, 1e-2, 2e-3, 5e-4, 1e-4, 2e-5];
+
+/// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.
+///
+/// ```
+/// use coadjoint::collocation::Collocation;
+/// use coadjoint::{Phase, SO3};
+/// use nalgebra::Vector3;
+///
+/// // H = √(1 + Σ μᵢ²/Iᵢ), and its gradient.
+/// let inertia = Vector3::new(1.5, 2.0, 2.5);
+/// let velocity = move |mu: &Vector3<f64>| mu.component_div(&inertia);
+/// let root = move |mu: &Vector3<f64>| (1.0 + mu.dot(&velocity(mu))).sqrt();
+/// let energy = (
+///     move |_time: f64, mu: &Vector3<f64>| root(mu),
+///     move |_time: f64, mu: &Vector3<f64>| velocity(mu) / root(mu),
+/// );
+///
+/// let mut step = Collocation::<_, _, 4>::new(SO3::new(), energy, 0.2)?;
+/// let mut body = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+/// step.advance_by(&mut body, 0.0, 1000)?;
+/// assert!((root(&body.momentum) - root(&Vector3::new(2.0, 0.5, 1.0))).abs() < 1e-10);
+/// assert!((body.spatial_momentum(&SO3::new()).x - 2.0).abs() < 1e-13);
+/// # Ok::<(), coadjoint::StepError>(())
+/// ```
+///
+/// A step starts from a guess that follows the steps before it, where it goes on from their end; its bits then depend on
+/// them, within rounding. A step from any other state starts anew.
+#[derive(Clone, Debug)]
+pub struct Collocation<G: LieGroup, E, const M: usize> {
+    group: G,
+    energy: E,
+    step: f64,
+    /// The rates of the last steps in a ring, and how many were noted since the first guess.
+    rates: [Option<Rates<G::Vector, M>>; KEPT],
+    noted: usize,
+    /// The momentum after the last step.
+    end: Option<G::Vector>,
+}
+
+impl<G, E, const M: usize> Collocation<G, E, M>
+where
+    G: LieGroup<Scalar = f64>,
+    E: Energy<G::Vector>,
+{
+    const NODES: Nodes<M> = Nodes::new();
+
+    /// Steps of size `step`, which may be negative, of the flow of `energy` on a group.
+    ///
+    /// # Errors
+    /// [`StepError::InvalidStep`].
+    pub fn new(group: G, energy: E, step: f64) -> Result<Self, StepError> {
+        if step == 0.0 || !step.all_finite() {
+            return Err(StepError::InvalidStep { step });
+        }
+        Ok(Self { group, energy, step, rates: [const { None }; KEPT], noted: 0, end: None })
+    }
+
+    /// The step size.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The group.
+    #[must_use]
+    pub fn group(&self) -> &G {
+        &self.group
+    }
+
+    /// The Hamiltonian.
+    #[must_use]
+    pub fn energy(&self) -> &E {
+        &self.energy
+    }
+
+    /// Advances (g, μ), the state at `time`, by one step. The report counts sweeps, of `M` gradients each.
+    ///
+    /// # Errors
+    /// [`StepError`]; `phase` is then left as it was.
+    pub fn advance(
+        &mut self,
+        phase: &mut Phase<G>,
+        time: f64,
+    ) -> Result<StepReport<f64>, StepError> {
+        let mu = &phase.momentum;
+        if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
+            return Err(StepError::NonFiniteState);
+        }
+        if self.end.as_ref() != Some(mu) {
+            self.noted = 0;
+        }
+        let middle = self.step.times_plus(0.5, time);
+        let attempt = if self.noted > 0 {
+            let attempt = self.equations(mu, middle).solve(self.guess(mu.dim()));
+            match self.judge(mu, &attempt) {
+                Ok(()) => attempt,
+                Err(_) => self.anew(mu, middle)?,
+            }
+        } else {
+            self.anew(mu, middle)?
+        };
+        let Attempt { rates, x, sweeps, residual, .. } = attempt;
+        let (increment, moved) = self.group.middle_transport(&x, mu);
+        let element = self.group.compose(&phase.group_element, &increment);
+        let next = Phase { group_element: element, momentum: moved };
+        check(&self.group, &next)?;
+        self.end = Some(next.momentum.clone());
+        *phase = next;
+        self.rates[self.noted % KEPT] = Some(rates);
+        self.noted += 1;
+        Ok(StepReport { iterations: sweeps, residual })
+    }
+
+    /// Many steps of [`Collocation::advance`] from the state at `time`. The report holds the largest number of sweeps and
+    /// the largest residual of a step.
+    ///
+    /// # Errors
+    /// [`Stopped`]: how many steps were made, and why the next one was not; `phase` is then the state before that.
+    pub fn advance_by(
+        &mut self,
+        phase: &mut Phase<G>,
+        time: f64,
+        steps: u64,
+    ) -> Result<StepReport<f64>, Stopped> {
+        let mut worst = StepReport { iterations: 0, residual: 0.0 };
+        for done in 0..steps {
+            let now = self.step.times_plus(done as f64, time);
+            let report =
+                self.advance(phase, now).map_err(|error| Stopped { steps: done, error })?;
+            worst.iterations = worst.iterations.max(report.iterations);
+            worst.residual = f64::max(worst.residual, report.residual);
+        }
+        Ok(worst)
+    }
+
+    fn equations<'a>(&'a self, mu: &'a G::Vector, middle: f64) -> Equations<'a, G, E, M> {
+        Equations { group: &self.group, energy: &self.energy, mu, middle, step: self.step }
+    }
+
+    /// The step from a guess that knows no steps before it.
+    ///
+    /// # Errors
+    /// Why there is no right step.
+    #[cold]
+    fn anew(&mut self, mu: &G::Vector, middle: f64) -> Result<Attempt<G::Vector, M>, StepError> {
+        self.noted = 0;
+        let attempt = self.equations(mu, middle).solve(Rates::zero(mu.dim()));
+        self.judge(mu, &attempt)?;
+        Ok(attempt)
+    }
+
+    /// The rates of the steps before, extrapolated by the polynomial through them.
+    fn guess(&self, dim: usize) -> Rates<G::Vector, M> {
+        let mut guess = Rates::zero(dim);
+        let last = |back: usize| self.rates[(self.noted - 1 - back) % KEPT].as_ref();
+        let long = last(0).is_some_and(|rates| largest(&rates.x) > 0.5);
+        let count = self.noted.min(if long { KEPT_LONG } else { KEPT });
+        let mut weight = -1.0;
+        for back in 0..count {
+            weight *= -((count - back) as f64) / (back + 1) as f64;
+            if let Some(rates) = last(back) {
+                guess.add(weight, rates);
+            }
+        }
+        guess
+    }
+
+    /// Whether an attempt is the step: solved, in the chart, and with velocities that the nodes resolve. Other branches of
+    /// the equations are far from the identity, and vary too much for their nodes.
+    ///
+    /// # Errors
+    /// Why it is not.
+    fn judge(&self, mu: &G::Vector, attempt: &Attempt<G::Vector, M>) -> Result<(), StepError> {
+        let at = Circumstances { x: attempt.x.largest_entry(), ratio: 0.0, usable_step: None };
+        match &attempt.ending {
+            Ending::Solved => {}
+            Ending::NotConverged => {
+                let Attempt { sweeps, residual, .. } = *attempt;
+                return Err(StepError::NotConverged { iterations: sweeps, residual, at });
+            }
+            Ending::Undefined(time, node) => return Err(self.undefined(mu, *time, node, at)),
+        }
+        let extent = self.group.middle_extent(&attempt.x);
+        if !(extent <= 1.0) {
+            return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
+        }
+        let tail = self.tail(mu, &attempt.rates);
+        let limit = LARGEST_TAIL[M - 1];
+        match tail <= limit {
+            true => Ok(()),
+            false => Err(StepError::Unresolved { tail, limit, at }),
+        }
+    }
+
+    /// The share of the highest polynomial through the nodes in the velocity; with one node, which has but one, the force
+    /// in its place.
+    fn tail(&self, mu: &G::Vector, rates: &Rates<G::Vector, M>) -> f64 {
+        let (part, whole) = match M {
+            1 => (largest(&rates.p), mu.largest_entry()),
+            _ => {
+                let zero = G::Vector::zeros(mu.dim());
+                let part = rates::mixed(&zero, &Self::NODES.highest, &rates.x);
+                (part.largest_entry(), largest(&rates.x))
+            }
+        };
+        if part == 0.0 { 0.0 } else { part / whole }
+    }
+
+    /// The error of a gradient that is not finite at a node.
+    #[cold]
+    fn undefined(
+        &self,
+        mu: &G::Vector,
+        time: f64,
+        node: &G::Vector,
+        at: Circumstances,
+    ) -> StepError {
+        let known = self.energy.undefined(time, node);
+        let Undefined { expression, argument } =
+            known.unwrap_or(Undefined { expression: "∂H/∂μ", argument: f64::NAN });
+        let at = (node != mu).then_some(at);
+        StepError::Undefined { expression, argument, time, at }
+    }
+}
