@@ -26,7 +26,7 @@ _HIDDEN = "rounding of large numbers hides it"
 
 
 class Unknown:
-    """A drift that there is not: of what is not conserved, not known or cannot be measured. It is false and equals None;
+    """A number that there is not: of what is not conserved, not known or cannot be measured. It is false and equals None;
     comparing it, or computing with it, raises a TypeError that says why."""
 
     def __init__(self, what: str, why: str) -> None:
@@ -46,7 +46,7 @@ class Unknown:
         return f"Unknown({self.why!r})"
 
     def _refuse(self, *_: object) -> Any:
-        raise TypeError(f"there is no drift of the {self.what}: {self.why}")
+        raise TypeError(f"there is no {self.what}: {self.why}")
 
     __lt__ = __le__ = __gt__ = __ge__ = __float__ = __abs__ = __neg__ = __format__ = _refuse
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _refuse
@@ -175,7 +175,20 @@ class Run:
         """
         found, reasons = self._found["largest_drift"], self._found["unknown"]
         named = zip(_NAMES, found, reasons, strict=True)
-        return Drift(*(Unknown(name, why or _HIDDEN) if value is None else value for name, value, why in named))
+        return Drift(*(Unknown(f"drift of the {name}", why or _HIDDEN) if value is None else value for name, value, why in named))
+
+    @property
+    def estimated_error(self) -> float | Unknown:
+        """An estimate of the error at the end: the larger of the relative errors of the momentum and of the group element's
+        matrix, in Euclidean norms; :class:`Unknown` where none can be made.
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> body.simulate([2, 0.5, 1], time=10, step=0.1).estimated_error < 1e-9
+        True
+        """
+        found, why = self._found["estimated_error"], self._found["no_estimate"]
+        return Unknown("estimate of the error", why) if found is None else float(found)
 
     @property
     def drift_scale(self) -> Drift:
@@ -359,7 +372,7 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
         drifts = [facts["spatial_momentum"], facts["casimirs"], None]
         whys = [_HIDDEN, facts["unknown_casimirs"], "ensembles measure none"]
         named = zip(_NAMES, drifts, whys, strict=True)
-        states.drift = Drift(*(Unknown(name, why) if value is None else value for name, value, why in named))
+        states.drift = Drift(*(Unknown(f"drift of the {name}", why) if value is None else value for name, value, why in named))
         states.backend, states.columns = facts["backend"], facts["columns"]
         states.step, states.steps = facts["step"], facts["steps"]
         states.truncation = facts["truncation"]

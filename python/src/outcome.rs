@@ -50,6 +50,8 @@ pub fn result_of<'py>(
     found.set_item("rotations", rotations.collect::<Vec<usize>>())?;
     let drift = outcome.drift;
     found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
+    found.set_item("estimated_error", outcome.estimated_error.ok())?;
+    found.set_item("no_estimate", outcome.estimated_error.err())?;
     let scales = &outcome.scales;
     let scales = (scales.spatial_momentum, scales.casimirs.clone(), scales.energy);
     found.set_item("drift_scale", scales)?;

@@ -134,6 +134,12 @@ impl Derived {
         Equations { integrator, forces: forces.as_ref(), parameters: defaults(&integrator.problem) }
     }
 
+    /// The order of accuracy: K + 1, or that of the splitting where it is lower.
+    pub fn order(&self) -> u32 {
+        let order = self.integrator.problem.truncation as u32 + 1;
+        self.forces.as_ref().map_or(order, |forces| order.min(forces.splitting.order()))
+    }
+
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
         let problem = &self.integrator.problem;

@@ -85,6 +85,9 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     if (1..=WIDEST).contains(&size) {
         object["group_element"] = json!(dense(end, size));
     }
+    if let Ok(error) = end.estimated_error {
+        object["estimated_error"] = json!(error);
+    }
     if let Some(solver) = end.solver {
         object["solver"] = json!({
             "most_iterations": solver.most_iterations,
@@ -170,6 +173,10 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some([_, energy]) = end.energy {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
     }
+    let _ = match end.estimated_error {
+        Ok(error) => writeln!(out, "  estimated relative error at the end {error:.1e}"),
+        Err(why) => writeln!(out, "  estimated relative error at the end {why}"),
+    };
     let _ = writeln!(out, "  largest relative drift");
     let casimirs = match end.casimirs {
         0 => "Casimirs".to_owned(),

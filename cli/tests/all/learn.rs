@@ -128,6 +128,9 @@ fn reports_and_files_of_learned_runs_are_those_of_every_run() {
         assert!(number.as_f64().unwrap() < 1e-10, "{report}");
     }
     assert!(report.get("energy").is_none() && drift.get("energy").is_none());
+    assert!(report.get("estimated_error").is_none());
+    let said = "estimated relative error at the end not known: a learned map has steps of one size";
+    place.run(&format!("{RUN} --start 2,0.5,1 --time 10")).ok().prints(&[said]);
     let text = place.text("run.csv");
     assert!(text.contains("# model: model.json") && text.contains("# complete: 101 records"));
     assert_eq!(

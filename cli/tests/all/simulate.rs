@@ -36,6 +36,38 @@ fn the_rigid_body_of_the_paper_ends_where_it_should() {
     }
 }
 
+/// The estimate is near the truth: where a run is compared as a whole, at its beginning, or with half steps, since steps of twice
+/// the size are refused.
+#[test]
+fn the_estimated_error_is_near_the_truth() {
+    let apart = |coarse: &Value, fine: &Value| {
+        let (coarse, fine) = (numbers(coarse), numbers(fine));
+        let size = fine.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let square: f64 = coarse.iter().zip(&fine).map(|(a, b)| (a - b) * (a - b)).sum();
+        square.sqrt() / size
+    };
+    for (system, step) in [
+        ("examples/rigid_body.toml --truncation 5 --time 20", 0.1),
+        ("examples/rigid_body.toml --truncation 3", 0.1),
+        ("examples/satellite.toml --time 10", 0.05),
+        ("examples/zeitlin_5.toml --time 2", 0.1),
+    ] {
+        let run = |step: f64| json(&format!("simulate {system} --step {step}"));
+        let (coarse, fine) = (run(step), run(step / 4.0));
+        let element = |run: &Value| -> Value {
+            let rows = run["group_element"].as_array().unwrap();
+            rows.iter().flat_map(|row| row.as_array().unwrap().clone()).collect()
+        };
+        let truth = apart(&coarse["momentum"], &fine["momentum"])
+            .max(apart(&element(&coarse), &element(&fine)));
+        let found = coarse["estimated_error"].as_f64().unwrap();
+        assert!((0.1..10.0).contains(&(found / truth)), "{system}: {found:e}, in truth {truth:e}");
+        assert_eq!(coarse["warnings"], Value::Array(Vec::new()), "{system}");
+    }
+    let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 400")).ok();
+    rough.says(&["warning: the error at the end is about "]).prints(&["  warning: the error at"]);
+}
+
 #[test]
 fn json_has_the_keys_programs_rely_on() {
     let run = json("simulate examples/heavy_top.toml --time 1");
@@ -46,6 +78,7 @@ fn json_has_the_keys_programs_rely_on() {
         assert!(run["drift"][key].is_number(), "{key}");
     }
     assert!(run["solver"]["most_iterations"].as_f64().unwrap() >= 1.0);
+    assert!(run["estimated_error"].as_f64().unwrap() < 1e-12);
     assert!(run["solver"]["max_residual"].as_f64().unwrap() < 1e-14);
     assert_eq!((&run["step"], &run["step_asked"]), (&0.05.into(), &0.05.into()));
     assert_eq!((&run["chart"], &run["truncation"]), (&"exp".into(), &7.into()));

@@ -160,7 +160,7 @@ impl Compiled {
         Ok(Some(Arc::new(Self { programs, slots, read, code, framed })))
     }
 
-    /// The same steps for other values of the parameters.
+    /// The same steps for another size or other values of the parameters.
     ///
     /// # Errors
     /// Where a coefficient is not finite.

@@ -103,6 +103,22 @@ impl Charted {
         })
     }
 
+    /// The same for another size of steps or other values of the parameters, by the same programs.
+    ///
+    /// # Errors
+    /// Where a coefficient is not finite.
+    pub fn anew<'a>(
+        &self,
+        equations: Equations<'a>,
+        size: f64,
+        compiled: Option<&Arc<Compiled>>,
+    ) -> Result<Box<dyn Motion + 'a>, StepError> {
+        let Equations { integrator, parameters, .. } = &equations;
+        let compiled = compiled.map(|compiled| compiled.varied(integrator, size, parameters));
+        let compiled = compiled.transpose()?.map(Arc::new);
+        Ok(self.steps(equations, size, compiled))
+    }
+
     /// The steps of this size: by programs where there are any.
     pub fn steps<'a>(
         &self,

@@ -366,10 +366,9 @@ impl<'a> Engine<'a> {
             for (place, value) in places.iter().zip(*own) {
                 place.iter().for_each(|place| parameters[*place] = *value);
             }
-            let compiled = self.compiled.as_ref();
-            let compiled = compiled.map(|c| c.varied(integrator, self.step, &parameters));
-            let compiled = match compiled.transpose() {
-                Ok(compiled) => compiled.map(Arc::new),
+            let equations = Equations { parameters, ..self.equations.clone() };
+            let motion = match self.group.anew(equations, self.step, self.compiled.as_ref()) {
+                Ok(motion) => motion,
                 Err(error) => {
                     let values = layout.parameters.iter().zip(*own);
                     let values: Vec<String> = values.map(|(n, x)| format!("{n} = {x}")).collect();
@@ -377,8 +376,6 @@ impl<'a> Engine<'a> {
                     return Way { state, stopped: Some((0, why)), ratio: 0.0 };
                 }
             };
-            let equations = Equations { parameters, ..self.equations.clone() };
-            let motion = self.group.steps(equations, self.step, compiled);
             let march = March { motion: motion.as_ref(), stop: watch.stop };
             let (mut way, mut done) = (march.way(state), 0);
             while done < steps && way.stopped.is_none() && !watch.stop.load(Ordering::Relaxed) {

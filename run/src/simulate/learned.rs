@@ -59,7 +59,10 @@ pub fn run_model(
         Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model)),
     };
     let start = setup.start(file, motion.space())?;
-    Subject { setup, watched, warnings }.run(motion.as_ref(), start, sink)
+    let (mut outcome, _) =
+        Subject { setup, watched, warnings }.run(motion.as_ref(), &start, sink)?;
+    outcome.estimated_error = Err("not known: a learned map has steps of one size");
+    Ok(outcome)
 }
 
 struct Learned<'a, G: Restore, C: Chart<G>> {

@@ -55,17 +55,18 @@ struct March<'a> {
 }
 
 impl Subject<'_> {
-    /// Makes the steps from the start, or from where an earlier run has ended.
+    /// Makes the steps from the start, or from where an earlier run has ended; also the state at the end.
     ///
     /// # Errors
     /// Why the run stopped.
     pub(crate) fn run(
         self,
         motion: &dyn Motion,
-        state: Numbers,
+        start: &Numbers,
         sink: &mut dyn Sink,
-    ) -> Result<Outcome, RunError> {
+    ) -> Result<(Outcome, Numbers), RunError> {
         let Self { setup, watched, warnings } = self;
+        let state = start.clone();
         warnings.iter().for_each(|warning| sink.warn(&warning.text()));
         let mut recorder = Recorder::new(watched, motion.space(), &state);
         let orbit = recorder.orbit();
@@ -96,7 +97,7 @@ impl Subject<'_> {
         let end = (steps, setup.schedule.end);
         let mut outcome = recorder.finish(end, motion.space(), &state, &moment);
         outcome.warnings.splice(0..0, warnings);
-        Ok(outcome)
+        Ok((outcome, state))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Trajectories of one system.
 
 mod blocks;
+mod estimate;
 mod learned;
 mod march;
 mod orbit;

@@ -49,6 +49,9 @@ pub struct Outcome {
     pub momenta: usize,
     /// How the solves went, where they are ours and one a step.
     pub solver: Option<Solver>,
+    /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
+    /// or why there is none.
+    pub estimated_error: Result<f64, &'static str>,
 }
 
 /// The quantities that are watched in a run.
@@ -229,6 +232,7 @@ impl<'a> Recorder<'a> {
             scales: self.start.scales,
             solver,
             blocks: self.blocks,
+            estimated_error: Err("not estimated"),
         }
     }
 }

@@ -2,10 +2,12 @@
 
 use coadjoint_program::Trajectories;
 
+use super::estimate::{LARGE, estimate};
 use super::march::Subject;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
+use super::tally::Warning;
 use crate::engine::Compiled;
 use crate::error::RunError;
 use crate::load::Derived;
@@ -26,10 +28,23 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let motion = group.steps(system.equations(), step, compiled.clone());
     let start = setup.start(&system.file, motion.space())?;
     let subject = Subject { setup, watched: system.watched(), warnings: Vec::new() };
-    let outcome = subject.run(motion.as_ref(), start, sink);
-    let Some(code) = compiled.as_ref().map(|compiled| compiled.code()) else { return outcome };
-    code.notes().iter().for_each(|note| sink.warn(note));
-    Ok(Outcome { backend: Some(code.used()), ..outcome? })
+    let made = subject.run(motion.as_ref(), &start, sink);
+    let code = compiled.as_ref().map(|compiled| compiled.code());
+    code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
+    let (mut outcome, end) = made?;
+    let other = |size| group.anew(system.equations(), step * size, compiled.as_ref());
+    let order = system.order();
+    outcome.estimated_error =
+        estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order);
+    if let Ok(error) = outcome.estimated_error
+        && error > LARGE
+    {
+        let warning = Warning::Inaccurate { error };
+        sink.warn(&warning.text());
+        outcome.warnings.push(warning);
+    }
+    outcome.backend = code.map(|code| code.used());
+    Ok(outcome)
 }
 
 impl Derived {

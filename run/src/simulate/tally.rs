@@ -66,6 +66,11 @@ pub enum Warning {
     Steep(Steep),
     /// A map learned from momenta alone moves no attitude.
     NoAttitude,
+    /// The error estimated at the end is large.
+    Inaccurate {
+        /// The estimate.
+        error: f64,
+    },
 }
 
 impl Warning {
@@ -82,6 +87,10 @@ impl Warning {
                 since the data leave it open up to a rotation about the momentum"
                     .to_owned()
             }
+            Self::Inaccurate { error } => format!(
+                "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
+                error * 100.0
+            ),
         }
     }
 
@@ -93,6 +102,9 @@ impl Warning {
                 "kind": "series_ratio", "step": step, "time": time, "ratio": ratio, "text": text,
             }),
             Self::NoAttitude => json!({ "kind": "no_attitude", "text": text }),
+            Self::Inaccurate { error } => {
+                json!({ "kind": "estimated_error", "error": error, "text": text })
+            }
         }
     }
 }

@@ -1,0 +1,113 @@
+//! The error at the end of a run, estimated by steps of another size beside it.
+
+use coadjoint::StepError;
+
+use crate::engine::{Motion, Numbers};
+
+/// The most steps that an estimate takes: 3 % of a run of ten thousand.
+const MOST: u64 = 288;
+/// Parts of a run that is too long to be gone along as a whole, at whose ends states are compared.
+const PARTS: u64 = 16;
+/// An error above this is worth a warning.
+pub(crate) const LARGE: f64 = 0.01;
+
+/// Estimates the error at the end of `steps` steps of `motion` from `start` to `end`: the larger of the relative errors of
+/// μ and of the matrix of g, in Euclidean norms. `order` is that of the method, and `other` makes the steps of a size that is
+/// given as a multiple of the motion's.
+///
+/// Beside the run goes one with steps of twice the size, or of half the size where these are refused, and Richardson's
+/// extrapolation of the difference is the error (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, II.4).
+/// Of a run that is longer than [`MOST`] allows only the beginning is compared; the error is taken to grow on by the power of
+/// the time by which it grows there, to 1 at most. Below the rounding of one unit a step, truncation is not seen.
+///
+/// # Errors
+/// Why there is no estimate.
+pub(crate) fn estimate<'a>(
+    motion: &dyn Motion,
+    other: impl Fn(f64) -> Result<Box<dyn Motion + 'a>, StepError>,
+    [start, end]: [&Numbers; 2],
+    steps: u64,
+    order: u32,
+) -> Result<f64, &'static str> {
+    let power = 2_f64.powi(order as i32);
+    // The steps of the run in the place of which the other makes some, and how many these are.
+    for ([own, others], gain) in [([2, 1], 1.0 / (power - 1.0)), ([1, 2], power / (power - 1.0))] {
+        let Ok(other) = other(own as f64 / others as f64) else { continue };
+        let beside = Beside { motion, other: other.as_ref(), own, others, gain };
+        let found = if steps / own * others <= MOST {
+            beside.whole(start, end, steps)
+        } else {
+            beside.beginning(start, steps)
+        };
+        match found {
+            Ok(error) if error.is_finite() => return Ok(error),
+            Ok(_) => return Err("not known: it is no finite number"),
+            Err(_) => {}
+        }
+    }
+    Err("not known: steps of twice and of half the size are refused")
+}
+
+/// A run and one beside it.
+struct Beside<'a> {
+    motion: &'a dyn Motion,
+    other: &'a dyn Motion,
+    own: u64,
+    others: u64,
+    /// The error as a multiple of the difference.
+    gain: f64,
+}
+
+impl Beside<'_> {
+    /// The error at the end of a run that is followed as a whole.
+    fn whole(&self, start: &Numbers, end: &Numbers, steps: u64) -> Result<f64, (u64, StepError)> {
+        let mut beside = start.clone();
+        self.motion.advance(&mut beside, steps % self.own)?;
+        self.follow(&mut beside, steps / self.own * self.others)?;
+        Ok(self.error(end, &beside, steps))
+    }
+
+    /// The error at the end of a run of which the beginning is followed.
+    fn beginning(&self, start: &Numbers, steps: u64) -> Result<f64, (u64, StepError)> {
+        let part = MOST / (self.own + self.others) / PARTS;
+        let (mut here, mut beside) = (start.clone(), start.clone());
+        let (mut half, mut whole) = (0.0, 0.0);
+        for number in 1..=PARTS {
+            self.motion.advance(&mut here, part * self.own)?;
+            self.follow(&mut beside, part * self.others)?;
+            whole = self.error(&here, &beside, number * part * self.own).max(whole);
+            if 2 * number == PARTS {
+                half = whole;
+            }
+        }
+        let longer = steps as f64 / (PARTS * part * self.own) as f64;
+        let power = if half > 0.0 { (whole / half).log2() } else { 1.0 };
+        Ok(whole.max((whole * longer.powf(power)).min(1.0)))
+    }
+
+    /// Makes steps of the other size; long ones that programs refuse are not made by other means, which would take long.
+    fn follow(&self, state: &mut Numbers, count: u64) -> Result<(), (u64, StepError)> {
+        match self.other.lanes() {
+            Some(programs) if self.own > self.others => {
+                let refused = |_: &mut Numbers| Err(StepError::InvalidStep { step: f64::NAN });
+                programs.advance(state, count, refused).map(drop)
+            }
+            _ => self.other.advance(state, count).map(drop),
+        }
+    }
+
+    /// The error of a state after so many steps of the run, by the one beside it.
+    fn error(&self, here: &Numbers, beside: &Numbers, steps: u64) -> f64 {
+        let space = self.motion.space();
+        let attitudes = [space.matrix(&here.g), space.matrix(&beside.g)];
+        let apart = apart(&here.mu, &beside.mu).max(apart(&attitudes[0], &attitudes[1]));
+        (apart * self.gain).max(apart.min(steps as f64 * f64::EPSILON))
+    }
+}
+
+/// The difference of two vectors, relative to the first.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|x| x * x).sum::<f64>().sqrt();
+    let difference = norm(&mut a.iter().zip(b).map(|(a, b)| a - b));
+    if difference == 0.0 { 0.0 } else { difference / norm(&mut a.iter().copied()) }
+}
