@@ -24,6 +24,8 @@ class Core:
         group_element: NDArray[np.float64] | None,
         every: int | None,
         at: NDArray[np.float64] | None,
+        events: list[tuple[str, Callable[..., float], int, bool]],
+        looks: int,
         backend: str,
         record: bool,
         progress: _Progress | None,

@@ -61,6 +61,17 @@ class Drift(NamedTuple):
     energy: Any
 
 
+class Crossings(NamedTuple):
+    """The moments at which an event occurred, in the order of the run."""
+
+    #: The times, (N,).
+    time: Floats
+    #: The body momenta there, (N, n).
+    momentum: Floats
+    #: The matrices of the group element there, (N, d, d).
+    group_element: Floats
+
+
 class Failure(NamedTuple):
     """A row of an ensemble that has no end state."""
 
@@ -195,6 +206,19 @@ class Run:
         """The sizes that drifts are relative to: the largest coordinate of the spatial momentum at the start, the size of
         each Casimir, and the energy at the start, |E₀|."""
         return Drift(*self._found["drift_scale"])
+
+    @cached_property
+    def events(self) -> list[Crossings]:
+        """The moments of each event that :meth:`System.simulate` was given."""
+        found: list[Crossings] = []
+        blocks, width = self._found["blocks"], len(self.final_momentum)
+        for number in range(self._found["watched"]):
+            own = [crossing[1:] for crossing in self._found["events"] if crossing[0] == number]
+            times, momenta, entries = zip(*own, strict=True) if own else ((), (), ())
+            length = sum(rows * rows for _, rows in blocks)
+            element = _dense(np.reshape(entries, (len(own), length)), blocks)
+            found.append(Crossings(np.array(times, dtype=float), np.reshape(momenta, (len(own), width)), element))
+        return found
 
     @property
     def off_group(self) -> float | None:

@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
 
@@ -21,7 +21,10 @@ from .results import Run, States
 if TYPE_CHECKING:
     import sympy
 
-__all__ = ["Law", "Laws", "System", "Verdict"]
+__all__ = ["EventFunction", "Law", "Laws", "System", "Verdict"]
+
+#: The function of an event: of the time, the matrix g and the momentum μ.
+EventFunction = Callable[[float, Floats, Floats], Real]
 
 
 class System:
@@ -239,6 +242,8 @@ class System:
         truncation: int | None = None,
         every: int | None = None,
         at: Numbers | None = None,
+        events: EventFunction | Sequence[EventFunction] = (),
+        looks: int = 1,
         tuned: None = None,
         fitted: None = None,
         backend: Backend = "auto",
@@ -256,6 +261,11 @@ class System:
         ``backend`` is ``"auto"``, ``"jit"``, ``"c"`` or ``"interpreter"``: the numbers have the same bits.
         ``progress`` is True, False, or a function of (done, total); if not given, a bar where somebody looks on.
 
+        ``events`` are functions of (t, g, μ), as SciPy's ``solve_ivp`` has them: :attr:`Run.events` gives the moments at
+        which one changes its sign; an attribute ``direction`` above or below 0 keeps only changes upwards or downwards, an
+        attribute ``terminal = True`` ends the run there. A function is called after every step, and at the ends of
+        ``looks`` equal parts of it: two changes within one part are not seen.
+
         Raises :class:`InputError` for what makes no sense and :class:`RunError` where the run stops.
 
         >>> import coadjoint as ca
@@ -263,6 +273,10 @@ class System:
         >>> run = body.simulate([2, 0.5, 1], time=20, tolerance=1e-8, at=[5, 10, 20])
         >>> run.time
         array([ 5., 10., 20.])
+        >>> def upright(t, g, mu):
+        ...     return g[2, 2]
+        >>> body.simulate([2, 0.5, 1], time=5, step=0.1, events=upright).events[0].time.round(4)
+        array([1.1718, 3.3151])
         """
         for name, value in (("tuned", tuned), ("fitted", fitted)):
             if value is not None:
@@ -274,6 +288,9 @@ class System:
         times = None if at is None else np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
         if times is not None and (times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any()):
             raise InputError("at must be a list of times in the order of the run, each once: sort them")
+        watched = _events(events)
+        if (parts := _arrays.count(looks, "looks", 1)) > 1000:
+            raise InputError(f"looks={looks}: a step is cut into 1000 parts at most; take a smaller step")
         with listener(progress, "integrating") as told:
             found = self._core.simulate(
                 self._asked(time, step, tolerance, region, truncation),
@@ -281,13 +298,15 @@ class System:
                 group_element=element,
                 every=None if every is None else _arrays.count(every, "every", 1),
                 at=times,
+                events=watched,
+                looks=parts,
                 backend=_arrays.text(backend, "backend"),
                 record=True,
                 progress=told,
             )
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
-        return Run(found, self)
+        return Run(found | {"watched": len(watched)}, self)
 
     def ensemble(
         self,
@@ -639,6 +658,18 @@ class Verdict:
     def __repr__(self) -> str:
         more = self.wrong or self.why
         return f"<Verdict: {self.text}{': ' + more if more else ''}; {self.rows} rows, {self.steps} steps>"
+
+
+def _events(given: Any) -> list[tuple[str, Callable[..., float], int, bool]]:
+    """Name, function, sign of the direction, and whether it ends the run, of each event."""
+    found = []
+    for function in [given] if callable(given) else _arrays.listed(given, "events"):
+        if not callable(function):
+            raise InputError(f"an event is a function of the time, g and μ, not {function!r}")
+        name = getattr(function, "__name__", type(function).__name__)
+        direction = _arrays.real(getattr(function, "direction", 0), f"the direction of {name}")
+        found.append((name, function, int(np.sign(direction)), bool(getattr(function, "terminal", False))))
+    return found
 
 
 def hardly_converges(ratio: float) -> str:

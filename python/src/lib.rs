@@ -6,6 +6,7 @@ mod asked;
 mod control;
 mod emit;
 mod error;
+mod event;
 mod files;
 mod learn;
 mod outcome;

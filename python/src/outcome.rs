@@ -1,6 +1,6 @@
 //! The result of a run, in Python's types.
 
-use coadjoint_run::simulate::{Block, Kind, Outcome, Schedule, split};
+use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Schedule, split};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -44,6 +44,12 @@ pub fn result_of<'py>(
         PyArray1::from_vec(py, own.flat_map(|(_, own)| own.to_vec()).collect()),
     )?;
     found.set_item("end", end)?;
+    let crossing = |crossing: &Crossing| {
+        let Crossing { event, time, momentum, element } = crossing.clone();
+        (event, time, PyArray1::from_vec(py, momentum), PyArray1::from_vec(py, element))
+    };
+    let events: Vec<_> = outcome.events.iter().map(crossing).collect();
+    found.set_item("events", events)?;
     // Where rotations of space stand in the matrix: of a rigid motion the first rows are one.
     let turns = |block: &&Block| matches!(block.kind, Kind::Rotation | Kind::Motion);
     let rotations = outcome.blocks.iter().filter(turns).map(|block| block.range.start);

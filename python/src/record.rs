@@ -59,7 +59,7 @@ impl Sink for Keeper<'_> {
         Ok(())
     }
 
-    fn pause(&mut self, steps: u64, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
+    fn pause(&mut self, steps: u64, _: bool, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
         self.control.done.store(steps, Ordering::Relaxed);
         if self.control.stop.load(Ordering::Relaxed) { Err(Halt) } else { Ok(()) }
     }

@@ -25,6 +25,7 @@ use pyo3::types::PyDict;
 use crate::asked::{Asked, backend_of};
 use crate::control::work;
 use crate::emit::emitted;
+use crate::event::Watched;
 use crate::error::{raised, refused};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
@@ -146,7 +147,7 @@ impl Core {
     }
 
     /// One trajectory; a dictionary of arrays and facts.
-    #[pyo3(signature = (asked, *, momentum, group_element, every, at, backend, record, progress))]
+    #[pyo3(signature = (asked, *, momentum, group_element, every, at, events, looks, backend, record, progress))]
     #[allow(clippy::too_many_arguments)]
     fn simulate<'py>(
         &self,
@@ -156,6 +157,8 @@ impl Core {
         group_element: Option<PyReadonlyArray2<'py, f64>>,
         every: Option<u64>,
         at: Option<PyReadonlyArray1<'py, f64>>,
+        events: Vec<Watched>,
+        looks: u32,
         backend: &str,
         record: bool,
         progress: Option<Bound<'py, PyAny>>,
@@ -188,6 +191,8 @@ impl Core {
             },
             ..self.system.clone()
         };
+        let size = self.shape().matrix_size;
+        let events = events.into_iter().map(|watched| watched.event(size)).collect();
         let here = Self { system, ..self.here() };
         // Derived integrators stay for the next run.
         let cache = self.derived.clone();
@@ -201,6 +206,8 @@ impl Core {
                 recording: record,
                 every,
                 at,
+                events,
+                looks,
                 backend,
                 group_element,
                 ..Setup::new(schedule, momentum)

@@ -155,3 +155,68 @@ def test_runs_that_stop_say_where(body: ca.System) -> None:
     with pytest.warns(ca.CoadjointWarning, match="hardly converges"):
         run = steep.simulate([1.2, 0.8, 0.5], time=0.25, step=0.25)
     assert len(run.warnings) == 1
+
+
+def test_events_are_found_within_steps_and_end_runs():
+    """The period of a free body is an elliptic integral (Landau and Lifshitz, Mechanics, §37)."""
+    from scipy.special import ellipk
+
+    body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+    start, moments = np.array([2, 0.5, 1]), np.array([1.5, 2, 2.5])
+    square, twice = start @ start, start @ (start / moments)
+    speed = np.sqrt((moments[0] - moments[1]) * (square - twice * moments[2]) / moments.prod())
+    parameter = (moments[1] - moments[2]) * (twice * moments[0] - square)
+    parameter /= (moments[0] - moments[1]) * (square - twice * moments[2])
+    period = 4 * ellipk(parameter) / speed
+
+    def middle(t, g, mu):
+        return mu[1]
+
+    middle.direction = 1
+    run = body.simulate(start, time=5 * period, step=0.2, truncation=11, events=middle)
+    (found,) = run.events
+    assert len(found.time) == 5 and found.momentum.shape == (5, 3) and found.group_element.shape == (5, 3, 3)
+    assert np.abs(np.diff(found.time) - period).max() < 1e-10
+    assert np.abs(found.momentum[:, 1]).max() < 1e-12
+    # The other direction half a period later; the second occurrence of either ends a run.
+    middle.direction, middle.terminal = -1, True
+    ended = body.simulate(start, time=5 * period, step=0.2, truncation=11, at=[1, 2, 3, 4], every=1, events=middle)
+    end = found.time[0] + period / 2
+    end -= period if end > period else 0
+    assert abs(ended.time[-1] - end) < 1e-10 and ended.time[-1] == ended.events[0].time[0]
+    assert np.array_equal(ended.momentum[-1], ended.final_momentum) and (np.diff(ended.time) > 0).all()
+    middle.terminal = False
+    # Far inside one step, seen only by looks within it.
+    fast = ca.System("SO3", "z", coordinates="x y z")
+
+    def upright(t, g, mu):
+        return g[0, 0] + 0.9
+
+    assert len(fast.simulate([0, 0, 1], time=5, step=1.25, events=upright).events[0].time) == 0
+    turned = fast.simulate([0, 0, 1], time=5, step=1.25, events=[upright, middle], looks=8)
+    assert np.abs(turned.events[0].time - [np.arccos(-0.9), 2 * np.pi - np.arccos(-0.9)]).max() < 1e-12
+
+
+def test_events_that_cannot_be_followed():
+    body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+
+    def failing(t, g, mu):
+        raise ValueError("no such sensor")
+
+    def unknown(t, g, mu):
+        return np.nan if t > 0.5 else 1.0
+
+    def never(t, g, mu):
+        return 1.0
+
+    never.terminal = True
+    with pytest.raises(ca.RunError, match="`failing` at time 0: ValueError: no such sensor"):
+        body.simulate([2, 0.5, 1], time=1, step=0.1, events=failing)
+    with pytest.raises(ca.RunError, match="`unknown` is NaN at time 0.6"):
+        body.simulate([2, 0.5, 1], time=1, step=0.1, events=unknown)
+    with pytest.warns(ca.CoadjointWarning, match="`never` did not occur; its function was 1 at the start and is 1"):
+        body.simulate([2, 0.5, 1], time=1, step=0.1, events=never)
+    with pytest.raises(ca.InputError, match="an event is a function"):
+        body.simulate([2, 0.5, 1], time=1, step=0.1, events=["x"])
+    with pytest.raises(ca.InputError, match="looks"):
+        body.simulate([2, 0.5, 1], time=1, step=0.1, events=never, looks=0)

@@ -66,7 +66,7 @@ fn text(number: usize, random: &mut ChaCha8Rng) -> Option<String> {
 struct Clock(Instant);
 
 impl Sink for Clock {
-    fn pause(&mut self, _: u64, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
+    fn pause(&mut self, _: u64, _: bool, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
         self.0 = Instant::now();
         Ok(())
     }

@@ -154,9 +154,8 @@ impl Keeper<'_> {
     }
 
     /// Between steps.
-    fn tend(&mut self, n: u64, state: &dyn Fn() -> Resume) -> Result<(), CliError> {
+    fn tend(&mut self, n: u64, end: bool, state: &dyn Fn() -> Resume) -> Result<(), CliError> {
         let schedule = &self.settings.setup.schedule;
-        let end = n == schedule.steps;
         if let Some(bar) = self.bar.as_ref().filter(|_| self.shown.elapsed() >= progress::INTERVAL)
         {
             bar.set_position(n);
@@ -259,8 +258,8 @@ impl Sink for Keeper<'_> {
         }
     }
 
-    fn pause(&mut self, steps: u64, state: &dyn Fn() -> Resume) -> Result<(), Halt> {
-        let tended = self.tend(steps, state);
+    fn pause(&mut self, steps: u64, end: bool, state: &dyn Fn() -> Resume) -> Result<(), Halt> {
+        let tended = self.tend(steps, end, state);
         self.note(tended)
     }
 

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::event::{self, Crossing, Lookout};
 use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched};
 use super::setup::Setup;
@@ -48,6 +49,11 @@ struct March<'a> {
     /// Steps made.
     n: u64,
     moment: Moment,
+    /// The values of the events' functions, and the events that occurred.
+    values: Vec<f64>,
+    crossings: Vec<Crossing>,
+    /// When an event ended the run.
+    ended: Option<f64>,
     /// How many of the times asked for are recorded.
     times: usize,
     /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
@@ -80,23 +86,49 @@ impl Subject<'_> {
             Some(_) if setup.recording => every,
             _ => every * steps.div_ceil(every.saturating_mul(LOOKS)).max(1),
         };
-        let (n, times) = (0, 0);
-        let mut march =
-            March { setup, motion, state, sink, recorder, orbit, n, moment, times, interval };
+        let (n, times, ended) = (0, 0, None);
+        let (values, crossings) = (Vec::new(), Vec::new());
+        let mut march = March {
+            setup,
+            motion,
+            state,
+            sink,
+            recorder,
+            orbit,
+            n,
+            moment,
+            values,
+            crossings,
+            ended,
+            times,
+            interval,
+        };
+        march.values = march.lookout(0).values(0.0, &march.state).map_err(|w| march.stuck(w))?;
+        let at_start = march.values.clone();
         match found {
             None => march.record()?,
             Some(resume) => march.resume(resume)?,
         }
         let mut pace = Pace(16);
-        while march.n < steps {
+        while march.n < steps && march.ended.is_none() {
             march.steps(&mut pace)?;
-            march.record()?;
+            if march.ended.is_none() {
+                march.record()?;
+            }
             march.pause()?;
         }
-        let March { recorder, state, moment, .. } = march;
-        let end = (steps, setup.schedule.end);
+        let March { sink, recorder, state, moment, n, values, crossings, ended, .. } = march;
+        let end = (n, ended.unwrap_or(setup.schedule.end));
         let mut outcome = recorder.finish(end, motion.space(), &state, &moment);
         outcome.warnings.splice(0..0, warnings);
+        if ended.is_none() {
+            let values = at_start.iter().zip(&values).map(|(&start, &end)| [start, end]);
+            let missed = setup.events.iter().zip(values).filter(|(event, _)| event.terminal);
+            let missed = missed.map(|(event, values)| (event.name.clone(), values));
+            let warnings = missed.map(|(name, values)| Warning::NoEvent { name, values });
+            outcome.warnings.extend(warnings.inspect(|warning| sink.warn(&warning.text())));
+        }
+        outcome.events = crossings;
         Ok((outcome, state))
     }
 }
@@ -127,6 +159,9 @@ impl March<'_> {
         let (first, next) = (self.n, self.next_look());
         let restored = (first / Orbit::EVERY + 1).saturating_mul(Orbit::EVERY);
         let count = (next.min(restored) - first).min(pace.0);
+        // With events step by step.
+        let before = (!self.setup.events.is_empty()).then(|| self.state.clone());
+        let count = if before.is_some() { 1 } else { count };
         let ratio = if self.watched() { self.motion.ratio(&self.state.mu) } else { 0.0 };
         // Where records come more often than the driver must, none of its time goes into clocks.
         let begun = (count == pace.0).then(Instant::now);
@@ -147,6 +182,12 @@ impl March<'_> {
             let noted = self.recorder.solved(iterations, residual);
             noted.map_err(|what| self.stuck(what))?;
         }
+        if let Some(before) = before {
+            self.look_out(first, &before)?;
+            if self.ended.is_some() {
+                return Ok(());
+            }
+        }
         if let Some(warning) = self.recorder.steep(first + 1, schedule.time(first), ratio) {
             self.sink.warn(&warning.text());
         }
@@ -159,6 +200,75 @@ impl March<'_> {
             self.moment = self.measure()?;
         }
         Ok(())
+    }
+
+    /// The lookout for events in the step from this grid point.
+    fn lookout(&self, first: u64) -> Lookout<'_> {
+        let (setup, motion) = (self.setup, self.motion);
+        let (time, step) = (setup.schedule.time(first), setup.schedule.step);
+        Lookout { events: &setup.events, motion, time, step }
+    }
+
+    /// Looks for events in the step just made, from this grid point and state on. One that ends the run puts its state in
+    /// place, after the records of the times before it.
+    fn look_out(&mut self, first: u64, before: &Numbers) -> Result<(), RunError> {
+        let (setup, space) = (self.setup, self.motion.space());
+        let lookout = self.lookout(first);
+        let stuck = |what| self.stuck(what);
+        let start =
+            event::Moment { share: 0.0, state: before.clone(), values: self.values.clone() };
+        let (mut earlier, mut found) = (start, Vec::new());
+        for part in 1..=setup.looks {
+            let last = part == setup.looks;
+            let share = f64::from(part) / f64::from(setup.looks);
+            let state = match last {
+                true => self.state.clone(),
+                false => lookout.state(before, share).map_err(|e| stuck(e.to_string()))?,
+            };
+            let time = if last {
+                setup.schedule.time(first + 1)
+            } else {
+                lookout.time + share * lookout.step
+            };
+            let values = lookout.values(time, &state).map_err(stuck)?;
+            let later = event::Moment { share, state, values };
+            found.extend(lookout.between(before, [&earlier, &later]).map_err(stuck)?);
+            earlier = later;
+        }
+        self.values = earlier.values;
+        for (event, time, state) in found {
+            let element = self.recorder.entries(space, &state);
+            let momentum = state.mu.clone();
+            self.crossings.push(Crossing { event, time, momentum, element });
+            if setup.events[event].terminal {
+                self.n = first;
+                return self.end_at(time, before, state);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the run at a time within the step from a state of the grid.
+    fn end_at(&mut self, time: f64, before: &Numbers, state: Numbers) -> Result<(), RunError> {
+        let (space, here) = (self.motion.space(), self.setup.schedule.time(self.n));
+        let (direction, every) = (self.setup.schedule.step, self.setup.every);
+        self.ended = Some(time);
+        while let Some(earlier) = self.next_time().filter(|at| (time - at) * direction > 0.0) {
+            let between = self.motion.beside(before, earlier - here);
+            let between = between.map_err(|error| self.stuck(error.to_string()))?;
+            let moment = self.recorder.measure(space, &between);
+            let moment = moment.map_err(|what| self.stuck(what))?;
+            self.write(earlier, Some((&between, moment)))?;
+            self.times += 1;
+        }
+        self.state = state;
+        let seen = self.recorder.visit(time, space, &self.state);
+        self.moment = seen.map_err(|what| self.stuck(what))?;
+        self.sink.look(time, &self.state.mu, &self.moment);
+        match self.setup.recording && every.is_some() {
+            true => self.write(time, None),
+            false => Ok(()),
+        }
     }
 
     /// Whether the drift is measured after the steps made.
@@ -239,12 +349,13 @@ impl March<'_> {
     }
 
     fn pause(&mut self) -> Result<(), RunError> {
-        let Self { state, recorder, n, times, .. } = self;
+        let Self { setup, state, recorder, n, times, ended, .. } = self;
+        let end = *n == setup.schedule.steps || ended.is_some();
         let resume = || {
             let Numbers { g, mu } = state.clone();
             Resume { step: *n, momentum: mu, element: g, times: *times, tally: recorder.tally }
         };
-        let paused = self.sink.pause(*n, &resume);
+        let paused = self.sink.pause(*n, end, &resume);
         paused.map_err(|_| self.halted())
     }
 

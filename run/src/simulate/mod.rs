@@ -2,6 +2,7 @@
 
 mod blocks;
 mod estimate;
+mod event;
 mod learned;
 mod march;
 mod orbit;
@@ -13,6 +14,7 @@ mod sink;
 mod tally;
 
 pub use blocks::{Block, Kind, matrix, split};
+pub use event::{Crossing, Direction, Event, Function};
 pub use learned::{algebra_of, run_model};
 pub use recorder::{Drift, Outcome, Recorder, Scales, Watched};
 pub use run::run;

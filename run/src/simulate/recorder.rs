@@ -5,6 +5,7 @@ pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, nudge};
 
 use super::blocks::{Block, blocks, off_group};
+use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
 use super::tally::{Moment, Solver, Steep, Tally, Warning};
@@ -47,6 +48,8 @@ pub struct Outcome {
     pub potential: bool,
     /// How many independent components of the spatial momentum are conserved, and were watched.
     pub momenta: usize,
+    /// The events that occurred, in the order of time.
+    pub events: Vec<Crossing>,
     /// How the solves went, where they are ours and one a step.
     pub solver: Option<Solver>,
     /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
@@ -230,6 +233,7 @@ impl<'a> Recorder<'a> {
             potential: invariants.potential.is_some(),
             momenta: self.start.conserved.momenta.len(),
             scales: self.start.scales,
+            events: Vec::new(),
             solver,
             blocks: self.blocks,
             estimated_error: Err("not estimated"),

@@ -7,6 +7,7 @@ use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::Run;
 use sha2::{Digest, Sha256};
 
+use super::event::Event;
 use crate::backend::Backend;
 use crate::engine::{Numbers, Space, identity};
 use crate::error::RunError;
@@ -194,6 +195,10 @@ pub struct Setup {
     pub every: Option<u64>,
     /// Times recorded besides.
     pub at: Option<Times>,
+    /// The events looked for.
+    pub events: Vec<Event>,
+    /// The number of equal parts of a step at whose ends events are looked for. Not 0.
+    pub looks: u32,
     /// The backend that evaluates the programs of a step.
     pub backend: Backend,
     /// μ at the start.
@@ -206,8 +211,9 @@ impl Setup {
     /// A run from this momentum and the identity, of which no records are kept.
     pub fn new(schedule: Schedule, momentum: Vec<f64>) -> Self {
         let (recording, every, at) = (false, Some(1), None);
-        let backend = Backend::Auto;
-        Self { schedule, recording, every, at, backend, momentum, group_element: None }
+        let (events, looks, backend) = (Vec::new(), 1, Backend::Auto);
+        let group_element = None;
+        Self { schedule, recording, every, at, events, looks, backend, momentum, group_element }
     }
 
     /// The state at the start.

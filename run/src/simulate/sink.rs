@@ -111,12 +111,12 @@ pub trait Sink {
     /// The drift was measured at this time.
     fn look(&mut self, _time: f64, _momentum: &[f64], _moment: &Moment) {}
 
-    /// Between steps, about every ten milliseconds and at the end: the number of steps made, and a function that makes what
-    /// the run would need to go on from here.
+    /// Between steps, about every ten milliseconds, and at the end: the number of steps made, whether this is the end, and a
+    /// function that makes what the run would need to go on from here.
     ///
     /// # Errors
     /// To end the run.
-    fn pause(&mut self, _steps: u64, _state: &dyn Fn() -> Resume) -> Result<(), Halt> {
+    fn pause(&mut self, _steps: u64, _end: bool, _state: &dyn Fn() -> Resume) -> Result<(), Halt> {
         Ok(())
     }
 

@@ -71,6 +71,13 @@ pub enum Warning {
         /// The estimate.
         error: f64,
     },
+    /// An event that was to end the run did not occur.
+    NoEvent {
+        /// Its name.
+        name: String,
+        /// The values of its function at the start and at the end.
+        values: [f64; 2],
+    },
 }
 
 impl Warning {
@@ -91,6 +98,11 @@ impl Warning {
                 "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
                 error * 100.0
             ),
+            Self::NoEvent { name, values: [start, end] } => format!(
+                "the event `{name}` did not occur; its function was {} at the start and is {} at the end",
+                shortest(*start),
+                shortest(*end)
+            ),
         }
     }
 
@@ -104,6 +116,9 @@ impl Warning {
             Self::NoAttitude => json!({ "kind": "no_attitude", "text": text }),
             Self::Inaccurate { error } => {
                 json!({ "kind": "estimated_error", "error": error, "text": text })
+            }
+            Self::NoEvent { name, values } => {
+                json!({ "kind": "no_event", "event": name, "values": values, "text": text })
             }
         }
     }
