@@ -33,7 +33,8 @@
 //!
 //! # Limits
 //!
-//! A Hamiltonian must be a polynomial in the momentum with rational coefficients or opaque symbols. A derivation
+//! A Hamiltonian with a series is a polynomial in the momentum with rational coefficients or opaque symbols; others become
+//! programs ([`smooth::Smooth`]), as [`parse::rust::hamiltonian`] reads them. A derivation
 //! that would exceed its [`hamilton_jacobi::TermLimit`] stops with an error.
 //!
 //! # Features
@@ -61,5 +62,5 @@ pub use build_script::{Build, BuildError};
 pub use coadjoint_symbolic::judge;
 pub use coadjoint_symbolic::{
     cancel, comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem,
-    splitting, step, tolerance,
+    smooth, splitting, step, tolerance,
 };

@@ -8,6 +8,7 @@ use coadjoint_codegen::emit::{self, Items, Options};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::parse::rust;
+use coadjoint_codegen::smooth::Hamiltonian;
 
 /// The items for a function, given the arguments but `crate`; programs bind names with an underscore at their ends.
 pub(crate) type Generate = fn(TokenStream, &ItemFn, &Options) -> Result<Items>;
@@ -18,7 +19,11 @@ pub(crate) fn lie_poisson(
     function: &ItemFn,
     options: &Options,
 ) -> Result<Items> {
-    let problem = rust::lie_poisson(arguments, function).map_err(Diagnostics::into_syn_error)?;
+    let read = rust::hamiltonian(arguments, function).map_err(Diagnostics::into_syn_error)?;
+    let problem = match read {
+        Hamiltonian::Polynomial(problem) => *problem,
+        Hamiltonian::Smooth(smooth) => return Ok(emit::collocation(&smooth, options)),
+    };
     let place = function.sig.ident.span();
     let integrator = Integrator::build(problem, TermLimit::default())
         .map_err(|error| Error::new(place, error))?;

@@ -7,7 +7,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::function::Function;
+use crate::elementary::Function;
 use crate::graph::Graph;
 use crate::node::{Id, Node};
 use crate::program::Program;
@@ -73,7 +73,11 @@ impl Graph {
         let one = self.constant(1.0);
         match function {
             Function::Exp => y,
-            Function::Ln => self.div(one, a),
+            // Not a number where the logarithm is none.
+            Function::Ln => {
+                let a = self.positive(a);
+                self.div(one, a)
+            }
             Function::Sin => self.function(Function::Cos, a),
             Function::Cos => {
                 let sine = self.function(Function::Sin, a);
@@ -180,7 +184,7 @@ impl Graph {
     }
 }
 
-/// What stands beside a derivative: x̄ = ȳ·∂y/∂x backwards, ẏ = ∂y/∂x·ẋ forwards.
+/// The factor beside a derivative: x̄ = ȳ·∂y/∂x backwards, ẏ = ∂y/∂x·ẋ forwards.
 #[derive(Clone, Copy)]
 enum Slope {
     /// 1

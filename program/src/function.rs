@@ -6,29 +6,9 @@
 
 use alloc::vec::Vec;
 
+use crate::elementary::Function;
 use crate::graph::Graph;
 use crate::node::Id;
-
-/// A function of one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// The exponential.
-    Exp,
-    /// The natural logarithm; of positive numbers.
-    Ln,
-    /// The sine, of an angle in radians up to 10⁸.
-    Sin,
-    /// The cosine, of an angle in radians up to 10⁸.
-    Cos,
-    /// The tangent, of an angle in radians up to 10⁸.
-    Tan,
-    /// The inverse of the tangent.
-    Atan,
-    /// The hyperbolic tangent.
-    Tanh,
-    /// a to the power m/n, for n from 1; of numbers from 0 where n is not 1.
-    Power(i32, u32),
-}
 
 /// ln 2, its first 32 bits and the rest.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
@@ -180,13 +160,26 @@ impl Graph {
         let less = self.sub(less, f);
         let high = self.mul(e, high);
         let value = self.sub(high, less);
-        // Infinities and what is no number stay themselves; numbers up to 0 have none: ∞ − ∞.
+        // Infinities and what is no number stay themselves.
         let value = self.select(x, largest, value, x);
         let zero = self.zero();
         let wrong = self.select(x, zero, largest, zero);
+        self.unless(value, wrong)
+    }
+
+    /// A positive number, or what is no number.
+    pub(crate) fn positive(&mut self, x: Id) -> Id {
+        let (zero, largest) = (self.zero(), self.constant(f64::MAX));
+        let wrong = self.select(x, zero, largest, zero);
+        self.unless(x, wrong)
+    }
+
+    /// a where `wrong` is 0, and not a number where it is the largest number: ∞ − ∞.
+    fn unless(&mut self, a: Id, wrong: Id) -> Id {
+        let largest = self.constant(f64::MAX);
         let wrong = self.mul(wrong, largest);
         let none = self.sub(wrong, wrong);
-        self.add(value, none)
+        self.add(a, none)
     }
 
     /// a to the power m/n.
@@ -329,9 +322,7 @@ impl Graph {
         let size = self.abs(x);
         let zero = self.zero();
         let wrong = self.select(size, most, zero, largest);
-        let wrong = self.mul(wrong, largest);
-        let none = self.sub(wrong, wrong);
-        self.add(x, none)
+        self.unless(x, wrong)
     }
 
     /// sin(x + from·π/2).

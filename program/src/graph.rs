@@ -4,7 +4,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::function::Function;
+use crate::elementary::Function;
 use crate::node::{Cost, Id, Node};
 use crate::program::Program;
 

@@ -26,6 +26,8 @@ mod derivative;
 #[cfg(feature = "programs")]
 mod dispatch;
 #[cfg(feature = "programs")]
+mod elementary;
+#[cfg(feature = "programs")]
 mod error;
 #[cfg(feature = "programs")]
 mod evaluate;
@@ -62,9 +64,9 @@ mod stepper;
 #[cfg(feature = "programs")]
 pub use derivative::Argument;
 #[cfg(feature = "programs")]
-pub use error::ProgramError;
+pub use elementary::Function;
 #[cfg(feature = "programs")]
-pub use function::Function;
+pub use error::ProgramError;
 #[cfg(feature = "programs")]
 pub use graph::Graph;
 #[cfg(feature = "programs")]

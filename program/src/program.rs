@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::error::ProgramError;
-use crate::function::Function;
+use crate::elementary::Function;
 use crate::node::{Cost, Id, Node};
 
 /// A straight-line program: numbers and folded coefficients in, numbers out, no branches and no loops.

@@ -35,8 +35,8 @@
 //!
 //! # Limits
 //!
-//! H_red must be a polynomial in μ (its coefficients may be any expressions of parameters). A step
-//! must stay inside the chart: about h|Ω| < 2 for the exponential chart on SO(3); beyond it a step
+//! A series needs a polynomial H_red in μ (its coefficients may be any expressions of parameters); any
+//! other smooth H_red takes steps by [`collocation`]. A step must stay inside the chart: about h|Ω| < 2 for the exponential chart on SO(3); beyond it a step
 //! returns [`StepError::NotConverged`] and leaves the state as it was. Conventions (left
 //! trivialisation, signs) are those of [`LieGroup`].
 //!
@@ -112,9 +112,33 @@ mod table;
 ///
 /// The first argument is the momentum, `[f64; n]` or an nalgebra vector; the others are parameters.
 /// The body is evaluated while compiling, so anything whose course is known then works: `let`,
-/// patterns, constants, loops over literal ranges, `powi`, `dot`. It must be a polynomial in the
-/// momentum; expressions of parameters alone may be anything. Decimal literals are exact: `0.1` is
-/// 1/10.
+/// patterns, constants, loops over literal ranges, `powi`, `dot`. Decimal literals are exact: `0.1` is
+/// 1/10. Expressions of parameters alone may be anything.
+///
+/// A polynomial in the momentum has a series. With functions (`sqrt`, `exp`, `ln`, `sin`, `cos`, `tan`, `atan`,
+/// `tanh`, real powers) or quotients of the momentum it has none, and steps are made by [`collocation`], in `f64`
+/// and in the chart that this has for the group: the struct's `advance` then takes `&mut self`, since a step begins
+/// with a guess from those before it.
+///
+/// ```
+/// use coadjoint::{Phase, SO3, lie_poisson};
+///
+/// /// A body at speeds near that of light.
+/// #[lie_poisson(group = SO3)]
+/// fn fast_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+///     let [x, y, z] = mu;
+///     (1.0 + x * x / inertia[0] + y * y / inertia[1] + z * z / inertia[2]).sqrt()
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut step = FastBody::new(0.2, [1.5, 2.0, 2.5])?;
+/// let mut state = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+/// let before = step.energy(&state.momentum);
+/// step.advance_by(&mut state, 1000)?;
+/// assert!((step.energy(&state.momentum) - before).abs() < 1e-10);
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # What it generates
 ///

@@ -2,6 +2,7 @@
 
 use coadjoint_program::fold::FoldError;
 
+use crate::collocation::Undefined;
 use crate::error::StepError;
 use crate::generating::ScalarOf;
 use crate::group::phase::Phase;
@@ -50,6 +51,30 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const LEN: usize>(
         }
         None => Ok(coefficients),
     }
+}
+
+/// The expressions in parameters of a Hamiltonian, where all are finite.
+///
+/// # Errors
+/// [`StepError::InvalidParameter`].
+pub fn finite<const SYMBOLS: usize>(
+    names: [&'static str; SYMBOLS],
+    symbols: [f64; SYMBOLS],
+) -> Result<[f64; SYMBOLS], StepError> {
+    match symbols.iter().position(|value| !value.is_finite()) {
+        Some(i) => Err(StepError::InvalidParameter { name: names[i], value: symbols[i] }),
+        None => Ok(symbols),
+    }
+}
+
+/// The first expression of a Hamiltonian that is not defined, or has no derivative: `watched` are for each its argument
+/// and a number that is then not finite.
+#[cold]
+pub fn undefined(expressions: &[&'static str], watched: &[f64]) -> Option<Undefined> {
+    let (pairs, _) = watched.as_chunks::<2>();
+    let mut pairs = pairs.iter().zip(expressions);
+    let found = pairs.find(|([argument, test], _)| argument.is_finite() && !test.is_finite());
+    found.map(|(&[argument, _], &expression)| Undefined { expression, argument })
 }
 
 /// The monomials of S_K and S_{K−2}, those of S_K marked, and the direct factor of the group that each coordinate belongs to.

@@ -163,12 +163,25 @@ impl Mistake {
                 .replace("the momentum", "the group element")
                 .replace("Hamiltonian", "potential")
         };
-        let (message, help) = (self.to_string(), self.help());
+        let (message, help) = (self.to_string(), self.correction());
         let said = words(&message);
         if said == message && help.as_deref().map(words) == help {
             return self;
         }
         Self::Other(said, help.as_deref().map(words))
+    }
+
+    /// Whether it is one because a series needs a polynomial in the momentum; collocation does not.
+    pub(crate) fn is_of_series(&self) -> bool {
+        matches!(
+            self,
+            Self::NotPolynomial(_)
+                | Self::DivisionByMomentum
+                | Self::NegativePower(_)
+                | Self::FractionalPower(_)
+                | Self::UnknownPower
+                | Self::MomentumInExponent
+        )
     }
 
     /// Whether a name is wrong wherever it stands, so that one place is enough.
@@ -185,6 +198,16 @@ impl Mistake {
 
     /// A correction, where there is more to say than the message does.
     pub(crate) fn help(&self) -> Option<String> {
+        if self.is_of_series() {
+            let text = "a Hamiltonian that is no polynomial has no series, and needs steps by collocation: the attribute \
+                        lie_poisson of the Rust crate coadjoint has them";
+            return Some(text.to_owned());
+        }
+        self.correction()
+    }
+
+    /// How the input would be right.
+    fn correction(&self) -> Option<String> {
         let text = match self {
             Self::Unfinished => "write a number, a name or a parenthesis here",
             Self::Unexpected(_) => {
@@ -217,7 +240,9 @@ impl Mistake {
                  parentheses"
             }
             Self::NoList(_) => "give it as a list under [parameters], such as P = [0, 1, 2]",
-            Self::UnknownFunction(..) => "known functions: sqrt, sin, cos, tan, exp, ln, abs",
+            Self::UnknownFunction(..) => {
+                "known functions: sqrt, sin, cos, tan, atan, tanh, exp, ln, abs"
+            }
             Self::FunctionWithoutArgument(name) => {
                 return Some(format!("write `{name}(…)` with parentheses"));
             }

@@ -5,6 +5,7 @@
 //! names the runtime by absolute path.
 
 pub mod c;
+mod collocation;
 mod constructor;
 mod file;
 mod generating_function;
@@ -27,6 +28,7 @@ mod subscript;
 mod table;
 mod types;
 
+pub use collocation::collocation;
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{fresh, hygienic, identifiers};

@@ -37,6 +37,8 @@ pub(crate) fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> To
                 Function::Sin => quote!(#a.simd_sin()),
                 Function::Cos => quote!(#a.simd_cos()),
                 Function::Tan => quote!(#a.simd_tan()),
+                Function::Atan => quote!(#a.simd_atan()),
+                Function::Tanh => quote!(#a.simd_tanh()),
                 Function::Exp => quote!(#a.simd_exp()),
                 Function::Ln => quote!(#a.simd_ln()),
                 Function::Abs => quote!(#a.simd_abs()),

@@ -3,15 +3,17 @@
 use super::choice::Choice;
 use super::coefficient::{ONE, Table};
 use super::polynomial::{Sum, polynomial};
+use super::program::lower;
 use super::sums::name_sums;
 use crate::comoving::comoving;
-use crate::diagnostic::{Diagnostics, Mistake, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
-use crate::lie::LieAlgebra;
+use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
 use crate::problem::{FrameChoice, Parameter, Problem, Symbol};
+use crate::smooth::{Hamiltonian, Smooth};
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
 #[derive(Debug, Default)]
@@ -58,8 +60,99 @@ pub(crate) struct Draft {
     pub choice: Choice,
 }
 
+/// Checks what was read and turns it into a problem, or into programs where the Hamiltonian is smooth but no polynomial;
+/// `None` where something is wrong, which has then been reported.
+pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option<Hamiltonian> {
+    let read = Read::new(&draft.hamiltonian);
+    if read.found.iter().any(|found| found.mistake.is_of_series()) {
+        let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
+        others.for_each(|found| diagnostics.report(found.span, found.mistake));
+        return assemble_smooth(draft, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
+    }
+    let problem = assemble_polynomial(draft, read, diagnostics);
+    problem.map(Box::new).map(Hamiltonian::Polynomial)
+}
+
+/// The largest truncation of collocation: 8 nodes.
+const MOST_OF_COLLOCATION: usize = 15;
+
+/// The same for a Hamiltonian that is no polynomial.
+fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
+    let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, choice } = draft;
+    if let Some(algebra) = &algebra
+        && coordinates.len() != algebra.dim()
+    {
+        let mistake =
+            Mistake::Dimension(coordinates.len(), algebra.name().to_owned(), algebra.dim());
+        diagnostics.report(coordinates_span, mistake);
+    }
+    let given = |place| !matches!(place, Span::Whole);
+    let chosen = [
+        ("chart", choice.chart.0 != Chart::default() || given(choice.chart.1), choice.chart.1),
+        ("solver", choice.solver.is_some(), Span::Whole),
+        ("frame", choice.frame.0 != FrameChoice::Fixed, choice.frame.1),
+    ];
+    for (key, _, place) in chosen.into_iter().filter(|(_, chosen, _)| *chosen) {
+        let message = format!(
+            "`{key}` is one of a series: this Hamiltonian is no polynomial, and runs by collocation"
+        );
+        diagnostics.report_other(place, message, &format!("leave `{key}` out"));
+    }
+    if let Some(k) = choice.truncation.filter(|k| *k > MOST_OF_COLLOCATION) {
+        let mistake = Mistake::TruncationLarge(k, MOST_OF_COLLOCATION);
+        diagnostics.report(Span::Whole, mistake);
+    }
+    if !diagnostics.is_empty() {
+        return None;
+    }
+    let (root, place) = energy.root?;
+    let mut table = Table::new();
+    let names = (&coordinates[..], &energy.scalar_names()[..]);
+    let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
+    if !lowered.gradient.nodes().iter().any(|node| *node != coadjoint_program::Node::Zero) {
+        diagnostics.report(place, Mistake::NoDependence);
+        return None;
+    }
+    Some(Smooth {
+        name,
+        algebra: algebra?,
+        coordinates,
+        value: lowered.value,
+        gradient: lowered.gradient,
+        watched: lowered.watched,
+        expressions: lowered.expressions,
+        symbols: lowered.symbols,
+        parameters: energy.parameters,
+        source: energy.source,
+        truncation: choice.truncation?,
+    })
+}
+
 /// Checks what was read and turns it into a problem; `None` where something is wrong, which has then been reported.
 pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Problem> {
+    let read = Read::new(&draft.hamiltonian);
+    assemble_polynomial(draft, read, diagnostics)
+}
+
+/// An energy read as a polynomial.
+struct Read {
+    table: Table,
+    sum: Option<Sum>,
+    /// Why it is none.
+    found: Vec<Diagnostic>,
+}
+
+impl Read {
+    fn new(energy: &Energy) -> Self {
+        let (mut table, found) = (Table::new(), Diagnostics::new());
+        let sum = energy.polynomial(&mut table, &found);
+        Self { table, sum, found: found.list() }
+    }
+}
+
+/// The same, given the Hamiltonian as a polynomial.
+fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> Option<Problem> {
+    let Read { mut table, sum, found } = read;
     let Draft { name, algebra, coordinates, hamiltonian: energy, choice, .. } = draft;
     let count = coordinates.len();
     let (chart, chart_span) = choice.chart;
@@ -70,8 +163,7 @@ pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Proble
         }
         diagnostics.check(chart_span, chart.check(algebra).map_err(Mistake::Chart));
     }
-    let mut table = Table::new();
-    let sum = energy.polynomial(&mut table, diagnostics);
+    found.into_iter().for_each(|found| diagnostics.report(found.span, found.mistake));
     if !diagnostics.is_empty() {
         return None;
     }
@@ -121,10 +213,8 @@ pub(crate) fn assemble_potential(
         let help = format!("write for example g: [[f64; {size}]; {size}]");
         diagnostics.report_other(span, message, &help);
     }
-    let mut table = Table::new();
-    let found = Diagnostics::new();
-    let sum = energy.polynomial(&mut table, &found);
-    for found in found.list() {
+    let Read { mut table, sum, found } = Read::new(&energy);
+    for found in found {
         diagnostics.report(found.span, found.mistake.in_potential());
     }
     if diagnostics.len() > before {

@@ -312,7 +312,8 @@ impl Table {
         }
     }
 
-    fn scaled(&self, factor: &Rational, product: Product) -> ParameterExpr {
+    /// factor · product as an expression in parameters.
+    pub(super) fn scaled(&self, factor: &Rational, product: Product) -> ParameterExpr {
         if product == ONE {
             return ParameterExpr::Rational(factor.clone());
         }
@@ -379,7 +380,9 @@ fn exact(function: Function, x: &Rational) -> Option<Rational> {
     match function {
         Function::Abs => Some(x.abs()),
         Function::Sqrt => exact_root(x, 2),
-        Function::Sin | Function::Tan if x.is_zero() => Some(Rational::zero()),
+        Function::Sin | Function::Tan | Function::Atan | Function::Tanh if x.is_zero() => {
+            Some(Rational::zero())
+        }
         Function::Cos | Function::Exp if x.is_zero() => Some(Rational::one()),
         Function::Ln if x.is_one() => Some(Rational::zero()),
         _ => None,

@@ -1,12 +1,13 @@
-//! From expressions to the problem: polynomials in the momentum, opaque coefficients, checks.
+//! From expressions to the problem: polynomials in the momentum or programs of it, opaque coefficients, checks.
 
 mod assemble;
 mod choice;
 mod coefficient;
 mod polynomial;
+mod program;
 mod sums;
 
 #[cfg(feature = "system")]
 pub(crate) use assemble::constant;
-pub(crate) use assemble::{Draft, Energy, assemble, assemble_potential, linear};
+pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
 pub(crate) use choice::Choice;

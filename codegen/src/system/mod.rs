@@ -54,9 +54,10 @@ use toml::de::DeTable;
 use crate::diagnostic::{Diagnostics, Mistake, Span, unclosed_quote};
 use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
-use crate::pass::{Choice, Draft, assemble, assemble_potential};
+use crate::pass::{Choice, Draft, assemble, assemble_either, assemble_potential};
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
+use crate::smooth::Hamiltonian;
 use table::Table;
 
 pub use crate::splitting::Splitting;
@@ -67,11 +68,11 @@ pub use units::Units;
 /// The system of a file that names none.
 const DEFAULT_NAME: &str = "system";
 
-/// A system file.
+/// A system file; its Hamiltonian a polynomial, or either kind.
 #[derive(Clone, Debug)]
-pub struct System {
+pub struct System<H = Problem> {
     /// The system.
-    pub problem: Problem,
+    pub problem: H,
     /// The potential V(g), if the file has one, and the splitting to compose its kicks by.
     pub potential: Option<(Potential, Splitting)>,
     /// Where to start, how far and in which steps; each as far as the file says.
@@ -99,6 +100,34 @@ pub fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, Diagnostics> {
+    read_as(text, (options, varied), assemble, |problem| Some(problem))
+}
+
+/// The same for a Hamiltonian that need not be a polynomial; one that is none has neither potential nor angular velocity.
+///
+/// # Errors
+/// As [`read_varying`].
+pub fn read_either(
+    text: &str,
+    options: Options,
+    varied: &[String],
+) -> Result<System<Hamiltonian>, Diagnostics> {
+    read_as(text, (options, varied), assemble_either, |read| match read {
+        Hamiltonian::Polynomial(problem) => Some(problem),
+        Hamiltonian::Smooth(_) => None,
+    })
+}
+
+/// How a draft becomes a system, and the polynomial that this has if it has one.
+type Assemble<H> = fn(Draft, &Diagnostics) -> Option<H>;
+type Polynomial<H> = fn(&H) -> Option<&Problem>;
+
+fn read_as<H>(
+    text: &str,
+    kept: (Options, &[String]),
+    assemble: Assemble<H>,
+    polynomial: Polynomial<H>,
+) -> Result<System<H>, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
     // After an unclosed quote the rest parses as nonsense: only the quote is reported.
@@ -115,16 +144,16 @@ pub fn read_varying(
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
-    let system = system(document.get_ref(), text, (options, varied), &diagnostics);
+    let system = system((document.get_ref(), text), kept, (assemble, polynomial), &diagnostics);
     diagnostics.into_result(system)
 }
 
-fn system(
-    document: &DeTable<'_>,
-    text: &str,
+fn system<H>(
+    (document, text): (&DeTable<'_>, &str),
     (options, varied): (Options, &[String]),
+    (assemble, polynomial): (Assemble<H>, Polynomial<H>),
     diagnostics: &Diagnostics,
-) -> Option<System> {
+) -> Option<System<H>> {
     let nothing = Names::default();
     let root = Table::root(document, text, &nothing, diagnostics);
     let parameters = parameters::Parameters::read(&root, options, varied);
@@ -164,11 +193,24 @@ fn system(
     });
     let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
     let problem = assemble(draft, diagnostics)?;
+    let Some(known) = polynomial(&problem) else {
+        let what = "the Hamiltonian is no polynomial, and with collocation there is none";
+        let potential = root.get("potential").map(table::span);
+        let velocity = velocity.map(|(_, place)| place);
+        for (key, place) in [("potential", potential), ("angular_velocity", velocity)] {
+            if let Some(place) = place {
+                let help = format!("leave `{key}` out");
+                diagnostics.report_other(place, format!("`{key}`: {what}"), &help);
+            }
+        }
+        let parameters = parameters.all();
+        return Some(System { problem, potential: None, run, units, parameters });
+    };
     if let Some(velocity) = velocity {
-        run.momentum = initial::momentum(&problem, &velocity, &root);
+        run.momentum = initial::momentum(known, &velocity, &root);
     }
     let potential =
-        potential.map(|potential| (potential, splitting::choose(splitting, &problem, diagnostics)));
+        potential.map(|potential| (potential, splitting::choose(splitting, known, diagnostics)));
     Some(System { problem, potential, run, units, parameters: parameters.all() })
 }
 

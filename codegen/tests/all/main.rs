@@ -9,6 +9,7 @@ mod quoting;
 mod renamed;
 mod rust_bodies;
 mod size;
+mod smooth;
 mod sums;
 mod system_file;
 mod text;

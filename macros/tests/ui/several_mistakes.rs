@@ -3,7 +3,7 @@ use coadjoint::lie_poisson;
 
 #[lie_poisson(group = SO3, truncation = 4, chart = expo)]
 fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
-    mu[0] * mu[0] / inertai[0] + mu[1].sin() + 1.0 / mu[2]
+    mu[0] * mu[0] / inertai[0] + mu[1].sin() + mu[2].abs()
 }
 
 fn main() {

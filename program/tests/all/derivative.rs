@@ -141,3 +141,18 @@ fn derivatives_are_numbers_where_there_is_one() {
     assert_eq!(program.gradient(&[Argument::Input(0)]).run(&[0.0, 0.0], &[]), [0.0]);
     assert_eq!(program.gradient(&[Argument::Input(0)]).run(&[4.0, 0.0], &[]), [3.0]);
 }
+
+#[test]
+fn outside_the_domain_the_derivative_is_not_a_number_either() {
+    for function in [Function::Ln, Function::Power(1, 2), Function::Power(5, 3)] {
+        let mut graph = Graph::new();
+        let x = graph.input(0);
+        let y = graph.function(function, x);
+        let slope = graph.finish(1, &[y]).gradient(&[Argument::Input(0)]);
+        assert!(slope.run(&[-2.0], &[])[0].is_nan(), "{function:?}");
+    }
+    let mut graph = Graph::new();
+    let x = graph.input(0);
+    let y = graph.function(Function::Sin, x);
+    assert!(graph.finish(1, &[y]).gradient(&[Argument::Input(0)]).run(&[2e8], &[])[0].is_nan());
+}

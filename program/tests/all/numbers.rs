@@ -2,7 +2,7 @@
 
 use coadjoint_program::{Node, Program, bits};
 
-/// What programs are evaluated in.
+/// The numbers that programs are evaluated in.
 pub trait Number: Copy {
     fn of(value: f64) -> Self;
     fn value(self) -> f64;

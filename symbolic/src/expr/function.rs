@@ -1,6 +1,6 @@
 //! Functions that may be applied to parameters.
 
-/// A function of one real number.
+/// A function of one real number. (Those of the momentum are straight-line programs, [`coadjoint_program::Function`].)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Function {
     /// The square root.
@@ -11,6 +11,10 @@ pub enum Function {
     Cos,
     /// The tangent (radians).
     Tan,
+    /// The inverse of the tangent.
+    Atan,
+    /// The hyperbolic tangent.
+    Tanh,
     /// The exponential.
     Exp,
     /// The natural logarithm.
@@ -21,8 +25,17 @@ pub enum Function {
 
 impl Function {
     /// Every function.
-    pub const ALL: [Self; 7] =
-        [Self::Sqrt, Self::Sin, Self::Cos, Self::Tan, Self::Exp, Self::Ln, Self::Abs];
+    pub const ALL: [Self; 9] = [
+        Self::Sqrt,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Atan,
+        Self::Tanh,
+        Self::Exp,
+        Self::Ln,
+        Self::Abs,
+    ];
 
     /// The name of the function: the same in a system file and as a method of `f64`.
     #[must_use]
@@ -32,6 +45,8 @@ impl Function {
             Self::Sin => "sin",
             Self::Cos => "cos",
             Self::Tan => "tan",
+            Self::Atan => "atan",
+            Self::Tanh => "tanh",
             Self::Exp => "exp",
             Self::Ln => "ln",
             Self::Abs => "abs",
@@ -52,6 +67,8 @@ impl Function {
             Self::Sin => x.sin(),
             Self::Cos => x.cos(),
             Self::Tan => x.tan(),
+            Self::Atan => x.atan(),
+            Self::Tanh => x.tanh(),
             Self::Exp => x.exp(),
             Self::Ln => x.ln(),
             Self::Abs => x.abs(),

@@ -31,6 +31,7 @@ mod parts;
 mod potential;
 mod predictor;
 mod runtime_groups;
+mod smooth;
 mod stress;
 mod system_files;
 mod systems_integrals;

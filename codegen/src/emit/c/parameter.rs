@@ -65,6 +65,8 @@ pub(crate) fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names
                 Function::Sin => "sin",
                 Function::Cos => "cos",
                 Function::Tan => "tan",
+                Function::Atan => "atan",
+                Function::Tanh => "tanh",
                 Function::Exp => "exp",
                 Function::Ln => "log",
                 Function::Abs => "fabs",

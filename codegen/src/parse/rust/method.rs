@@ -9,7 +9,7 @@ use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{Function, Node};
 use crate::number::{Rational, integer};
 
-const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
+const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
     component_mul, component_div, sum, iter, map, zip, enumerate, fold, transpose";
 
 impl Evaluator<'_> {
@@ -97,8 +97,8 @@ impl Evaluator<'_> {
             ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => self
                 .unsupported(
                     span,
-                    &format!("`{name}` has kinks or jumps: the Hamiltonian must be a polynomial"),
-                    "expand the Hamiltonian in powers of the momentum",
+                    &format!("`{name}` has kinks or jumps: the Hamiltonian must be smooth"),
+                    "write it with functions that are smooth, such as tanh",
                 ),
             (_, []) => {
                 let function = Function::lookup(name)?;

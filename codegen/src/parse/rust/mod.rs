@@ -23,9 +23,10 @@ use quote::ToTokens;
 use syn::ItemFn;
 
 use crate::diagnostic::{Diagnostics, Span};
-use crate::pass::{Draft, Energy, assemble, assemble_potential};
+use crate::pass::{Draft, Energy, assemble, assemble_either, assemble_potential};
 use crate::potential::Potential;
 use crate::problem::{Problem, Shape};
+use crate::smooth::Hamiltonian;
 use evaluate::Evaluator;
 use signature::Variable;
 
@@ -34,6 +35,22 @@ use signature::Variable;
 /// # Errors
 /// Every mistake of the arguments, the signature and the body, each at its tokens.
 pub fn lie_poisson(arguments: TokenStream, function: &ItemFn) -> Result<Problem, Diagnostics> {
+    assembled(arguments, function, assemble)
+}
+
+/// Reads `#[lie_poisson(arguments)] function`, whose Hamiltonian need not be a polynomial.
+///
+/// # Errors
+/// Every mistake of the arguments, the signature and the body, each at its tokens.
+pub fn hamiltonian(arguments: TokenStream, function: &ItemFn) -> Result<Hamiltonian, Diagnostics> {
+    assembled(arguments, function, assemble_either)
+}
+
+fn assembled<T>(
+    arguments: TokenStream,
+    function: &ItemFn,
+    assemble: fn(Draft, &Diagnostics) -> Option<T>,
+) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (algebra, choice) = arguments::lie_poisson(arguments, &diagnostics);
     let (variable, hamiltonian) = read(function, Variable::Momentum, &diagnostics);
@@ -41,8 +58,8 @@ pub fn lie_poisson(arguments: TokenStream, function: &ItemFn) -> Result<Problem,
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
     let name = function.sig.ident.to_string();
     let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
-    let problem = assemble(draft, &diagnostics);
-    diagnostics.into_result(problem)
+    let assembled = assemble(draft, &diagnostics);
+    diagnostics.into_result(assembled)
 }
 
 /// Reads `#[potential(arguments)] function`.

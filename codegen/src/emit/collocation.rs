@@ -1,0 +1,230 @@
+//! An integrator by collocation: for Hamiltonians that are no polynomials.
+
+use coadjoint_program::quoting::rust_comment;
+use proc_macro2::{Group, Literal, TokenStream, TokenTree};
+use quote::{format_ident, quote};
+
+use super::allow;
+use super::constructor::{Arguments, arguments};
+use super::hygiene::fresh;
+use super::item::Items;
+use super::options::Options;
+use super::parameter;
+use super::program::{Body, Field, Scope, body};
+use super::types::Types;
+use crate::graph::Program;
+use crate::lie::Chart;
+use crate::smooth::Smooth;
+
+/// The integrator of a smooth Hamiltonian as items: a struct with the energy that it integrates, and the programs of this.
+#[must_use]
+pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
+    let Options { krate, visibility, name, attributes, .. } = options;
+    let types = Types::new(&smooth.algebra, Chart::Exponential, options);
+    let Types { definition, tables, aliases, .. } = &types;
+    let (group, vector) = (over_f64(types.group.clone()), over_f64(types.vector.clone()));
+    let energy = format_ident!("{name}Energy");
+    let size = Literal::usize_unsuffixed;
+    let (nodes, symbols) = (size(smooth.nodes()), size(smooth.symbols.len()));
+    let (truncation, order) = (size(smooth.truncation), size(2 * smooth.nodes()));
+    let integrator = quote!(#krate::collocation::Collocation<#group, #energy, #nodes>);
+    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
+    let summary = [
+        format!(" Hamiltonian: `{}`", rust_comment(&smooth.source)),
+        String::new(),
+        format!(
+            " Group: {}. Collocation at {} nodes, order of accuracy {}.",
+            rust_comment(smooth.algebra.name()),
+            smooth.nodes(),
+            2 * smooth.nodes()
+        ),
+    ];
+    let about = format!(" The Hamiltonian of [`{name}`], with the values of its parameters.");
+    let Arguments { arguments, names, scalars } = arguments(&smooth.parameters, krate);
+    let step = format_ident!("{}", fresh("step", &names));
+    let values = smooth.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let texts = smooth.symbols.iter().map(|s| &s.text);
+    let allow = allow();
+    let constructor = over_f64(quote! {
+        /// Steps of size `step` (negative: backwards in time) with these parameters.
+        ///
+        /// # Errors
+        /// `StepError::InvalidStep` for a step that is zero or not finite,
+        /// `StepError::InvalidParameter` where a parameter expression is not finite.
+        pub fn new(
+            #step: T,
+            #(#arguments),*
+        ) -> ::core::result::Result<Self, #krate::StepError> {
+            let symbols = #krate::plumbing::finite([#(#texts),*], [#(#values),*])?;
+            let collocation =
+                #krate::collocation::Collocation::new(<#group>::new(), #energy { symbols }, #step)?;
+            ::core::result::Result::Ok(Self { collocation })
+        }
+    });
+    let struct_and_methods = quote! {
+        #definition
+
+        #attributes
+        #blank
+        #(#[doc = #summary])*
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        #visibility struct #name {
+            collocation: #integrator,
+        }
+
+        #[doc = #about]
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        #visibility struct #energy {
+            /// The parameters, as expressions of them stand in the Hamiltonian.
+            symbols: [f64; #symbols],
+        }
+
+        #allow
+        const _: () = {
+            #aliases
+            use #krate::Scalar as _;
+            use #krate::nalgebra::{SimdComplexField as _, SimdRealField as _};
+
+            impl #name {
+                /// K, as it was asked for.
+                pub const TRUNCATION: usize = #truncation;
+                /// The order of accuracy, K + 1.
+                pub const ORDER: usize = #order;
+
+                #constructor
+
+                /// The step size h.
+                #[inline]
+                pub fn step(&self) -> f64 {
+                    self.collocation.step()
+                }
+
+                /// Advances (g, μ) by one step; on error `phase` is left as it was. Where a step goes on from the end of
+                /// the one before, it begins with a better guess.
+                ///
+                /// # Errors
+                /// `StepError`: why there is no right step.
+                #[inline]
+                pub fn advance(
+                    &mut self,
+                    phase: &mut #krate::Phase<#group>,
+                ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::StepError> {
+                    self.collocation.advance(phase, 0.0)
+                }
+
+                /// Advances (g, μ) by `steps` steps; the report is of the worst of them, and on error `phase` is left
+                /// before the step that failed.
+                ///
+                /// # Errors
+                /// `Stopped`: how many steps were made, and why the next was not.
+                pub fn advance_by(
+                    &mut self,
+                    phase: &mut #krate::Phase<#group>,
+                    steps: u64,
+                ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::steps::Stopped> {
+                    self.collocation.advance_by(phase, 0.0, steps)
+                }
+
+                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
+                #[inline]
+                pub fn energy(&self, mu: &#vector) -> f64 {
+                    #krate::collocation::Energy::value(self.collocation.energy(), 0.0, mu)
+                }
+            }
+        };
+    };
+    let programs = programs(smooth, options, &types, &energy);
+    let programs = quote! {
+        #programs
+
+        #tables
+    };
+    Items { opening: Vec::new(), struct_and_methods, programs }
+}
+
+/// `impl Energy`: value, gradient, and what is outside its domain.
+fn programs(
+    smooth: &Smooth,
+    options: &Options,
+    types: &Types,
+    energy: &proc_macro2::Ident,
+) -> TokenStream {
+    let Options { krate, .. } = options;
+    let vector = over_f64(types.vector.clone());
+    let names = ["c", "mu", "time"].map(|name| options.bound(name));
+    let [c, mu, time] = &names;
+    let n = Literal::usize_unsuffixed(types.dim);
+    let function = |name: &str, program: &Program| {
+        let name = format_ident!("{name}");
+        let inputs = vec![Field::array(mu.clone(), types.dim), Field::number(time.clone())];
+        let scope = Scope { krate, inputs, operations: None, suffix: options.suffix };
+        let Body { statements, outputs } = body(program, &scope);
+        let count = Literal::usize_unsuffixed(outputs.len());
+        quote! {
+            #[inline]
+            fn #name<T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>>(
+                #c: C,
+                #mu: &[T; #n],
+                #time: T,
+            ) -> [T; #count] {
+                #statements
+                [#(#outputs),*]
+            }
+        }
+    };
+    let value = function("value", &smooth.value);
+    let gradient = function("gradient", &smooth.gradient);
+    let watched = function("watched", &smooth.watched);
+    let expressions = &smooth.expressions;
+    let (allow, aliases) = (allow(), &types.aliases);
+    quote! {
+        #allow
+        const _: () = {
+            #aliases
+
+            impl #krate::collocation::Energy<#vector> for #energy {
+                fn value(&self, time: f64, mu: &#vector) -> f64 {
+                    let [value] = value(&self.symbols, &mu.data.0[0], time);
+                    value
+                }
+
+                #[inline]
+                fn gradient(&self, time: f64, mu: &#vector) -> #vector {
+                    <#vector as From<_>>::from(gradient(&self.symbols, &mu.data.0[0], time))
+                }
+
+                #[cold]
+                fn undefined(
+                    &self,
+                    time: f64,
+                    mu: &#vector,
+                ) -> ::core::option::Option<#krate::collocation::Undefined> {
+                    let watched = watched(&self.symbols, &mu.data.0[0], time);
+                    #krate::plumbing::undefined(&[#(#expressions),*], &watched)
+                }
+            }
+
+            #value
+
+            #gradient
+
+            #watched
+        };
+    }
+}
+
+/// The same with `f64` for the numbers `T`.
+fn over_f64(tokens: TokenStream) -> TokenStream {
+    let replaced = tokens.into_iter().map(|token| match token {
+        TokenTree::Ident(ident) if ident == "T" => {
+            TokenTree::Ident(proc_macro2::Ident::new("f64", ident.span()))
+        }
+        TokenTree::Group(group) => {
+            let mut inner = Group::new(group.delimiter(), over_f64(group.stream()));
+            inner.set_span(group.span());
+            TokenTree::Group(inner)
+        }
+        other => other,
+    });
+    replaced.collect()
+}
