@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::error::ProgramError;
 use crate::elementary::Function;
+use crate::error::ProgramError;
 use crate::node::{Cost, Id, Node};
 
 /// A straight-line program: numbers and folded coefficients in, numbers out, no branches and no loops.

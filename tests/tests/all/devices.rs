@@ -12,7 +12,7 @@ use coadjoint_native::cards::{
     Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile,
 };
 use coadjoint_program::print::{DeviceLanguage, device_unit};
-use coadjoint_program::{Kernel, Precision, Stepper};
+use coadjoint_program::{Function, Graph, Id, Kernel, KernelParts, Precision, Programs, Stepper};
 use coadjoint_tests::golden;
 use coadjoint_tests::kernels::unlimited;
 use nalgebra::DMatrix;
@@ -183,6 +183,78 @@ fn steps_on_a_device_have_the_bits_of_the_interpreter() {
             assert_eq!(bits(&row.mu), bits(&own.mu), "{}, row {place}", ready.name);
         }
     }
+}
+
+/// A kernel whose steps put functions of μ into g, and solve nothing.
+fn functions() -> Kernel {
+    const FUNCTIONS: [Function; 9] = [
+        Function::Exp,
+        Function::Ln,
+        Function::Sin,
+        Function::Cos,
+        Function::Tan,
+        Function::Atan,
+        Function::Tanh,
+        Function::Power(3, 2),
+        Function::Power(-5, 3),
+    ];
+    let m = FUNCTIONS.len();
+    let program = |inputs: usize, of: &dyn Fn(&mut Graph) -> Vec<Id>| {
+        let mut graph = Graph::new();
+        let outputs = of(&mut graph);
+        graph.finish(inputs, &outputs)
+    };
+    let one = |graph: &mut Graph| vec![graph.constant(1.0)];
+    let own = |graph: &mut Graph| vec![graph.input(0)];
+    let programs = Programs {
+        guess: program(1, &own),
+        correct: program(2, &|graph| {
+            let zero = graph.zero();
+            vec![graph.input(0), graph.input(1), zero, zero]
+        }),
+        accept: program(4, &one),
+        transport: program(m + 2, &|graph| {
+            let mu = graph.input(m);
+            let mut outputs = FUNCTIONS.map(|function| graph.function(function, mu)).to_vec();
+            let factor = graph.constant(-1.01);
+            outputs.push(graph.mul(mu, factor));
+            outputs
+        }),
+        frame: None,
+        sound: program(m + 1, &one),
+        watch: program(m + 1, &own),
+        matrix: program(m, &own),
+    };
+    let (tolerance, near, corrections) = (0.5, 1.0, 1);
+    Kernel::new(KernelParts { dim: 1, element: m, tolerance, near, corrections, programs }).unwrap()
+}
+
+#[test]
+fn functions_on_a_device_have_the_bits_of_the_interpreter() {
+    let kernel = functions();
+    let device = Device { api: Api::OpenCl, number: 0 };
+    let mut card = match Card::new(device, &kernel, &[]) {
+        Ok(card) => card,
+        Err(error) => return missing(&error.to_string()),
+    };
+    let row = |r: usize| {
+        let size = 2_f64.powi(r as i32 % 40 - 20);
+        Row { g: vec![0.0; 9], mu: momentum(1, size, r), made: 0, ended: false }
+    };
+    let mut rows: Vec<Row> = (0..500).map(row).collect();
+    let before = rows.clone();
+    moved(&mut card, &mut rows, 3);
+    // Which of the many NaNs comes out is left open by IEEE 754.
+    let bits = |list: &[f64]| -> Vec<Option<u64>> {
+        list.iter().map(|value| (!value.is_nan()).then_some(value.to_bits())).collect()
+    };
+    for (mut own, row) in before.into_iter().zip(&rows) {
+        assert_eq!(kernel.advance(&[], &mut own.g, &mut own.mu, 3).steps, 3);
+        assert_eq!((row.made, bits(&row.g)), (3, bits(&own.g)), "functions of {:?}", own.mu);
+    }
+    // And as texts for cards of NVIDIA, which say how they round.
+    let text = device_unit(&kernel, &[], DeviceLanguage::Cuda, "functions");
+    assert!(text.contains("NUMBER scaled(") && text.contains("__dmul_rn(a, __longlong_as_double("));
 }
 
 #[test]
