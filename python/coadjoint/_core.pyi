@@ -36,6 +36,7 @@ class Core:
         asked: _Asked,
         *,
         parameters: list[str],
+        at: NDArray[np.float64] | None,
         backend: str,
         threads: int | None,
         progress: _Progress | None,

@@ -285,9 +285,7 @@ class System:
                     'frame="comoving"'
                 )
         start, element = self._state(momentum, group_element)
-        times = None if at is None else np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
-        if times is not None and (times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any()):
-            raise InputError("at must be a list of times in the order of the run, each once: sort them")
+        times = self._times(at)
         watched = _events(events)
         if (parts := _arrays.count(looks, "looks", 1)) > 1000:
             raise InputError(f"looks={looks}: a step is cut into 1000 parts at most; take a smaller step")
@@ -308,6 +306,15 @@ class System:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         return Run(found | {"watched": len(watched)}, self)
 
+    def _times(self, at: Numbers | None) -> Floats | None:
+        """The times of ``at``, which must be in order."""
+        if at is None:
+            return None
+        times = np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
+        if times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any():
+            raise InputError("at must be a list of times in the order of the run, each once: sort them")
+        return times
+
     def ensemble(
         self,
         states: Numbers,
@@ -317,6 +324,7 @@ class System:
         tolerance: Real | None = None,
         region: Real | None = None,
         truncation: int | None = None,
+        at: Numbers | None = None,
         backend: Backend = "auto",
         threads: int | None = None,
         progress: bool | Progress | None = None,
@@ -327,7 +335,8 @@ class System:
         SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). Data frames, dictionaries and other tables go by
         the names of :meth:`layouts`, or of the coordinates, in any order; a column named after a parameter, or a number of
         it such as ``J[0][1]``, gives each row a value of its own. The result has the columns of an array; rows that
-        cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. The bits depend
+        cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. With times ``at`` the result
+        is that of the trajectories there, (N, times, columns); of a row that fails on its way, from there on NaN. The bits depend
         neither on ``threads`` nor on ``backend``, nor on the other rows.
 
         >>> import coadjoint as ca, numpy as np
@@ -335,7 +344,10 @@ class System:
         >>> final = body.ensemble(np.ones((1000, 3)), time=10, step=0.1)
         >>> final.shape, final.failed
         ((1000, 3), [])
+        >>> body.ensemble(np.ones((10, 3)), time=10, step=0.1, at=[0, 2.5, 10]).shape
+        (10, 3, 3)
         """
+        times = self._times(at)
         rows, parameters = self._rows(states)
         if rows.ndim != 2:
             raise InputError(
@@ -347,16 +359,19 @@ class System:
                 rows,
                 self._asked(time, step, tolerance, region, truncation),
                 parameters=parameters,
+                at=times,
                 backend=_arrays.text(backend, "backend"),
                 threads=None if threads is None else _arrays.count(threads, "threads", 1),
                 progress=told,
             )
         if parameters:
             array = np.ascontiguousarray(array[:, : -len(parameters)])
+        if times is not None:
+            array = array.reshape(len(rows), len(times), -1)
         found = States._of(array, failed, facts)
         if failed:
-            row, at, reason = failed[0]
-            where = f"step {at}: " if at else ""
+            row, number, reason = failed[0]
+            where = f"step {number}: " if number else ""
             text = f"{len(failed)} of {len(rows)} rows have no end state and are NaN; the first is row {row}, {where}{reason}"
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         if facts["ratio"]:

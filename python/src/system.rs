@@ -11,7 +11,7 @@ use coadjoint_codegen::system::{Options, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
-    self, Attitude, Engine, Found, How, Known, Layout, Shape, Watch, matrix_size,
+    self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch, matrix_size,
 };
 use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
@@ -237,7 +237,7 @@ impl Core {
 
     /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts. The last columns of
     /// the states are those of the parameters that vary.
-    #[pyo3(signature = (states, asked, *, parameters, backend, threads, progress))]
+    #[pyo3(signature = (states, asked, *, parameters, at, backend, threads, progress))]
     #[allow(clippy::type_complexity, clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
@@ -245,6 +245,7 @@ impl Core {
         states: PyReadonlyArray2<'py, f64>,
         asked: Asked,
         parameters: Vec<String>,
+        at: Option<PyReadonlyArray1<'py, f64>>,
         backend: &str,
         threads: Option<usize>,
         progress: Option<Bound<'py, PyAny>>,
@@ -252,7 +253,7 @@ impl Core {
         let accuracy = asked.accuracy(py)?;
         let backend = backend_of(py, backend)?;
         let (count, width) = (states.shape()[0], states.shape()[1]);
-        let mut values: Vec<f64> = states.as_array().iter().copied().collect();
+        let values: Vec<f64> = states.as_array().iter().copied().collect();
         let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = threads.unwrap_or(processors);
         if threads == 0 || threads > 256.max(4 * processors) {
@@ -260,12 +261,25 @@ impl Core {
                 format!("threads={threads}: give a number from 1 to {}", 256.max(4 * processors));
             return Err(refused(py, what));
         }
+        let at = at.map(|at| at.as_array().to_vec());
         let here = self.here();
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
             let (system, choice) = here.accurate(&accuracy)?;
             let schedule = Schedule::new(path, accuracy.step, accuracy.time, &system.run)?;
+            let at = at.map(|at| Times::new(at, &schedule)).transpose();
+            let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
+            let stops = at.map(|times| times.stops(&schedule)).unwrap_or_default();
+            let course = Course { steps: schedule.steps, stops };
+            let size = 8.0 * (count * width) as f64 * course.kept() as f64;
+            if size > MOST_BYTES {
+                return Err(RunError::Option(format!(
+                    "the trajectories would take {:.0} GB of memory: give fewer times at=[…], or let the command write \
+                     them to a file",
+                    size * 1e-9
+                )));
+            }
             let truncation = system.problem.truncation;
             let layout = Found::of(
                 here.shape(),
@@ -290,10 +304,10 @@ impl Core {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let pool =
                 pool.map_err(|error| RunError::Option(format!("threads={threads}: {error}")))?;
-            let (failed, drift) = pool.install(|| {
+            let (values, failed, drift) = pool.install(|| {
                 let made = |made: u64| control.done.store(made, Ordering::Relaxed);
                 let watch = Watch { made: &made, stop: &control.stop };
-                engine.advance_all(&layout, schedule.steps, &mut values, &watch)
+                engine.advance_all(&layout, &course, &values, &watch)
             })?;
             let notes = engine.notes();
             Ok((
@@ -319,7 +333,8 @@ impl Core {
             truncation,
             choice,
         ) = result.map_err(|error: RunError| raised(py, &error))?;
-        let array = values.into_pyarray(py).reshape([count, width])?;
+        let rows = values.len().checked_div(width).unwrap_or(0);
+        let array = values.into_pyarray(py).reshape([rows, width])?;
         let failed = failed.into_iter().map(|r| (r.row - 1, r.step, r.reason)).collect();
         let facts = PyDict::new(py);
         facts.set_item("spatial_momentum", drift.conserved.spatial_momentum)?;

@@ -103,6 +103,18 @@ def test_shapes_that_make_no_sense_are_refused(body: ca.System) -> None:
             body.ensemble(np.ones((1, 3)), time=1, step=0.1, threads=threads)
 
 
+def test_trajectories_are_those_of_single_runs(body: ca.System) -> None:
+    times = [0, 0.55, 7, 20]
+    found = body.ensemble(states(3), time=20, step=0.1, at=times)
+    assert found.shape == (3, 4, 3) and found.ok.all()
+    for row, start in zip(found, states(3), strict=True):
+        single = body.simulate(start, time=20, step=0.1, at=times)
+        np.testing.assert_allclose(row, single.momentum, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(found[:, -1], body.ensemble(states(3), time=20, step=0.1))
+    with pytest.raises(InputError, match="sort them"):
+        body.ensemble(states(3), time=20, step=0.1, at=[2, 1])
+
+
 def test_results_pickle(body: ca.System) -> None:
     final = body.ensemble(states(4), time=1, step=0.1)
     again = pickle.loads(pickle.dumps(final))

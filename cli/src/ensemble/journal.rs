@@ -50,6 +50,9 @@ pub(crate) struct Journal {
     /// Rows of which a device has refused steps that others then made.
     #[serde(default)]
     pub redone: u64,
+    /// The errors estimated at the ends of some rows so far.
+    #[serde(default)]
+    pub estimates: Vec<f64>,
     /// Whether all is written and only names are to be changed.
     pub complete: bool,
     /// The bytes of the whole file then, and their checksum.
@@ -66,6 +69,13 @@ impl Journal {
     /// Refuses to go on with a run that is another.
     pub(crate) fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
         agree(path, &self.identity, identity, &format!("go on as then, or {ANEW}"))
+    }
+
+    /// The median and the largest of the errors estimated.
+    pub(crate) fn estimated(&self) -> Option<[f64; 2]> {
+        let mut all = self.estimates.clone();
+        all.sort_by(f64::total_cmp);
+        Some([*all.get(all.len() / 2)?, *all.last()?])
     }
 
     /// The largest drifts so far.

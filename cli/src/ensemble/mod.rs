@@ -15,7 +15,9 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::Derived;
-use coadjoint_run::ensemble::{Asked, Engine, How, Known, Shape, Use, in_lanes};
+use coadjoint_run::ensemble::{Asked, Course, Engine, How, Known, Shape, Use, in_lanes};
+
+use coadjoint_run::simulate::Times;
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -34,12 +36,15 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     load::meet_tolerance(path, &mut system, accuracy, options.source.truncation, options.time)?;
     let run = system.run.clone();
     let known = Known::of(&system.problem, &system.parameters);
-    let (step, steps) = simulate::schedule(path, accuracy.step, options.time, &run)?;
+    let schedule = simulate::schedule(path, accuracy.step, options.time, &run)?;
+    let (step, steps) = (schedule.step, schedule.steps);
+    let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     // Refused before the derivation, which may take long.
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
     options.threads.map_or(Ok(()), check_threads)?;
-    let states = States::open(initial, form, Shape::of_system(&system), &known)?;
+    let times = at.as_ref().map(|times| times.0.clone());
+    let states = States::open(initial, form, times, Shape::of_system(&system), &known)?;
     let varied = states.found.layout.varied();
     if !varied.is_empty() {
         system = load::varying(&options.source, system.problem.truncation, &varied)?;
@@ -69,6 +74,10 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if let Some(Use { precision: Precision::Single, name, device, .. }) = engine.device() {
         identity.insert("precision".to_owned(), format!("single, by {device} ({name})"));
     }
+    if let Some(times) = &at {
+        identity.insert("at".to_owned(), times.text());
+    }
+    let stops = at.map(|times| times.stops(&schedule)).unwrap_or_default();
     let parameters = states.found.layout.parameters.clone();
     let job = Job {
         engine: &engine,
@@ -77,8 +86,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         states,
         out: &options.out,
         form,
-        steps,
+        course: Course { steps, stops },
         identity,
+        estimate: options.estimate,
         restart: options.restart,
         keep: options.keep,
     };
@@ -91,9 +101,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let outcome = run::run(job);
     engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let outcome = outcome?;
-    if let Some(text) = report::warning(&outcome) {
-        eprintln!("warning: {text}");
-    }
+    report::warnings(&outcome).iter().for_each(|(_, text)| eprintln!("warning: {text}"));
     let problem = &integrator.problem;
     let report =
         report::report(&outcome, (problem, &parameters), (step, steps), &engine, options.format);

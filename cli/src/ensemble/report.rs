@@ -4,20 +4,31 @@ use coadjoint_codegen::problem::Problem;
 use coadjoint_program::Precision;
 use coadjoint_run::engine::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
+use coadjoint_run::simulate::LARGE;
 use serde_json::{Value, json};
 
 use super::run::Outcome;
 use crate::named::Format;
 
-/// A warning about the series, if there is reason for one.
-pub(crate) fn warning(outcome: &Outcome) -> Option<String> {
+/// Warnings, for programs and for people.
+pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
     let ratio = outcome.journal.drift().ratio;
-    (ratio != 0.0).then(|| {
-        format!(
+    let series = (ratio != 0.0).then(|| {
+        let text = format!(
             "the series hardly converges for some rows: its terms have the ratio \
              {ratio:.3}, above {STEEP}; the motion may be inaccurate: take a smaller step"
-        )
-    })
+        );
+        (json!({ "kind": "series_ratio", "ratio": ratio, "text": text }), text)
+    });
+    let largest = outcome.journal.estimated().map(|[_, largest]| largest);
+    let error = largest.filter(|largest| *largest > LARGE).map(|error| {
+        let text = format!(
+            "the error at the end of a row is about {:.0} %: take a smaller step or a larger truncation",
+            error * 100.0
+        );
+        (json!({ "kind": "estimated_error", "error": error, "text": text }), text)
+    });
+    series.into_iter().chain(error).collect()
 }
 
 /// The text to print.
@@ -60,15 +71,16 @@ pub(crate) fn report(
             })),
             "drift": known.map(|(name, drift)| (name, json!(drift))).collect::<Value>(),
             "drift_not_measured": drift.unmeasured,
-            "warnings": warning(outcome).iter().map(|text| json!({
-                "kind": "series_ratio",
-                "ratio": drift.ratio,
-                "text": text,
-            })).collect::<Value>(),
+            "warnings": warnings(outcome).into_iter().map(|(object, _)| object).collect::<Value>(),
             "seconds": seconds,
         });
         if !parameters.is_empty() {
             value["parameters"] = json!(parameters);
+        }
+        if let Some([median, largest]) = journal.estimated() {
+            let rows = journal.estimates.len();
+            value["estimated_error"] =
+                json!({ "rows": rows, "median": median, "largest": largest });
         }
         return format!("{value:#}\n");
     }
@@ -91,13 +103,19 @@ pub(crate) fn report(
             lines.push("    in single precision drifts are at 1e-7 and above".to_owned());
         }
     }
-    lines.extend(warning(outcome).map(|text| format!("  warning: {text}")));
+    lines.extend(warnings(outcome).into_iter().map(|(_, text)| format!("  warning: {text}")));
     lines.push(format!("  failed           {failed:>10}"));
     lines.extend(first.iter().map(|Rejected { row, step, reason }| match step {
         0 => format!("    row {row}: {reason}"),
         step => format!("    row {row}, step {step}: {reason}"),
     }));
     lines.extend(list.iter().map(|list| format!("    all of them are in {}", list.display())));
+    if let Some([median, largest]) = journal.estimated() {
+        let rows = journal.estimates.len();
+        lines.push(format!(
+            "  estimated relative error at the end, of {rows} rows: median {median:.1e}, largest {largest:.1e}"
+        ));
+    }
     lines.push("  largest relative drift".to_owned());
     let casimirs = match engine.casimirs() {
         0 => "Casimirs         none known".to_owned(),

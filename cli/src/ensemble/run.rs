@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::file::{self, Extent, Output, beside, passing};
-use coadjoint_run::ensemble::{Drift, Engine, Rejected, Watch};
+use coadjoint_run::ensemble::{Course, Drift, Engine, Rejected, Watch};
 
 use super::journal::{ANEW, Finished, Journal};
 use super::states::{Form, Piece, States};
@@ -38,8 +38,10 @@ pub(crate) struct Job<'a> {
     pub form: Form,
     /// Rows of the input, counted from 0.
     pub range: Range<u64>,
-    /// Steps of every trajectory.
-    pub steps: u64,
+    /// How far rows go, and where their states are kept.
+    pub course: Course,
+    /// Of how many rows the error at the end is estimated.
+    pub estimate: Option<u64>,
     /// The identity of the run.
     pub identity: Identity,
     /// Forget what an earlier run has done.
@@ -206,7 +208,7 @@ impl Run<'_> {
         }
         let position = (self.journal.rows > 0).then_some(self.journal.position);
         self.job.states.seek(self.job.range.start + self.journal.rows, position)?;
-        let (engine, steps) = (self.job.engine, self.job.steps.max(1));
+        let (engine, steps) = (self.job.engine, self.job.course.steps.max(1));
         let bar = progress::bar(count.saturating_mul(steps), "trajectories");
         let layout = self.job.states.found.layout.clone();
         let earlier = self.journal.redone;
@@ -215,13 +217,23 @@ impl Run<'_> {
         self.journal.raise(Drift::default(), engine);
         while self.journal.rows < count {
             let done = self.journal.rows;
-            let take = engine.piece(layout.width(), self.job.steps).min(count - done);
+            let course = &self.job.course;
+            let width = layout.width() * course.kept();
+            let take = engine.piece(width, course.steps).min(count - done);
             self.job.states.read(take, &mut piece)?;
+            if let Some(sample) = self.job.estimate {
+                let apart = count.div_ceil(sample);
+                let rows = piece.rows.values.chunks(layout.width());
+                let chosen = (done..).zip(rows).filter(|(row, _)| row % apart == 0);
+                let chosen: Vec<&[f64]> = chosen.map(|(_, row)| row).collect();
+                let found = engine.estimates(&layout, self.job.course.steps, &chosen);
+                self.journal.estimates.extend(found.into_iter().flatten());
+            }
             let made = |made: u64| {
                 bar.set_position(done.saturating_mul(steps).saturating_add(take * made));
             };
             let watch = Watch { made: &made, stop: &stop };
-            let drift = engine.advance(&layout, self.job.steps, &mut piece.rows, &watch)?;
+            let drift = engine.advance(&layout, &self.job.course, &mut piece.rows, &watch)?;
             let rejected = &piece.rows.rejected;
             let line =
                 |r: &Rejected| format!("{},{},\"{}\"\n", r.row, r.step, r.reason.replace('"', "'"));

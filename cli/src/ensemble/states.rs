@@ -59,17 +59,24 @@ pub(crate) struct States {
     /// The cells written: for each its name and the state's number in it, or none where it is carried through.
     written: Vec<(String, Option<usize>)>,
     form: Form,
+    /// The times of trajectories, where these are written.
+    times: Option<Vec<f64>>,
 }
 
 impl States {
-    /// Opens a file; the states at the end are going to be written in this form.
+    /// Opens a file; the states at the end, or at these times, are going to be written in this form.
     pub(crate) fn open(
         path: &Path,
         form: Form,
+        times: Option<Vec<f64>>,
         shape: Shape,
         known: &Known,
     ) -> Result<Self, CliError> {
         Form::of(path, "--initial")?;
+        if form == Form::Csv && times.is_some() {
+            let what = "--at: trajectories have rows, times and columns, which --out takes as .npy or .parquet";
+            return Err(CliError::Option(what.to_owned()));
+        }
         let table = Table::open(path)?;
         let found = Found::of(shape, known, table.names(), table.width())?;
         let carried = form == Form::Csv && table.is_text();
@@ -88,7 +95,7 @@ impl States {
                 left.join(", ")
             );
         }
-        Ok(Self { table, found, written, form })
+        Ok(Self { table, found, written, form, times })
     }
 
     /// The number of rows.
@@ -143,7 +150,11 @@ impl States {
     pub(crate) fn header(&self, count: u64) -> Vec<u8> {
         match self.form {
             Form::Csv => csv_lines([self.written.iter().map(|(name, _)| name)]),
-            Form::Npy => npy_header(&[count, self.found.layout.width() as u64]),
+            Form::Npy => {
+                let times = self.times.iter().map(|times| times.len() as u64);
+                let width = self.found.layout.width() as u64;
+                npy_header(&[count].into_iter().chain(times).chain([width]).collect::<Vec<_>>())
+            }
             #[cfg(feature = "parquet")]
             Form::Parquet => Vec::new(),
         }
@@ -151,11 +162,19 @@ impl States {
 
     /// The bytes of rows.
     pub(crate) fn encode(&self, piece: &Piece) -> Vec<u8> {
+        // Tables are not shared between threads.
+        let (written, width) = (&self.written, self.found.layout.width());
+        if let (false, Some(times)) = (matches!(self.form, Form::Csv | Form::Npy), &self.times) {
+            let states = piece.rows.values.chunks(width).enumerate();
+            let numbers = states.flat_map(|(place, state)| {
+                let row = (piece.rows.first + (place / times.len()) as u64) as f64;
+                [row, times[place % times.len()]].into_iter().chain(state.iter().copied())
+            });
+            return numbers.flat_map(f64::to_le_bytes).collect();
+        }
         if self.form != Form::Csv {
             return piece.rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
         }
-        // Tables are not shared between threads.
-        let (written, width) = (&self.written, self.found.layout.width());
         // Pieces of fixed size, joined in order: the same bytes whatever the threads.
         let pieces = piece.rows.values.par_chunks(PIECE * width).enumerate();
         let pieces = pieces.map(|(number, values)| {
@@ -180,7 +199,8 @@ impl States {
         use std::io::Read;
         /// Rows of a row group.
         const GROUP: usize = 1 << 17;
-        let names = self.found.layout.names();
+        let places = self.times.iter().flat_map(|_| ["row".to_owned(), "time".to_owned()]);
+        let names: Vec<String> = places.chain(self.found.layout.names()).collect();
         let mut source = std::io::BufReader::new(std::fs::File::open(from)?);
         to.begin(&[])?;
         let next = || {

@@ -142,19 +142,19 @@ fn follow(
     keep(&settings, label, header, &coordinates, drive)
 }
 
-/// The step size used and how many steps end at the time T, by the options, else by the file. Where it is
+/// The steps that end at the time T, by the options, else by the file. Where it is
 /// not the step asked for, a line on the error stream says so.
 pub(crate) fn schedule(
     file: &Path,
     step: Option<f64>,
     time: Option<f64>,
     run: &Run,
-) -> Result<(f64, u64), CliError> {
+) -> Result<Schedule, CliError> {
     let schedule = Schedule::new(file, step, time, run)?;
     if let Some(line) = schedule.announcement() {
         eprintln!("{line}");
     }
-    Ok((schedule.step, schedule.steps))
+    Ok(schedule)
 }
 
 /// Where the records of each system go. Several truncations go to a file each; the names are announced.

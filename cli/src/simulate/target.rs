@@ -57,8 +57,9 @@ impl Target {
                 Some("csv") => (Form::Csv, Place::File),
                 Some("npy") => (Form::Npy, Place::File),
                 _ => {
-                    let what =
-                        "the name must end in .csv or .npy (or be - for the standard output)";
+                    let what = "the name must end in .csv or .npy (or be - for the standard output); for .parquet, \
+                         read the .npy with its columns and write it by another program, \
+                         or give the start to `ensemble --at`, built with the feature `parquet`";
                     return Err(refuse(what));
                 }
             }

@@ -311,6 +311,84 @@ fn body(inertia: &str) -> String {
     )
 }
 
+/// The shape and the numbers of an array in `.npy`.
+fn array(bytes: &[u8]) -> (String, Vec<f64>) {
+    let start = 10 + usize::from(bytes[8]) + 256 * usize::from(bytes[9]);
+    let head = String::from_utf8(bytes[10..start].to_vec()).unwrap();
+    let shape = head.split(['(', ')']).nth(1).unwrap().to_owned();
+    let numbers = bytes[start..].as_chunks::<8>().0;
+    (shape, numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
+}
+
+/// Trajectories have the states of `simulate` at times on the grid and beside it, and the same bytes whatever the threads; a
+/// row that fails on its way is NaN from there on.
+#[test]
+fn trajectories_are_those_of_simulate() {
+    let folder = place("mu_1,mu_2,mu_3\n2,0.5,1\n1,2,3\n");
+    let times = "--time 20 --at 0,0.55,7,19.98,20";
+    let report = ensemble(&folder, "in.csv", "out.npy", times);
+    assert_eq!(report["failed"], 0);
+    folder.run(&format!("simulate {BODY} --out run.csv {times}")).ok();
+    let (shape, found) = array(&folder.bytes("out.npy"));
+    assert_eq!(shape, "2, 5, 3");
+    let records = folder.table("run.csv");
+    for (state, record) in found.chunks(3).zip(&records[1..]) {
+        assert!(distance(state, &cells(&record[1..4].join(","))) < 1e-12, "{state:?} {record:?}");
+    }
+    run(&folder, "in.csv", "end.npy", "--time 20").ok();
+    let (_, ends) = array(&folder.bytes("end.npy"));
+    assert_eq!(found[12..15], ends[..3]);
+    assert_eq!(found[27..30], ends[3..]);
+
+    folder.write("in.csv", momenta(700));
+    for threads in [1, 2] {
+        let out = format!("out{threads}.npy");
+        run(&folder, "in.csv", &out, &format!("{times} --threads {threads}")).ok();
+    }
+    assert!(folder.bytes("out1.npy") == folder.bytes("out2.npy"));
+
+    let folder = Folder::with(&body("3"));
+    folder.write("in.csv", "I1,mu_1,mu_2,mu_3\n4,1,2,3\nnan,1,2,3\n");
+    for (out, more) in [("out.npy", "--at 0,3.14,10"), ("end.npy", "")] {
+        folder.run(&format!("ensemble system.toml --initial in.csv --out {out} {more}")).ok();
+    }
+    let (shape, found) = array(&folder.bytes("out.npy"));
+    assert_eq!((shape.as_str(), &found[..4]), ("2, 3, 4", &[1.0, 2.0, 3.0, 4.0][..]));
+    assert_eq!(found[8..12], array(&folder.bytes("end.npy")).1[..4]);
+    assert!(found[12..15].iter().all(|x| x.is_nan()));
+    let ran = "ensemble system.toml --initial in.csv --out out";
+    folder.refused(&[
+        (&format!("{ran}.csv --at 1"), "--out takes as .npy or .parquet"),
+        (&format!("{ran}.npy --at 11"), "11 is not between 0 and the end, 10"),
+        (&format!("{ran}.npy --at 1 --device opencl"), "cannot be used with"),
+    ]);
+}
+
+/// Of some rows the error at the end is estimated, near the truth.
+#[test]
+fn errors_of_a_sample_are_estimated() {
+    let folder = place(momenta(40));
+    let rough = "--truncation 3 --time 50 --estimate 10";
+    let report = ensemble(&folder, "in.csv", "out.csv", &format!("{rough} --step 0.1"));
+    run(&folder, "in.csv", "fine.csv", "--truncation 7 --time 50 --step 0.05").ok();
+    let numbers = |name: &str| -> Vec<Vec<f64>> {
+        folder.table(name)[1..].iter().map(|row| cells(&row.join(","))).collect()
+    };
+    let off = numbers("out.csv")
+        .iter()
+        .zip(numbers("fine.csv"))
+        .map(|(a, b)| distance(a, &b))
+        .fold(0.0, f64::max);
+    let found = &report["estimated_error"];
+    assert_eq!(found["rows"], 10);
+    let largest = found["largest"].as_f64().unwrap();
+    assert!((0.1..10.0).contains(&(largest / off)), "{found} {off}");
+    assert!(found["median"].as_f64().unwrap() <= largest);
+    let ran =
+        run(&folder, "in.csv", "out.csv", "--truncation 1 --time 400 --step 0.25 --estimate 2");
+    ran.ok().says(&["the error at the end of a row is about"]).prints(&["of 2 rows: median"]);
+}
+
 /// The end of a row is that of a system file with the row's value, in every format; a bad value is told by its row.
 #[test]
 fn a_column_named_after_a_parameter_varies_it() {

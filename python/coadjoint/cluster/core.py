@@ -46,7 +46,7 @@ def pin(system: System, asked: dict[str, Any], backend: Backend) -> dict[str, An
     core = _core(system.text)
     none = np.empty((0, system.dimension))
     asked = system._asked(**asked)
-    _, _, facts = core.ensemble(none, asked, parameters=[], backend=text(backend, "backend"), threads=1, progress=None)
+    _, _, facts = core.ensemble(none, asked, parameters=[], at=None, backend=text(backend, "backend"), threads=1, progress=None)
     return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
 
 
@@ -66,7 +66,7 @@ def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     """Advances rows."""
     asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation")}
     states, failed, facts = _core(job["text"]).ensemble(
-        numbers, asked, parameters=job.get("parameters", []), backend=job["backend"], threads=threads, progress=None
+        numbers, asked, parameters=job.get("parameters", []), at=None, backend=job["backend"], threads=threads, progress=None
     )
     for key in _SCHEDULE:
         if facts[key] != job[key]:

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use coadjoint::StepError;
 use coadjoint_codegen::problem::{Parameter, Solver};
 use coadjoint_codegen::step::{Invariants, nudge};
 use coadjoint_codegen::system::System;
@@ -17,6 +18,7 @@ use crate::backend::Backend;
 use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, card, identity};
 use crate::error::RunError;
 use crate::load::Derived;
+use crate::simulate::{Stop, estimate};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 pub fn in_lanes(mut system: System) -> System {
@@ -52,6 +54,30 @@ impl Rows {
         self.first = first;
         self.values.clear();
         self.rejected.clear();
+    }
+}
+
+/// How far rows go, and where their states are kept.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// Steps of every row.
+    pub steps: u64,
+    /// Where states are kept, in order; at the end alone where there are none.
+    pub stops: Vec<Stop>,
+}
+
+impl Course {
+    /// States kept of a row.
+    pub fn kept(&self) -> usize {
+        self.stops.len().max(1)
+    }
+
+    /// From step to step, with the number of the stop that is there.
+    fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<usize>)> {
+        let ends = self.stops.iter().map(|stop| stop.step);
+        let starts = std::iter::once(0).chain(ends.clone());
+        let numbers = (0..self.stops.len()).map(Some).chain([None]);
+        starts.zip(ends.chain([self.steps])).zip(numbers).map(|((a, b), stop)| (a, b, stop))
     }
 }
 
@@ -116,6 +142,8 @@ pub struct Engine<'a> {
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
     invariants: Invariants,
+    /// The order of accuracy.
+    order: u32,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
 }
@@ -146,7 +174,19 @@ impl<'a> Engine<'a> {
         let invariants =
             Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
         let redone = AtomicU64::new(0);
-        Ok(Self { group, equations, step, motion, compiled, card, redone, invariants, identity })
+        let order = system.order();
+        Ok(Self {
+            group,
+            equations,
+            step,
+            motion,
+            compiled,
+            card,
+            redone,
+            invariants,
+            order,
+            identity,
+        })
     }
 
     /// The shape of a row.
@@ -191,19 +231,24 @@ impl<'a> Engine<'a> {
         (2_000_000 / steps.max(1)).min(memory).clamp(512, 65_536)
     }
 
-    /// Advances every row in place by `steps` steps. Rows that fail become NaN and are added to
-    /// `rows.rejected`. The bits do not depend on how rows are cut into pieces or on threads.
+    /// Advances every row: its values become those of the states kept, one after the other, each with the row's parameters.
+    /// States that are not reached are NaN, and their rows are added to `rows.rejected`. The bits do not depend on how rows
+    /// are cut into pieces or on threads.
     ///
     /// # Errors
     /// Where a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
     pub fn advance(
         &self,
         layout: &Layout,
-        steps: u64,
+        course: &Course,
         rows: &mut Rows,
         watch: &Watch<'_>,
     ) -> Result<Drift, RunError> {
         let (width, state) = (layout.width(), layout.state());
+        if self.card.is_some() && !course.stops.is_empty() {
+            let what = "--device: devices make states at the end alone; leave out --at or --device";
+            return Err(RunError::Option(what.to_owned()));
+        }
         let read: Vec<_> =
             rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
         let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
@@ -219,40 +264,51 @@ impl<'a> Engine<'a> {
             }
         }
         let ways = if layout.parameters.is_empty() {
-            self.march(before.clone(), steps, watch)?
+            self.march(before.clone(), course, watch)?
         } else {
             let own = places.iter().map(|place| &rows.values[place * width..][state..width]);
             let own: Vec<&[f64]> = own.collect();
-            self.march_varied(layout, before.clone(), &own, steps, watch)
+            self.march_varied(layout, before.clone(), &own, course, watch)
         };
         if watch.stop.load(Ordering::Relaxed) {
             return Err(RunError::Halted { time: 0.0, step: 0 });
         }
-        rows.values.chunks_mut(width).for_each(|row| row[..state].fill(f64::NAN));
-        // The row at the end and its drift, or the step that was not made and why.
+        // Every state kept of a row has the row's parameters.
+        let long = course.kept() * width;
+        let mut values = vec![f64::NAN; rows.values.len() * course.kept()];
+        for (row, given) in values.chunks_mut(long).zip(rows.values.chunks(width)) {
+            row.chunks_mut(width).for_each(|one| one[state..].copy_from_slice(&given[state..]));
+        }
+        rows.values = values;
+        // The states kept, and the drift, or the step that was not made and why.
         let end = |(before, way): (&Numbers, &Way)| {
-            if let Some(stopped) = &way.stopped {
-                return Err(stopped.clone());
-            }
-            let mut row = vec![0.0; state];
-            let (mu, attitude) = row.split_at_mut(before.mu.len());
-            mu.copy_from_slice(&way.state.mu);
-            if !attitude.is_empty() {
-                layout.write_attitude(&self.motion.space().matrix(&way.state.g), attitude);
-            }
-            check(layout, &row).map_err(|what| (steps, format!("{what} at the end")))?;
-            Ok((row, self.drift(before, &way.state)))
+            let kept: Vec<_> = way.kept.iter().map(|kept| self.row(layout, kept)).collect();
+            let bad = kept.iter().zip(&course.stops).find_map(|(kept, stop)| {
+                Some((stop.step, format!("{} on the way", kept.as_ref().err()?)))
+            });
+            let stopped = bad.or_else(|| way.stopped.clone());
+            let end = self.row(layout, &way.state);
+            let end = end.map_err(|what| (course.steps, format!("{what} at the end")));
+            let ended = stopped.map_or(end, Err);
+            let drift = ended.as_ref().map(|_| self.drift(before, &way.state));
+            let drift = drift.map_err(Clone::clone);
+            let kept = if course.stops.is_empty() {
+                vec![ended.ok()]
+            } else {
+                kept.into_iter().map(Result::ok).collect()
+            };
+            (kept, drift)
         };
         let ends: Vec<_> = before.par_iter().zip(&ways).map(end).collect();
         let ratio = ways.iter().map(|way| way.ratio).fold(0.0, larger);
         let ratio = if ratio <= STEEP { 0.0 } else { ratio };
         let mut largest = Drift { ratio, ..Drift::default() };
-        for (place, end) in places.into_iter().zip(ends) {
-            match end {
-                Ok((row, drift)) => {
-                    rows.values[place * width..][..state].copy_from_slice(&row);
-                    largest = largest.max(drift);
-                }
+        for (place, (kept, drift)) in places.into_iter().zip(ends) {
+            for (one, kept) in rows.values[place * long..].chunks_mut(width).zip(kept) {
+                kept.iter().for_each(|kept| one[..state].copy_from_slice(kept));
+            }
+            match drift {
+                Ok(drift) => largest = largest.max(drift),
                 Err((step, reason)) => {
                     let row = rows.first + place as u64;
                     rows.rejected.push(Rejected { row, step, reason });
@@ -263,34 +319,97 @@ impl<'a> Engine<'a> {
         Ok(largest)
     }
 
-    /// Advances all rows in place, piece by piece. Rows that fail become NaN and are told. The watch is told the steps of
-    /// all rows together.
+    /// Advances all rows, piece by piece; the values of [`Engine::advance`]. The watch is told the steps of all rows together.
     ///
     /// # Errors
     /// As [`Engine::advance`].
     pub fn advance_all(
         &self,
         layout: &Layout,
-        steps: u64,
-        values: &mut [f64],
+        course: &Course,
+        values: &[f64],
         watch: &Watch<'_>,
-    ) -> Result<(Vec<Rejected>, Drift), RunError> {
+    ) -> Result<(Vec<f64>, Vec<Rejected>, Drift), RunError> {
         let width = layout.width();
-        let length = self.piece(width, steps) as usize;
+        let length = self.piece(width * course.kept(), course.steps) as usize;
         let mut rows = Rows::default();
-        let (mut rejected, mut drift) = (Vec::new(), Drift::default());
-        for (number, own) in values.chunks_mut(length * width).enumerate() {
+        let (mut kept, mut rejected, mut drift) = (Vec::new(), Vec::new(), Drift::default());
+        kept.reserve(values.len() * course.kept());
+        for (number, own) in values.chunks(length * width).enumerate() {
             let first = (number * length) as u64;
             rows.clear(first + 1);
             rows.values.extend_from_slice(own);
             let count = (own.len() / width) as u64;
-            let made = |made: u64| (watch.made)(first.saturating_mul(steps) + count * made);
-            let found = self.advance(layout, steps, &mut rows, &Watch { made: &made, ..*watch })?;
+            let made = |made: u64| (watch.made)(first.saturating_mul(course.steps) + count * made);
+            let found =
+                self.advance(layout, course, &mut rows, &Watch { made: &made, ..*watch })?;
             drift = drift.max(found);
-            own.copy_from_slice(&rows.values);
+            kept.append(&mut rows.values);
             rejected.append(&mut rows.rejected);
         }
-        Ok((rejected, drift))
+        Ok((kept, rejected, drift))
+    }
+
+    /// The columns of a state, without parameters.
+    ///
+    /// # Errors
+    /// The name of a number that is not finite.
+    fn row(&self, layout: &Layout, state: &Numbers) -> Result<Vec<f64>, String> {
+        let mut row = vec![0.0; layout.state()];
+        let (mu, attitude) = row.split_at_mut(state.mu.len());
+        mu.copy_from_slice(&state.mu);
+        if !attitude.is_empty() {
+            layout.write_attitude(&self.motion.space().matrix(&state.g), attitude);
+        }
+        check(layout, &row)?;
+        Ok(row)
+    }
+
+    /// The equations with these values of the parameters that vary.
+    fn equations_of(&self, layout: &Layout, own: &[f64]) -> Equations<'a> {
+        let mut equations = self.equations.clone();
+        let scalars =
+            equations.integrator.problem.parameters.iter().flat_map(Parameter::scalar_names);
+        for (scalar, value) in scalars.zip(&mut equations.parameters) {
+            let place = layout.parameters.iter().position(|name| *name == scalar);
+            place.iter().for_each(|&place| *value = own[place]);
+        }
+        equations
+    }
+
+    /// The errors at the end of these rows, estimated as those of runs are; or why a row has none.
+    pub fn estimates(
+        &self,
+        layout: &Layout,
+        steps: u64,
+        rows: &[&[f64]],
+    ) -> Vec<Result<f64, String>> {
+        let estimate = |row: &&[f64]| {
+            let start = self.read(layout, row)?;
+            let equations = self.equations_of(layout, &row[layout.state()..]);
+            let of = |size| self.group.anew(equations.clone(), size, self.compiled.as_ref());
+            let motion = of(self.step).map_err(|error| error.to_string())?;
+            let mut end = start.clone();
+            let made = motion.advance(&mut end, steps);
+            made.map_err(|(_, error)| error.to_string())?;
+            let other = |size| of(self.step * size);
+            let found = estimate(motion.as_ref(), other, [&start, &end], steps, self.order);
+            found.map_err(str::to_owned)
+        };
+        rows.par_iter().map(estimate).collect()
+    }
+
+    /// The shorter steps to each stop, where there is one.
+    fn shorter(
+        &self,
+        equations: &Equations<'a>,
+        course: &Course,
+    ) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
+        let shorter = |stop: &Stop| {
+            let motion = || self.group.anew(equations.clone(), stop.part, self.compiled.as_ref());
+            (stop.part != 0.0).then(motion).transpose()
+        };
+        course.stops.iter().map(shorter).collect()
     }
 
     /// The state of a row, or what is wrong with it.
@@ -329,17 +448,26 @@ impl<'a> Engine<'a> {
     fn march(
         &self,
         states: Vec<Numbers>,
-        steps: u64,
+        course: &Course,
         watch: &Watch<'_>,
     ) -> Result<Vec<Way>, RunError> {
+        let shorter = self.shorter(&self.equations, course);
+        let shorter = shorter.map_err(|source| RunError::Step { time: 0.0, source })?;
         let march = March { motion: self.motion.as_ref(), stop: watch.stop };
         let mut ways: Vec<Way> = states.into_par_iter().map(|state| march.way(state)).collect();
         match &self.card {
-            None => march.march(&mut ways, steps, watch.made),
+            None => {
+                for (first, end, stop) in course.legs() {
+                    march.march(&mut ways, first, end, watch.made);
+                    let Some(stop) = stop else { continue };
+                    let shorter = shorter[stop].as_deref();
+                    ways.par_iter_mut().for_each(|way| March::keep(way, end, shorter));
+                }
+            }
             Some(card) => {
                 // A thread that panicked has left a whole card: its rows are its own.
                 let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
-                let redone = march.march_on(&mut card, &mut ways, steps, watch.made);
+                let redone = march.march_on(&mut card, &mut ways, course.steps, watch.made);
                 self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
             }
         }
@@ -352,36 +480,33 @@ impl<'a> Engine<'a> {
         layout: &Layout,
         states: Vec<Numbers>,
         own: &[&[f64]],
-        steps: u64,
+        course: &Course,
         watch: &Watch<'_>,
     ) -> Vec<Way> {
-        let Equations { integrator, parameters, .. } = &self.equations;
-        let parameters_of = |parameter: &Parameter| parameter.scalar_names();
-        let scalars: Vec<String> =
-            integrator.problem.parameters.iter().flat_map(parameters_of).collect();
-        let place = |name: &String| scalars.iter().position(|scalar| scalar == name);
-        let places: Vec<Option<usize>> = layout.parameters.iter().map(place).collect();
         let follow = |(state, own): (Numbers, &&[f64])| {
-            let mut parameters = parameters.clone();
-            for (place, value) in places.iter().zip(*own) {
-                place.iter().for_each(|place| parameters[*place] = *value);
-            }
-            let equations = Equations { parameters, ..self.equations.clone() };
-            let motion = match self.group.anew(equations, self.step, self.compiled.as_ref()) {
-                Ok(motion) => motion,
+            let equations = self.equations_of(layout, own);
+            let made = self.group.anew(equations.clone(), self.step, self.compiled.as_ref());
+            let made = made.and_then(|motion| Ok((motion, self.shorter(&equations, course)?)));
+            let (motion, shorter) = match made {
+                Ok(made) => made,
                 Err(error) => {
                     let values = layout.parameters.iter().zip(*own);
                     let values: Vec<String> = values.map(|(n, x)| format!("{n} = {x}")).collect();
                     let why = format!("with {}: {error}", values.join(", "));
-                    return Way { state, stopped: Some((0, why)), ratio: 0.0 };
+                    let stopped = Some((0, why));
+                    return Way { state, stopped, ratio: 0.0, kept: Vec::new() };
                 }
             };
             let march = March { motion: motion.as_ref(), stop: watch.stop };
-            let (mut way, mut done) = (march.way(state), 0);
-            while done < steps && way.stopped.is_none() && !watch.stop.load(Ordering::Relaxed) {
-                let end = steps.min(done + STRETCH);
-                march.alone(&mut way, done, end);
-                done = end;
+            let mut way = march.way(state);
+            for (first, end, stop) in course.legs() {
+                let mut done = first;
+                while done < end && way.stopped.is_none() && !watch.stop.load(Ordering::Relaxed) {
+                    let next = end.min(done + STRETCH);
+                    march.alone(&mut way, done, next);
+                    done = next;
+                }
+                stop.iter().for_each(|&stop| March::keep(&mut way, end, shorter[stop].as_deref()));
             }
             way
         };
@@ -392,7 +517,7 @@ impl<'a> Engine<'a> {
             let some: Vec<_> = states.by_ref().take(ROWS).collect();
             ways.par_extend(some.into_par_iter().map(follow));
             // As many steps as all rows had made if they had gone together.
-            (watch.made)(steps * ways.len() as u64 / count);
+            (watch.made)(course.steps * ways.len() as u64 / count);
         }
         ways
     }

@@ -33,12 +33,14 @@ pub(super) struct Way {
     pub stopped: Option<(u64, String)>,
     /// The largest ratio seen.
     pub ratio: f64,
+    /// The states kept on the way.
+    pub kept: Vec<Numbers>,
 }
 
 impl March<'_> {
     /// From here.
     pub(super) fn way(&self, state: Numbers) -> Way {
-        Way { ratio: self.motion.ratio(&state.mu), state, stopped: None }
+        Way { ratio: self.motion.ratio(&state.mu), state, stopped: None, kept: Vec::new() }
     }
 
     /// Makes steps `first` to `end` of a trajectory by itself.
@@ -82,15 +84,28 @@ impl March<'_> {
         }
     }
 
-    /// Makes `steps` steps of all trajectories, a stretch of each before the next, which is then told to `told`.
-    pub(super) fn march(&self, ways: &mut [Way], steps: u64, told: &dyn Fn(u64)) {
+    /// Makes steps `first` to `end` of all trajectories, a stretch of each before the next, which is then told to `told`.
+    pub(super) fn march(&self, ways: &mut [Way], first: u64, end: u64, told: &dyn Fn(u64)) {
         let abreast = if self.motion.lanes().is_some() { WIDTH } else { 1 };
-        let mut done = 0;
-        while done < steps && !self.stop.load(Ordering::Relaxed) {
-            let end = steps.min(done + STRETCH);
-            ways.par_chunks_mut(abreast).for_each(|ways| self.abreast(ways, done, end));
-            done = end;
+        let mut done = first;
+        while done < end && !self.stop.load(Ordering::Relaxed) {
+            let next = end.min(done + STRETCH);
+            ways.par_chunks_mut(abreast).for_each(|ways| self.abreast(ways, done, next));
+            done = next;
             told(done);
+        }
+    }
+
+    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there.
+    pub(super) fn keep(way: &mut Way, step: u64, shorter: Option<&dyn Motion>) {
+        if way.stopped.is_some() {
+            return;
+        }
+        let mut state = way.state.clone();
+        let made = shorter.map_or(Ok(None), |shorter| shorter.advance(&mut state, 1));
+        match made {
+            Ok(_) => way.kept.push(state),
+            Err((_, error)) => way.stopped = Some((step + 1, error.to_string())),
         }
     }
 

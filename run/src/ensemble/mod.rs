@@ -6,5 +6,5 @@ mod layout;
 mod march;
 
 pub use drift::Drift;
-pub use engine::{Asked, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
+pub use engine::{Asked, Course, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
 pub use layout::{Attitude, Found, Known, Layout, Shape, matrix_size};

@@ -8,8 +8,10 @@ use crate::engine::{Motion, Numbers};
 const MOST: u64 = 288;
 /// Parts of a run that is too long to be gone along as a whole, at whose ends states are compared.
 const PARTS: u64 = 16;
+/// Growth that is faster than linear is believed up to this factor: a short beginning may show it by chance.
+const FASTER: f64 = 10.0;
 /// An error above this is worth a warning.
-pub(crate) const LARGE: f64 = 0.01;
+pub const LARGE: f64 = 0.01;
 
 /// Estimates the error at the end of `steps` steps of `motion` from `start` to `end`: the larger of the relative errors of
 /// μ and of the matrix of g, in Euclidean norms. `order` is that of the method, and `other` makes the steps of a size that is
@@ -82,7 +84,8 @@ impl Beside<'_> {
         }
         let longer = steps as f64 / (PARTS * part * self.own) as f64;
         let power = if half > 0.0 { (whole / half).log2() } else { 1.0 };
-        Ok(whole.max((whole * longer.powf(power)).min(1.0)))
+        let growth = longer.powf(power).min(longer * FASTER);
+        Ok(whole.max((whole * growth).min(1.0)))
     }
 
     /// Makes steps of the other size; long ones that programs refuse are not made by other means, which would take long.

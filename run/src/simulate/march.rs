@@ -281,17 +281,12 @@ impl March<'_> {
         self.setup.at.as_ref()?.0.get(self.times).copied()
     }
 
-    /// The grid point nearest to a time.
-    fn nearest(&self, time: f64) -> u64 {
-        let schedule = &self.setup.schedule;
-        (time / schedule.step).round().min(schedule.steps as f64) as u64
-    }
-
     /// The next grid point at which the drift is measured, or something is recorded.
     fn next_look(&self) -> u64 {
         let next = (self.n / self.interval + 1).saturating_mul(self.interval);
         let next = next.min(self.setup.schedule.steps);
-        self.next_time().map_or(next, |time| next.min(self.nearest(time).max(self.n + 1)))
+        self.next_time()
+            .map_or(next, |time| next.min(self.setup.schedule.nearest(time).max(self.n + 1)))
     }
 
     /// Hands out the records at this grid point, and at the times nearer to it than to others.
@@ -309,7 +304,7 @@ impl March<'_> {
         let chosen =
             setup.every.is_some_and(|every| n.is_multiple_of(every) || n == schedule.steps);
         let mut own = chosen.then_some(here);
-        while let Some(time) = self.next_time().filter(|time| self.nearest(*time) <= n) {
+        while let Some(time) = self.next_time().filter(|time| schedule.nearest(*time) <= n) {
             let part = time - here;
             let rounding = 4.0 * f64::EPSILON * time.abs().max(schedule.step.abs());
             if part.abs() <= rounding {

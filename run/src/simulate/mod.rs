@@ -14,11 +14,13 @@ mod sink;
 mod tally;
 
 pub use blocks::{Block, Kind, matrix, split};
+pub use estimate::LARGE;
+pub(crate) use estimate::estimate;
 pub use event::{Crossing, Direction, Event, Function};
 pub use learned::{algebra_of, run_model};
 pub use recorder::{Drift, Outcome, Recorder, Scales, Watched};
 pub use run::run;
-pub use setup::{Schedule, Setup, Times};
+pub use setup::{Schedule, Setup, Stop, Times};
 pub use single::Single;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
 pub use tally::{DriftFields, Moment, Solver, Steep, Tally, Warning};

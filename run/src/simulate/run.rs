@@ -34,7 +34,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (mut outcome, end) = made?;
     let other = |size| group.anew(system.equations(), step * size, compiled.as_ref());
     let order = system.order();
-    outcome.estimated_error = match outcome.steps == schedule.steps {
+    outcome.estimated_error = match outcome.time == schedule.end {
         true => estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order),
         false => Err("not known: an event ended the run"),
     };

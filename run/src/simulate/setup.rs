@@ -107,6 +107,11 @@ impl Schedule {
         if n == self.steps { self.end } else { n as f64 * self.step }
     }
 
+    /// How many steps end nearest to a time of the run.
+    pub fn nearest(&self, time: f64) -> u64 {
+        (time / self.step).round().min(self.steps as f64) as u64
+    }
+
     /// A line about the step, where another is used than was asked for.
     pub fn announcement(&self) -> Option<String> {
         let Self { asked, step, steps, end } = *self;
@@ -116,6 +121,15 @@ impl Schedule {
             format!("step {step} in place of {asked}, so that {steps} {plural} at {end}")
         })
     }
+}
+
+/// A time as whole steps and a shorter one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Whole steps.
+    pub step: u64,
+    /// The size of the shorter step; 0 where there is none.
+    pub part: f64,
 }
 
 /// The times of `--at`, each once, in the order of the run.
@@ -155,6 +169,17 @@ impl Times {
         times.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         times.dedup();
         Ok(Self(times))
+    }
+
+    /// Where they are on the grid of the steps, each with the shorter step from the nearest point of it, which may go back.
+    pub fn stops(&self, schedule: &Schedule) -> Vec<Stop> {
+        let stop = |&time: &f64| {
+            let step = schedule.nearest(time);
+            let part = time - schedule.time(step);
+            let rounding = 4.0 * f64::EPSILON * time.abs().max(schedule.step.abs());
+            Stop { step, part: if part.abs() <= rounding { 0.0 } else { part } }
+        };
+        self.0.iter().map(stop).collect()
     }
 
     /// The times in words, for the description of a run.
