@@ -68,8 +68,6 @@ pub struct Interpreter<'a, G, C> {
     pub(super) slots: Vec<f64>,
     /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`].
     pub(super) quiet: f64,
-    /// The direct factor of the group that each coordinate belongs to.
-    factors: Vec<u32>,
     pub(super) chart: PhantomData<C>,
 }
 
@@ -85,14 +83,12 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
         let symbols = symbols(&integrator.problem, parameters);
         let slots = table.fold(step, &symbols).map_err(|error| refusal(error, step, &symbols))?;
         let quiet = table.lists().radius(step, &symbols, STEEP);
-        let factors = integrator.problem.algebra.factor_of_coordinates();
-        Ok(Self { integrator, group, slots, quiet, factors, chart: PhantomData })
+        Ok(Self { integrator, group, slots, quiet, chart: PhantomData })
     }
 
     /// With these coefficients of [`Integrator::fold_table`].
     pub fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
-        let factors = integrator.problem.algebra.factor_of_coordinates();
-        Self { integrator, group, slots, quiet: 0.0, factors, chart: PhantomData }
+        Self { integrator, group, slots, quiet: 0.0, chart: PhantomData }
     }
 
     /// The coefficients after those of the programs, from the square of the radius on.
@@ -192,8 +188,9 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
             coefficients.last_orders(truncation).zip(values).map(|((order, base), &value)| {
                 (Scalar::of(value), order == truncation, coefficients.monomials()[base].as_slice())
             });
-        let mut sums = vec![[Scalar::of(0.0); 2]; self.factors.len()];
-        plumbing::ratio_of(&self.factors, terms, &mut sums, |i| p[i])
+        let factors = self.integrator.factors();
+        let mut sums = vec![[Scalar::of(0.0); 2]; factors.len()];
+        plumbing::ratio_of(factors, terms, &mut sums, |i| p[i])
     }
 }
 

@@ -419,6 +419,8 @@ impl<'a> Engine<'a> {
         let space = self.motion.space();
         let g = match layout.read_attitude(attitude)? {
             None => self.identity.clone(),
+            // Quaternions and rotations have been put on the group.
+            Some(matrix) if layout.shape.quaternions => space.numbers(&matrix),
             Some(matrix) => {
                 let off = |_| "the attitude is no element of the group".to_owned();
                 space.numbers(&space.nearest(&matrix).map_err(off)?)

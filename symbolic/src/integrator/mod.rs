@@ -68,9 +68,16 @@ pub struct Integrator {
     pub largest_rate: Option<f64>,
     /// What [`Self::fold_table`] has made.
     table: OnceLock<FoldTable>,
+    /// What [`Self::factors`] has found.
+    factors: OnceLock<Vec<u32>>,
 }
 
 impl Integrator {
+    /// The direct factor of the group that each coordinate belongs to; found once.
+    pub fn factors(&self) -> &[u32] {
+        self.factors.get_or_init(|| self.problem.algebra.factor_of_coordinates())
+    }
+
     /// All coefficients, as [`FoldTable::new`] orders them; made once.
     pub fn fold_table(&self) -> &FoldTable {
         self.table.get_or_init(|| FoldTable::new(self))
@@ -181,6 +188,7 @@ impl Integrator {
             kicks: None,
             largest_rate,
             table: OnceLock::new(),
+            factors: OnceLock::new(),
         })
     }
 
