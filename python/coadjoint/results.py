@@ -347,7 +347,7 @@ class Run:
 
 
 class States(np.ndarray[Any, np.dtype[np.float64]]):
-    """The states at the end of an ensemble: an array, (N, columns), that knows how it was made.
+    """The states of an ensemble: an array, (N, columns) at the end or (N, times, columns), that knows how it was made.
 
     Rows without an end state are NaN, and are listed in :attr:`failed`. Copies know the same; parts, and what is
     computed from it, are mere arrays.

@@ -367,7 +367,7 @@ class System:
         if parameters:
             array = np.ascontiguousarray(array[:, : -len(parameters)])
         if times is not None:
-            array = array.reshape(len(rows), len(times), -1)
+            array = array.reshape(len(rows), len(times), array.shape[1])
         found = States._of(array, failed, facts)
         if failed:
             row, number, reason = failed[0]

@@ -111,6 +111,7 @@ def test_trajectories_are_those_of_single_runs(body: ca.System) -> None:
         single = body.simulate(start, time=20, step=0.1, at=times)
         np.testing.assert_allclose(row, single.momentum, rtol=0, atol=1e-12)
     np.testing.assert_array_equal(found[:, -1], body.ensemble(states(3), time=20, step=0.1))
+    assert body.ensemble(np.empty((0, 3)), time=1, step=0.1, at=[0, 1]).shape == (0, 2, 3)
     with pytest.raises(InputError, match="sort them"):
         body.ensemble(states(3), time=20, step=0.1, at=[2, 1])
 
