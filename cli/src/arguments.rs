@@ -52,7 +52,7 @@ pub(crate) fn parse() -> Arguments {
 /// The verb to run.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Print the exact series S₁ … S_K of the generating function
+    /// Print the exact series S₁ … S_K of the generating function, or S of a learned polynomial
     Derive(DeriveOptions),
     /// Write the integrator as code: Rust, C, C++, OpenCL or CUDA
     Emit(EmitOptions),
@@ -166,9 +166,12 @@ pub(crate) struct SimulateOptions {
 /// Options of `ensemble`.
 #[derive(Args, Debug)]
 pub(crate) struct EnsembleOptions {
-    /// The system.
+    /// The system or the model.
     #[command(flatten)]
-    pub source: Source,
+    pub input: Input,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
     /// The states at the start, .csv, .npy or .parquet: columns mu_1 … mu_n, and if you like the
     /// attitude, g_11 … g_dd or q_w, q_x, q_y, q_z
     #[arg(long, value_name = "FILE")]

@@ -2,12 +2,13 @@
 
 use clap::Args;
 use coadjoint_codegen::system::Parameters;
-use coadjoint_run::series::{Series, json, latex, text};
+use coadjoint_learn::ModelFile;
+use coadjoint_run::series::{Series, json, latex, learned, text};
 
 use crate::error::CliError;
 use crate::load;
 use crate::named::{Names, named};
-use crate::source::Source;
+use crate::source::Input;
 
 /// Prints a series.
 pub(crate) type Form = fn(&Series) -> String;
@@ -22,20 +23,27 @@ pub(crate) const FORMS: &Names<Form> = &[
 /// Options of `derive`.
 #[derive(Args, Debug)]
 pub(crate) struct DeriveOptions {
-    /// The system.
+    /// The system or the model.
     #[command(flatten)]
-    pub source: Source,
-    /// How to print
-    #[arg(long, value_parser = named(FORMS), default_value = "text")]
+    pub input: Input,
+    /// Keep S₁ … S_K, K odd; instead of the file's
+    #[arg(long, value_name = "K")]
+    pub truncation: Option<usize>,
+    /// How to print; S of a model is a text
+    #[arg(long, value_parser = named(FORMS), default_value = "text", conflicts_with = "model")]
     pub format: Form,
 }
 
-/// Prints S₁ … S_K.
+/// Prints S₁ … S_K, or S of a model.
 pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
-    let source = &options.source;
+    if let Some(path) = &options.input.model {
+        outln!("{}", learned(&ModelFile::load(path)?)?);
+        return Ok(());
+    }
+    let source = options.input.source(options.truncation);
     let system = match source.truncation {
-        Some(_) => load::source(source, Parameters::Substituted)?,
-        None => load::settled(source, None, Parameters::Substituted)?.0,
+        Some(_) => load::source(&source, Parameters::Substituted)?,
+        None => load::settled(&source, None, Parameters::Substituted)?.0,
     };
     let series = Series::derive(&source.file, system.problem)?;
     out!("{}", (options.format)(&series));

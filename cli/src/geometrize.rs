@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use coadjoint::groups::Chart;
-use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::{Problem, values};
-use coadjoint_codegen::system::{Options, Parameters};
+use coadjoint_codegen::system::Options;
 use coadjoint_learn::catalogue::{Visitor, visit};
 use coadjoint_learn::data::MomentumPairs;
 use coadjoint_learn::truth::{MomentumBox, OneStep, momentum_pairs};
-use coadjoint_learn::{DataGroup, Kind, Request, Source, learn};
+use coadjoint_learn::{DataGroup, GroupChoice, Kind, Request, Source, learn};
 
 use crate::error::CliError;
 use crate::learn::Fit;
@@ -52,49 +51,34 @@ pub(crate) struct GeometrizeOptions {
     /// Pairs to test the map on
     #[arg(long, value_name = "DATA")]
     test: Option<PathBuf>,
-    /// The group of the data, by its name in the catalogue
-    #[arg(long, default_value = "SO3")]
+    /// The group of the data, by its name in the catalogue, or the system file (.toml) whose `group` or [algebra] it is
+    #[arg(long, value_name = "GROUP", default_value = "SO3")]
     group: String,
 }
 
 /// Finds the Poisson map.
 pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
     let named = [&options.data, &options.system, &options.test];
-    let inputs: Vec<&Path> = named.into_iter().flatten().map(PathBuf::as_path).collect();
+    let named = named.into_iter().flatten().map(PathBuf::as_path);
+    let inputs: Vec<&Path> = named.chain(load::system_file(&options.group)).collect();
     options.fit.check(&inputs)?;
     let data = options.data.as_deref().unwrap_or(Path::new(""));
     let request = Request {
         kind: Kind::Polynomial,
         momenta_only: true,
-        ..options.fit.request(options.group.clone())
+        ..options.fit.request(load::group(&options.group)?)
     };
     let (file, summary) = match &options.system {
         None => learn(&request, Source::Files(data, options.test.as_deref()), &mut |_| {})?,
         Some(path) => {
-            let problem = problem(path)?;
-            let group = problem.algebra.name().to_owned();
-            let chart = request.chart.clone();
-            let request = Request { group: group.clone(), ..request };
-            let pairs = visit(&group, &chart, Pairs { options, problem: &problem })??;
+            let problem = load::file(path, Options::default())?.problem;
+            let request = Request { group: GroupChoice::of(&problem.algebra), ..request };
+            let pairs = Pairs { options, problem: &problem };
+            let pairs = visit(&request.group, &request.chart, pairs)??;
             learn(&request, Source::Momenta(&pairs), &mut |_| {})?
         }
     };
     options.fit.finish(&inputs, &file, &summary)
-}
-
-/// The system, with the values of its parameters put in.
-fn problem(path: &Path) -> Result<Problem, CliError> {
-    let options = Options { parameters: Parameters::Substituted, ..Options::default() };
-    let problem = load::file(path, options)?.problem;
-    let name = problem.algebra.name();
-    if catalogue::lookup(name).ok().as_ref() != Some(&problem.algebra) {
-        return Err(CliError::Option(format!(
-            "{}: learned maps are saved by the name of their group, and {name} is not in the \
-             catalogue; make the pairs yourself and give a group of the catalogue",
-            path.display()
-        )));
-    }
-    Ok(problem)
 }
 
 struct Pairs<'a> {

@@ -8,12 +8,13 @@ use coadjoint_codegen::lie::Chart;
 use coadjoint_learn::data::{RowPolicy, Tolerances};
 use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::{
-    Errors, Figures, Kind, ModelFile, Request, Source, Summary, learn, remove_checkpoints,
+    Errors, Figures, GroupChoice, Kind, ModelFile, Request, Source, Summary, learn,
+    remove_checkpoints,
 };
 
 use crate::error::{CliError, unwritten};
 use crate::named::{CHARTS, FORMATS, Format, Names, named};
-use crate::progress;
+use crate::{load, progress};
 
 /// Kinds of models.
 const MODELS: &Names<Kind> = &[
@@ -74,8 +75,8 @@ pub struct LearnOptions {
     /// Pairs to test the model on
     #[arg(long, value_name = "DATA")]
     test: Option<PathBuf>,
-    /// The group, by its name in the catalogue
-    #[arg(long, default_value = "SO3")]
+    /// The group, by its name in the catalogue, or the system file (.toml) whose `group` or [algebra] it is
+    #[arg(long, value_name = "GROUP", default_value = "SO3")]
     group: String,
     /// The kind of model
     #[arg(long, value_parser = named(MODELS), default_value = "auto")]
@@ -102,7 +103,7 @@ pub struct LearnOptions {
 
 impl Fit {
     /// The request of a map on this group.
-    pub fn request(&self, group: String) -> Request {
+    pub fn request(&self, group: GroupChoice) -> Request {
         Request {
             group,
             chart: self.chart.name().into(),
@@ -157,8 +158,8 @@ impl Fit {
 
 /// Learns the map behind pairs of states.
 pub fn run(options: &LearnOptions) -> Result<(), CliError> {
-    let inputs = std::iter::once(&options.data).chain(&options.test);
-    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    let data = std::iter::once(&options.data).chain(&options.test).map(PathBuf::as_path);
+    let inputs: Vec<&Path> = data.chain(load::system_file(&options.group)).collect();
     options.fit.check(&inputs)?;
     let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
     // Beside the model, so that a command given again goes on where it was killed.
@@ -179,7 +180,7 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
         group_loss: options.loss,
         tolerances,
         network,
-        ..options.fit.request(options.group.clone())
+        ..options.fit.request(load::group(&options.group)?)
     };
     let bar = progress::bar(1, "learning");
     let source = Source::Files(&options.data, options.test.as_deref());

@@ -5,7 +5,8 @@ use std::path::Path;
 use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
-use coadjoint_run::{meet_tolerance as meet, read_varying, read_with};
+use coadjoint_learn::GroupChoice;
+use coadjoint_run::{meet_tolerance as meet, read_group, read_varying, read_with};
 
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
@@ -18,6 +19,20 @@ pub(crate) fn text(path: &Path) -> Result<String, CliError> {
 /// Reads the file at `path`.
 pub(crate) fn file(path: &Path, options: Options) -> Result<System, CliError> {
     Ok(read_with(&path.display().to_string(), &text(path)?, options)?)
+}
+
+/// The group of this name in the catalogue, or of the system file at this path.
+pub(crate) fn group(name: &str) -> Result<GroupChoice, CliError> {
+    match system_file(name) {
+        Some(path) => Ok(read_group(name, &text(path)?)?),
+        None => Ok(name.into()),
+    }
+}
+
+/// The path that a group is given by, where it is that of a system file.
+pub(crate) fn system_file(group: &str) -> Option<&Path> {
+    let path = Path::new(group);
+    (path.extension()? == "toml").then_some(path)
 }
 
 /// Reads the system of a command again, with this truncation, where the parameters with these names vary.

@@ -1,14 +1,15 @@
-//! Groups and charts by name.
+//! Groups and charts, from their names to types.
 
 use coadjoint::groups::{Cayley, Chart, Exponential, MatrixGroup, TableError};
 use coadjoint::{SE3, SO3};
-use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, catalogue, watched_casimirs};
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, watched_casimirs};
 use coadjoint_codegen::number::Rational;
 use nalgebra::DMatrix;
 use num_traits::ToPrimitive;
 
 use crate::error::LearnError;
 use crate::group::DataGroup;
+use crate::group_choice::GroupChoice;
 
 /// Work to be done for a group and chart known only by name.
 pub trait Visitor {
@@ -19,22 +20,26 @@ pub trait Visitor {
     fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output;
 }
 
-/// Calls `visitor` with the group of the catalogue called `group` and the chart called `chart`
-/// (`exp` or `cayley`).
+/// Calls `visitor` with the group chosen and the chart called `chart` (`exp` or `cayley`).
 ///
-/// SO3 and SE3 are the compiled groups; every other one of the catalogue is made from its basis.
+/// SO3 and SE3 are the compiled groups; every other one is made from its tables.
 ///
 /// # Errors
 /// [`LearnError::UnknownGroup`] and [`LearnError::NoChart`].
-pub fn visit<V: Visitor>(group: &str, chart: &str, visitor: V) -> Result<V::Output, LearnError> {
-    let unknown = |reason: String| LearnError::UnknownGroup { name: group.into(), reason };
+pub fn visit<V: Visitor>(
+    group: &GroupChoice,
+    chart: &str,
+    visitor: V,
+) -> Result<V::Output, LearnError> {
+    let name = group.name();
+    let unknown = |reason: String| LearnError::UnknownGroup { name: name.into(), reason };
     let no_chart =
-        |reason: String| LearnError::NoChart { group: group.into(), chart: chart.into(), reason };
+        |reason: String| LearnError::NoChart { group: name.into(), chart: chart.into(), reason };
     if chart != "exp" && chart != "cayley" {
         return Err(no_chart("charts are exp and cayley".into()));
     }
     // By the name it has in the catalogue: `SO(3)` is SO3.
-    let algebra = catalogue::lookup(group).map_err(|e| unknown(e.to_string()))?;
+    let algebra = group.algebra()?;
     match (algebra.name(), chart) {
         ("SO3", "exp") => Ok(visitor.visit::<SO3, Exponential>(SO3::new())),
         ("SO3", _) => Ok(visitor.visit::<SO3, Cayley>(SO3::new())),

@@ -1,6 +1,6 @@
 //! A learned polynomial as a system for the code generator.
 
-use coadjoint_codegen::lie::{Chart, catalogue};
+use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::Problem;
@@ -60,17 +60,13 @@ pub fn exact_polynomial(model: &PolynomialModel) -> Result<Polynomial, LearnErro
 /// nothing.
 ///
 /// # Errors
-/// [`LearnError::InvalidOption`] for models that are no polynomials,
-/// [`LearnError::UnknownGroup`] and [`LearnError::NoChart`] for names out of the catalogue.
+/// [`LearnError::InvalidOption`] for models that are no polynomials, [`LearnError::UnknownGroup`] for groups that are none.
 pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
     let Model::Polynomial(model) = &file.model else {
-        let requirement = "only polynomial models can be emitted as code";
+        let requirement = "only polynomial models are programs: they alone are emitted, derived and run in ensembles";
         return Err(LearnError::option("model", file.model.name(), requirement));
     };
-    let algebra = catalogue::lookup(&file.group).map_err(|e| LearnError::UnknownGroup {
-        name: file.group.clone(),
-        reason: e.to_string(),
-    })?;
+    let algebra = file.group.algebra()?;
     let chart = if file.chart == "cayley" { Chart::Cayley } else { Chart::Exponential };
     let step = Rational::from_f64(file.step).unwrap_or_else(Rational::one);
     let polynomial = exact_polynomial(model)?;

@@ -46,6 +46,7 @@ mod evaluate;
 mod function;
 mod gaussian_process;
 mod group;
+mod group_choice;
 mod hybrid;
 mod least_squares;
 mod model;
@@ -65,6 +66,7 @@ pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, 
 pub use function::{Generating, MomentumFunction, Scaled};
 pub use gaussian_process::{GaussianProcess, fit_gaussian_process};
 pub use group::{DataGroup, matrix_of};
+pub use group_choice::{GroupChoice, OwnAlgebra};
 pub use hybrid::fit_hybrid;
 pub use least_squares::GaussNewton;
 pub use model::Model;

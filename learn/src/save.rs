@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::LearnError;
 use crate::evaluate::Figures;
 use crate::function::MomentumFunction;
+use crate::group_choice::GroupChoice;
 use crate::model::Model;
 use crate::polynomial::Candidate;
 
@@ -39,8 +40,8 @@ pub struct TrainingRecord {
 pub struct ModelFile {
     format: String,
     version: u32,
-    /// The group's name in the catalogue.
-    pub group: String,
+    /// The group.
+    pub group: GroupChoice,
     /// The chart's name: `exp` or `cayley`.
     pub chart: String,
     /// Δt, the time one application of the map stands for.
@@ -58,7 +59,7 @@ impl ModelFile {
     /// A model of the group, chart and step given.
     #[must_use]
     pub fn new(
-        group: impl Into<String>,
+        group: impl Into<GroupChoice>,
         chart: impl Into<String>,
         step: f64,
         attitude: bool,

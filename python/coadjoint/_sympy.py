@@ -11,8 +11,9 @@ if TYPE_CHECKING:
     import sympy
 
 
-def polynomial(text: str, symbols: Mapping[str, Any]) -> sympy.Expr:
-    """A polynomial in the notation of system files, in these symbols by their names there."""
+def polynomial(text: str, symbols: Mapping[str, Any], *, exact: bool = True) -> sympy.Expr:
+    """A polynomial in the notation of system files, in these symbols by their names there; its decimals as fractions, or
+    as floating-point numbers."""
     import sympy
 
     # Names such as mu[0] and x' are no names of Python.
@@ -23,7 +24,7 @@ def polynomial(text: str, symbols: Mapping[str, Any]) -> sympy.Expr:
         pattern = rf"(?<![\w'\]])({'|'.join(names)})(?![\w'\[])"
         text = re.sub(pattern, lambda m: places[m[1]], text)
     text = text.replace("^", "**").replace("ln(", "log(").replace("abs(", "Abs(")
-    return sympy.sympify(text, locals=known, rational=True)
+    return sympy.sympify(text, locals=known, rational=exact)
 
 
 def series(text: str, symbols: Mapping[str, Any]) -> dict[int, sympy.Expr]:

@@ -16,15 +16,35 @@ import os
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _arrays, _core
-from ._arrays import Floats, Numbers, Real, count, flag, floats, listed, names, real, text, unused, vector
+from . import _arrays, _core, _text
+from ._arrays import (
+    Backend,
+    Floats,
+    Numbers,
+    Real,
+    Rotation,
+    count,
+    flag,
+    floats,
+    listed,
+    names,
+    real,
+    text,
+    unused,
+    vector,
+)
 from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
-from .results import Run
+from .results import Run, States
+from .system import System, of_core
+
+if TYPE_CHECKING:
+    import sympy
 
 __all__ = ["Model", "geometrize", "learn"]
 
@@ -101,6 +121,71 @@ class Model:
         for said in found["warnings"]:
             warnings.warn(said, CoadjointWarning, stacklevel=2)
         return Run(found, self)
+
+    def step(
+        self,
+        momentum: Numbers,
+        group_element: Numbers | Rotation | None = None,
+        *,
+        steps: int = 1,
+        backend: Backend = "jit",
+    ) -> tuple[Floats, Floats | None]:
+        """The state after one application of the map, or ``steps`` of them, as :meth:`System.step` gives it. The group
+        element is None where only momenta were learned. For polynomials.
+
+        >>> import coadjoint as ca, numpy as np
+        >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
+        >>> before = np.random.default_rng(1).uniform(-1, 1, (200, 3))
+        >>> model = ca.learn(before, body.ensemble(before, time=0.1, step=0.1), step=0.1, degree=4)
+        >>> mu, g = model.step([0.3, 0.2, 0.9])
+        >>> bool(abs(mu - body.step([0.3, 0.2, 0.9], step=0.1)[0]).max() < 1e-7), g
+        (True, None)
+        """
+        if group_element is not None:
+            self._knows_attitudes("group_element")
+        mu, g = self._system.step(momentum, group_element, steps=steps, backend=backend)
+        return mu, g if self.attitude else None
+
+    def ensemble(
+        self,
+        states: Numbers,
+        *,
+        time: Real,
+        backend: Backend = "auto",
+        threads: int | None = None,
+        progress: bool | Progress | None = None,
+    ) -> States:
+        """Many trajectories of the map, as :meth:`System.ensemble` has them; ``time`` must be a whole number of the
+        model's steps. For polynomials."""
+        rows, _ = self._system._rows(states)
+        if rows.ndim == 2 and rows.shape[1] != int(self._facts["dimension"]):
+            self._knows_attitudes("states")
+        end = self._core.steps(real(time, "time")) * self.step_size
+        return self._system.ensemble(rows, time=end, backend=backend, threads=threads, progress=progress)
+
+    @property
+    def generating_function(self) -> sympy.Expr:
+        """S(p) of a learned polynomial as SymPy, in the symbols ``mu[0]``, … of the canonical momentum (needs sympy)."""
+        import sympy
+
+        from . import _sympy
+
+        known = {name: sympy.Symbol(name) for name in self.coordinates}
+        return _sympy.polynomial(self.generating_text, known, exact=False)
+
+    @property
+    def generating_text(self) -> str:
+        """S(p) of a learned polynomial in the notation of system files; its numbers are decimals."""
+        return self._core.generating_function()
+
+    @cached_property
+    def _system(self) -> System:
+        """The system whose steps, of the model's size, are the map."""
+        return of_core(self._core.system(), self._model_text, self._name)
+
+    def _knows_attitudes(self, what: str) -> None:
+        if not self.attitude:
+            raise InputError(f"{what}: the model was learned from momenta alone, so it says nothing about attitudes")
 
     def emit(self, language: str = "rust", *, prefix: str | None = None, single: bool = False) -> str:
         """A learned polynomial as code, in the languages of :meth:`System.emit`."""
@@ -189,13 +274,20 @@ def _data(
     return list(columns.items()), others
 
 
+def _algebra(group: Any) -> str | None:
+    """The text of a system file with this group, unless it is known by its name."""
+    if isinstance(group, System):
+        return group.text
+    return None if isinstance(group, str) else "\n".join(_text.table("algebra", _text.algebra(group)))
+
+
 def learn(
     before: Numbers,
     after: Numbers | None = None,
     *,
     step: Real,
     attitudes: tuple[Any, Any] | None = None,
-    group: str = "SO3",
+    group: str | Mapping[str, Any] | System = "SO3",
     chart: str = "exp",
     model: str = "auto",
     degree: int | None = None,
@@ -215,6 +307,9 @@ def learn(
 ) -> Model:
     """Learns the map behind pairs of states a time ``step`` apart.
 
+    ``group`` is that of the data: a name, a dictionary with a ``basis``, or with ``generators`` and ``brackets``, as for
+    :class:`System`, or a system, whose group it is.
+
     ``before`` and ``after`` are momenta, (N, n); ``attitudes`` a pair of arrays of matrices, (N, d, d), or of quaternions
     w, x, y, z. A data frame or a dictionary with the columns ``mu_1`` …, ``mu_next_1`` … takes the place of both.
     ``test`` is a pair of arrays (with ``attitudes``, four), or a frame. ``model`` is ``"auto"`` (what cross-validates
@@ -229,7 +324,8 @@ def learn(
         else:
             tested, _ = _data(test, None, None, "test")
     settings = {
-        "group": text(group, "group"),
+        "group": group if isinstance(group, str) else "",
+        "algebra": _algebra(group),
         "chart": text(chart, "chart"),
         "step": real(step, "step"),
         "kind": text(model, "model"),
@@ -267,7 +363,7 @@ def geometrize(
     after: Numbers | None = None,
     *,
     step: Real,
-    group: str = "SO3",
+    group: str | Mapping[str, Any] | System = "SO3",
     chart: str = "exp",
     degree: int | None = None,
     test: Any = None,

@@ -139,10 +139,15 @@ class System:
         return cls.from_text(_core.read_text(path), os.fspath(path))
 
     def _read(
-        self, text: str, name: str, given: tuple[tuple[str, Any], ...] | None, known: dict[str, Any]
+        self,
+        text: str,
+        name: str,
+        given: tuple[tuple[str, Any], ...] | None,
+        known: dict[str, Any],
+        core: _core.Core | None = None,
     ) -> None:
         self._text_, self._name, self._given, self._known = text, name, given, known
-        self._core = _core.Core(text, name)
+        self._core = _core.Core(text, name) if core is None else core
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
 
@@ -693,6 +698,11 @@ def hardly_converges(ratio: float) -> str:
         f"the series hardly converges for some rows: its terms have the ratio {ratio:.3f}, above 0.25; "
         "the motion may be inaccurate: take a smaller step"
     )
+
+
+def of_core(core: _core.Core, text: str, name: str) -> System:
+    """The system of an extension's object; ``text`` is what it was made of."""
+    return _restored(System, text, name, None, {}, core)
 
 
 def _restored(kind: type[System], *parts: Any) -> System:

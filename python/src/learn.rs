@@ -7,8 +7,8 @@ use std::sync::atomic::Ordering;
 use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
 use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::{Kind, ModelFile, Request, Source};
-use coadjoint_run::simulate::{Schedule, Setup, algebra_of, run_model};
-use coadjoint_run::{RunError, emit};
+use coadjoint_run::simulate::{Schedule, Setup, run_model};
+use coadjoint_run::{RunError, emit, learned, read_group, series};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,6 +18,7 @@ use crate::emit::emitted;
 use crate::error::{raised, refused};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
+use crate::system::Core;
 
 /// Named columns of numbers.
 type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
@@ -27,6 +28,8 @@ type Named<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
 #[pyo3(from_item_all)]
 pub struct Settings {
     group: String,
+    /// The text of a system file whose group it is, in place of a name of the catalogue.
+    algebra: Option<String>,
     chart: String,
     step: f64,
     kind: String,
@@ -63,8 +66,12 @@ impl Settings {
         }
         let activation = self.activation.parse();
         let activation = activation.map_err(|error| raised(py, &RunError::Learn(error)))?;
+        let group = match &self.algebra {
+            Some(text) => read_group("group", text).map_err(|error| raised(py, &error))?,
+            None => self.group.into(),
+        };
         Ok(Request {
-            group: self.group,
+            group,
             chart: self.chart,
             step: self.step,
             kind,
@@ -140,8 +147,9 @@ impl ModelCore {
     /// Facts about the model.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let facts = PyDict::new(py);
-        let algebra = algebra_of(&self.model).map_err(|error| raised(py, &error))?;
-        facts.set_item("group", &self.model.group)?;
+        let algebra = self.model.group.algebra();
+        let algebra = algebra.map_err(|error| raised(py, &RunError::Learn(error)))?;
+        facts.set_item("group", self.model.group.name())?;
         facts.set_item("dimension", algebra.dim())?;
         facts.set_item("chart", &self.model.chart)?;
         facts.set_item("step", self.model.step)?;
@@ -176,6 +184,23 @@ impl ModelCore {
         let found = result_of(py, table, &outcome, &schedule)?;
         found.set_item("label", label)?;
         Ok(found)
+    }
+
+    /// The system whose steps, of the model's size, are the learned map.
+    fn system(&self, py: Python<'_>) -> PyResult<Core> {
+        let system = learned(&self.model).map_err(|error| raised(py, &error))?;
+        Ok(Core::of(self.name.clone(), "".into(), system))
+    }
+
+    /// How many applications end at this time.
+    fn steps(&self, py: Python<'_>, time: f64) -> PyResult<u64> {
+        let schedule = Schedule::of_model(self.model.step, time);
+        Ok(schedule.map_err(|error| raised(py, &error))?.steps)
+    }
+
+    /// S of a learned polynomial.
+    fn generating_function(&self, py: Python<'_>) -> PyResult<String> {
+        series::learned(&self.model).map_err(|error| raised(py, &error))
     }
 
     /// A learned polynomial as code.

@@ -82,6 +82,11 @@ impl Core {
         Self { name, text, system, derived: Cache::default() }
     }
 
+    /// A system that is known as text elsewhere.
+    pub(crate) fn of(name: String, text: Arc<str>, system: System) -> Self {
+        Self { name, text, system, derived: Cache::default() }
+    }
+
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
     fn accurate(&self, accuracy: &Accuracy) -> Result<(System, Option<Choice>), RunError> {
         let mut system = self.system.clone();

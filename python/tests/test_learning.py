@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+import sympy
 
 import coadjoint as ca
 from coadjoint import InputError
@@ -93,3 +94,46 @@ def test_data_that_make_no_sense_are_refused(body: ca.System) -> None:
         model.simulate([1, 0, 0], time=0.25)
     with pytest.raises(InputError, match="JSON"):
         ca.Model("nonsense")
+
+
+def test_maps_are_learned_on_an_algebra_of_its_own(tmp_path: Path) -> None:
+    brackets = ["[U, V] = -E", "[U, R] = -2*V", "[V, R] = 2*U"]
+    algebra = {"generators": "U V R E", "brackets": brackets, "name": "oscillator"}
+    system = ca.System(algebra, "U^2/2 + V^2/3 + R*E/5 + R^2/9")
+    before = np.random.default_rng(7).uniform(-1, 1, (150, 4))
+    after = system.ensemble(before, time=STEP, step=STEP)
+    model = ca.learn(before, after, step=STEP, group=system, degree=4)
+    assert model == ca.learn(before, after, step=STEP, group=algebra, degree=4)
+    assert model.group == "oscillator" and model.summary["drifts"]["casimir"] < 1e-12
+    # A step, an ensemble and a run are the same map, near that of the system.
+    mu, attitude = model.step(before[3], steps=10)
+    ends = model.ensemble(before, time=10 * STEP)
+    assert attitude is None and np.abs(mu - ends[3]).max() < 1e-12
+    with pytest.warns(ca.CoadjointWarning, match="attitude"):
+        run = model.simulate(before[3], time=10 * STEP)
+    assert np.abs(run.momentum[-1] - mu).max() < 1e-12
+    assert np.abs(np.asarray(ends) - np.asarray(system.ensemble(before, time=10 * STEP, step=STEP))).max() < 1e-3
+    # S is Δt·H to first order.
+    momenta = [sympy.Symbol(name) for name in model.coordinates]
+    terms = sympy.Poly(model.generating_function, *momenta).as_dict()
+    assert abs(terms[2, 0, 0, 0] - STEP / 2) < 1e-3 and "*mu[0]^2" in model.generating_text
+    model.save(tmp_path / "model.json")
+    assert pickle.loads(pickle.dumps(ca.Model.load(tmp_path / "model.json"))).step(before[3], steps=10)[0].tolist() == mu.tolist()
+    for wrong, message in [
+        (lambda: model.ensemble(before, time=0.25), "whole number"),
+        (lambda: model.ensemble(np.hstack([before, before]), time=1), "momenta alone"),
+        (lambda: model.step(before[3], np.eye(4)), "momenta alone"),
+        (lambda: ca.learn(before, after, step=STEP, group="oscillator"), "oscillator"),
+        (lambda: ca.learn(before, after, step=STEP, group={"basis": 3}), "basis"),
+        (lambda: ca.learn(before, after, step=STEP, group=3), "group"),
+    ]:
+        with pytest.raises(InputError, match=message):
+            wrong()
+
+
+def test_only_polynomials_are_programs(body: ca.System) -> None:
+    before, after, g, g_next = pairs(body, 40, 6)
+    process = ca.learn(before, after, attitudes=(g, g_next), step=STEP, model="gp")
+    for use in [lambda: process.step(before[0]), lambda: process.ensemble(before, time=1), lambda: process.generating_text]:
+        with pytest.raises(InputError, match="only polynomial models"):
+            use()

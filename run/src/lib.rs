@@ -16,7 +16,10 @@ use sha2::{Digest, Sha256};
 
 pub use backend::{Backend, Code, Used};
 pub use error::RunError;
-pub use load::{Accuracy, Derived, integrator, meet_tolerance, read, read_varying, read_with};
+pub use load::{
+    Accuracy, Derived, integrator, learned, meet_tolerance, read, read_group, read_varying,
+    read_with,
+};
 
 /// The SHA-256 of a text in hexadecimal digits.
 pub fn text_hash(text: &str) -> String {

@@ -10,6 +10,7 @@ use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
+use coadjoint_learn::{GroupChoice, ModelFile};
 
 use crate::engine::{Charted, Equations, Forces, Kept, defaults, product_group, whole_group};
 use crate::error::RunError;
@@ -47,6 +48,26 @@ pub fn read_varying(
         return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
     }
     Ok(read)
+}
+
+/// Reads the group of a system file alone; `name` is what mistakes call it.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_group(name: &str, text: &str) -> Result<GroupChoice, RunError> {
+    let algebra = system::read_group(text);
+    let algebra = algebra.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
+    Ok(GroupChoice::of(&algebra))
+}
+
+/// A learned polynomial as a system: steps of the model's own size are the learned map.
+///
+/// # Errors
+/// Where the model is no polynomial.
+pub fn learned(model: &ModelFile) -> Result<System, RunError> {
+    let run = Run { step: Some(model.step), ..Run::default() };
+    let (problem, units) = (coadjoint_learn::problem(model, "learned")?, system::Units::default());
+    Ok(System { problem, potential: None, run, units, parameters: Vec::new() })
 }
 
 /// Derives and lowers a problem.

@@ -14,10 +14,11 @@ use std::path::Path;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
-use coadjoint_run::Derived;
-use coadjoint_run::ensemble::{Asked, Course, Engine, How, Known, Shape, Use, in_lanes};
-
+use coadjoint_run::ensemble::{
+    Asked, Attitude, Course, Engine, How, Known, Shape, Use, in_lanes,
+};
 use coadjoint_run::simulate::Times;
+use coadjoint_run::{Derived, learned};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -29,14 +30,24 @@ use states::{Form, States};
 
 /// Reads, advances and writes.
 pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
-    let (path, initial) = (options.source.file.as_path(), options.initial.as_path());
+    let source = options.input.source(options.truncation);
+    let (path, initial) = (source.file.as_path(), options.initial.as_path());
+    let path = options.input.model.as_deref().unwrap_or(path);
     let inputs: [&Path; 2] = [path, initial];
-    let mut system = load::source(&options.source, Parameters::Substituted)?;
     let accuracy = &options.accuracy;
-    load::meet_tolerance(path, &mut system, accuracy, options.source.truncation, options.time)?;
-    let run = system.run.clone();
+    let (mut system, attitude, schedule) = match &options.input.model {
+        Some(path) => {
+            let (model, schedule) = simulate::model(path, accuracy, options.time)?;
+            (learned(&model)?, model.attitude, schedule)
+        }
+        None => {
+            let mut system = load::source(&source, Parameters::Substituted)?;
+            load::meet_tolerance(path, &mut system, accuracy, source.truncation, options.time)?;
+            let schedule = simulate::schedule(path, accuracy.step, options.time, &system.run)?;
+            (system, true, schedule)
+        }
+    };
     let known = Known::of(&system.problem, &system.parameters);
-    let schedule = simulate::schedule(path, accuracy.step, options.time, &run)?;
     let (step, steps) = (schedule.step, schedule.steps);
     let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     // Refused before the derivation, which may take long.
@@ -45,9 +56,15 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     options.threads.map_or(Ok(()), check_threads)?;
     let times = at.as_ref().map(|times| times.0.clone());
     let states = States::open(initial, form, times, Shape::of_system(&system), &known)?;
+    if !attitude && states.found.layout.attitude != Attitude::None {
+        return Err(CliError::Option(format!(
+            "{}: the model was learned from momenta alone, so it says nothing about attitudes: leave their columns out",
+            initial.display()
+        )));
+    }
     let varied = states.found.layout.varied();
     if !varied.is_empty() {
-        system = load::varying(&options.source, system.problem.truncation, &varied)?;
+        system = load::varying(&source, system.problem.truncation, &varied)?;
     }
     let derived = Derived::of_file(path, in_lanes(system))?;
     let integrator = &derived.integrator;

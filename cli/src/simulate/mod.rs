@@ -15,12 +15,12 @@ use std::path::Path;
 
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
 use coadjoint_learn::{LearnError, ModelFile};
-use coadjoint_run::simulate::{Schedule, Setup, Sink, algebra_of, run_model};
+use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
 use coadjoint_run::{Derived, text_hash};
 
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
-use crate::source::Source;
+use crate::source::{Accuracy, Source};
 use crate::{load, progress};
 use keep::{Trajectory, keep};
 use settings::{Header, Settings, every};
@@ -111,27 +111,18 @@ fn follow(
     options: &SimulateOptions,
     out: Option<Target>,
 ) -> Result<Trajectory, CliError> {
-    let missing = |option: &str| {
-        CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
-    };
-    if options.accuracy.step.is_some() || options.accuracy.tolerance.is_some() {
-        let what = "a learned model has a step of its own: leave out --step and --tolerance";
-        return Err(CliError::Option(what.to_owned()));
-    }
     if options.start.is_empty() {
-        return Err(missing("start"));
+        return Err(unsaid("start"));
     }
-    let time = options.time.ok_or_else(|| missing("time"))?;
+    let (model, schedule) = model(path, &options.accuracy, options.time)?;
     let hash = text_hash(&load::text(path)?);
-    let model = ModelFile::load(path)?;
-    let (expected, found) = (algebra_of(&model)?.dim(), options.start.len());
+    let (expected, found) = (model.group.algebra()?.dim(), options.start.len());
     if found != expected {
         return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
     }
     if let Some(bad) = options.start.iter().find(|value| !value.is_finite()) {
         return Err(CliError::Option(format!("--start: {bad} is no finite number")));
     }
-    let schedule = Schedule::of_model(model.step, time)?;
     let every = Some(every(options.every.unwrap_or(1))?);
     let setup = Setup { every, ..Setup::new(schedule, options.start.clone()) };
     let settings = Settings::new(options, (path, &hash), out, setup)?;
@@ -140,6 +131,26 @@ fn follow(
     let header = Header::of_model(&settings, &model);
     let drive = |sink: &mut dyn Sink| run_model(path, &model, &settings.setup, sink);
     keep(&settings, label, header, &coordinates, drive)
+}
+
+/// A model and its steps that end at the time T.
+pub(crate) fn model(
+    path: &Path,
+    accuracy: &Accuracy,
+    time: Option<f64>,
+) -> Result<(ModelFile, Schedule), CliError> {
+    if accuracy.step.is_some() || accuracy.tolerance.is_some() {
+        let what = "a learned model has a step of its own: leave out --step and --tolerance";
+        return Err(CliError::Option(what.to_owned()));
+    }
+    let time = time.ok_or_else(|| unsaid("time"))?;
+    let model = ModelFile::load(path)?;
+    let schedule = Schedule::of_model(model.step, time)?;
+    Ok((model, schedule))
+}
+
+fn unsaid(option: &str) -> CliError {
+    CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
 }
 
 /// The steps that end at the time T, by the options, else by the file. Where it is

@@ -162,7 +162,7 @@ impl Header {
     pub(crate) fn of_model(settings: &Settings<'_>, model: &ModelFile) -> Self {
         let own = vec![
             ("kind", json!(model.model.name())),
-            ("group", json!(model.group)),
+            ("group", json!(model.group.name())),
             ("chart", json!(model.chart)),
         ];
         Self::of(settings, ["model", "model_sha256"], own)

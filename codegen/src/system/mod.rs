@@ -100,7 +100,10 @@ pub fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, Diagnostics> {
-    read_as(text, (options, varied), assemble, |problem| Some(problem))
+    let kinds: (Assemble<_>, Polynomial<_>) = (assemble, |problem| Some(problem));
+    read_by(text, |document, diagnostics| {
+        system((document, text), (options, varied), kinds, diagnostics)
+    })
 }
 
 /// The same for a Hamiltonian that need not be a polynomial; one that is none has neither potential nor angular velocity.
@@ -112,9 +115,27 @@ pub fn read_either(
     options: Options,
     varied: &[String],
 ) -> Result<System<Hamiltonian>, Diagnostics> {
-    read_as(text, (options, varied), assemble_either, |read| match read {
+    let polynomial: Polynomial<_> = |read| match read {
         Hamiltonian::Polynomial(problem) => Some(problem),
         Hamiltonian::Smooth(_) => None,
+    };
+    let kinds: (Assemble<_>, Polynomial<_>) = (assemble_either, polynomial);
+    read_by(text, |document, diagnostics| {
+        system((document, text), (options, varied), kinds, diagnostics)
+    })
+}
+
+/// Reads the group of a system file alone, `group` or `[algebra]`; there may be no Hamiltonian.
+///
+/// # Errors
+/// As [`read`], of these parts of the file.
+pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
+    read_by(text, |document, diagnostics| {
+        let nothing = Names::default();
+        let root = Table::root(document, text, &nothing, diagnostics);
+        let parameters = parameters::Parameters::read(&root, Options::default(), &[]);
+        let root = root.with(&parameters.constants);
+        group(&root, &name(&root))
     })
 }
 
@@ -122,12 +143,11 @@ pub fn read_either(
 type Assemble<H> = fn(Draft, &Diagnostics) -> Option<H>;
 type Polynomial<H> = fn(&H) -> Option<&Problem>;
 
-fn read_as<H>(
+/// The result of reading the tables of `text`.
+fn read_by<T>(
     text: &str,
-    kept: (Options, &[String]),
-    assemble: Assemble<H>,
-    polynomial: Polynomial<H>,
-) -> Result<System<H>, Diagnostics> {
+    read: impl FnOnce(&DeTable<'_>, &Diagnostics) -> Option<T>,
+) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (document, errors) = DeTable::parse_recoverable(text);
     // After an unclosed quote the rest parses as nonsense: only the quote is reported.
@@ -144,8 +164,8 @@ fn read_as<H>(
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
-    let system = system((document.get_ref(), text), kept, (assemble, polynomial), &diagnostics);
-    diagnostics.into_result(system)
+    let result = read(document.get_ref(), &diagnostics);
+    diagnostics.into_result(result)
 }
 
 fn system<H>(
@@ -171,8 +191,7 @@ fn system<H>(
         "initial",
         "run",
     ]);
-    let name = root.string("name", "name = \"rigid-body\"");
-    let name = name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned());
+    let name = name(&root);
     let algebra = group(&root, &name);
     let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
     let hamiltonian = energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters);
@@ -212,6 +231,12 @@ fn system<H>(
     let potential =
         potential.map(|potential| (potential, splitting::choose(splitting, known, diagnostics)));
     Some(System { problem, potential, run, units, parameters: parameters.all() })
+}
+
+/// The name of the system.
+fn name(root: &Table<'_>) -> String {
+    let name = root.string("name", "name = \"rigid-body\"");
+    name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned())
 }
 
 /// The Lie algebra: `group = "…"` or the table `[algebra]`.

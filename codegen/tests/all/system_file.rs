@@ -164,3 +164,13 @@ fn mistakes() {
     }
     insta::assert_snapshot!(text);
 }
+
+#[test]
+fn a_group_is_read_without_a_hamiltonian() {
+    let text = "[algebra]\ngenerators = [\"a\", \"b\"]\nbrackets = [\"[a, b] = s*b\"]\n[parameters]\ns = 2\n";
+    assert_eq!(system::read_group(text).unwrap().structure().len(), 2);
+    assert_eq!(system::read_group("group = \"SU2\"\nhamiltonian = 3\n").unwrap().name(), "SU2");
+    let said =
+        system::read_group("group = \"S03\"\n").unwrap_err().render("f.toml", "group = \"S03\"\n");
+    assert!(said.starts_with("f.toml:1:9: error"), "{said}");
+}

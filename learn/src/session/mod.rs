@@ -120,8 +120,8 @@ impl Visitor for Learner<'_> {
             unused: recording.unused,
         };
         let training = TrainingRecord { train: Some(train), ..record };
-        let (name, chart) = (&request.group, &request.chart);
-        let file = ModelFile::new(name, chart, request.step, true, model, training);
+        let (group, chart) = (request.group.clone(), &request.chart);
+        let file = ModelFile::new(group, chart, request.step, true, model, training);
         Ok((file, summary))
     }
 }

@@ -135,8 +135,8 @@ pub(super) fn learn<G: DataGroup, C: Chart<G>>(
         history,
         train: Some(train),
     };
-    let (name, chart) = (&request.group, &request.chart);
-    let file = ModelFile::new(name, chart, request.step, false, model, training);
+    let (group, chart) = (request.group.clone(), &request.chart);
+    let file = ModelFile::new(group, chart, request.step, false, model, training);
     Ok((file, summary))
 }
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::data::{RowPolicy, Tolerances};
 use crate::error::BadRow;
 use crate::evaluate::{Drifts, Figures};
+use crate::group_choice::GroupChoice;
 use crate::model::Model;
 use crate::network::TrainingOptions;
 
@@ -41,8 +42,8 @@ impl Kind {
 /// A request: the model to fit to some data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// The group's name in the catalogue.
-    pub group: String,
+    /// The group.
+    pub group: GroupChoice,
     /// The chart's name: `exp` or `cayley`.
     pub chart: String,
     /// The time Δt between the two states of a pair.

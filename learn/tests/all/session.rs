@@ -7,7 +7,7 @@ use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
 use coadjoint_learn::exact_polynomial;
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
-use coadjoint_learn::{DataGroup, Generating, LearnError, MomentumFunction, evaluate};
+use coadjoint_learn::{DataGroup, Generating, GroupChoice, LearnError, MomentumFunction, evaluate};
 
 /// Learns a free body on any group of the catalogue and gives the test error of μ″.
 struct Learn;
@@ -38,13 +38,13 @@ fn any_group_of_the_catalogue_in_either_chart() {
     for (group, chart) in
         [("SO3", "cayley"), ("SE3", "exp"), ("SE3", "cayley"), ("SO4", "exp"), ("SL2", "exp")]
     {
-        let mse = visit(group, chart, Learn).unwrap();
+        let mse = visit(&group.into(), chart, Learn).unwrap();
         // Degree 3; the worst, SL2 with its structure constants 2, measures 2.3e-8.
         assert!(mse < 1e-7, "{group} {chart}: {mse:e}");
     }
-    assert!(matches!(visit("SU3", "cayley", Learn), Err(LearnError::NoChart { .. })));
-    assert!(matches!(visit("SO3", "polar", Learn), Err(LearnError::NoChart { .. })));
-    assert!(matches!(visit("XY9", "exp", Learn), Err(LearnError::UnknownGroup { .. })));
+    assert!(matches!(visit(&"SU3".into(), "cayley", Learn), Err(LearnError::NoChart { .. })));
+    assert!(matches!(visit(&"SO3".into(), "polar", Learn), Err(LearnError::NoChart { .. })));
+    assert!(matches!(visit(&"XY9".into(), "exp", Learn), Err(LearnError::UnknownGroup { .. })));
     // The compiled and the run-time exponential are the same chart.
     assert_eq!(<Exponential as Chart<coadjoint::SO3>>::NAME, "exp");
 }
@@ -58,5 +58,32 @@ fn the_exact_monomial_form_is_the_model() {
     let exact = exact_polynomial(&model).unwrap();
     for p in [[0.1, 0.2, 0.3], [-1.0, 0.8, 1.4]] {
         assert!((exact.evaluate(&p) - model.value(&p)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn groups_of_model_files_are_names_or_algebras() {
+    use coadjoint_codegen::system::read_group;
+    let by_brackets = "[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\n\
+                       brackets = [\"[a, b] = -1/3*c\", \"[b, c] = a\", \"[c, a] = b\"]\n";
+    let by_basis =
+        "[algebra]\nname = \"affine\"\nbasis = [[[1, 0], [0, 0]], [[0, \"1/2\"], [0, 0]]]\n";
+    for text in ["group = \"SO3\"\n", by_brackets, by_basis] {
+        let algebra = read_group(text).unwrap();
+        let group = GroupChoice::of(&algebra);
+        let json = serde_json::to_string(&group).unwrap();
+        let read: GroupChoice = serde_json::from_str(&json).unwrap();
+        assert_eq!((&read, read.algebra().unwrap()), (&group, algebra), "{json}");
+        assert_eq!(matches!(group, GroupChoice::Named(_)), text.contains("SO3"));
+    }
+    for wrong in [
+        r#"{"name": "SO3", "generators": ["a", "b"], "brackets": [[0, 1, [[0, "1"]]]]}"#,
+        r#"{"name": "x", "generators": ["a", "b"], "brackets": [[0, 7, [[0, "1"]]]]}"#,
+        r#"{"name": "x", "generators": ["a", "b"], "brackets": [[0, 1, [[0, "1/0"]]]]}"#,
+        r#"{"name": "x", "generators": ["a"], "brackets": [], "basis": [[["1", "2"]]]}"#,
+        r#"{"name": "x", "generators": [], "brackets": []}"#,
+    ] {
+        let read: GroupChoice = serde_json::from_str(wrong).unwrap();
+        assert!(matches!(read.algebra(), Err(LearnError::UnknownGroup { .. })), "{wrong}");
     }
 }

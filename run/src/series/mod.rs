@@ -14,7 +14,7 @@ use crate::error::RunError;
 
 pub use json::series as json;
 pub use latex::{polynomial as latex_polynomial, series as latex};
-pub use text::{polynomial, series as text, sum};
+pub use text::{learned, polynomial, series as text, sum};
 
 /// A system with its series.
 pub struct Series {

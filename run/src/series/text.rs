@@ -5,8 +5,13 @@ use std::fmt::Write;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::problem::{Problem, Symbol};
 
+use coadjoint_learn::ModelFile;
+use num_traits::ToPrimitive;
+
 use super::Series;
 use super::terms::{joined, terms};
+use crate::error::RunError;
+use crate::number::shortest;
 
 /// A head, then one polynomial per order.
 pub fn series(derived: &Series) -> String {
@@ -33,6 +38,22 @@ pub fn series(derived: &Series) -> String {
 /// A polynomial in the notation of system files.
 pub fn polynomial(problem: &Problem, polynomial: &Polynomial) -> String {
     sum(polynomial, &problem.coordinates, &problem.symbols)
+}
+
+/// S of a learned polynomial in the notation of system files, its coefficients as decimals.
+///
+/// # Errors
+/// Where the model is no polynomial.
+pub fn learned(model: &ModelFile) -> Result<String, RunError> {
+    let hamiltonian = coadjoint_learn::problem(model, "learned")?.hamiltonian;
+    Ok(joined(hamiltonian.terms().map(|(exponents, value)| {
+        let value = value.to_f64().unwrap_or(f64::NAN) * model.step;
+        let mut factors = vec![shortest(value.abs())];
+        for (i, power) in exponents.into_iter().enumerate().filter(|(_, power)| *power > 0) {
+            factors.push(if power == 1 { format!("mu[{i}]") } else { format!("mu[{i}]^{power}") });
+        }
+        (value < 0.0, factors.join("*"))
+    })))
 }
 
 /// A polynomial in variables with these names, and the symbols after them.

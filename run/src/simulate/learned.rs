@@ -6,7 +6,7 @@ use std::sync::Arc;
 use coadjoint::StepError;
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::steps::advance;
-use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
+use coadjoint_codegen::lie;
 use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 
@@ -20,17 +20,6 @@ use crate::engine::{
 };
 use crate::error::RunError;
 
-/// The algebra of a model.
-///
-/// # Errors
-/// Where its group is not in the catalogue.
-pub fn algebra_of(model: &ModelFile) -> Result<LieAlgebra, RunError> {
-    catalogue::lookup(&model.group).map_err(|error| {
-        let (name, reason) = (model.group.clone(), error.to_string());
-        LearnError::UnknownGroup { name, reason }.into()
-    })
-}
-
 /// Follows a learned map, which is called `file` in messages and has its own step: the setup's schedule is that of
 /// [`Schedule::of_model`](super::Schedule::of_model).
 ///
@@ -42,7 +31,7 @@ pub fn run_model(
     setup: &Setup,
     sink: &mut dyn Sink,
 ) -> Result<Outcome, RunError> {
-    let algebra = algebra_of(model)?;
+    let algebra = model.group.algebra()?;
     let (expected, found) = (algebra.dim(), setup.momentum.len());
     if found != expected {
         return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());

@@ -17,7 +17,7 @@ pub use blocks::{Block, Kind, matrix, split};
 pub use estimate::LARGE;
 pub(crate) use estimate::estimate;
 pub use event::{Crossing, Direction, Event, Function};
-pub use learned::{algebra_of, run_model};
+pub use learned::run_model;
 pub use recorder::{Drift, Outcome, Recorder, Scales, Watched};
 pub use run::run;
 pub use setup::{Schedule, Setup, Stop, Times};
