@@ -188,10 +188,12 @@ pub(crate) struct EnsembleOptions {
     pub time: Option<f64>,
     /// Write the states at these times, as simulate's --at has them, in place of those at the end: in .npy an array of rows,
     /// times and columns, in .parquet a line for each row and time
-    #[arg(long, value_name = "TIMES", allow_hyphen_values = true, conflicts_with = "device")]
+    #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["device", "model"])]
     pub at: Option<String>,
     /// Estimate the error at the end of n rows, evenly spread, as simulate does for its run
     #[arg(long, value_name = "n", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(conflicts_with = "model")]
     pub estimate: Option<u64>,
     /// Only share i of n of the rows, i from 1 to n: for job arrays
     #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]

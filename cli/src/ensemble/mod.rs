@@ -14,9 +14,7 @@ use std::path::Path;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
-use coadjoint_run::ensemble::{
-    Asked, Attitude, Course, Engine, How, Known, Shape, Use, in_lanes,
-};
+use coadjoint_run::ensemble::{Asked, Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
 use coadjoint_run::simulate::Times;
 use coadjoint_run::{Derived, learned};
 

@@ -221,6 +221,8 @@ fn maps_are_learned_on_the_algebra_of_a_system_file() {
             "ensemble --model model.json --initial before.csv --time 0.25 --out a.csv",
             "whole number",
         ),
+        (&format!("ensemble --model model.json {all} a.csv --estimate 3"), "--estimate"),
+        (&format!("ensemble --model model.json {all} a.csv --at 0.55,1"), "--at"),
         ("derive --model model.json --format json", "--format"),
     ]);
 }
