@@ -5,7 +5,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
 use coadjoint_codegen::problem::{Parameter, Problem};
-use coadjoint_codegen::step::{Invariants, Step};
+use coadjoint_codegen::step::{Energy, Invariants, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
 use crate::fields::Fields;
@@ -116,7 +116,8 @@ impl System {
         let slots = step.fold(h, &[]).map_err(|error| refused(&error))?;
         let algebra = &integrator.problem.algebra;
         let invariants = Invariants::new(&integrator.problem, None);
-        let energy = invariants.hamiltonian.clone().unwrap_or_default();
+        let energy = invariants.hamiltonian.as_ref().and_then(Energy::polynomial);
+        let energy = energy.cloned().unwrap_or_default();
         let casimirs = lie::watched_casimirs(algebra);
         let factors = factors(algebra);
         let rival = Rival::new(algebra, &energy);

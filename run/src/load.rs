@@ -7,6 +7,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
@@ -21,6 +22,19 @@ use crate::error::RunError;
 /// All mistakes, rendered.
 pub fn read(name: &str, text: &str) -> Result<System, RunError> {
     read_with(name, text, Options::default())
+}
+
+/// Reads the text of a system file whose Hamiltonian need not be a polynomial.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_either(
+    name: &str,
+    text: &str,
+    options: Options,
+) -> Result<System<Hamiltonian>, RunError> {
+    let read = system::read_either(text, options, &[]);
+    read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
 }
 
 /// Reads the text of a system file.

@@ -80,3 +80,14 @@ pub enum Hamiltonian {
     /// A smooth function, whose steps are made by collocation.
     Smooth(Box<Smooth>),
 }
+
+impl Hamiltonian {
+    /// The truncation K asked for.
+    #[must_use]
+    pub fn truncation(&self) -> usize {
+        match self {
+            Self::Polynomial(problem) => problem.truncation,
+            Self::Smooth(smooth) => smooth.truncation,
+        }
+    }
+}

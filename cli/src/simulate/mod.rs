@@ -13,10 +13,11 @@ mod target;
 
 use std::path::Path;
 
+use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::system::{Parameters, Run, System, Units};
 use coadjoint_learn::{LearnError, ModelFile};
-use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
-use coadjoint_run::{Derived, text_hash};
+use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model, run_smooth};
+use coadjoint_run::{Backend, Derived, text_hash};
 
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
@@ -59,9 +60,9 @@ fn runs(
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
         let options = source.options(Parameters::Substituted);
-        coadjoint_run::read_with(&path.display().to_string(), &text, options)
+        coadjoint_run::read_either(&path.display().to_string(), &text, options)
     };
-    let systems: Vec<System> = if options.truncation.is_empty() {
+    let systems: Vec<System<Hamiltonian>> = if options.truncation.is_empty() {
         vec![read(None)?]
     } else {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
@@ -69,13 +70,22 @@ fn runs(
     let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
     let units = systems[0].units.clone();
-    for (mut system, out) in systems.into_iter().zip(outs) {
+    for (system, out) in systems.into_iter().zip(outs) {
+        let System { problem, potential, run, units, parameters } = system;
+        let problem = match problem {
+            Hamiltonian::Polynomial(problem) => *problem,
+            Hamiltonian::Smooth(smooth) => {
+                runs.push(collocated(options, (path, &hash), out, &smooth, &run)?);
+                continue;
+            }
+        };
+        let mut system = System { problem, potential, run, units, parameters };
         let truncation = system.problem.truncation;
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
         drop(phase);
-        let setup = settings::setup(options, path, &system)?;
+        let setup = settings::setup(options, path, &system.run)?;
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();
@@ -99,10 +109,48 @@ fn runs(
         }
     }
     // The rival, if any, comes last.
-    if options.compare.is_some() {
+    if options.compare.is_some() && !runs.is_empty() {
         runs.rotate_left(1);
     }
     Ok((runs, units))
+}
+
+/// Runs a system whose Hamiltonian is no polynomial.
+fn collocated(
+    options: &SimulateOptions,
+    (path, hash): (&Path, &str),
+    out: Option<Target>,
+    smooth: &Smooth,
+    run: &Run,
+) -> Result<Trajectory, CliError> {
+    let by_tolerance = options.accuracy.tolerance.is_some()
+        || options.accuracy.step.or(run.step).is_none() && run.tolerance.is_some();
+    for (asked, option, advice) in [
+        (by_tolerance, "a tolerance", "give --step"),
+        (options.compare.is_some(), "--compare", "leave it out"),
+        (options.checkpoint.is_some(), "--checkpoint", "leave it out"),
+        (
+            !matches!(options.backend, Backend::Auto | Backend::Interpreter),
+            "a compiled --backend",
+            "leave it out",
+        ),
+    ] {
+        if asked {
+            return Err(CliError::Option(format!(
+                "{option} is for polynomials: the Hamiltonian of {} is none, and runs by collocation; {advice}",
+                path.display()
+            )));
+        }
+    }
+    let setup = settings::setup(options, path, run)?;
+    let settings = Settings::new(options, (path, hash), out, setup)?;
+    if let Some(line) = settings.setup.schedule.announcement() {
+        eprintln!("{line}");
+    }
+    let label = format!("collocation, {} nodes", smooth.nodes());
+    let header = Header::of_smooth(&settings, smooth);
+    let drive = |sink: &mut dyn Sink| run_smooth(path, smooth, &settings.setup, sink);
+    keep(&settings, label, header, &smooth.coordinates, drive)
 }
 
 /// Follows a learned map, which has its own step.
@@ -169,11 +217,14 @@ pub(crate) fn schedule(
 }
 
 /// Where the records of each system go. Several truncations go to a file each; the names are announced.
-fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>, CliError> {
+fn outs(
+    out: Option<&Target>,
+    systems: &[System<Hamiltonian>],
+) -> Result<Vec<Option<Target>>, CliError> {
     let (Some(out), true) = (out, systems.len() > 1) else {
         return Ok(vec![out.cloned(); systems.len()]);
     };
-    let numbered = systems.iter().map(|system| out.numbered(system.problem.truncation));
+    let numbered = systems.iter().map(|system| out.numbered(system.problem.truncation()));
     let targets: Vec<Target> = numbered.collect::<Result<_, _>>()?;
     let names: Vec<String> = targets.iter().map(|t| t.path.display().to_string()).collect();
     eprintln!("--out: a file for each truncation, {}", names.join(", "));

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use coadjoint::{LieGroup, groups::DirectProduct, groups::MatrixGroup};
 use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::step::Energy;
 use coadjoint_run::engine::{Elements, Numbers, Restore, Torque};
 use coadjoint_run::simulate::{Moment, Recorder};
 use coadjoint_run::{Derived, RunError};
@@ -39,7 +40,7 @@ pub(crate) fn rk45(
     let torque = system.forces.as_ref().map(|forces| Torque::new(&forces.kick, group.clone()));
     let torque = torque.transpose().map_err(|source| RunError::Step { time: 0.0, source })?;
     let (n, size) = (problem.algebra.dim(), group.matrix_size());
-    let hamiltonian = system.invariants.hamiltonian.as_ref();
+    let hamiltonian = system.invariants.hamiltonian.as_ref().and_then(Energy::polynomial);
     let gradient: Vec<Numeric> = hamiltonian.map(|h| h.gradient(n)).unwrap_or_default();
     let space = Elements { group: Arc::new(group.clone()), compiled: None };
     let start = setup.start(&system.file, &space)?;

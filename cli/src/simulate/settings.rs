@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use coadjoint_codegen::file;
 use coadjoint_codegen::problem::{Problem, Solver};
-use coadjoint_codegen::system::{Splitting, System};
+use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::system::{Run, Splitting};
 use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::RunError;
@@ -58,12 +59,7 @@ impl<'a> Settings<'a> {
 }
 
 /// The run of a system, by the options, else by the file.
-pub(crate) fn setup(
-    options: &SimulateOptions,
-    file: &Path,
-    system: &System,
-) -> Result<Setup, CliError> {
-    let run = &system.run;
+pub(crate) fn setup(options: &SimulateOptions, file: &Path, run: &Run) -> Result<Setup, CliError> {
     let schedule = Schedule::new(file, options.accuracy.step, options.time, run)?;
     let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
         file: file.into(),
@@ -155,6 +151,18 @@ impl Header {
             ("solver", json!(solver)),
         ];
         own.extend(splitting.map(|splitting| ("splitting", json!(splitting.name()))));
+        Self::of(settings, ["system", "system_sha256"], own)
+    }
+
+    /// The description of a run by collocation.
+    pub(crate) fn of_smooth(settings: &Settings<'_>, smooth: &Smooth) -> Self {
+        let own = vec![
+            ("name", json!(smooth.name)),
+            ("group", json!(smooth.algebra.name())),
+            ("truncation", json!(smooth.truncation)),
+            ("method", json!("collocation")),
+            ("nodes", json!(smooth.nodes())),
+        ];
         Self::of(settings, ["system", "system_sha256"], own)
     }
 

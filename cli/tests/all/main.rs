@@ -20,6 +20,7 @@ mod resume;
 mod simulate;
 mod simulate_records;
 mod size;
+mod smooth;
 mod support;
 mod tolerance;
 mod verify;

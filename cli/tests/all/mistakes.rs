@@ -22,7 +22,7 @@ fn mistakes_are_reported_with_file_and_line() {
             .replace("x^2 + y^2/2", "x^2 + sin(y) + w")
             .replace("step = 0.1", "step = 0.1\ntrucnation = 7"),
     );
-    for verb in ["derive", "emit", "simulate", "check", "casimirs"] {
+    for verb in ["derive", "emit", "check", "casimirs"] {
         let ran = folder.run(&format!("{verb} system.toml")).fails(
             2,
             &[

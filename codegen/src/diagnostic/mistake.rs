@@ -199,8 +199,8 @@ impl Mistake {
     /// A correction, where there is more to say than the message does.
     pub(crate) fn help(&self) -> Option<String> {
         if self.is_of_series() {
-            let text = "a Hamiltonian that is no polynomial has no series, and needs steps by collocation: the attribute \
-                        lie_poisson of the Rust crate coadjoint has them";
+            let text = "a Hamiltonian that is no polynomial has no series, and needs steps by collocation: `coadjoint simulate` \
+                        and the attribute lie_poisson of the Rust crate coadjoint have them";
             return Some(text.to_owned());
         }
         self.correction()

@@ -2,12 +2,17 @@
 
 use coadjoint::StepError;
 
+use super::recorder::Outcome;
+use super::sink::Sink;
+use super::tally::Warning;
 use crate::engine::{Motion, Numbers};
 
 /// The most steps that an estimate takes: 3 % of a run of ten thousand.
 const MOST: u64 = 288;
 /// Parts of a run that is too long to be gone along as a whole, at whose ends states are compared.
 const PARTS: u64 = 16;
+/// Why a run that an event has ended has no estimate.
+pub(crate) const ENDED: &str = "not known: an event ended the run";
 /// Growth that is faster than linear is believed up to this factor: a short beginning may show it by chance.
 const FASTER: f64 = 10.0;
 /// An error above this is worth a warning.
@@ -48,6 +53,20 @@ pub(crate) fn estimate<'a>(
         }
     }
     Err("not known: steps of twice and of half the size are refused")
+}
+
+impl Outcome {
+    /// Takes note of an estimate, with a warning where it is large.
+    pub(crate) fn estimated(&mut self, found: Result<f64, &'static str>, sink: &mut dyn Sink) {
+        self.estimated_error = found;
+        if let Ok(error) = found
+            && error > LARGE
+        {
+            let warning = Warning::Inaccurate { error };
+            sink.warn(&warning.text());
+            self.warnings.push(warning);
+        }
+    }
 }
 
 /// A run and one beside it.
@@ -99,7 +118,7 @@ impl Beside<'_> {
         }
     }
 
-    /// The error of a state after so many steps of the run, by the one beside it.
+    /// The error of a state after this many steps of the run, by the one beside it.
     fn error(&self, here: &Numbers, beside: &Numbers, steps: u64) -> f64 {
         let space = self.motion.space();
         let attitudes = [space.matrix(&here.g), space.matrix(&beside.g)];

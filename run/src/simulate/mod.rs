@@ -11,6 +11,7 @@ mod run;
 mod setup;
 mod single;
 mod sink;
+mod smooth;
 mod tally;
 
 pub use blocks::{Block, Kind, matrix, split};
@@ -23,4 +24,5 @@ pub use run::run;
 pub use setup::{Schedule, Setup, Stop, Times};
 pub use single::Single;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
+pub use smooth::run_smooth;
 pub use tally::{DriftFields, Moment, Solver, Steep, Tally, Warning};

@@ -2,12 +2,11 @@
 
 use coadjoint_program::Trajectories;
 
-use super::estimate::{LARGE, estimate};
+use super::estimate::{ENDED, estimate};
 use super::march::Subject;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
-use super::tally::Warning;
 use crate::engine::Compiled;
 use crate::error::RunError;
 use crate::load::Derived;
@@ -34,17 +33,11 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (mut outcome, end) = made?;
     let other = |size| group.anew(system.equations(), step * size, compiled.as_ref());
     let order = system.order();
-    outcome.estimated_error = match outcome.time == schedule.end {
+    let found = match outcome.time == schedule.end {
         true => estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order),
-        false => Err("not known: an event ended the run"),
+        false => Err(ENDED),
     };
-    if let Ok(error) = outcome.estimated_error
-        && error > LARGE
-    {
-        let warning = Warning::Inaccurate { error };
-        sink.warn(&warning.text());
-        outcome.warnings.push(warning);
-    }
+    outcome.estimated(found, sink);
     outcome.backend = code.map(|code| code.used());
     Ok(outcome)
 }

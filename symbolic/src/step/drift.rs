@@ -6,6 +6,7 @@ use crate::lie::{LieAlgebra, watched_casimirs};
 use crate::poly::Numeric;
 use crate::potential::Potential;
 use crate::problem::{Problem, values};
+use crate::smooth::Smooth;
 
 /// The largest differences from the start, each relative to its [scale](Scales). `None` where a quantity is not known, is
 /// not conserved, or cannot be measured: an unknown drift is never 0.
@@ -45,6 +46,44 @@ impl Drift {
     }
 }
 
+/// An energy as a function of the momentum.
+#[derive(Clone, Debug)]
+pub enum Energy {
+    /// A polynomial.
+    Polynomial(Numeric),
+    /// A smooth function, and the values of its symbols.
+    Smooth(Box<Smooth>, Vec<f64>),
+}
+
+impl Energy {
+    /// The value at μ; at time 0 where it moves in time.
+    #[must_use]
+    pub fn value(&self, mu: &[f64]) -> f64 {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.value(mu),
+            Self::Smooth(smooth, symbols) => smooth.energy(symbols, 0.0, mu),
+        }
+    }
+
+    /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
+    #[must_use]
+    pub fn magnitude(&self, mu: &[f64]) -> f64 {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.magnitude(mu),
+            Self::Smooth(..) => self.value(mu).abs(),
+        }
+    }
+
+    /// The polynomial, where it is one.
+    #[must_use]
+    pub fn polynomial(&self) -> Option<&Numeric> {
+        match self {
+            Self::Polynomial(polynomial) => Some(polynomial),
+            Self::Smooth(..) => None,
+        }
+    }
+}
+
 /// The quantities that a motion conserves, as functions of its states.
 #[derive(Clone, Debug, Default)]
 pub struct Invariants {
@@ -53,7 +92,7 @@ pub struct Invariants {
     /// The Casimirs of low degree that are conserved.
     pub casimirs: Vec<Numeric>,
     /// H_red(μ), where an energy is known.
-    pub hamiltonian: Option<Numeric>,
+    pub hamiltonian: Option<Energy>,
     /// V(g), as a function of the entries of the matrix of g.
     pub potential: Option<Numeric>,
 }
@@ -67,11 +106,19 @@ impl Invariants {
         Self { casimirs: casimirs.collect(), ..Self::default() }
     }
 
+    /// Of the motion in this smooth system, whose symbols have these values.
+    #[must_use]
+    pub fn of_smooth(smooth: &Smooth, symbols: Vec<f64>) -> Self {
+        let energy = Energy::Smooth(Box::new(smooth.clone()), symbols);
+        Self { hamiltonian: Some(energy), ..Self::of(&smooth.algebra) }
+    }
+
     /// Of the motion in this problem, with the kicks of a potential if there is one.
     #[must_use]
     pub fn new(problem: &Problem, potential: Option<&Potential>) -> Self {
         let dim = problem.algebra.dim();
         let hamiltonian = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+        let hamiltonian = Energy::Polynomial(hamiltonian);
         let Some(potential) = potential else {
             return Self { hamiltonian: Some(hamiltonian), ..Self::of(&problem.algebra) };
         };
@@ -109,14 +156,15 @@ impl Invariants {
                 Some(directions) => directions.iter().map(along).collect(),
             },
             casimirs: self.casimirs.iter().map(|casimir| casimir.value(mu)).collect(),
-            energy: self.energy(mu, matrix, Numeric::value),
+            energy: self.energy(mu, matrix, Energy::value, Numeric::value),
         }
     }
 
     /// The start of a run from that state.
     pub fn start(&self, mu: &[f64], spatial: &[f64], matrix: impl Fn() -> Vec<f64>) -> Start {
         let conserved = self.conserved(mu, spatial, &matrix);
-        let magnitude = self.energy(mu, matrix, Numeric::magnitude).unwrap_or(0.0);
+        let magnitude = self.energy(mu, matrix, Energy::magnitude, Numeric::magnitude);
+        let magnitude = magnitude.unwrap_or(0.0);
         let casimirs = self.casimirs.iter();
         let scales = Scales {
             spatial_momentum: spatial.iter().fold(0.0, |size, j| maximum(size, j.abs())),
@@ -130,9 +178,10 @@ impl Invariants {
         &self,
         mu: &[f64],
         matrix: impl Fn() -> Vec<f64>,
-        of: impl Fn(&Numeric, &[f64]) -> f64,
+        of_kinetic: fn(&Energy, &[f64]) -> f64,
+        of: fn(&Numeric, &[f64]) -> f64,
     ) -> Option<f64> {
-        let kinetic = of(self.hamiltonian.as_ref()?, mu);
+        let kinetic = of_kinetic(self.hamiltonian.as_ref()?, mu);
         Some(self.potential.as_ref().map_or(kinetic, |v| kinetic + of(v, &matrix())))
     }
 }

@@ -31,7 +31,7 @@ use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::splitting::Splitting;
-pub use drift::{Conserved, Drift, Invariants, Scales, Start, nudge};
+pub use drift::{Conserved, Drift, Energy, Invariants, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
 use motion::Motion;
 use part::Part;
