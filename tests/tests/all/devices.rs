@@ -108,13 +108,18 @@ fn missing(what: &str) {
 /// The kernel on the first device of OpenCL; `None` where there is none.
 fn card(ready: &Ready) -> Option<Card> {
     let device = Device { api: Api::OpenCl, number: 0 };
-    match Card::new(device, ready.kernel(), &ready.slots) {
+    opened(Card::new(device, ready.kernel(), &ready.slots), &ready.name)
+}
+
+/// The kernel of this name on a device; `None` where there is no device.
+fn opened(card: Result<Card, DeviceError>, name: &str) -> Option<Card> {
+    match card {
         Ok(card) => Some(card),
         Err(error @ (DeviceError::NoLibrary { .. } | DeviceError::NoDevice { .. })) => {
             missing(&error.to_string());
             None
         }
-        Err(error) => panic!("{}: {error}", ready.name),
+        Err(error) => panic!("{name}: {error}"),
     }
 }
 
@@ -233,10 +238,7 @@ fn functions() -> Kernel {
 fn functions_on_a_device_have_the_bits_of_the_interpreter() {
     let kernel = functions();
     let device = Device { api: Api::OpenCl, number: 0 };
-    let mut card = match Card::new(device, &kernel, &[]) {
-        Ok(card) => card,
-        Err(error) => return missing(&error.to_string()),
-    };
+    let Some(mut card) = opened(Card::new(device, &kernel, &[]), "functions") else { return };
     let row = |r: usize| {
         let size = 2_f64.powi(r as i32 % 40 - 20);
         Row { g: vec![0.0; 9], mu: momentum(1, size, r), made: 0, ended: false }
