@@ -25,7 +25,7 @@ class Core:
         every: int | None,
         at: NDArray[np.float64] | None,
         events: list[tuple[str, Callable[..., float], int, bool]],
-        looks: int,
+        looks: int | None,
         backend: str,
         record: bool,
         progress: _Progress | None,

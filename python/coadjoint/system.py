@@ -248,7 +248,7 @@ class System:
         every: int | None = None,
         at: Numbers | None = None,
         events: EventFunction | Sequence[EventFunction] = (),
-        looks: int = 1,
+        looks: int | None = None,
         tuned: None = None,
         fitted: None = None,
         backend: Backend = "auto",
@@ -269,7 +269,8 @@ class System:
         ``events`` are functions of (t, g, μ), as SciPy's ``solve_ivp`` has them: :attr:`Run.events` gives the moments at
         which one changes its sign; an attribute ``direction`` above or below 0 keeps only changes upwards or downwards, an
         attribute ``terminal = True`` ends the run there. A function is called after every step, and at the ends of
-        ``looks`` equal parts of it: two changes within one part are not seen.
+        ``looks`` equal parts of it (1, or what the system says): two changes within one part are not seen. The events of
+        the system's own text come first.
 
         Raises :class:`InputError` for what makes no sense and :class:`RunError` where the run stops.
 
@@ -292,7 +293,8 @@ class System:
         start, element = self._state(momentum, group_element)
         times = self._times(at)
         watched = _events(events)
-        if (parts := _arrays.count(looks, "looks", 1)) > 1000:
+        parts = None if looks is None else _arrays.count(looks, "looks", 1)
+        if parts is not None and parts > 1000:
             raise InputError(f"looks={looks}: a step is cut into 1000 parts at most; take a smaller step")
         with listener(progress, "integrating") as told:
             found = self._core.simulate(
@@ -309,7 +311,7 @@ class System:
             )
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
-        return Run(found | {"watched": len(watched)}, self)
+        return Run(found, self)
 
     def _times(self, at: Numbers | None) -> Floats | None:
         """The times of ``at``, which must be in order."""

@@ -13,7 +13,7 @@ use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
     self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch, matrix_size,
 };
-use coadjoint_run::simulate::{Schedule, Setup, Single, Times, run};
+use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
     Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying, series, verify,
 };
@@ -66,7 +66,7 @@ fn derive(
     if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
         return Ok(found);
     }
-    let system = if key.1.is_some() { ensemble::in_lanes(system) } else { system };
+    let system = if key.1.is_some() { ensemble::in_lanes(system)? } else { system };
     let made = Arc::new(Derived::of_file(Path::new(name), system)?);
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
     if known(&list).is_none() {
@@ -163,7 +163,7 @@ impl Core {
         every: Option<u64>,
         at: Option<PyReadonlyArray1<'py, f64>>,
         events: Vec<Watched>,
-        looks: u32,
+        looks: Option<u32>,
         backend: &str,
         record: bool,
         progress: Option<Bound<'py, PyAny>>,
@@ -197,7 +197,11 @@ impl Core {
             ..self.system.clone()
         };
         let size = self.shape().matrix_size;
-        let events = events.into_iter().map(|watched| watched.event(size)).collect();
+        let own = given.events.iter().cloned().map(Event::of);
+        let events: Vec<Event> =
+            own.chain(events.into_iter().map(|watched| watched.event(size))).collect();
+        let looked_for = events.len();
+        let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
         let here = Self { system, ..self.here() };
         // Derived integrators stay for the next run.
         let cache = self.derived.clone();
@@ -234,6 +238,7 @@ impl Core {
         let (table, outcome, schedule, truncation, choice, label) =
             result.map_err(|error: RunError| raised(py, &error))?;
         let found = result_of(py, table, &outcome, &schedule)?;
+        found.set_item("watched", looked_for)?;
         found.set_item("truncation", truncation)?;
         found.set_item("choice", choice.map(|choice| choice.to_string()))?;
         found.set_item("label", label)?;

@@ -64,7 +64,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     if !varied.is_empty() {
         system = load::varying(&source, system.problem.truncation, &varied)?;
     }
-    let derived = Derived::of_file(path, in_lanes(system))?;
+    let derived = Derived::of_file(path, in_lanes(system)?)?;
     let integrator = &derived.integrator;
     let precision = options.precision;
     let device = options.device.map(|device| Asked { device, precision });

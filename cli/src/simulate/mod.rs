@@ -57,6 +57,7 @@ fn runs(
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = load::text(path)?;
     let hash = text_hash(&text);
+    let text = settings::with_end(text, options)?;
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
         let options = source.options(Parameters::Substituted);

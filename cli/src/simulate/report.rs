@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use coadjoint_codegen::system::Units;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Block, Outcome, Warning, split};
+use coadjoint_run::simulate::{Block, Crossing, Outcome, Warning, split};
 use serde_json::{Value, json};
 
 use super::element::lines;
@@ -14,6 +14,8 @@ use crate::named::Format;
 
 /// Larger group elements are given by their blocks only.
 const WIDEST: usize = 12;
+/// More moments of an event are counted.
+const MOST_TIMES: usize = 8;
 
 /// The text to print: one block per run, or one JSON object (an array of them for several runs).
 pub(crate) fn report(runs: &[Trajectory], units: &Units, format: Format) -> String {
@@ -87,6 +89,14 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     }
     if let Ok(error) = end.estimated_error {
         object["estimated_error"] = json!(error);
+    }
+    let events = run.header.get("events");
+    if let Some(names) = events.and_then(Value::as_array) {
+        let crossing = |crossing: &Crossing| {
+            let Crossing { event, time, momentum, .. } = crossing;
+            json!({ "event": names.get(*event), "time": time, "momentum": momentum })
+        };
+        object["events"] = end.events.iter().map(crossing).collect();
     }
     if let Some(solver) = end.solver {
         object["solver"] = json!({
@@ -177,6 +187,18 @@ fn text(run: &Trajectory, units: &Units) -> String {
         Ok(error) => writeln!(out, "  estimated relative error at the end {error:.1e}"),
         Err(why) => writeln!(out, "  estimated relative error at the end {why}"),
     };
+    let names = run.header.get("events").and_then(Value::as_array);
+    let names = names.into_iter().flatten().filter_map(Value::as_str);
+    for (number, name) in names.enumerate() {
+        let times = end.events.iter().filter(|crossing| crossing.event == number);
+        let times: Vec<String> = times.map(|crossing| shortest(crossing.time)).collect();
+        let listed = times.iter().take(MOST_TIMES).cloned().collect::<Vec<_>>().join(", ");
+        let _ = match times.len() {
+            0 => writeln!(out, "  event {name}: did not occur"),
+            1..=MOST_TIMES => writeln!(out, "  event {name}: at {listed}"),
+            count => writeln!(out, "  event {name}: at {listed}, … ({count} times)"),
+        };
+    }
     let _ = writeln!(out, "  largest relative drift");
     let casimirs = match end.casimirs {
         0 => "Casimirs".to_owned(),

@@ -11,7 +11,7 @@ use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::RunError;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Scales, Schedule, Setup, Times};
+use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -73,8 +73,27 @@ pub(crate) fn setup(options: &SimulateOptions, file: &Path, run: &Run) -> Result
         (None, Some(_)) => None,
         (count, _) => Some(every(count.or(run.every).unwrap_or(1))?),
     };
+    let events: Vec<Event> = run.events.iter().cloned().map(Event::of).collect();
+    if let (Some(event), Some(_)) = (events.first(), &options.checkpoint) {
+        let name = &event.name;
+        return Err(CliError::Option(format!(
+            "--checkpoint: a run that looks for events (`{name}`) cannot be continued; leave one of them out"
+        )));
+    }
+    let looks = run.looks.unwrap_or(1) as u32;
     let (backend, group_element) = (options.backend, run.group_element.clone());
-    Ok(Setup { every, at, backend, group_element, ..Setup::new(schedule, momentum) })
+    let setup = Setup::new(schedule, momentum);
+    Ok(Setup { every, at, events, looks, backend, group_element, ..setup })
+}
+
+/// The text of a system with the event of `--until`, at which its run ends.
+pub(crate) fn with_end(text: String, options: &SimulateOptions) -> Result<String, CliError> {
+    const QUOTE: &str = "'''";
+    let Some(function) = &options.until else { return Ok(text) };
+    if function.contains(QUOTE) {
+        return Err(CliError::Option(format!("--until {function}: no function has {QUOTE} in it")));
+    }
+    Ok(format!("{text}\n[[event]]\nwhen = {QUOTE}{function}{QUOTE}\nstop = true\n"))
 }
 
 /// Everything a run reads.
@@ -182,7 +201,7 @@ impl Header {
         [file, hash]: [&'static str; 2],
         own: Vec<(&'static str, Value)>,
     ) -> Self {
-        let Setup { schedule, momentum, group_element, every, at, .. } = &settings.setup;
+        let Setup { schedule, momentum, group_element, every, at, events, .. } = &settings.setup;
         let mut list = vec![
             ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
             (file, json!(settings.file.display().to_string())),
@@ -200,6 +219,8 @@ impl Header {
         list.extend(element.map(|rows| ("initial_group_element", json!(rows.concat()))));
         list.extend(every.map(|every| ("every", json!(every))));
         list.extend(at.as_ref().map(|times| ("at", json!(times.text()))));
+        let names: Vec<&str> = events.iter().map(|event| event.name.as_str()).collect();
+        list.extend((!names.is_empty()).then(|| ("events", json!(names))));
         Self(list)
     }
 

@@ -7,6 +7,7 @@ mod derive_and_emit;
 mod device;
 mod docs;
 mod ensemble;
+mod events;
 mod file_format;
 mod groups;
 mod learn;

@@ -12,6 +12,8 @@ use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
 use crate::potential::{Potential, matrix_size};
+#[cfg(feature = "system")]
+use crate::problem::values;
 use crate::problem::{FrameChoice, Parameter, Problem, Symbol};
 use crate::smooth::{Hamiltonian, Smooth};
 
@@ -191,6 +193,19 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
         comoving: frame,
         learned: false,
     })
+}
+
+/// The program of a function of coordinates with these names, without parameters, and its slots; `None` where something is
+/// wrong, which has then been reported. The program has one more input, which it does not read.
+#[cfg(feature = "system")]
+pub(crate) fn function(
+    energy: &Energy,
+    names: &[String],
+    diagnostics: &Diagnostics,
+) -> Option<(coadjoint_program::Program, Vec<f64>)> {
+    let (root, _) = energy.root?;
+    let lowered = lower(&energy.arena, root, (names, &[]), &mut Table::new(), diagnostics)?;
+    Some((lowered.value, values(&lowered.symbols)))
 }
 
 /// Checks what was read and turns it into a potential; `None` where something is wrong, which has then been reported.

@@ -7,7 +7,7 @@ mod polynomial;
 mod program;
 mod sums;
 
-#[cfg(feature = "system")]
-pub(crate) use assemble::constant;
 pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
+#[cfg(feature = "system")]
+pub(crate) use assemble::{constant, function};
 pub(crate) use choice::Choice;

@@ -37,9 +37,13 @@
 //!
 //! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
 //! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
+//!
+//! Each `[[event]]` has a function of the state, `when = "g[2][2]"`, in the momentum, the entries of g and the time t: a run
+//! finds where it changes its sign, in the `direction` up, down or both, and ends there with `stop = true`.
 
 mod algebra;
 mod energies;
+mod event;
 mod initial;
 mod options;
 mod parameters;
@@ -61,6 +65,7 @@ use crate::smooth::Hamiltonian;
 use table::Table;
 
 pub use crate::splitting::Splitting;
+pub use event::Event;
 pub use options::{Options, Parameters};
 pub use run::Run;
 pub use units::Units;
@@ -190,6 +195,7 @@ fn system<H>(
         "integrator",
         "initial",
         "run",
+        "event",
     ]);
     let name = name(&root);
     let algebra = group(&root, &name);
@@ -200,6 +206,7 @@ fn system<H>(
     let integrator = root.table("integrator");
     let choice = choice(integrator.as_ref(), options, diagnostics);
     let mut run = run::read(&root, integrator.as_ref());
+    run.events = event::read(&root, algebra.as_ref(), &coordinates);
     let velocity = initial::read(&root, algebra.as_ref(), &mut run);
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = choice.truncation;

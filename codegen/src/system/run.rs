@@ -2,6 +2,7 @@
 
 use toml::de::DeValue;
 
+use super::event::Event;
 use super::table::{Table, nearest_float, span};
 use crate::diagnostic::Span;
 use crate::tolerance::Region;
@@ -24,6 +25,10 @@ pub struct Run {
     pub time: Option<f64>,
     /// Every n-th step is recorded, n ≥ 1.
     pub every: Option<usize>,
+    /// The events to look for, at the ends of this number of equal parts of each step, n ≥ 1.
+    pub events: Vec<Event>,
+    /// `None` where the file does not say.
+    pub looks: Option<usize>,
     /// The body momentum μ at the start.
     pub momentum: Option<Vec<f64>>,
     /// The group element at the start, row by row; the identity if it is not given.
@@ -51,7 +56,7 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
         run.region = region(table);
     }
     if let Some(table) = root.table("run") {
-        table.check_keys(&["time", "every"]);
+        table.check_keys(&["time", "every", "looks"]);
         let time = table.number("time", "time = 100.0");
         run.time = accepted(&table, time, "time = 100.0", |time| {
             (time <= 0.0 || !time.is_finite()).then_some("the time must be finite and positive")
@@ -59,6 +64,10 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
         let every = table.integer("every", "every = 1");
         run.every = accepted(&table, every, "every = 1", |every| {
             (every == 0).then_some("`every` counts steps from 1")
+        });
+        let looks = table.integer("looks", "looks = 4");
+        run.looks = accepted(&table, looks, "looks = 4", |looks| {
+            (!(1..=1000).contains(&looks)).then_some("a step is looked at in 1 to 1000 parts")
         });
     }
     run

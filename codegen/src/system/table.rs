@@ -104,15 +104,29 @@ impl<'a> Table<'a> {
 
     /// The table under `key`, if there is one.
     pub(super) fn table(&self, key: &str) -> Option<Self> {
-        let value = self.get(key)?;
-        let DeValue::Table(entries) = value.get_ref() else {
-            self.wrong_kind(key, "a table", value, &format!("[{key}] on a line of its own"));
-            return None;
-        };
+        let table = self.entry(key, self.get(key)?, &format!("[{key}] on a line of its own"))?;
         // The header line itself, not all of the table.
         let span = self.entries.get_key_value(key).map(|(key, _)| key.span());
-        let (name, span) = (format!("[{key}]"), span.map_or(Span::Whole, Span::text));
-        Some(Table { entries, name, span, ..self.clone() })
+        Some(Table { span: span.map_or(Span::Whole, Span::text), ..table })
+    }
+
+    /// The table that this value of `key`, or an entry of it, is.
+    pub(super) fn entry(&self, key: &str, value: &'a Value<'a>, example: &str) -> Option<Self> {
+        let DeValue::Table(entries) = value.get_ref() else {
+            self.wrong_kind(key, "a table", value, example);
+            return None;
+        };
+        Some(Table { entries, name: format!("[{key}]"), span: span(value), ..self.clone() })
+    }
+
+    /// Whether `key` is true.
+    pub(super) fn flag(&self, key: &str, example: &str) -> bool {
+        let Some(value) = self.get(key) else { return false };
+        if let DeValue::Boolean(flag) = value.get_ref() {
+            return *flag;
+        }
+        self.wrong_kind(key, "true or false", value, example);
+        false
     }
 
     pub(super) fn string(&self, key: &str, example: &str) -> Option<(&'a str, Span)> {

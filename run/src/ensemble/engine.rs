@@ -21,9 +21,18 @@ use crate::load::Derived;
 use crate::simulate::{Stop, estimate};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
-pub fn in_lanes(mut system: System) -> System {
+///
+/// # Errors
+/// Where it has events, which ensembles do not look for.
+pub fn in_lanes(mut system: System) -> Result<System, RunError> {
+    if let Some(event) = system.run.events.first() {
+        let name = &event.name;
+        return Err(RunError::Option(format!(
+            "the event `{name}`: ensembles do not look for events; leave [[event]] out, or use simulate"
+        )));
+    }
     system.problem.solver = Some(Solver::Newton);
-    system
+    Ok(system)
 }
 
 /// A row that has no end state.

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use coadjoint::StepError;
+use coadjoint_codegen::system;
 
 use crate::engine::{Motion, Numbers, Space};
 
@@ -33,6 +34,25 @@ pub struct Event {
     pub direction: Direction,
     /// Whether the run ends at the first of them.
     pub terminal: bool,
+}
+
+impl Event {
+    /// The event of a system file.
+    #[must_use]
+    pub fn of(event: system::Event) -> Self {
+        let system::Event { name, function, slots, direction, stop } = event;
+        let direction = match direction {
+            1 => Direction::Up,
+            -1 => Direction::Down,
+            _ => Direction::Both,
+        };
+        let value = move |time: f64, matrix: &[f64], mu: &[f64]| {
+            // The last input is not read.
+            let inputs = [mu, matrix, &[time, 0.0]].concat();
+            function.run(&inputs, &slots).first().copied().ok_or_else(|| "no value".to_owned())
+        };
+        Self { name, function: Arc::new(value), direction, terminal: stop }
+    }
 }
 
 impl fmt::Debug for Event {
