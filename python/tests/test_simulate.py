@@ -220,3 +220,16 @@ def test_events_that_cannot_be_followed():
         body.simulate([2, 0.5, 1], time=1, step=0.1, events=["x"])
     with pytest.raises(ca.InputError, match="looks"):
         body.simulate([2, 0.5, 1], time=1, step=0.1, events=never, looks=0)
+
+
+def test_events_of_a_file_come_first():
+    text = 'group="SO3"\ncoordinates=["x","y","z"]\nhamiltonian="z"\n[[event]]\nwhen="x - t"\n[run]\nlooks=4\n'
+
+    def low(t, g, mu):
+        return g[0, 0]
+
+    run = ca.System.from_text(text).simulate([1, 0, 3], time=3, step=1.5, events=low)
+    first, second = run.events
+    # x = cos t, and g turns by t.
+    assert np.abs(first.time - 0.7390851332151607).max() < 1e-12
+    assert np.abs(second.time - np.pi / 2).max() < 1e-12
