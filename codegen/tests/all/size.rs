@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint_codegen::emit;
-use coadjoint_codegen::graph::Program;
+use coadjoint_codegen::graph::{Program, evaluate};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
@@ -123,4 +123,45 @@ truncation = 5
     for part in ["31000 terms", "the limit of 20000", "at most 412: write literals"] {
         assert!(message.contains(part), "{message}");
     }
+}
+
+/// The parameters of a gyrostat with a full tensor are data beside programs no longer than those of literals.
+#[test]
+fn kept_parameters_of_a_full_tensor_are_emitted_as_data() {
+    let text = r#"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = """
+(A*(x - h[0])^2 + B*(y - h[1])^2 + C*(z - h[2])^2)/2
++ D*(x - h[0])*(y - h[1]) + E*(y - h[1])*(z - h[2]) + F*(x - h[0])*(z - h[2])
+"""
+[parameters]
+A = 0.05
+B = 0.07
+C = 0.09
+D = 0.002
+E = 0.003
+F = -0.001
+h = [0.4, -0.3, 0.7]
+[integrator]
+truncation = 7
+"#;
+    let [kept, literal] = [kept(text), read(text)]
+        .map(|system| Integrator::build(system.problem, TermLimit::default()).unwrap());
+    assert_eq!(kept.problem.parameters.len(), 7);
+    assert!(kept.terms() > emit::MOST_TERMS, "{}", kept.terms());
+    emit::check_size(&kept).unwrap();
+    assert_eq!(kept.coefficients.series(), literal.coefficients.series());
+    assert_eq!(kept.gradient.cost().total(), literal.gradient.cost().total());
+    let parameters = [0.05, 0.07, 0.09, 0.002, 0.003, -0.001, 0.4, -0.3, 0.7];
+    let symbols = kept.problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&parameters));
+    let momentum = [2.0, 0.5, -1.25];
+    let s = |integrator: &Integrator, symbols: &[f64]| {
+        let slots = integrator.fold_table().fold(0.5, symbols).unwrap();
+        let mut scratch = Vec::new();
+        evaluate(&integrator.value, |i| momentum[i], |i| slots[i], &mut scratch);
+        scratch[integrator.value.outputs()[0].index()]
+    };
+    let (with, without) = (s(&kept, &symbols.collect::<Vec<_>>()), s(&literal, &[]));
+    assert!((with - without).abs() < 1e-15, "{with} {without}");
 }

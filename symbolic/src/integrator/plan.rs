@@ -136,7 +136,7 @@ impl Plan {
         let Problem { algebra, chart, .. } = problem;
         let mut rows = PredictorRows::new(algebra, *chart, problem.generated(), limit)?;
         let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
-        let mut monomials = HashSet::new();
+        let (mut monomials, mut data) = (HashSet::new(), 0);
         let mut polynomials = Vec::new();
         let mut explicit: Vec<(usize, Self)> = Vec::new();
         let tried = if corrects_dearly(problem) && !found.is_empty() { 0 } else { last + 1 };
@@ -150,6 +150,10 @@ impl Plan {
                 let factors = component.factors();
                 let momenta = |f: &[(u32, u32)]| Factors(split_at(f, algebra.dim()).0.into());
                 monomials.extend(factors.map(|(factors, _)| (i, momenta(&factors))));
+            }
+            data += row.iter().map(Polynomial::len).sum::<usize>();
+            if !found.is_empty() && data > MOST_DATA * monomials.len() {
+                break;
             }
             polynomials.push(row);
             // About two operations for each monomial. They only grow with the degree.
@@ -180,6 +184,10 @@ const SMALL: usize = 3;
 /// Products of coefficients at most in looking for an explicit predictor beside one along the flow in more dimensions: where
 /// it takes more, it has too many monomials to be worth it.
 const MOST_PRODUCTS: u64 = 5_000_000;
+
+/// The most terms in symbols that a monomial of an explicit predictor has on average, where there is one along the flow: more
+/// take longer to derive, to compile and to fold than the series itself.
+const MOST_DATA: usize = 32;
 
 /// How many independent operations would fit into the time in which a chart or a small linear system
 /// waits for its own results (measured on SO(3)).
