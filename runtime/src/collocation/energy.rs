@@ -1,4 +1,4 @@
-//! What a step of collocation integrates: any smooth Hamiltonian of time and momentum.
+//! The Hamiltonian that a step of collocation integrates: any smooth function of time and momentum.
 
 use nalgebra::SimdComplexField;
 

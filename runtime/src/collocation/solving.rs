@@ -156,7 +156,7 @@ where
 }
 
 impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
-    /// What a change of the rates adds to itself in the next sweep, to first order in the change and in the step.
+    /// The change of the rates in the next sweep that follows from this one, to first order in it and in the step.
     #[inline(always)]
     fn change<G>(&self, group: &G, rates: &Rates<V, M>, change: &Rates<V, M>) -> Rates<V, M>
     where

@@ -8,7 +8,7 @@ use super::runtime::{
     Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Steps,
     Terms, polynomial,
 };
-use super::{generated, kernels};
+use super::{collocation, generated, kernels};
 use crate::bridge::matrix_group;
 
 type Made = Box<dyn Steps>;
@@ -110,5 +110,6 @@ pub fn families(only: &str) -> Vec<Family> {
     }
     families.extend(generated::families(only));
     families.extend(kernels::families(only));
+    families.extend(collocation::families(only));
     families
 }

@@ -10,6 +10,7 @@ use coadjoint_codegen::poly::Polynomial;
 
 use super::random::Random;
 use super::runtime::{Steps, Terms};
+use super::verdict::Tally;
 use crate::bridge::double;
 
 /// A Hamiltonian, up to its parameters, with its exact series and its judge.
@@ -66,6 +67,18 @@ pub struct Family {
     pub weight: usize,
     /// Whether all momenta are of those whose steps must be accepted.
     pub promise: bool,
+    /// Makes and judges the steps of a seed, where they are those of no generating function.
+    pub instance: Option<fn(u64, &mut Tally)>,
+}
+
+impl Family {
+    /// A family whose steps are those of no generating function.
+    #[must_use]
+    pub fn alone(name: &str, instance: fn(u64, &mut Tally)) -> Self {
+        let (models, decades, promise) = (Vec::new(), 0.0, false);
+        let (name, instance) = (name.to_owned(), Some(instance));
+        Self { name, models, decades, weight: 128, promise, instance }
+    }
 }
 
 /// How the Hamiltonians of a family are drawn.
@@ -267,7 +280,8 @@ impl Recipe {
             }
         }
         let (decades, weight, promise) = (self.decades, self.weight, self.promise);
-        Family { name: self.name.to_owned(), models, decades, weight, promise }
+        let (name, instance) = (self.name.to_owned(), None);
+        Family { name, models, decades, weight, promise, instance }
     }
 
     fn model<F>(

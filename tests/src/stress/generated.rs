@@ -323,6 +323,7 @@ pub fn families(only: &str) -> Vec<Family> {
         decades,
         weight,
         promise: name.contains("promise"),
+        instance: None,
     };
     chosen.map(family).collect()
 }

@@ -183,6 +183,7 @@ pub fn families(only: &str) -> Vec<Family> {
         decades: 30.0,
         weight: 128,
         promise: false,
+        instance: None,
     };
     chosen.map(family).collect()
 }

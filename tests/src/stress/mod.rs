@@ -1,6 +1,7 @@
 //! The stress program: random steps over groups, charts, truncations, solvers and frames, each accepted one
-//! judged in doubled precision by `coadjoint_codegen::judge`.
+//! judged in doubled precision by `coadjoint_codegen::judge`; and steps by collocation, compared with another method.
 
+mod collocation;
 mod families;
 mod family;
 mod generated;
