@@ -1,11 +1,12 @@
 //! The cost of a step, and the cost of other methods for the same error.
 //!
-//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work`
+//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work|smooth`
 
 // Indices name components as in the formulas; iterators over three arrays at once would hide them.
 #![allow(clippy::needless_range_loop)]
 
 mod command;
+mod smooth;
 mod step;
 mod systems;
 mod timing;
@@ -36,6 +37,8 @@ enum Table {
     Ensembles(FromFile),
     /// The cheapest time for an error, beside DOP853, DMV10 and the exact solution
     Work(Work),
+    /// The time for an error of Hamiltonians that are no polynomials, beside DOP853
+    Smooth(Common),
 }
 
 #[derive(Args)]
@@ -93,6 +96,7 @@ fn run(table: &Table) -> Result<(), Failure> {
             }
             command::ensembles(&command, &ways, given.common.quick, &given.common.only)
         }
+        Table::Smooth(common) => smooth::table(common.quick, &common.only),
         Table::Work(given) => {
             let Work { common, method, out } = given;
             work::tables(common.quick, &common.only, method, out.as_deref())

@@ -15,7 +15,7 @@ pub use crate::group::heisenberg::Heisenberg;
 #[cfg(feature = "alloc")]
 pub use crate::group::product::DirectProduct;
 pub use crate::group::product::{Power, Product};
-pub use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+pub use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
 pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{

@@ -47,7 +47,11 @@ fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
     })
 }
 
-fn integrate<const N: usize, F: System<f64, SVector<f64, N>>>(
+/// The end of a motion at a tolerance.
+///
+/// # Errors
+/// Where it takes too many steps.
+pub fn integrate<const N: usize, F: System<f64, SVector<f64, N>>>(
     field: F,
     start: [f64; N],
     end: f64,

@@ -14,6 +14,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::timing::{Failure, Machine, figure};
+pub use dop853::integrate;
 use method::Method;
 use problem::Problem;
 use sweep::Measurement;

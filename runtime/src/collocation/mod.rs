@@ -33,7 +33,7 @@ use crate::number::scalar::Scalar;
 use crate::step::{StepReport, check};
 
 use nodes::Nodes;
-use rates::{Rates, largest};
+use rates::{Rates, largest, total};
 use solving::{Attempt, Ending, Equations};
 
 /// Steps whose rates are kept, for the first guess of the next one.
@@ -74,7 +74,7 @@ const LARGEST_TAIL: [f64; MAX_NODES] = [0.2, 0.2, 0.05, 1e-2, 1e-2, 1e-2, 1e-2, 
 /// A step starts from a guess that follows the steps before it, where it goes on from their end; its bits then depend on
 /// them, within rounding. A step from any other state starts anew.
 #[derive(Clone, Debug)]
-pub struct Collocation<G: LieGroup, E, const M: usize> {
+pub struct Collocation<G: LieGroup<Scalar = f64>, E, const M: usize> {
     group: G,
     energy: E,
     step: f64,
@@ -201,13 +201,13 @@ where
     fn guess(&self, dim: usize) -> Rates<G::Vector, M> {
         let mut guess = Rates::zero(dim);
         let last = |back: usize| self.rates[(self.noted - 1 - back) % KEPT].as_ref();
-        let long = last(0).is_some_and(|rates| largest(&rates.x) > 0.5);
+        let long = last(0).is_some_and(|rates| largest::<G::Vector, M>(dim, &rates.x) > 0.5);
         let count = self.noted.min(if long { KEPT_LONG } else { KEPT });
         let mut weight = -1.0;
         for back in 0..count {
             weight *= -((count - back) as f64) / (back + 1) as f64;
             if let Some(rates) = last(back) {
-                guess.add(weight, rates);
+                guess.add(dim, weight, rates);
             }
         }
         guess
@@ -243,12 +243,13 @@ where
     /// The share of the highest polynomial through the nodes in the velocity; with one node, which has but one, the force
     /// in its place.
     fn tail(&self, mu: &G::Vector, rates: &Rates<G::Vector, M>) -> f64 {
+        let dim = mu.dim();
+        let size = |rows| largest::<G::Vector, M>(dim, rows);
         let (part, whole) = match M {
-            1 => (largest(&rates.p), mu.largest_entry()),
+            1 => (size(&rates.p), mu.largest_entry()),
             _ => {
-                let zero = G::Vector::zeros(mu.dim());
-                let part = rates::mixed(&zero, &Self::NODES.highest, &rates.x);
-                (part.largest_entry(), largest(&rates.x))
+                let part: G::Vector = total(dim, &Self::NODES.highest, &rates.x);
+                (part.largest_entry(), size(&rates.x))
             }
         };
         if part == 0.0 { 0.0 } else { part / whole }

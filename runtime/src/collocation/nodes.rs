@@ -43,7 +43,7 @@ pub(super) struct Nodes<const M: usize> {
     pub times: [f64; M],
     /// bᵢ, the weights of the whole step.
     pub weights: [f64; M],
-    /// aᵢⱼ − bⱼ/2, the weights from the middle to the nodes.
+    /// aᵢⱼ − bⱼ/2, the weights from the middle to the nodes i; by j, then by i.
     pub matrix: [[f64; M]; M],
     /// (2M − 1) bᵢ P_{M−1}(2cᵢ − 1): the coefficient of the highest polynomial through values at the nodes.
     pub highest: [f64; M],
@@ -91,7 +91,7 @@ impl<const M: usize> Nodes<M> {
                     sum += values[j][k] * (values[i][k + 1] - values[i][k - 1]);
                     k += 1;
                 }
-                matrix[i][j] = 0.5 * weights[j] * sum;
+                matrix[j][i] = 0.5 * weights[j] * sum;
                 j += 1;
             }
             i += 1;
@@ -117,16 +117,16 @@ mod tests {
         }
         for i in 0..M {
             for k in 0..M {
-                let sum: f64 = (0..M).map(|j| nodes.matrix[i][j] * power(nodes.times[j], k)).sum();
+                let sum: f64 = (0..M).map(|j| nodes.matrix[j][i] * power(nodes.times[j], k)).sum();
                 let half = 0.5 * (integral(0.5, k) + integral(-0.5, k));
                 let exact = integral(nodes.times[i], k) - half;
                 assert!((sum - exact).abs() < 1e-16, "{M} nodes, node {i}, power {k}");
             }
             for j in 0..M {
                 let skew =
-                    nodes.weights[i] * nodes.matrix[i][j] + nodes.weights[j] * nodes.matrix[j][i];
+                    nodes.weights[i] * nodes.matrix[j][i] + nodes.weights[j] * nodes.matrix[i][j];
                 assert!(skew.abs() < 4e-17, "{M} nodes: {skew:e}");
-                assert_eq!(nodes.matrix[i][j], -nodes.matrix[M - 1 - i][M - 1 - j]);
+                assert_eq!(nodes.matrix[j][i], -nodes.matrix[M - 1 - j][M - 1 - i]);
             }
         }
     }

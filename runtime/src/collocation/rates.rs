@@ -5,61 +5,99 @@ use crate::number::scalar::Scalar;
 
 /// hẋᵢ and hṗᵢ at the nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Rates<V, const M: usize> {
-    pub x: [V; M],
-    pub p: [V; M],
+pub(super) struct Rates<V: Coordinates<f64>, const M: usize> {
+    pub x: V::Rows<M>,
+    pub p: V::Rows<M>,
 }
 
-/// a ← a + s·b
+/// a ← a + s·b at each node.
 #[inline(always)]
-pub(super) fn add<V: Coordinates<f64>>(a: &mut V, s: f64, b: &V) {
-    for i in 0..a.dim() {
-        a[i] = b[i].times_plus(s, a[i]);
-    }
-}
-
-/// start + Σ weightsᵢ rowᵢ
-#[inline(always)]
-pub(super) fn mixed<V, const M: usize>(start: &V, weights: &[f64; M], row: &[V; M]) -> V
+pub(super) fn add<V, const M: usize>(dim: usize, a: &mut V::Rows<M>, s: f64, b: &V::Rows<M>)
 where
     V: Coordinates<f64>,
 {
-    let mut sum = start.clone();
-    for i in 0..M {
-        add(&mut sum, weights[i], &row[i]);
+    for k in 0..dim {
+        for i in 0..M {
+            a[k][i] = b[k][i].times_plus(s, a[k][i]);
+        }
     }
-    sum
 }
 
-/// The largest coordinate of several vectors.
+/// start + Σⱼ weightsⱼᵢ rowsⱼ at each node i.
 #[inline(always)]
-pub(super) fn largest<V: Coordinates<f64>, const M: usize>(row: &[V; M]) -> f64 {
-    let mut largest = row[0].largest_entry();
-    for i in 1..M {
-        largest = largest.worse(row[i].largest_entry());
+pub(super) fn mixed<V, const M: usize>(
+    start: &V,
+    weights: &[[f64; M]; M],
+    rows: &V::Rows<M>,
+) -> V::Rows<M>
+where
+    V: Coordinates<f64>,
+{
+    let dim = start.dim();
+    let mut result = V::zero_rows::<M>(dim);
+    for k in 0..dim {
+        let mut sum = [start[k]; M];
+        for j in 0..M {
+            for i in 0..M {
+                sum[i] = weights[j][i].times_plus(rows[k][j], sum[i]);
+            }
+        }
+        result[k] = sum;
     }
-    largest
+    result
+}
+
+/// Σᵢ weightsᵢ rowsᵢ
+#[inline(always)]
+pub(super) fn total<V, const M: usize>(dim: usize, weights: &[f64; M], rows: &V::Rows<M>) -> V
+where
+    V: Coordinates<f64>,
+{
+    V::from_entries(dim, |k| {
+        let mut sum = 0.0;
+        for i in 0..M {
+            sum = weights[i].times_plus(rows[k][i], sum);
+        }
+        sum
+    })
+}
+
+/// The largest coordinate at any node; NaN if one is.
+#[inline(always)]
+pub(super) fn largest<V, const M: usize>(dim: usize, rows: &V::Rows<M>) -> f64
+where
+    V: Coordinates<f64>,
+{
+    let (mut largest, mut poison) = ([0.0_f64; M], [0.0; M]);
+    for k in 0..dim {
+        for i in 0..M {
+            largest[i] = largest[i].max(rows[k][i].abs());
+            poison[i] = rows[k][i].times_plus(0.0, poison[i]);
+        }
+    }
+    let mut worst = largest[0] + poison[0];
+    for i in 1..M {
+        worst = worst.worse(largest[i] + poison[i]);
+    }
+    worst
 }
 
 impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
     /// Rates that are all zero.
     pub(super) fn zero(dim: usize) -> Self {
-        let zeros = || core::array::from_fn(|_| V::zeros(dim));
-        Self { x: zeros(), p: zeros() }
+        Self { x: V::zero_rows::<M>(dim), p: V::zero_rows::<M>(dim) }
     }
 
     /// self ← self + s·other
     #[inline(always)]
-    pub(super) fn add(&mut self, s: f64, other: &Self) {
-        for i in 0..M {
-            add(&mut self.x[i], s, &other.x[i]);
-            add(&mut self.p[i], s, &other.p[i]);
-        }
+    pub(super) fn add(&mut self, dim: usize, s: f64, other: &Self) {
+        add::<V, M>(dim, &mut self.x, s, &other.x);
+        add::<V, M>(dim, &mut self.p, s, &other.p);
     }
 
     /// The largest coordinate, those of p divided by `scale`.
     #[inline(always)]
-    pub(super) fn size(&self, scale: f64) -> f64 {
-        largest(&self.x).worse(largest(&self.p) / scale)
+    pub(super) fn size(&self, dim: usize, scale: f64) -> f64 {
+        largest::<V, M>(dim, &self.x).worse(largest::<V, M>(dim, &self.p) / scale)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::energy::Energy;
 use super::nodes::Nodes;
-use super::rates::{Rates, add, mixed};
+use super::rates::{Rates, add, mixed, total};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
@@ -31,7 +31,7 @@ pub(super) struct Equations<'a, G: LieGroup, E, const M: usize> {
 }
 
 /// The rates at which an attempt to solve the equations ended.
-pub(super) struct Attempt<V, const M: usize> {
+pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub rates: Rates<V, M>,
     /// The increment of the whole step.
     pub x: V,
@@ -66,11 +66,11 @@ where
     /// Solves the equations from a first guess of the rates.
     #[inline(always)]
     pub(super) fn solve(&self, guess: Rates<G::Vector, M>) -> Attempt<G::Vector, M> {
-        let zero = G::Vector::zeros(self.mu.dim());
+        let dim = self.mu.dim();
         let largest = self.mu.largest_entry();
         let scale = if largest > 0.0 { largest } else { 1.0 };
         let whole = |rates: &Rates<G::Vector, M>| {
-            let x = mixed(&zero, &Self::NODES.weights, &rates.x);
+            let x: G::Vector = total(dim, &Self::NODES.weights, &rates.x);
             let p = self.group.middle_momentum(&x, self.mu);
             (x, p)
         };
@@ -84,13 +84,13 @@ where
                 Err((time, mu)) => break Ending::Undefined(time, mu),
             };
             sweeps += 1;
-            change.add(-1.0, &rates);
-            residual = change.size(scale);
+            change.add(dim, -1.0, &rates);
+            residual = change.size(dim, scale);
             if let Some(model) = &model {
                 let linear = model.change(self.group, &rates, &change);
-                rates.add(1.0, &linear);
+                rates.add(dim, 1.0, &linear);
             }
-            rates.add(1.0, &change);
+            rates.add(dim, 1.0, &change);
             (x, p) = whole(&rates);
             let shrinks = if sweeps == 1 { 1.0 } else { (residual / before).min(0.5) };
             if residual * shrinks <= SOLVED || residual >= before && residual < ROUNDING {
@@ -114,26 +114,32 @@ where
         rates: &Rates<G::Vector, M>,
         p: &G::Vector,
     ) -> Result<Rates<G::Vector, M>, (f64, G::Vector)> {
-        let (nodes, degree) = (&Self::NODES, 2 * M - 2);
-        let zero = G::Vector::zeros(p.dim());
-        let mut next = rates.clone();
+        let (nodes, degree, dim) = (&Self::NODES, 2 * M - 2, p.dim());
+        let x = mixed(&G::Vector::zeros(dim), &nodes.matrix, &rates.x);
+        let p = mixed(p, &nodes.matrix, &rates.p);
+        let mu = self.group.node_momenta::<M>(&x, &p, degree);
+        let mut omega = G::Vector::zero_rows::<M>(dim);
+        let mut poison = [0.0; M];
         for i in 0..M {
-            let x_i = mixed(&zero, &nodes.matrix[i], &rates.x);
-            let p_i = mixed(p, &nodes.matrix[i], &rates.p);
-            let mu = self.group.node_momentum(&x_i, &p_i, degree);
             let time = nodes.times[i].times_plus(self.step, self.middle);
-            let mut omega = self.energy.gradient(time, &mu);
-            let mut poison = 0.0;
-            for k in 0..omega.dim() {
-                omega[k] *= self.step;
-                poison = omega[k].times_plus(0.0, poison);
+            let gradient = self.energy.gradient(time, &G::Vector::at::<M>(dim, &mu, i));
+            for k in 0..dim {
+                omega[k][i] = gradient[k] * self.step;
             }
-            if poison != 0.0 {
-                return Err((time, mu));
-            }
-            (next.x[i], next.p[i]) = self.group.node_rates(&x_i, &p_i, &omega, degree);
         }
-        Ok(next)
+        for k in 0..dim {
+            for i in 0..M {
+                poison[i] = omega[k][i].times_plus(0.0, poison[i]);
+            }
+        }
+        for i in 0..M {
+            if poison[i] != 0.0 {
+                let time = nodes.times[i].times_plus(self.step, self.middle);
+                return Err((time, G::Vector::at::<M>(dim, &mu, i)));
+            }
+        }
+        let [x, p] = self.group.node_rates::<M>(&x, &p, &omega, degree);
+        Ok(Rates { x, p })
     }
 
     /// The linear model about the momentum `p`, where its Hessian is finite and not too large.
@@ -162,24 +168,29 @@ impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
     where
         G: LieGroup<Scalar = f64, Vector = V>,
     {
-        let zero = V::zeros(self.p.dim());
-        let x = mixed(&zero, &self.nodes.weights, &change.x);
-        let mut p = zero.clone();
-        add(&mut p, 0.5, &group.ad_star(&x, &self.p));
-        let mut result = change.clone();
-        for i in 0..M {
-            let x_i = mixed(&zero, &self.nodes.matrix[i], &change.x);
-            let p_i = mixed(&p, &self.nodes.matrix[i], &change.p);
-            let mut mu = p_i.clone();
-            add(&mut mu, 0.5, &group.ad_star(&x_i, &self.p));
-            let omega = mu.left_multiply(&self.hessian);
-            let mut force = zero.clone();
-            add(&mut force, 0.5, &group.ad_star(&omega, &self.p));
-            add(&mut force, 0.5, &group.ad_star(&rates.x[i], &p_i));
-            let mut velocity = omega;
-            add(&mut velocity, 0.5, &group.bracket(&x_i, &rates.x[i]));
-            (result.x[i], result.p[i]) = (velocity, force);
+        let dim = self.p.dim();
+        let x: V = total(dim, &self.nodes.weights, &change.x);
+        let turned = group.ad_star(&x, &self.p);
+        let middle = V::from_entries(dim, |k| 0.5 * turned[k]);
+        let here = V::by_node::<M>(dim, |_| self.p.clone());
+        let x = mixed(&V::zeros(dim), &self.nodes.matrix, &change.x);
+        let p = mixed(&middle, &self.nodes.matrix, &change.p);
+        let mut mu = p.clone();
+        add::<V, M>(dim, &mut mu, 0.5, &group.ad_stars::<M>(&x, &here));
+        let mut velocity = V::zero_rows::<M>(dim);
+        for k in 0..dim {
+            let mut sum = [0.0; M];
+            for l in 0..dim {
+                for i in 0..M {
+                    sum[i] = self.hessian[(k, l)].times_plus(mu[l][i], sum[i]);
+                }
+            }
+            velocity[k] = sum;
         }
-        result
+        let mut force = V::zero_rows::<M>(dim);
+        add::<V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&velocity, &here));
+        add::<V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&rates.x, &p));
+        add::<V, M>(dim, &mut velocity, 0.5, &group.brackets::<M>(&x, &rates.x));
+        Rates { x: velocity, p: force }
     }
 }

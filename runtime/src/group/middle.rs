@@ -38,11 +38,11 @@ fn plus<T: Scalar, V: Coordinates<T>>(mut a: V, s: T, b: &V) -> V {
 pub(super) fn momentum<T: Scalar, V: Coordinates<T>>(
     ad_star: impl Fn(&V, &V) -> V,
     x: &V,
-    p: &V,
+    p: V,
     degree: usize,
 ) -> V {
     let mut power = p.clone();
-    let mut sum = p.clone();
+    let mut sum = p;
     for &beta in BETA.iter().take(degree + 1).skip(1) {
         power = ad_star(x, &power);
         if beta != 0.0 {
@@ -57,26 +57,26 @@ pub(super) fn momentum<T: Scalar, V: Coordinates<T>>(
 pub(super) fn rates<T: Scalar, V: Coordinates<T>>(
     ad_star: impl Fn(&V, &V) -> V,
     bracket: impl Fn(&V, &V) -> V,
-    [x, p, omega]: [&V; 3],
+    [x, p, omega]: [V; 3],
     degree: usize,
 ) -> (V, V) {
     let degree = degree.min(MAX_DEGREE);
     let mut powers: [Option<V>; MAX_DEGREE] = [const { None }; MAX_DEGREE];
-    let mut power = p.clone();
+    let mut power = p;
     for place in powers.iter_mut().take(degree) {
-        let next = ad_star(x, &power);
+        let next = ad_star(&x, &power);
         *place = Some(core::mem::replace(&mut power, next));
     }
-    let zero = V::zeros(p.dim());
-    let mut a = plus(zero.clone(), T::of(BETA[degree]), omega);
+    let zero = V::zeros(x.dim());
+    let mut a = plus(zero.clone(), T::of(BETA[degree]), &omega);
     let mut force = zero;
     for (k, power) in powers.iter().enumerate().take(degree).rev() {
         if let Some(power) = power {
             force = plus(force, T::of(1.0), &ad_star(&a, power));
         }
-        a = bracket(x, &a);
+        a = bracket(&x, &a);
         if BETA[k] != 0.0 {
-            a = plus(a, T::of(BETA[k]), omega);
+            a = plus(a, T::of(BETA[k]), &omega);
         }
     }
     (a, force)

@@ -4,6 +4,7 @@ pub(crate) mod element_error;
 pub(crate) mod entire;
 pub(crate) mod heisenberg;
 pub(crate) mod middle;
+mod nodes;
 pub(crate) mod phase;
 pub(crate) mod product;
 pub(crate) mod se2;
@@ -110,23 +111,56 @@ pub trait LieGroup: Clone + Debug {
         self.exp_extent(x)
     }
 
-    /// J_R(x, p), the body momentum at the point (x, p) of the chart. A series in x ends with the power `degree`.
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
-        middle::momentum(|x, p| self.ad_star(x, p), x, p, degree)
+    /// J_R(x, p), the body momentum at the points (x, p) of the chart. A series in x ends with the power `degree`.
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        degree: usize,
+    ) -> Rows<Self, M> {
+        let n = self.dim();
+        let at = |rows, node| Self::Vector::at::<M>(n, rows, node);
+        let ad_star = |x: &_, p: &_| self.ad_star(x, p);
+        Self::Vector::by_node::<M>(n, |node| {
+            middle::momentum(ad_star, &at(x, node), at(p, node), degree)
+        })
     }
 
-    /// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω at (x, p): derivatives of [`LieGroup::node_momentum`] of the same degree,
+    /// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω at (x, p): derivatives of [`LieGroup::node_momenta`] of the same degree,
     /// and with ω = ∂H/∂μ Hamilton's equations of H∘J_R.
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        omega: &Rows<Self, M>,
         degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
+    ) -> [Rows<Self, M>; 2] {
+        let n = self.dim();
+        let at = |rows, node| Self::Vector::at::<M>(n, rows, node);
         let (ad_star, bracket) =
             (|x: &_, p: &_| self.ad_star(x, p), |x: &_, y: &_| self.bracket(x, y));
-        middle::rates(ad_star, bracket, [x, p, omega], degree)
+        let mut forces = Self::Vector::zero_rows::<M>(n);
+        let velocities = Self::Vector::by_node::<M>(n, |node| {
+            let point = [x, p, omega].map(|rows| at(rows, node));
+            let (velocity, force) = middle::rates(ad_star, bracket, point, degree);
+            for i in 0..n {
+                forces[i][node] = force[i];
+            }
+            velocity
+        });
+        [velocities, forces]
+    }
+
+    /// [`LieGroup::ad_star`] at several nodes.
+    fn ad_stars<const M: usize>(&self, x: &Rows<Self, M>, mu: &Rows<Self, M>) -> Rows<Self, M> {
+        let at = |rows, node| Self::Vector::at::<M>(self.dim(), rows, node);
+        Self::Vector::by_node::<M>(self.dim(), |node| self.ad_star(&at(x, node), &at(mu, node)))
+    }
+
+    /// [`LieGroup::bracket`] at several nodes.
+    fn brackets<const M: usize>(&self, x: &Rows<Self, M>, y: &Rows<Self, M>) -> Rows<Self, M> {
+        let at = |rows, node| Self::Vector::at::<M>(self.dim(), rows, node);
+        Self::Vector::by_node::<M>(self.dim(), |node| self.bracket(&at(x, node), &at(y, node)))
     }
 
     /// How many Casimirs [`LieGroup::casimir`] knows.
@@ -150,6 +184,10 @@ pub trait LieGroup: Clone + Debug {
         entry: impl Fn(usize, usize) -> Self::Scalar,
     ) -> Result<Self::Element, ElementError>;
 }
+
+/// Vectors of a group's coordinates at `M` nodes.
+pub type Rows<G, const M: usize> =
+    <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Rows<M>;
 
 /// A group whose dimension is known to the compiler; products of such groups check theirs there.
 pub trait FixedDimension {

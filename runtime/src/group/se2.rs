@@ -8,7 +8,8 @@ use nalgebra::{
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::entire::{dexp_inverse, entire};
-use crate::group::se3::SE3;
+use crate::group::nodes::Rows3;
+use crate::group::se3::{Rows6, SE3};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
 
@@ -52,6 +53,19 @@ fn lift<T: Scalar>(x: &Vector3<T>) -> Vector6<T> {
 #[inline(always)]
 fn drop<T: Scalar>(x: &Vector6<T>) -> Vector3<T> {
     Vector3::from_fn(|i, _| x[PLACES[i]])
+}
+
+/// [`lift`] at each node.
+#[inline(always)]
+fn lift_rows<T: Scalar, const M: usize>(x: &Rows3<T, M>) -> Rows6<T, M> {
+    let zero = [T::of(0.0); M];
+    [zero, zero, x[0], x[1], x[2], zero]
+}
+
+/// [`drop`] at each node.
+#[inline(always)]
+fn drop_rows<T: Scalar, const M: usize>(x: &Rows6<T, M>) -> Rows3<T, M> {
+    PLACES.map(|place| x[place])
 }
 
 /// The motion of the plane that a motion of space keeping the third axis makes.
@@ -157,20 +171,24 @@ impl<T: Scalar> LieGroup for SE2<T> {
         self.cayley_extent(&(x * T::of(0.5)))
     }
 
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
-        drop(&SE3::new().node_momentum(&lift(x), &lift(p), degree))
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        degree: usize,
+    ) -> Rows3<T, M> {
+        drop_rows(&SE3::new().node_momenta(&lift_rows(x), &lift_rows(p), degree))
     }
 
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        omega: &Rows3<T, M>,
         degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
-        let (x, p, omega) = (lift(x), lift(p), lift(omega));
-        let (velocity, force) = SE3::new().node_rates(&x, &p, &omega, degree);
-        (drop(&velocity), drop(&force))
+    ) -> [Rows3<T, M>; 2] {
+        let [x, p, omega] = [x, p, omega].map(lift_rows);
+        SE3::new().node_rates(&x, &p, &omega, degree).each_ref().map(drop_rows)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

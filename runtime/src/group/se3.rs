@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Translation3, Vector3, Vector6};
 
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::entire::{dexp_inverse, entire, half_angle};
+use crate::group::nodes::{self, Row, Rows3};
 use crate::group::so3::{
     SO3, cross, dot, plus, quaternion, rotate_back, rotation_from, scaled, sum,
 };
@@ -52,6 +53,21 @@ fn join<T: Scalar>(a: &V<T>, b: &V<T>) -> Vector6<T> {
     Vector6::new(a.x, a.y, a.z, b.x, b.y, b.z)
 }
 
+/// Coordinates at each node.
+pub(super) type Rows6<T, const M: usize> = [Row<T, M>; 6];
+
+/// The rotations and the translations.
+#[inline(always)]
+fn halves<T: Scalar, const M: usize>(x: &Rows6<T, M>) -> [Rows3<T, M>; 2] {
+    [[x[0], x[1], x[2]], [x[3], x[4], x[5]]]
+}
+
+#[inline(always)]
+fn whole<T: Scalar, const M: usize>(a: Rows3<T, M>, b: Rows3<T, M>) -> Rows6<T, M> {
+    let ([x, y, z], [u, v, w]) = (a, b);
+    [x, y, z, u, v, w]
+}
+
 /// R(q) v
 #[inline(always)]
 fn rotate<T: Scalar>(g: &Isometry3<T>, v: &V<T>) -> V<T> {
@@ -69,6 +85,16 @@ fn unrotate<T: Scalar>(g: &Isometry3<T>, v: &V<T>) -> V<T> {
 #[inline(always)]
 fn isometry<T: Scalar>(rotation: nalgebra::UnitQuaternion<T>, t: V<T>) -> Isometry3<T> {
     Isometry3 { rotation, translation: Translation3 { vector: t } }
+}
+
+impl<T: Scalar> SE3<T> {
+    /// Cayley's J_R at one point.
+    #[inline(always)]
+    fn alone(&self, x: &Vector6<T>, p: &Vector6<T>) -> Vector6<T> {
+        let rows = |v: &Vector6<T>| [0, 1, 2, 3, 4, 5].map(|i| [v[i]]);
+        let momentum = self.node_momenta::<1>(&rows(x), &rows(p), 2);
+        Vector6::from_fn(|i, _| momentum[i][0])
+    }
 }
 
 impl<T: Scalar> LieGroup for SE3<T> {
@@ -154,7 +180,7 @@ impl<T: Scalar> LieGroup for SE3<T> {
         // ½(q₀ + q₁), the pull-backs of μ and of the momentum in the middle by y = x/2.
         let y = x * T::of(0.5);
         let first = self.dcay_transpose(&y, mu);
-        let second = self.dcay_transpose(&y, &self.node_momentum(&y, &first, 2));
+        let second = self.dcay_transpose(&y, &self.alone(&y, &first));
         (first + second) * T::of(0.5)
     }
 
@@ -176,35 +202,64 @@ impl<T: Scalar> LieGroup for SE3<T> {
     /// Cayley's chart, a polynomial in x = (a, b) and p = (n, f):
     /// (n + ½(n×a + f×b) + ¼(a·n)a − ¼ b×(f×a), f + ½ f×a).
     #[inline(always)]
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, _degree: usize) -> Self::Vector {
-        let ((a, b), (n, f)) = (split(x), split(p));
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows6<T, M>,
+        p: &Rows6<T, M>,
+        _degree: usize,
+    ) -> Rows6<T, M> {
+        let ([a, b], [n, f]) = (halves(x), halves(p));
         let (half, quarter) = (T::of(0.5), T::of(0.25));
-        let bent = cross(&f, &a);
-        let turned = sum(&cross(&n, &a), &cross(&f, &b));
-        let angular = plus(&plus(&n, half, &turned), quarter * dot(&a, &n), &a);
-        join(&plus(&angular, -quarter, &cross(&b, &bent)), &plus(&f, half, &bent))
+        let bent = nodes::cross(&f, &a);
+        let turned = nodes::plus(&nodes::cross(&n, &a), T::of(1.0), &nodes::cross(&f, &b));
+        let along = nodes::dot(&a, &nodes::scaled(quarter, &n));
+        let angular = nodes::plus_each(&nodes::plus(&n, half, &turned), &along, &a);
+        whole(
+            nodes::plus(&angular, -quarter, &nodes::cross(&b, &bent)),
+            nodes::plus(&f, half, &bent),
+        )
     }
 
     #[inline(always)]
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows6<T, M>,
+        p: &Rows6<T, M>,
+        omega: &Rows6<T, M>,
         _degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
-        let ((a, b), (n, f), (w, v)) = (split(x), split(p), split(omega));
+    ) -> [Rows6<T, M>; 2] {
+        let ([a, b], [n, f], [w, v]) = (halves(x), halves(p), halves(omega));
         let (half, quarter) = (T::of(0.5), T::of(0.25));
-        let (bent, moved) = (cross(&f, &a), cross(&w, &b));
-        let (along_n, along_w) = (quarter * dot(&a, &n), quarter * dot(&a, &w));
-        let turn = plus(&plus(&w, half, &cross(&a, &w)), along_w, &a);
-        let shift = sum(&cross(&a, &v), &scaled(-T::of(1.0), &moved));
-        let shift = plus(&plus(&v, half, &shift), -quarter, &cross(&a, &moved));
-        let angular = scaled(half, &sum(&cross(&n, &w), &cross(&f, &v)));
-        let angular = plus(&angular, quarter, &cross(&moved, &f));
-        let angular = plus(&plus(&angular, -along_n, &w), -along_w, &n);
-        let linear = plus(&scaled(half, &cross(&f, &w)), quarter, &cross(&bent, &w));
-        (join(&turn, &shift), join(&angular, &linear))
+        let (bent, moved) = (nodes::cross(&f, &a), nodes::cross(&w, &b));
+        let part = nodes::scaled(quarter, &a);
+        let (along_n, along_w) = (nodes::dot(&part, &n), nodes::dot(&part, &w));
+        let turn = nodes::plus(&w, half, &nodes::cross(&a, &w));
+        let turn = nodes::plus_each(&turn, &along_w, &a);
+        let shift = nodes::plus(&nodes::cross(&a, &v), T::of(-1.0), &moved);
+        let shift =
+            nodes::plus(&nodes::plus(&v, half, &shift), -quarter, &nodes::cross(&a, &moved));
+        let angular = nodes::plus(&nodes::cross(&n, &w), T::of(1.0), &nodes::cross(&f, &v));
+        let angular = nodes::scaled(half, &angular);
+        let angular = nodes::plus(&angular, quarter, &nodes::cross(&moved, &f));
+        let angular = nodes::plus_each(&angular, &nodes::minus(&along_n), &w);
+        let angular = nodes::plus_each(&angular, &nodes::minus(&along_w), &n);
+        let linear = nodes::scaled(half, &nodes::cross(&f, &w));
+        let linear = nodes::plus(&linear, quarter, &nodes::cross(&bent, &w));
+        [whole(turn, shift), whole(angular, linear)]
+    }
+
+    #[inline(always)]
+    fn ad_stars<const M: usize>(&self, x: &Rows6<T, M>, mu: &Rows6<T, M>) -> Rows6<T, M> {
+        let ([a, b], [n, f]) = (halves(x), halves(mu));
+        let turned = nodes::plus(&nodes::cross(&n, &a), T::of(1.0), &nodes::cross(&f, &b));
+        whole(turned, nodes::cross(&f, &a))
+    }
+
+    #[inline(always)]
+    fn brackets<const M: usize>(&self, x: &Rows6<T, M>, y: &Rows6<T, M>) -> Rows6<T, M> {
+        let ([a, b], [w, v]) = (halves(x), halves(y));
+        let moved = nodes::plus(&nodes::cross(&a, &v), T::of(1.0), &nodes::cross(&b, &w));
+        whole(nodes::cross(&a, &w), moved)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3
 
 use crate::group::element_error::{ElementError, finite, within};
 use crate::group::entire::{entire, half_angle, log_factor};
+use crate::group::nodes::{self, Row, Rows3};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
 
@@ -83,7 +84,7 @@ pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
 
 /// c(t) = Σ |B₂ₖ|/(2k)! tᵏ⁻¹ up to k = 6, t = |x|², and 2 dc/dt: the factors of exp's J_R.
 #[inline(always)]
-pub(crate) fn bernoulli<T: Scalar>(t: T) -> (T, T) {
+fn bernoulli<T: Scalar, const M: usize>(t: &Row<T, M>) -> [Row<T, M>; 2] {
     const C: [f64; 6] = [
         1.0 / 12.0,
         1.0 / 720.0,
@@ -92,11 +93,18 @@ pub(crate) fn bernoulli<T: Scalar>(t: T) -> (T, T) {
         1.0 / 47_900_160.0,
         691.0 / 1_307_674_368_000.0,
     ];
-    let t2 = t * t;
-    let pair = |a: f64, b: f64| T::of(b).times_plus(t, T::of(a));
-    let c = pair(C[4], C[5]).times_plus(t2, pair(C[2], C[3])).times_plus(t2, pair(C[0], C[1]));
-    let high = T::of(10.0 * C[5]).times_plus(t2, pair(6.0 * C[3], 8.0 * C[4]));
-    (c, high.times_plus(t2, pair(2.0 * C[1], 4.0 * C[2])))
+    let pair = |i: usize, a: f64, b: f64| T::of(b).times_plus(t[i], T::of(a));
+    let c = nodes::each(|i| {
+        let square = t[i] * t[i];
+        let high = pair(i, C[4], C[5]).times_plus(square, pair(i, C[2], C[3]));
+        high.times_plus(square, pair(i, C[0], C[1]))
+    });
+    let slope = nodes::each(|i| {
+        let square = t[i] * t[i];
+        let high = T::of(10.0 * C[5]).times_plus(square, pair(i, 6.0 * C[3], 8.0 * C[4]));
+        high.times_plus(square, pair(i, 2.0 * C[1], 4.0 * C[2]))
+    });
+    [c, slope]
 }
 
 /// The rotation whose matrix has these (finite) entries.
@@ -198,29 +206,48 @@ impl<T: Scalar> LieGroup for SO3<T> {
     }
 
     #[inline(always)]
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, _degree: usize) -> Self::Vector {
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        _degree: usize,
+    ) -> Rows3<T, M> {
         // p − ½ x×p + c x×(x×p)
-        let once = cross(x, p);
-        let (c, _) = bernoulli(dot(x, x));
-        plus(&plus(p, T::of(-0.5), &once), c, &cross(x, &once))
+        let once = nodes::cross(x, p);
+        let [c, _] = bernoulli(&nodes::dot(x, x));
+        let twice = nodes::cross(x, &once);
+        nodes::plus_each(&nodes::plus(p, T::of(-0.5), &once), &c, &twice)
     }
 
     #[inline(always)]
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        omega: &Rows3<T, M>,
         _degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
+    ) -> [Rows3<T, M>; 2] {
         // ẋ = ω + ½ x×ω + c x×(x×ω), −ṗ = ½ ω×p + c[(x×p)×ω + (x×ω)×p] + 2c′ (ω·x×(x×p)) x
-        let (c, slope) = bernoulli(dot(x, x));
-        let (turned, once) = (cross(x, omega), cross(x, p));
-        let velocity = plus(&plus(omega, T::of(0.5), &turned), c, &cross(x, &turned));
-        let bent = sum(&cross(&once, omega), &cross(&turned, p));
-        let along = slope * dot(omega, &cross(x, &once));
-        let force = plus(&scaled(T::of(0.5), &cross(p, omega)), -c, &bent);
-        (velocity, plus(&force, -along, x))
+        let [c, slope] = bernoulli(&nodes::dot(x, x));
+        let (turned, once) = (nodes::cross(x, omega), nodes::cross(x, p));
+        let velocity = nodes::plus(omega, T::of(0.5), &turned);
+        let velocity = nodes::plus_each(&velocity, &c, &nodes::cross(x, &turned));
+        let bent = nodes::plus(&nodes::cross(&once, omega), T::of(1.0), &nodes::cross(&turned, p));
+        let along = nodes::dot(omega, &nodes::cross(x, &once));
+        let along = nodes::each(|i| -(slope[i] * along[i]));
+        let force = nodes::scaled(T::of(0.5), &nodes::cross(p, omega));
+        let force = nodes::plus_each(&force, &nodes::minus(&c), &bent);
+        [velocity, nodes::plus_each(&force, &along, x)]
+    }
+
+    #[inline(always)]
+    fn ad_stars<const M: usize>(&self, x: &Rows3<T, M>, mu: &Rows3<T, M>) -> Rows3<T, M> {
+        nodes::cross(mu, x)
+    }
+
+    #[inline(always)]
+    fn brackets<const M: usize>(&self, x: &Rows3<T, M>, y: &Rows3<T, M>) -> Rows3<T, M> {
+        nodes::cross(x, y)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -6,6 +6,7 @@ use nalgebra::{SimdBool, UnitQuaternion, Vector3};
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::entire::log_factor;
+use crate::group::nodes::Rows3;
 use crate::group::so3::{SO3, cross, dot, quaternion};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::scalar::Scalar;
@@ -92,17 +93,24 @@ impl<T: Scalar> LieGroup for SU2<T> {
         SO3::new().exp_extent(x)
     }
 
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
-        SO3::new().node_momentum(x, p, degree)
+    #[inline(always)]
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        degree: usize,
+    ) -> Rows3<T, M> {
+        SO3::new().node_momenta(x, p, degree)
     }
 
-    fn node_rates(
+    #[inline(always)]
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows3<T, M>,
+        p: &Rows3<T, M>,
+        omega: &Rows3<T, M>,
         degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
+    ) -> [Rows3<T, M>; 2] {
         SO3::new().node_rates(x, p, omega, degree)
     }
 

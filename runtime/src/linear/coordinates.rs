@@ -18,6 +18,31 @@ pub trait Coordinates<T: Scalar>:
     /// Square matrices of the same dimension, entries at `(row, column)`.
     type Matrix: Clone + Debug + Index<(usize, usize), Output = T> + IndexMut<(usize, usize)>;
 
+    /// Vectors at `M` nodes, coordinate by coordinate: the numbers of all nodes stand side by side.
+    type Rows<const M: usize>: Clone + Debug + Index<usize, Output = [T; M]> + IndexMut<usize>;
+
+    /// Zero vectors at all nodes; `dim` as in [`Coordinates::zeros`].
+    fn zero_rows<const M: usize>(dim: usize) -> Self::Rows<M>;
+
+    /// The vector at a node.
+    #[inline(always)]
+    fn at<const M: usize>(dim: usize, rows: &Self::Rows<M>, node: usize) -> Self {
+        Self::from_entries(dim, |i| rows[i][node])
+    }
+
+    /// Makes vectors node by node.
+    #[inline(always)]
+    fn by_node<const M: usize>(dim: usize, mut vector: impl FnMut(usize) -> Self) -> Self::Rows<M> {
+        let mut rows = Self::zero_rows::<M>(dim);
+        for node in 0..M {
+            let v = vector(node);
+            for i in 0..v.dim() {
+                rows[i][node] = v[i];
+            }
+        }
+        rows
+    }
+
     /// The zero vector; `dim` must be the fixed dimension where there is one.
     fn zeros(dim: usize) -> Self;
 
@@ -131,6 +156,12 @@ pub trait Coordinates<T: Scalar>:
 
 impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {
     type Matrix = SMatrix<T, N, N>;
+    type Rows<const M: usize> = [[T; M]; N];
+
+    #[inline(always)]
+    fn zero_rows<const M: usize>(_dim: usize) -> Self::Rows<M> {
+        [[T::of(0.0); M]; N]
+    }
 
     #[inline(always)]
     fn zeros(_dim: usize) -> Self {
@@ -151,6 +182,11 @@ impl<T: Scalar, const N: usize> Coordinates<T> for SVector<T, N> {
 #[cfg(feature = "alloc")]
 impl<T: Scalar> Coordinates<T> for nalgebra::DVector<T> {
     type Matrix = nalgebra::DMatrix<T>;
+    type Rows<const M: usize> = alloc::vec::Vec<[T; M]>;
+
+    fn zero_rows<const M: usize>(dim: usize) -> Self::Rows<M> {
+        alloc::vec![[T::of(0.0); M]; dim]
+    }
 
     fn zeros(dim: usize) -> Self {
         Self::repeat(dim, T::of(0.0))

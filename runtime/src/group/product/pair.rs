@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::group::element_error::{ElementError, finite, fixed};
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
@@ -83,6 +83,20 @@ where
             result[n + i] = b[i];
         }
         result
+    }
+
+    /// The coordinates of both factors at each node.
+    fn split_rows<const M: usize>(x: &[[T; M]; N]) -> (Rows<A, M>, Rows<B, M>) {
+        let (n, m) = (A::default().dim(), B::default().dim());
+        let mut rows = (A::Vector::zero_rows::<M>(n), B::Vector::zero_rows::<M>(m));
+        (0..n).for_each(|i| rows.0[i] = x[i]);
+        (0..m).for_each(|i| rows.1[i] = x[n + i]);
+        rows
+    }
+
+    fn join_rows<const M: usize>(a: &Rows<A, M>, b: &Rows<B, M>) -> [[T; M]; N] {
+        let n = A::default().dim();
+        core::array::from_fn(|i| if i < n { a[i] } else { b[i - n] })
     }
 
     /// Coordinates from two others, factor by factor.
@@ -177,23 +191,28 @@ where
         A::default().middle_extent(&a).worse(B::default().middle_extent(&b))
     }
 
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
-        let left = |group: &A, x: &A::Vector, p: &A::Vector| group.node_momentum(x, p, degree);
-        let right = |group: &B, x: &B::Vector, p: &B::Vector| group.node_momentum(x, p, degree);
-        Self::by_factor(x, p, left, right)
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        degree: usize,
+    ) -> Rows<Self, M> {
+        let ((xa, xb), (pa, pb)) = (Self::split_rows::<M>(x), Self::split_rows::<M>(p));
+        let left = A::default().node_momenta::<M>(&xa, &pa, degree);
+        Self::join_rows::<M>(&left, &B::default().node_momenta::<M>(&xb, &pb, degree))
     }
 
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        omega: &Rows<Self, M>,
         degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
-        let ((xa, xb), (pa, pb), (wa, wb)) = (Self::split(x), Self::split(p), Self::split(omega));
-        let left = A::default().node_rates(&xa, &pa, &wa, degree);
-        let right = B::default().node_rates(&xb, &pb, &wb, degree);
-        (Self::join((left.0, right.0)), Self::join((left.1, right.1)))
+    ) -> [Rows<Self, M>; 2] {
+        let [(xa, xb), (pa, pb), (wa, wb)] = [x, p, omega].map(Self::split_rows::<M>);
+        let [velocity, force] = A::default().node_rates::<M>(&xa, &pa, &wa, degree);
+        let [other, push] = B::default().node_rates::<M>(&xb, &pb, &wb, degree);
+        [Self::join_rows::<M>(&velocity, &other), Self::join_rows::<M>(&force, &push)]
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -11,7 +11,7 @@ use alloc::{vec, vec::Vec};
 use nalgebra::SVector;
 
 use crate::group::element_error::{ElementError, finite, fixed};
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 
@@ -261,6 +261,28 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
         self.coordinates(|at, group| f(group, &self.part(at, x), &self.part(at, y)))
     }
 
+    /// Coordinates at each node from others.
+    fn rows_by_parts<const M: usize, const A: usize, const B: usize>(
+        &self,
+        from: [&RowsOf<R, M>; A],
+        f: impl Fn(&R::Group, [Rows<R::Group, M>; A]) -> [Rows<R::Group, M>; B],
+    ) -> [RowsOf<R, M>; B] {
+        let mut result = [(); B].map(|()| R::Vector::zero_rows::<M>(self.end().coordinate));
+        for at in 0..self.0.count() {
+            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
+            let n = group.borrow().dim();
+            let parts = from.map(|rows| {
+                let mut part = VectorOf::<R>::zero_rows::<M>(n);
+                (0..n).for_each(|i| part[i] = rows[start + i]);
+                part
+            });
+            for (rows, part) in result.iter_mut().zip(f(group.borrow(), parts)) {
+                (0..n).for_each(|i| rows[start + i] = part[i]);
+            }
+        }
+        result
+    }
+
     /// Increments of the factors and the momentum they move.
     fn transport_by_parts(
         &self,
@@ -304,6 +326,9 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
 
 /// Coordinates of a factor.
 type VectorOf<R> = <<R as Row>::Group as LieGroup>::Vector;
+/// Coordinates of the product at each node.
+type RowsOf<R, const M: usize> =
+    <<R as Row>::Vector as Coordinates<<<R as Row>::Group as LieGroup>::Scalar>>::Rows<M>;
 /// Elements of a factor.
 type ElementOf<R> = <<R as Row>::Group as LieGroup>::Element;
 
@@ -373,28 +398,28 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
         self.largest(|at, group| group.middle_extent(&self.part(at, x)))
     }
 
-    fn node_momentum(&self, x: &Self::Vector, p: &Self::Vector, degree: usize) -> Self::Vector {
-        self.by_parts(x, p, |group, x, p| group.node_momentum(x, p, degree))
+    fn node_momenta<const M: usize>(
+        &self,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        degree: usize,
+    ) -> Rows<Self, M> {
+        let [momenta] = self.rows_by_parts::<M, _, _>([x, p], |group, [x, p]| {
+            [group.node_momenta::<M>(&x, &p, degree)]
+        });
+        momenta
     }
 
-    fn node_rates(
+    fn node_rates<const M: usize>(
         &self,
-        x: &Self::Vector,
-        p: &Self::Vector,
-        omega: &Self::Vector,
+        x: &Rows<Self, M>,
+        p: &Rows<Self, M>,
+        omega: &Rows<Self, M>,
         degree: usize,
-    ) -> (Self::Vector, Self::Vector) {
-        let mut force = R::Vector::zeros(p.dim());
-        let velocity = self.coordinates(|at, group| {
-            let start = self.0.place(at).coordinate;
-            let (x, p, omega) = (self.part(at, x), self.part(at, p), self.part(at, omega));
-            let (velocity, part) = group.node_rates(&x, &p, &omega, degree);
-            for i in 0..part.dim() {
-                force[start + i] = part[i];
-            }
-            velocity
-        });
-        (velocity, force)
+    ) -> [Rows<Self, M>; 2] {
+        self.rows_by_parts::<M, _, _>([x, p, omega], |group, [x, p, omega]| {
+            group.node_rates::<M>(&x, &p, &omega, degree)
+        })
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {

@@ -1,0 +1,65 @@
+//! Vectors of space at several nodes, the numbers of all nodes side by side: the compiler makes lanes of them.
+
+use crate::number::scalar::Scalar;
+
+/// A number at each node.
+pub(super) type Row<T, const M: usize> = [T; M];
+/// A vector of space at each node.
+pub(super) type Rows3<T, const M: usize> = [Row<T, M>; 3];
+
+/// The number f(i) at each node i.
+#[inline(always)]
+pub(super) fn each<T: Scalar, const M: usize>(mut f: impl FnMut(usize) -> T) -> Row<T, M> {
+    let mut row = [T::of(0.0); M];
+    for i in 0..M {
+        row[i] = f(i);
+    }
+    row
+}
+
+/// a × b
+#[inline(always)]
+pub(super) fn cross<T: Scalar, const M: usize>(a: &Rows3<T, M>, b: &Rows3<T, M>) -> Rows3<T, M> {
+    let entry = |j: usize, k: usize| each(|i| (-a[k][i]).times_plus(b[j][i], a[j][i] * b[k][i]));
+    [entry(1, 2), entry(2, 0), entry(0, 1)]
+}
+
+/// a·b
+#[inline(always)]
+pub(super) fn dot<T: Scalar, const M: usize>(a: &Rows3<T, M>, b: &Rows3<T, M>) -> Row<T, M> {
+    each(|i| a[2][i].times_plus(b[2][i], a[1][i].times_plus(b[1][i], a[0][i] * b[0][i])))
+}
+
+/// a + s·b
+#[inline(always)]
+pub(super) fn plus<T: Scalar, const M: usize>(
+    a: &Rows3<T, M>,
+    s: T,
+    b: &Rows3<T, M>,
+) -> Rows3<T, M> {
+    plus_each(a, &[s; M], b)
+}
+
+/// a + s·b, with an s for each node
+#[inline(always)]
+pub(super) fn plus_each<T: Scalar, const M: usize>(
+    a: &Rows3<T, M>,
+    s: &Row<T, M>,
+    b: &Rows3<T, M>,
+) -> Rows3<T, M> {
+    let entry = |k: usize| each(|i| b[k][i].times_plus(s[i], a[k][i]));
+    [entry(0), entry(1), entry(2)]
+}
+
+/// s·a
+#[inline(always)]
+pub(super) fn scaled<T: Scalar, const M: usize>(s: T, a: &Rows3<T, M>) -> Rows3<T, M> {
+    let entry = |k: usize| each(|i| a[k][i] * s);
+    [entry(0), entry(1), entry(2)]
+}
+
+/// −s for each node
+#[inline(always)]
+pub(super) fn minus<T: Scalar, const M: usize>(s: &Row<T, M>) -> Row<T, M> {
+    each(|i| -s[i])
+}
