@@ -5,7 +5,7 @@ use std::time::Instant;
 use coadjoint::collocation::Collocation;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use nalgebra::{SVector, Vector3, Vector6};
-use ode_solvers::System;
+use ode_solvers::{SVector as Peers, System};
 
 use crate::timing::Failure;
 use crate::work::integrate;
@@ -74,22 +74,24 @@ fn one_sign(y: SVector<f64, 7>) -> SVector<f64, 7> {
 /// μ̇ = μ × ω, q̇ = ½ q (0, ω).
 struct Turning<F>(F);
 
-impl<F: Fn(&Vector3<f64>) -> Vector3<f64>> System<f64, SVector<f64, 7>> for Turning<F> {
-    fn system(&self, _: f64, y: &SVector<f64, 7>, dy: &mut SVector<f64, 7>) {
+impl<F: Fn(&Vector3<f64>) -> Vector3<f64>> System<f64, Peers<f64, 7>> for Turning<F> {
+    fn system(&self, _: f64, y: &Peers<f64, 7>, dy: &mut Peers<f64, 7>) {
         let m = Vector3::new(y[0], y[1], y[2]);
         let w = (self.0)(&m);
         let (t, h, u) = (m.cross(&w), w * 0.5, Vector3::new(y[4], y[5], y[6]));
         let v = h * y[3] + u.cross(&h);
-        *dy = SVector::from([t.x, t.y, t.z, -u.dot(&h), v.x, v.y, v.z]);
+        *dy = Peers::from([t.x, t.y, t.z, -u.dot(&h), v.x, v.y, v.z]);
     }
 }
 
 /// μ̇ = ad\*_ω μ.
 struct Moving<F>(F);
 
-impl<F: Fn(&Vector6<f64>) -> Vector6<f64>> System<f64, SVector<f64, 6>> for Moving<F> {
-    fn system(&self, _: f64, y: &SVector<f64, 6>, dy: &mut SVector<f64, 6>) {
-        *dy = SE3::new().ad_star(&(self.0)(y), y);
+impl<F: Fn(&Vector6<f64>) -> Vector6<f64>> System<f64, Peers<f64, 6>> for Moving<F> {
+    fn system(&self, _: f64, y: &Peers<f64, 6>, dy: &mut Peers<f64, 6>) {
+        let m = Vector6::from(y.data.0[0]);
+        let slope = SE3::new().ad_star(&(self.0)(&m), &m);
+        *dy = Peers::from(slope.data.0[0]);
     }
 }
 
