@@ -6,7 +6,7 @@ use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{meet_tolerance as meet, read_group, read_varying, read_with};
+use coadjoint_run::{as_chosen, meet_tolerance as meet, read_group, read_varying, read_with};
 
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
@@ -35,15 +35,14 @@ pub(crate) fn system_file(group: &str) -> Option<&Path> {
     (path.extension()? == "toml").then_some(path)
 }
 
-/// Reads the system of a command again, with this truncation, where the parameters with these names vary.
+/// Reads the system of a command again, with what was chosen for its tolerance, where the parameters with these names vary.
 pub(crate) fn varying(
     source: &Source,
-    truncation: usize,
+    choice: Option<&Choice>,
     names: &[String],
 ) -> Result<System, CliError> {
     let path = &source.file;
-    let options =
-        Options { truncation: Some(truncation), ..source.options(Parameters::Substituted) };
+    let options = as_chosen(choice, source.options(Parameters::Substituted));
     Ok(read_varying(&path.display().to_string(), &text(path)?, options, names)?)
 }
 
@@ -52,21 +51,20 @@ pub(crate) fn source(source: &Source, parameters: Parameters) -> Result<System, 
     file(&source.file, source.options(parameters))
 }
 
-/// Picks truncation and step where a tolerance is asked for, on the command line or in the file,
-/// and says so on the error stream. `truncation` and `time` are what the command line gives.
+/// Picks truncation, step and frame where a tolerance is asked for, on the command line or in the file,
+/// and says so on the error stream; what was picked. `truncation` and `time` are what the command line gives.
 pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
     truncation: Option<usize>,
     time: Option<f64>,
-) -> Result<(), CliError> {
+) -> Result<Option<Choice>, CliError> {
     let Accuracy { step, tolerance, region } = *asked;
     let asked = coadjoint_run::Accuracy { step, tolerance, region, truncation, time };
-    if let Some(choice) = meet(path, system, &asked)? {
-        eprintln!("{choice}");
-    }
-    Ok(())
+    let choice = meet(path, system, &asked)?;
+    choice.iter().for_each(|choice| eprintln!("{choice}"));
+    Ok(choice)
 }
 
 /// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
@@ -106,8 +104,7 @@ pub(crate) fn settled(
     if parameters == Parameters::Substituted {
         return Ok((system, choice));
     }
-    let truncation = Some(system.problem.truncation);
-    let mut kept = source(&Source { truncation, ..given.clone() }, parameters)?;
+    let mut kept = file(&given.file, as_chosen(choice.as_ref(), given.options(parameters)))?;
     kept.run.step = system.run.step;
     Ok((kept, choice))
 }

@@ -38,7 +38,7 @@ impl Source {
     /// How the file is to be read.
     pub(crate) fn options(&self, parameters: Parameters) -> Options {
         let Instead { chart, solver } = self.instead;
-        Options { parameters, truncation: self.truncation, chart, solver }
+        Options { parameters, truncation: self.truncation, chart, solver, frame: None }
     }
 }
 

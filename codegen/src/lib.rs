@@ -57,6 +57,8 @@ mod build_script;
 #[cfg(feature = "system")]
 pub use build_script::{Build, BuildError};
 
+pub use pass::in_other_frame;
+
 /// Steps judged in doubled precision, independently of the runtime.
 #[cfg(feature = "judge")]
 pub use coadjoint_symbolic::judge;

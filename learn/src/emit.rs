@@ -3,7 +3,7 @@
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{FrameChoice, Problem};
 use num_traits::{FromPrimitive, One, Zero};
 
 use crate::error::LearnError;
@@ -73,6 +73,7 @@ pub fn problem(file: &ModelFile, name: &str) -> Result<Problem, LearnError> {
     let hamiltonian = polynomial.scale(&(Rational::one() / step));
     Ok(Problem {
         solver: None,
+        frame: FrameChoice::Fixed,
         comoving: None,
         name: name.into(),
         coordinates: (1..=algebra.dim()).map(|i| format!("mu_{i}")).collect(),

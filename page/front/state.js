@@ -42,7 +42,7 @@ function readLink() {
   state.fields = {};
   for (const key of FIELDS) state.fields[key] = entries.get(key) ?? entry?.fields[key] ?? "";
   if (!state.fields.chart) state.fields.chart = "exp";
-  if (!state.fields.frame) state.fields.frame = "fixed";
+  if (!state.fields.frame) state.fields.frame = "auto";
   const number = (text) => (text !== null && Number.isFinite(+text) ? +text : null);
   const speed = number(entries.get("speed"));
   if (speed !== null) state.speed = Math.min(Math.max(speed, 0.5), 5000);

@@ -25,7 +25,7 @@ pub struct Fields {
     pub truncation: String,
     /// `exp` or `cayley`.
     pub chart: String,
-    /// `fixed` or `comoving`.
+    /// `auto`, `fixed` or `comoving`.
     pub frame: String,
     /// The step size h.
     pub step: String,
@@ -88,7 +88,7 @@ impl Fields {
             parameters: entries("parameters", &plain),
             truncation: get(within("integrator", "truncation"), "7"),
             chart: get(within("integrator", "chart"), "exp"),
-            frame: get(within("integrator", "frame"), "fixed"),
+            frame: get(within("integrator", "frame"), "auto"),
             step: get(within("integrator", "step"), "0.1"),
             momentum: within("initial", "momentum").map(list).unwrap_or_default(),
             time: get(within("run", "time"), "10"),

@@ -54,7 +54,7 @@ impl File {
         if fields.chart != "exp" {
             file.entry("chart", &fields.chart, Self::string);
         }
-        if fields.frame != "fixed" {
+        if fields.frame != "auto" {
             file.entry("frame", &fields.frame, Self::string);
         }
         file.entry("step", &fields.step, Self::number);

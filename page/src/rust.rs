@@ -81,8 +81,8 @@ pub fn program(system: &System) -> Result<String, String> {
     if system.fields.chart != "exp" {
         list.push(format!("chart = {}", problem.chart.name()));
     }
-    if problem.comoving.is_some() {
-        list.push("frame = comoving".to_owned());
+    if system.fields.frame != "auto" {
+        list.push(format!("frame = {}", problem.frame_name()));
     }
     let types = problem.parameters.iter().map(|parameter| match parameter.shape {
         Shape::Array(n) => format!("[f64; {n}]"),

@@ -148,7 +148,8 @@ impl System {
     /// The same system with its parameters kept as names; none where the comoving frame is one for their values alone.
     #[must_use]
     pub fn with_names(&self) -> Option<Problem> {
-        kept(&self.fields)
+        let moving = self.integrator.problem.comoving.is_some();
+        kept(&self.fields).filter(|problem| problem.comoving.is_some() == moving)
     }
 
     /// The parameters with their values.

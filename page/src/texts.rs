@@ -118,8 +118,8 @@ fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
     if system.fields.chart != "exp" {
         arguments.push(format!("    chart={},", quoted(problem.chart.name())));
     }
-    if problem.comoving.is_some() {
-        arguments.push("    frame=\"comoving\",".to_owned());
+    if system.fields.frame != "auto" {
+        arguments.push(format!("    frame={},", quoted(problem.frame_name())));
     }
     out.push_str(&format!("body = ca.System(\n{}\n)\n{run}", arguments.join("\n")));
     Ok(out)

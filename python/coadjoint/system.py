@@ -35,7 +35,7 @@ class System:
     ``coordinates`` of the body momentum. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
 
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
-    (``"exp"`` or ``"cayley"``), ``frame`` (``"fixed"`` or ``"comoving"``), ``solver``, and for a ``potential`` V(g),
+    (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, and for a ``potential`` V(g),
     a polynomial in ``g[0][0]``, …, the ``splitting``. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
     ``region`` and ``time`` are defaults of runs.
 

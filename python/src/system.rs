@@ -15,7 +15,7 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying, series, verify,
+    Accuracy, Derived, RunError, as_chosen, check, emit, meet_tolerance, read, read_varying, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -46,8 +46,8 @@ pub struct Core {
     derived: Cache,
 }
 
-/// What a system is derived for: a truncation, and, for ensembles, the parameters that vary.
-type Purpose = (usize, Option<Vec<String>>);
+/// What a system is derived for: a truncation, a frame, and, for ensembles, the parameters that vary.
+type Purpose = (usize, &'static str, Option<Vec<String>>);
 
 /// Systems that have been derived.
 type Cache = Arc<Mutex<Vec<(Purpose, Arc<Derived>)>>>;
@@ -59,14 +59,14 @@ fn derive(
     system: System,
     ensemble: Option<Vec<String>>,
 ) -> Result<Arc<Derived>, RunError> {
-    let key = (system.problem.truncation, ensemble);
+    let key = (system.problem.truncation, system.problem.frame_name(), ensemble);
     let known = |list: &Vec<(Purpose, Arc<Derived>)>| {
         list.iter().find(|(other, _)| *other == key).map(|(_, derived)| derived.clone())
     };
     if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
         return Ok(found);
     }
-    let system = if key.1.is_some() { ensemble::in_lanes(system)? } else { system };
+    let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
     let made = Arc::new(Derived::of_file(Path::new(name), system)?);
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
     if known(&list).is_none() {
@@ -303,6 +303,7 @@ impl Core {
                 system
             } else {
                 let options = Options { truncation: Some(truncation), ..Options::default() };
+                let options = as_chosen(choice.as_ref(), options);
                 read_varying(&here.name, &here.text, options, &varied)?
             };
             let derived = derive(&cache, &here.name, system, Some(varied))?;

@@ -17,7 +17,8 @@ use sha2::{Digest, Sha256};
 pub use backend::{Backend, Code, Used};
 pub use error::RunError;
 pub use load::{
-    Accuracy, Derived, integrator, learned, meet_tolerance, read, read_either, read_group,
+    Accuracy, Derived, as_chosen, integrator, learned, meet_tolerance, read, read_either,
+    read_group,
     read_varying, read_with,
 };
 

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{FrameChoice, Problem};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
@@ -207,7 +208,15 @@ pub struct Accuracy {
     pub time: Option<f64>,
 }
 
-/// Picks truncation and step where a tolerance is asked for, by the settings or in the text, and puts them into the
+/// The options by which a text is read again with the truncation and the frame that were chosen for its tolerance.
+#[must_use]
+pub fn as_chosen(choice: Option<&Choice>, options: Options) -> Options {
+    let Some(choice) = choice else { return options };
+    let frame = if choice.comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
+    Options { truncation: Some(choice.truncation), frame: Some(frame), ..options }
+}
+
+/// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings or in the text, and puts them into the
 /// system; what was picked.
 ///
 /// # Errors
@@ -239,8 +248,18 @@ pub fn meet_tolerance(
         region: asked.region.map(Region::Ball).or_else(|| run.region.clone()),
         truncation: asked.truncation.or(run.truncation),
     };
-    let choice = tolerance::choose(problem, &target, AFFORDABLE).map_err(RunError::of(path))?;
-    problem.truncation = choice.truncation;
+    let choose = |problem: Problem| {
+        let choice = tolerance::choose(&problem, &target, AFFORDABLE);
+        choice.map(|choice| (Problem { truncation: choice.truncation, ..problem }, choice))
+    };
+    // Of the frames that the system leaves the choice of, the one in which steps are cheaper.
+    let found = match (choose(problem.clone()), in_other_frame(problem).map(choose)) {
+        (Ok(one), Some(Ok(other))) if one.1.operations <= other.1.operations => Ok(one),
+        (_, Some(Ok(other))) => Ok(other),
+        (one, _) => one,
+    };
+    let (chosen, choice) = found.map_err(RunError::of(path))?;
+    *problem = chosen;
     *run = Run { step: Some(choice.step), ..run.clone() };
     Ok(Some(choice))
 }

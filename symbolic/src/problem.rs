@@ -126,21 +126,25 @@ impl Solver {
 /// The frame in which S generates the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FrameChoice {
-    /// S generates the flow of all of H_red.
+    /// The comoving one where a linear term of H_red commutes with the rest; where truncation and step are chosen by a
+    /// tolerance, the one in which steps are cheaper.
     #[default]
+    Auto,
+    /// S generates the flow of all of H_red.
     Fixed,
     /// S generates what is left in the comoving frame, whose own motion follows each step.
     Comoving,
 }
 
 impl FrameChoice {
-    /// The names users write, `fixed` and `comoving`.
-    pub const NAMES: [&str; 2] = ["fixed", "comoving"];
+    /// The names users write, `auto`, `fixed` and `comoving`.
+    pub const NAMES: [&str; 3] = ["auto", "fixed", "comoving"];
 
     /// The choice of this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name {
+            "auto" => Some(Self::Auto),
             "fixed" => Some(Self::Fixed),
             "comoving" => Some(Self::Comoving),
             _ => None,
@@ -174,6 +178,8 @@ pub struct Problem {
     pub truncation: usize,
     /// The solver asked for; `None` takes the default for the dimension.
     pub solver: Option<Solver>,
+    /// The frame asked for.
+    pub frame: FrameChoice,
     /// The comoving frame, if S is to generate the motion in it.
     pub comoving: Option<Frame>,
     /// Whether h·H_red is the generating function of a learned map, and not the first term of a series.
@@ -185,6 +191,12 @@ impl Problem {
     #[must_use]
     pub fn generated(&self) -> &Polynomial {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
+    }
+
+    /// The name of the frame in which S generates the motion, `fixed` or `comoving`.
+    #[must_use]
+    pub fn frame_name(&self) -> &'static str {
+        if self.comoving.is_some() { "comoving" } else { "fixed" }
     }
 
     /// The solver asked for, or the default for the dimension.

@@ -8,7 +8,7 @@ use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 
 /// Groups with a Hamiltonian on each.
-pub const SYSTEMS: [(&str, &str); 14] = [
+pub const SYSTEMS: [(&str, &str); 15] = [
     ("SO3", "a^2/3 + b^2/4 + c^2/5"),
     ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7"),
     ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9"),
@@ -19,6 +19,11 @@ pub const SYSTEMS: [(&str, &str); 14] = [
     ("Aff1", "a^2/5 + b^2/6"),
     ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8"),
     ("SU3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + g^2/9 + h^2/10"),
+    // In the comoving frame.
+    (
+        "SU3",
+        "a^2/3 + b^2/3 + c^2/5 + d^2/5 + e^2/7 + f^2/7 + (a*d - b*c)*f/3 + (a*c + b*d)*e/3 + 9*g",
+    ),
     ("SO3^2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9 + b*e/10"),
     ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),
     ("SO3*R3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9"),

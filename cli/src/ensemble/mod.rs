@@ -33,16 +33,18 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let path = options.input.model.as_deref().unwrap_or(path);
     let inputs: [&Path; 2] = [path, initial];
     let accuracy = &options.accuracy;
-    let (mut system, attitude, schedule) = match &options.input.model {
+    let (mut system, attitude, schedule, choice) = match &options.input.model {
         Some(path) => {
             let (model, schedule) = simulate::model(path, accuracy, options.time)?;
-            (learned(&model)?, model.attitude, schedule)
+            (learned(&model)?, model.attitude, schedule, None)
         }
         None => {
             let mut system = load::source(&source, Parameters::Substituted)?;
-            load::meet_tolerance(path, &mut system, accuracy, source.truncation, options.time)?;
+            let truncation = source.truncation;
+            let choice =
+                load::meet_tolerance(path, &mut system, accuracy, truncation, options.time)?;
             let schedule = simulate::schedule(path, accuracy.step, options.time, &system.run)?;
-            (system, true, schedule)
+            (system, true, schedule, choice)
         }
     };
     let known = Known::of(&system.problem, &system.parameters);
@@ -62,7 +64,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     }
     let varied = states.found.layout.varied();
     if !varied.is_empty() {
-        system = load::varying(&source, system.problem.truncation, &varied)?;
+        system = load::varying(&source, choice.as_ref(), &varied)?;
     }
     let derived = Derived::of_file(path, in_lanes(system)?)?;
     let integrator = &derived.integrator;
@@ -79,6 +81,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         ("initial file", fingerprint(initial)?),
         ("truncation", problem.truncation.to_string()),
         ("chart", problem.chart.to_string()),
+        ("frame", problem.frame_name().to_owned()),
         ("step", step.to_string()),
         ("number of steps", steps.to_string()),
         ("shard", options.shard.to_string()),

@@ -60,6 +60,7 @@ pub(crate) fn report(
             "rejected": list,
             "truncation": truncation,
             "chart": chart.to_string(),
+            "frame": problem.frame_name(),
             "step": step,
             "steps": steps,
             "made_by": made_by,
@@ -84,8 +85,9 @@ pub(crate) fn report(
         }
         return format!("{value:#}\n");
     }
+    let frame = if problem.comoving.is_some() { ", comoving" } else { "" };
     let mut lines = vec![format!(
-        "K = {truncation}, {chart}: {trajectories} trajectories of {steps} steps of {step}"
+        "K = {truncation}, {chart}{frame}: {trajectories} trajectories of {steps} steps of {step}"
     )];
     if *kept {
         lines.push("  finished by an earlier run, and kept".to_owned());

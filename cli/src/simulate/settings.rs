@@ -166,7 +166,7 @@ impl Header {
             ("group", json!(problem.algebra.name())),
             ("truncation", json!(problem.truncation)),
             ("chart", json!(problem.chart.name())),
-            ("frame", json!(if problem.comoving.is_some() { "comoving" } else { "fixed" })),
+            ("frame", json!(problem.frame_name())),
             ("solver", json!(solver)),
         ];
         own.extend(splitting.map(|splitting| ("splitting", json!(splitting.name()))));

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::file::beside;
 use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::problem::FrameChoice;
 use coadjoint_codegen::system::{Options, System};
 use coadjoint_learn::table::{Row, Table};
 use coadjoint_run::verify::{Follower, Found, Sample, judge_of};
@@ -99,6 +100,7 @@ fn judge(
     let read = Options {
         truncation: options.truncation.or_else(|| number("truncation").map(|k| k as usize)),
         chart: options.chart.or(said),
+        frame: table.value("frame").and_then(FrameChoice::named),
         ..Options::default()
     };
     let System { problem, potential, run, parameters, .. } =

@@ -95,7 +95,7 @@ pub(crate) enum Mistake {
     #[error("unknown frame `{0}`{did}", did = did_you_mean(.1))]
     UnknownFrame(String, Option<String>),
     #[error(
-        "there is no comoving frame: neither a coordinate that is an integral nor a quadratic Casimir takes terms from the series"
+        "there is no comoving frame: neither a linear integral nor a quadratic Casimir takes terms from the series"
     )]
     NoFrame,
     #[error(transparent)]
@@ -276,10 +276,10 @@ impl Mistake {
             Self::TruncationNumber => "write for example truncation = 7",
             Self::UnknownChart(..) => "charts: exp (the default) and cayley",
             Self::UnknownSolver(..) => "solvers: newton and fixed_point",
-            Self::UnknownFrame(..) => "frames: fixed (the default) and comoving",
+            Self::UnknownFrame(..) => "frames: auto (the default), fixed and comoving",
             Self::NoFrame => {
-                "for a symmetric body, write both transverse moments of inertia as one parameter and \
-                 choose coordinates with the axis of symmetry among them; otherwise leave `frame` out"
+                "for a symmetric body, write both transverse moments of inertia as one parameter, and the axis \
+                 of symmetry in numbers; otherwise leave `frame` out"
             }
             Self::Dimension(_, group, expected) => {
                 return Some(format!("give {expected} coordinates for {group}"));

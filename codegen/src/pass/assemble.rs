@@ -2,10 +2,9 @@
 
 use super::choice::Choice;
 use super::coefficient::{ONE, Table};
+use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::lower;
-use super::sums::name_sums;
-use crate::comoving::comoving;
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId};
 use crate::lie::{Chart, LieAlgebra};
@@ -92,7 +91,7 @@ fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
     let chosen = [
         ("chart", choice.chart.0 != Chart::default() || given(choice.chart.1), choice.chart.1),
         ("solver", choice.solver.is_some(), Span::Whole),
-        ("frame", choice.frame.0 != FrameChoice::Fixed, choice.frame.1),
+        ("frame", choice.frame.0 == FrameChoice::Comoving, choice.frame.1),
     ];
     for (key, _, place) in chosen.into_iter().filter(|(_, chosen, _)| *chosen) {
         let message = format!(
@@ -171,15 +170,9 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
     }
     let (algebra, truncation) = (algebra?, choice.truncation?);
     let names = energy.scalar_names();
-    let (mut hamiltonian, mut symbols) = exact(sum?, count, &mut table, &names);
-    let mut frame = None;
-    if let (FrameChoice::Comoving, span) = choice.frame {
-        let found = comoving(&algebra, chart, &hamiltonian).ok_or(Mistake::NoFrame);
-        let found = diagnostics.check(span, found)?;
-        frame = Some(name_sums(&found, count, &mut symbols, &names));
-        hamiltonian = hamiltonian.widened(count + symbols.len()).into_owned();
-    }
-    Some(Problem {
+    let (hamiltonian, symbols) = exact(sum?, count, &mut table, &names);
+    let (asked, frame_span) = choice.frame;
+    let problem = Problem {
         name,
         algebra,
         coordinates,
@@ -190,9 +183,18 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
         chart,
         truncation,
         solver: choice.solver,
-        comoving: frame,
+        frame: asked,
+        comoving: None,
         learned: false,
-    })
+    };
+    match asked {
+        FrameChoice::Fixed => Some(problem),
+        FrameChoice::Auto if !frame::has_field(&problem) => Some(problem),
+        FrameChoice::Auto => Some(frame::comoving(&problem).unwrap_or(problem)),
+        FrameChoice::Comoving => {
+            diagnostics.check(frame_span, frame::comoving(&problem).ok_or(Mistake::NoFrame))
+        }
+    }
 }
 
 /// The program of a function of coordinates with these names, without parameters, and its slots; `None` where something is

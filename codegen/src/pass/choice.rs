@@ -53,22 +53,22 @@ impl Choice {
         span: Span,
         diagnostics: &Diagnostics,
     ) {
-        let unknown = |of: fn(String, Option<String>) -> Mistake, names| {
-            let near: Option<&str> = nearest(name, names);
+        let unknown = |of: fn(String, Option<String>) -> Mistake, names: &[&str]| {
+            let near: Option<&str> = nearest(name, names.iter().copied());
             diagnostics.report(span, of(name.to_owned(), near.map(str::to_owned)));
         };
         match key {
             "chart" => match name {
                 "exp" | "exponential" => self.chart = (Chart::Exponential, span),
                 "cayley" => self.chart = (Chart::Cayley, span),
-                _ => unknown(Mistake::UnknownChart, ["exp", "cayley"]),
+                _ => unknown(Mistake::UnknownChart, &["exp", "cayley"]),
             },
             "solver" => match Solver::named(name) {
-                None => unknown(Mistake::UnknownSolver, Solver::NAMES),
+                None => unknown(Mistake::UnknownSolver, &Solver::NAMES),
                 solver => self.solver = solver,
             },
             _ => match FrameChoice::named(name) {
-                None => unknown(Mistake::UnknownFrame, FrameChoice::NAMES),
+                None => unknown(Mistake::UnknownFrame, &FrameChoice::NAMES),
                 Some(frame) => self.frame = (frame, span),
             },
         }

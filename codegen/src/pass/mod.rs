@@ -3,6 +3,7 @@
 mod assemble;
 mod choice;
 mod coefficient;
+mod frame;
 mod polynomial;
 mod program;
 mod sums;
@@ -11,3 +12,4 @@ pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_pot
 #[cfg(feature = "system")]
 pub(crate) use assemble::{constant, function};
 pub(crate) use choice::Choice;
+pub use frame::in_other_frame;

@@ -24,8 +24,9 @@
 //! coordinate) says where it is to hold; without it, along the run from the initial state.
 //!
 //! In `[integrator]`, `solver` is `newton` or `fixed_point`, and `frame = "comoving"` leaves what is
-//! uniform in the motion (the spin of a symmetric body, multiples of Casimirs) out of the series and lets
-//! it follow each step (see [`crate::comoving`]). For a power such as SO3^64, coordinates and
+//! uniform in the motion (the precession in a field, the spin of a symmetric body, multiples of Casimirs) out of the
+//! series and lets it follow each step (see [`crate::comoving`]); without `frame`, where a field is such a part or steps
+//! that meet a tolerance are cheaper. For a power such as SO3^64, coordinates and
 //! momentum may be given for one copy: `x` then stands for `x[0]`, `x[1]`, …, the momentum may be
 //! expressions in the copy's number `i`, and `sum(i, 0..64, x[i]*x[(i + 1) % 64])` is a sum over copies.
 //!
@@ -293,6 +294,7 @@ fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics
         for (key, example) in ["chart", "solver", "frame"].into_iter().zip(examples) {
             if let Some((name, place)) = table.string(key, example)
                 && (key != "chart" || options.chart.is_none())
+                && (key != "frame" || options.frame.is_none())
             {
                 choice.set_named(key, name, place, diagnostics);
             }
@@ -305,5 +307,8 @@ fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics
         choice.chart = (chart, Span::Whole);
     }
     choice.solver = options.solver.or(choice.solver);
+    if let Some(frame) = options.frame {
+        choice.frame = (frame, Span::Whole);
+    }
     choice
 }

@@ -75,6 +75,7 @@ fn options_replace_what_the_file_says() {
         truncation: Some(9),
         chart: Some(Chart::Exponential),
         solver: None,
+        frame: None,
     };
     let problem = system::read(RIGID_BODY, options).unwrap().problem;
     assert_eq!((problem.truncation, problem.chart), (9, Chart::Exponential));

@@ -14,7 +14,7 @@ fn body() -> Fields {
         parameters: "I1 = 1.5, I2 = 2\nI3 = 5/2".into(),
         truncation: "7".into(),
         chart: "exp".into(),
-        frame: "fixed".into(),
+        frame: "auto".into(),
         step: "1/10".into(),
         momentum: "2 0.5 1".into(),
         ..Fields::default()

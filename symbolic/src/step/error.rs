@@ -21,9 +21,9 @@ pub enum StepError {
         /// The rows of its matrices.
         rows: usize,
     },
-    /// A comoving frame moves by any angle, for which series by tables have no fixed length.
+    /// The matrices of a group by tables are too large for the exponential of a comoving frame.
     #[error(
-        "the comoving frame of {group} has no straight-line programs; use the interpreter, or `frame = \"fixed\"`"
+        "the motion of the comoving frame of {group} would have more than {MOST_OF_TABLES} operations; use the interpreter, or `frame = \"fixed\"`"
     )]
     Frame {
         /// The group.

@@ -96,7 +96,11 @@ impl Part for Product {
     fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
         for Factor { part, own, element } in self.factors() {
-            let own_moved = part.move_frame(graph, &g[element], &y[own.clone()], &mu[own])?;
+            let (g, y, mu) = (&g[element], &y[own.clone()], &mu[own]);
+            let own_moved = match y.iter().all(|&entry| graph.is_zero(entry)) {
+                true => Moved { g: g.to_vec(), mu: mu.to_vec() },
+                false => part.move_frame(graph, g, y, mu)?,
+            };
             moved.g.extend(own_moved.g);
             moved.mu.extend(own_moved.mu);
         }

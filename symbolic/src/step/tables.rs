@@ -5,11 +5,18 @@ use num_traits::ToPrimitive;
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::Rational;
+use crate::step::error::MOST_OF_TABLES;
 use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, dot, finite, largest, solve};
 
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
 const REACH: f64 = std::f64::consts::FRAC_PI_2;
+
+/// The exponential of a comoving frame's motion y is that of y·2^−SQUARINGS, squared as often: up to a norm of y of
+/// [`FARTHEST`] the truncated series of 10 terms is exact to rounding. Beyond, the motion is not finite, which is refused.
+const SQUARINGS: i32 = 23;
+const TERMS: i32 = 10;
+const FARTHEST: f64 = (1 << (SQUARINGS - 3)) as f64;
 
 /// The truncation allowed in series: below rounding.
 const ROUNDING: f64 = 1e-17;
@@ -210,12 +217,43 @@ impl Tables {
         sum.unwrap_or_else(|| self.identity(graph))
     }
 
-    /// g·k; where elements are orthogonal, pulled back onto them to first order, so that rounding does not accumulate in
-    /// gᵀg over many steps.
+    /// exp X − 1 for X of any norm up to [`FARTHEST`], by scaling and squaring (N. Higham, *Functions of Matrices*, SIAM
+    /// 2008, chapter 10). Without the identity, (1 + E)² − 1 = 2E + E², no digits of a short X are lost.
+    fn exponential_less_one(&self, graph: &mut Graph, x: &Matrix) -> Matrix {
+        let norm = row_norm(graph, x);
+        let (most, scale) = (graph.constant(FARTHEST), graph.constant(0.5_f64.powi(SQUARINGS)));
+        let beyond = graph.constant(f64::MAX);
+        let scale = graph.select(norm, most, scale, beyond);
+        let scaled = |graph: &mut Graph, factor: Id, matrix: &Matrix| {
+            Matrix::zeros(graph, self.size, self.size).plus(graph, factor, matrix)
+        };
+        let x = scaled(graph, scale, x);
+        // X (1 + X/2 (1 + X/3 (…))).
+        let mut sum = Matrix::zeros(graph, self.size, self.size);
+        for k in (1..=TERMS).rev() {
+            let inverse = graph.constant(1.0 / f64::from(k));
+            let part = scaled(graph, inverse, &x);
+            sum = part.times_plus(graph, &sum, &part);
+        }
+        let two = graph.constant(2.0);
+        for _ in 0..SQUARINGS {
+            let doubled = scaled(graph, two, &sum);
+            sum = sum.times_plus(graph, &sum, &doubled);
+        }
+        sum
+    }
+
+    /// g·k; where elements are orthogonal, pulled back onto them, so that rounding does not accumulate in gᵀg over many
+    /// steps.
     fn product(&self, graph: &mut Graph, g: &Matrix, k: &Matrix) -> Vec<Id> {
         let product = g.times(graph, k);
+        self.pulled_back(graph, product).entries().to_vec()
+    }
+
+    /// A matrix near an element, pulled back onto the elements to first order where these are orthogonal.
+    fn pulled_back(&self, graph: &mut Graph, product: Matrix) -> Matrix {
         if !self.orthogonal {
-            return product.entries().to_vec();
+            return product;
         }
         let (half, three_halves) = (graph.constant(-0.5), graph.constant(1.5));
         let gram = self.gram(graph, &product);
@@ -223,7 +261,7 @@ impl Tables {
             true => graph.times_plus(half, gram.at(i, j), three_halves),
             false => graph.mul(half, gram.at(i, j)),
         });
-        product.times(graph, &correction).entries().to_vec()
+        product.times(graph, &correction)
     }
 
     /// gᵀg
@@ -292,6 +330,21 @@ fn terms(norm: f64, accuracy: f64) -> usize {
         }
     }
     200
+}
+
+/// The largest row sum of sizes.
+fn row_norm(graph: &mut Graph, matrix: &Matrix) -> Id {
+    let rows: Vec<Id> = (0..matrix.rows())
+        .map(|i| {
+            let mut sum = graph.zero();
+            for j in 0..matrix.entries().len() / matrix.rows().max(1) {
+                let entry = graph.abs(matrix.at(i, j));
+                sum = graph.add(sum, entry);
+            }
+            sum
+        })
+        .collect();
+    largest(graph, &rows)
 }
 
 fn factorial(n: usize) -> f64 {
@@ -452,9 +505,35 @@ impl Part for Tables {
         }
     }
 
-    fn move_frame(&self, _: &mut Graph, _: &[Id], _: &[Id], _: &[Id]) -> Option<Moved> {
-        // Frames move on by any angle, which series of a fixed length cannot follow.
-        None
+    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+        let products = 2 * (SQUARINGS + TERMS) as usize;
+        if products.saturating_mul(self.size.saturating_pow(3)) > MOST_OF_TABLES {
+            return None;
+        }
+        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        let y = self.represent(graph, y);
+        let (identity, one, minus) =
+            (self.identity(graph), graph.constant(1.0), graph.constant(-1.0));
+        let change = self.exponential_less_one(graph, &y);
+        let increment = identity.plus(graph, one, &change);
+        let increment = self.pulled_back(graph, increment);
+        let transposed = Matrix::new(self.size, self.size, |i, j| increment.at(j, i));
+        let mu = if self.dual.is_empty() {
+            // Elements are adjoint matrices.
+            transposed.apply(graph, mu)
+        } else {
+            let inverse = if self.orthogonal {
+                transposed
+            } else {
+                let back = Matrix::zeros(graph, self.size, self.size).plus(graph, minus, &y);
+                let back = self.exponential_less_one(graph, &back);
+                identity.plus(graph, one, &back)
+            };
+            let w = self.functional(graph, mu);
+            let z = self.between(graph, &increment, &w, &inverse);
+            self.coordinates(graph, &z)
+        };
+        Some(Moved { g: self.product(graph, &own, &increment), mu })
     }
 
     fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
@@ -478,22 +557,9 @@ impl Part for Tables {
     fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
         let rest = finite(graph, x);
         let matrix = self.represent(graph, x);
-        let rows = |graph: &mut Graph, matrix: &Matrix| {
-            let rows: Vec<Id> = (0..matrix.rows())
-                .map(|i| {
-                    let mut sum = graph.zero();
-                    for j in 0..matrix.entries().len() / matrix.rows().max(1) {
-                        let entry = graph.abs(matrix.at(i, j));
-                        sum = graph.add(sum, entry);
-                    }
-                    sum
-                })
-                .collect();
-            largest(graph, &rows)
-        };
         let size = match self.chart {
             Chart::Cayley => {
-                let norm = rows(graph, &matrix);
+                let norm = row_norm(graph, &matrix);
                 let half = graph.constant(0.5);
                 graph.mul(norm, half)
             }
@@ -504,13 +570,13 @@ impl Part for Tables {
                 let squared = a.times(graph, &a);
                 let inside = match squared.is_zero(graph) {
                     true => graph.zero(),
-                    false => rows(graph, &a),
+                    false => row_norm(graph, &a),
                 };
                 let squared = matrix.times(graph, &matrix);
                 let cubed = squared.times(graph, &matrix);
                 let own = match cubed.is_zero(graph) {
                     true => graph.zero(),
-                    false => rows(graph, &matrix),
+                    false => row_norm(graph, &matrix),
                 };
                 let norm = graph.max(inside, own);
                 graph.mul(norm, scale)

@@ -58,6 +58,8 @@ pub struct Choice {
     pub tolerance: f64,
     /// K.
     pub truncation: usize,
+    /// Whether the series is that of the comoving frame.
+    pub comoving: bool,
     /// h; it divides the duration.
     pub step: f64,
     /// h^{K+1} max |∂S_{K+2}|: the error the first missing term makes per unit time.
@@ -77,9 +79,15 @@ impl fmt::Display for Choice {
         let run = if self.along_run { "along the run, " } else { "over " };
         write!(
             f,
-            "tolerance {:e}: K = {}, h = {} (next term {:.1e} per unit time {run}{}; {:.1e} at the \
+            "tolerance {:e}: K = {}{}, h = {} (next term {:.1e} per unit time {run}{}; {:.1e} at the \
              end)",
-            self.tolerance, self.truncation, self.step, self.next_term, self.region, self.error
+            self.tolerance,
+            self.truncation,
+            if self.comoving { ", comoving" } else { "" },
+            self.step,
+            self.next_term,
+            self.region,
+            self.error
         )
     }
 }
@@ -246,6 +254,7 @@ pub fn choose(
             let choice = Choice {
                 tolerance: target.tolerance,
                 truncation,
+                comoving: problem.comoving.is_some(),
                 step,
                 next_term: sizes.rates[place] * step.powi(truncation as i32 + 1),
                 error: sizes.error(&orders, truncation, step),

@@ -11,7 +11,7 @@ use coadjoint_symbolic::judge::Judge;
 use coadjoint_symbolic::lie::{Chart, catalogue};
 use coadjoint_symbolic::number::ratio;
 use coadjoint_symbolic::poly::Polynomial;
-use coadjoint_symbolic::problem::{Problem, Solver};
+use coadjoint_symbolic::problem::{FrameChoice, Problem, Solver};
 use coadjoint_symbolic::step::Step;
 
 /// 60 c of a body.
@@ -34,6 +34,7 @@ fn problem(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Sol
         chart: Chart::Exponential,
         truncation,
         solver,
+        frame: FrameChoice::Fixed,
         comoving: None,
         learned: false,
     }

@@ -8,7 +8,7 @@ use coadjoint_symbolic::lie::{Chart, catalogue};
 use coadjoint_symbolic::number::{integer, ratio};
 use coadjoint_symbolic::poly::Polynomial;
 use coadjoint_symbolic::potential::Potential;
-use coadjoint_symbolic::problem::{Problem, Symbol};
+use coadjoint_symbolic::problem::{FrameChoice, Problem, Symbol};
 use coadjoint_symbolic::splitting::Splitting;
 use coadjoint_symbolic::step::Step;
 
@@ -27,6 +27,7 @@ fn body() -> (Integrator, Kick) {
         chart: Chart::Exponential,
         truncation: 5,
         solver: None,
+        frame: FrameChoice::Fixed,
         comoving: None,
         learned: false,
     };

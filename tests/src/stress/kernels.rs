@@ -20,7 +20,7 @@ use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
 use crate::bridge::matrix_group;
 
 /// Group, Hamiltonian on coordinates a, b, c, …, chart, frame, truncation.
-const SYSTEMS: [(&str, &str, &str, &str, usize); 15] = [
+const SYSTEMS: [(&str, &str, &str, &str, usize); 16] = [
     ("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", "fixed", 7),
     ("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", "comoving", 9),
     ("SO3", "a^2/3 + b^2/4 + c^2/5 + a*b/7", "cayley", "fixed", 5),
@@ -35,6 +35,7 @@ const SYSTEMS: [(&str, &str, &str, &str, usize); 15] = [
     ("SL2", "a^2/5 + b^2/6 + c^2/7 + a*b/9", "cayley", "fixed", 3),
     ("Aff1", "a^2/5 + b^2/6", "exp", "fixed", 5),
     ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8", "exp", "fixed", 3),
+    ("SU3", "a^2/3 + b^2/3 + c^2/5 + d^2/5 + e^2/7 + f^2/7 + 9*g", "exp", "comoving", 3),
     ("SO3*SE2", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9", "exp", "fixed", 3),
 ];
 

@@ -14,6 +14,7 @@ mod defects;
 mod devices;
 mod documents;
 mod emitted_steps;
+mod fields;
 mod front_ends;
 mod golden_files;
 mod hygiene;

@@ -1,0 +1,237 @@
+//! The comoving frame: a summand of H whose flow is known and commutes with the rest.
+//!
+//! In a field spins precess about it as fast as the field is strong; where the couplings do not know its direction, the
+//! precession is exp(tξ) exactly, and only the couplings are left. A free body turns at Ω = I⁻¹Π, and most of that is uniform: with c between the 1/Iᵢ the part c|Π|²/2
+//! of H, a Casimir, makes it turn about the fixed direction of its momentum, and what the body does in the
+//! frame that turns along is slow. A symmetric top's spin s is an integral; without ½(1/I₃ − 1/I₁)s² it
+//! is a spherical top, which knows nothing of the spin. In all cases H = H₀ + f with commuting flows,
+//! that of f is exp of something known, and only H₀ is left to the series: it has fewer terms, and they
+//! are smaller by powers of the ratio of the speeds.
+//!
+//! The first two are functions of linear integrals ⟨μ, η⟩, which exact elimination finds for every algebra.
+
+mod integrals;
+
+use std::collections::BTreeSet;
+
+use num_traits::{ToPrimitive, Zero};
+
+use crate::hamilton_jacobi::{TermLimit, derive};
+use crate::lie::{Chart, LieAlgebra, casimirs};
+use crate::poly::{Polynomial, split_at};
+use integrals::{Element, commute, functional, linear_integrals};
+
+pub use integrals::commuting_field;
+
+/// The truncation at which series are compared: brackets that vanish from S₃ are missing from all terms.
+const COMPARED: usize = 3;
+
+/// The summand f of H whose flow moves the frame, and what is left of H without it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The linear term ⟨μ, ξ⟩ that commutes with the rest, and functions of integrals s = ⟨μ, η⟩ that commute: the flow
+    /// moves g and μ by exp of the multiples of ξ and η.
+    pub spin: Polynomial,
+    /// Multiples of quadratic Casimirs C: the flow moves g along ∂C/∂μ and leaves μ.
+    pub casimirs: Polynomial,
+    /// H − f, which is left to the series.
+    pub rest: Polynomial,
+}
+
+impl Frame {
+    /// The function f as one polynomial.
+    #[must_use]
+    pub fn energy(&self) -> Polynomial {
+        &self.spin + &self.casimirs
+    }
+
+    /// The summands of f that are not zero. Their flows commute, and each takes an exponential of its own.
+    pub fn parts(&self) -> impl Iterator<Item = &Polynomial> {
+        [&self.spin, &self.casimirs].into_iter().filter(|part| !part.is_zero())
+    }
+}
+
+/// Finds the frame in which the series of the rest, S₁ + S₃, has fewest terms, after the [field](commuting_field) is taken
+/// from it; `None` where there is no field and nothing else makes it shorter.
+///
+/// Variables of `hamiltonian` beyond the dimension are symbols; an η that depends on them is not found.
+///
+/// ```
+/// use coadjoint_symbolic::comoving::comoving;
+/// use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
+/// use coadjoint_symbolic::number::ratio;
+/// use coadjoint_symbolic::poly::Polynomial;
+///
+/// let body = |inverse: [i64; 3]| {
+///     let square = |i: usize| Polynomial::variable(3, i).pow(2).scale(&ratio(inverse[i], 2));
+///     &(&square(0) + &square(1)) + &square(2)
+/// };
+/// let so3 = lookup("SO3").unwrap();
+/// // x²/2 + y² + 3z²/2 without |μ|² is (z² − x²)/2.
+/// let frame = comoving(&so3, Chart::Exponential, &body([1, 2, 3])).unwrap();
+/// assert_eq!(frame.energy(), body([2, 2, 2]));
+/// // x²/2 + y²/2 + z² without z²/2 is |μ|²/2, of which one step is exact.
+/// let frame = comoving(&so3, Chart::Exponential, &body([1, 1, 2])).unwrap();
+/// assert_eq!(frame.spin, body([0, 0, 1]));
+/// ```
+#[must_use]
+pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<Frame> {
+    let dim = algebra.dim();
+    let length = |h: &Polynomial| length(algebra, chart, h);
+    let field = commuting_field(algebra, hamiltonian);
+    let mut rest = hamiltonian - &field;
+    let mut fewest = length(&rest)?;
+    // Takes the best candidate off the rest, if the rest becomes shorter by it.
+    let mut take = |candidates: &dyn Fn(&Polynomial) -> Vec<Polynomial>| {
+        let (monomials, left, part) = best(&rest, candidates(&rest), dim, &length)?;
+        if monomials >= fewest {
+            return None;
+        }
+        (fewest, rest) = (monomials, left);
+        Some(part)
+    };
+    let sum = |first: &Polynomial, parts: Vec<Polynomial>| {
+        parts.iter().fold(first.clone(), |sum, part| &sum + part)
+    };
+    let axes = axes(algebra, hamiltonian, &field);
+    let spin = axes.iter().filter_map(|axis| take(&|h| spins(h, axis, dim))).collect();
+    let spin = sum(&field, spin);
+    let known = casimirs(algebra, 2).unwrap_or_default();
+    let casimirs = known.iter().filter_map(|c| take(&|h| multiples(h, c, dim))).collect();
+    let casimirs = sum(&Polynomial::zero(hamiltonian.variables()), casimirs);
+    (rest != *hamiltonian).then_some(Frame { spin, casimirs, rest })
+}
+
+/// The η of linear integrals that commute with the field and those before them, coordinates first.
+fn axes(algebra: &LieAlgebra, hamiltonian: &Polynomial, field: &Polynomial) -> Vec<Element> {
+    let mut integrals = linear_integrals(algebra, hamiltonian);
+    integrals.sort_by_key(|eta| eta.iter().filter(|entry| !entry.is_zero()).count() > 1);
+    let mut known = vec![field.clone()];
+    let mut independent = |eta: &Element| {
+        let integral = functional(hamiltonian.variables(), eta);
+        let commutes = known.iter().all(|other| commute(algebra, other, &integral));
+        known.extend(commutes.then_some(integral));
+        commutes
+    };
+    integrals.retain(&mut independent);
+    integrals
+}
+
+/// How many monomials in the momenta S₁ and S₃ of a Hamiltonian have, or `None` where it has none.
+fn length(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<usize> {
+    let dim = algebra.dim();
+    if hamiltonian.factors().all(|(factors, _)| split_at(&factors, dim).0.is_empty()) {
+        return None;
+    }
+    let series = derive(algebra, chart, hamiltonian, COMPARED, TermLimit::default()).ok()?;
+    Some((1..=COMPARED).map(|k| monomials(series.order(k), dim)).sum())
+}
+
+/// How many monomials in the momenta a polynomial has.
+fn monomials(polynomial: &Polynomial, dim: usize) -> usize {
+    let momenta = polynomial.factors().map(|(factors, _)| split_at(&factors, dim).0.to_vec());
+    momenta.collect::<BTreeSet<_>>().len()
+}
+
+/// The candidate that leaves fewest monomials, after their number and what is left; none that leaves H itself longer. Of
+/// equals the one that leaves the smallest coefficients, and of these (as where all are symbols) the one nearest to the middle: of the
+/// three of a body, the axis of middle inertia in the usual order.
+fn best(
+    rest: &Polynomial,
+    candidates: Vec<Polynomial>,
+    dim: usize,
+    length: &impl Fn(&Polynomial) -> Option<usize>,
+) -> Option<(usize, Polynomial, Polynomial)> {
+    let (middle, most) = (candidates.len() / 2, monomials(rest, dim));
+    let measured = candidates.into_iter().enumerate().filter_map(|(at, part)| {
+        let left = rest - &part;
+        if monomials(&left, dim) > most {
+            return None;
+        }
+        let sizes = left.factors().map(|(_, value)| value.to_f64().map_or(0.0, f64::abs));
+        let largest = sizes.fold(0.0, f64::max);
+        Some((length(&left)?, largest, at.abs_diff(middle), left, part))
+    });
+    let least = measured.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    least.map(|(length, _, _, left, part)| (length, left, part))
+}
+
+/// Functions of s = ⟨μ, η⟩: its powers above the square where H has them, and of the square as much as cancels a monomial
+/// of H or makes two squares in H equal, or nothing.
+fn spins(hamiltonian: &Polynomial, eta: &Element, dim: usize) -> Vec<Polynomial> {
+    let variables = hamiltonian.variables();
+    let integral = functional(variables, eta);
+    // A power with more monomials than twice those of H makes it longer.
+    let power = |power: u32| {
+        let count = (0..u64::from(power))
+            .fold(1, |count: u64, i| count.saturating_mul(integral.len() as u64 + i) / (i + 1));
+        (count <= 2 * hamiltonian.len() as u64).then(|| integral.pow(power))
+    };
+    let mut others = Polynomial::zero(variables);
+    for power in (3..=degree(hamiltonian, dim)).filter_map(power) {
+        let parts = multiples(hamiltonian, &power, dim).into_iter();
+        let mut shorter = parts.filter(|part| (hamiltonian - part).len() < hamiltonian.len());
+        others = &others + &shorter.next().unwrap_or_else(|| Polynomial::zero(variables));
+    }
+    let square = |i: usize| coefficient(hamiltonian, &[(i as u32, 2)], dim);
+    let mut shares = Vec::new();
+    for i in (0..dim).filter(|&i| !eta[i].is_zero()) {
+        for (j, other) in (0..dim).map(|j| (j, square(j))).filter(|(_, other)| !other.is_zero()) {
+            let difference = &eta[i] * &eta[i] - &eta[j] * &eta[j];
+            if !difference.is_zero() {
+                shares.push((&square(i) - &other).scale(&difference.recip()));
+            }
+        }
+    }
+    let Some(whole) = power(2) else { return distinct([others].into_iter()) };
+    shares.extend(cancelling(hamiltonian, &whole, dim));
+    let shares = distinct(shares.into_iter()).into_iter().chain([Polynomial::zero(variables)]);
+    distinct(shares.map(|share| &others + &(&share * &whole)))
+}
+
+/// The highest power of momenta in a polynomial.
+fn degree(polynomial: &Polynomial, dim: usize) -> u32 {
+    let momenta = |factors: &[(u32, u32)]| split_at(factors, dim).0.iter().map(|(_, e)| e).sum();
+    polynomial.factors().map(|(factors, _)| momenta(&factors)).max().unwrap_or(0)
+}
+
+/// The multiples of a function that cancel one of its monomials in H.
+fn multiples(hamiltonian: &Polynomial, function: &Polynomial, dim: usize) -> Vec<Polynomial> {
+    if function.degree() < 2 {
+        return Vec::new();
+    }
+    let shares = distinct(cancelling(hamiltonian, function, dim)).into_iter();
+    shares.map(|share| &share * function).collect()
+}
+
+/// For each monomial of a function the factor by which it cancels that of H.
+fn cancelling(
+    hamiltonian: &Polynomial,
+    function: &Polynomial,
+    dim: usize,
+) -> impl Iterator<Item = Polynomial> {
+    function.factors().map(move |(monomial, value)| {
+        let (momenta, _) = split_at(&monomial, dim);
+        coefficient(hamiltonian, momenta, dim).scale(&value.recip())
+    })
+}
+
+/// Without zeros and repetitions.
+fn distinct(candidates: impl Iterator<Item = Polynomial>) -> Vec<Polynomial> {
+    let mut result: Vec<Polynomial> = Vec::new();
+    for candidate in candidates {
+        if !candidate.is_zero() && !result.contains(&candidate) {
+            result.push(candidate);
+        }
+    }
+    result
+}
+
+/// The coefficient of a monomial in the momenta, a polynomial in the symbols.
+fn coefficient(hamiltonian: &Polynomial, momenta: &[(u32, u32)], dim: usize) -> Polynomial {
+    let terms = hamiltonian.factors().filter_map(|(factors, value)| {
+        let (own, symbols) = split_at(&factors, dim);
+        (own == momenta).then(|| (symbols.to_vec(), value))
+    });
+    Polynomial::from_factors(hamiltonian.variables(), terms.collect::<Vec<_>>())
+}
