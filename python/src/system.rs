@@ -15,7 +15,8 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, as_chosen, check, emit, meet_tolerance, read, read_varying, series, verify,
+    Accuracy, Derived, RunError, as_chosen, check, emit, meet_tolerance, read, read_varying,
+    series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -25,8 +26,8 @@ use pyo3::types::PyDict;
 use crate::asked::{Asked, backend_of};
 use crate::control::work;
 use crate::emit::emitted;
-use crate::event::Watched;
 use crate::error::{raised, refused};
+use crate::event::Watched;
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;

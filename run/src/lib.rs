@@ -18,8 +18,7 @@ pub use backend::{Backend, Code, Used};
 pub use error::RunError;
 pub use load::{
     Accuracy, Derived, as_chosen, integrator, learned, meet_tolerance, read, read_either,
-    read_group,
-    read_varying, read_with,
+    read_group, read_varying, read_with,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

@@ -216,8 +216,8 @@ pub fn as_chosen(choice: Option<&Choice>, options: Options) -> Options {
     Options { truncation: Some(choice.truncation), frame: Some(frame), ..options }
 }
 
-/// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings or in the text, and puts them into the
-/// system; what was picked.
+/// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
+/// or in the text, and puts them into the system; what was picked.
 ///
 /// # Errors
 /// Where nothing can be picked.

@@ -103,10 +103,11 @@ mod table;
 /// - `chart = exp` (default) or `chart = cayley`.
 /// - `solver = newton` (default up to 24 dimensions) or `solver = fixed_point` (default beyond): see
 ///   [`solve`].
-/// - `frame = fixed` (default) or `frame = comoving`: whether S generates the whole motion, or what is
-///   left of it without the spin of a symmetric body and without multiples of quadratic Casimirs, which
+/// - `frame = auto` (default), `frame = fixed` or `frame = comoving`: whether S generates the whole motion, or what is
+///   left of it without the precession in a field, the spin of a symmetric body and multiples of quadratic Casimirs, which
 ///   are exponentials of their own ([`GeneratingFunction::frame`]). Then there are fewer terms, and
-///   steps may be two to five times as long, for a fast symmetric top thirty times.
+///   steps may be two to five times as long, for a fast symmetric top thirty times. `auto` is comoving where a linear term
+///   of H commutes with the rest.
 ///
 /// # The function
 ///

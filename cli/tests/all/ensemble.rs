@@ -428,6 +428,26 @@ fn a_column_named_after_a_parameter_varies_it() {
     assert_eq!(report["parameters"], serde_json::json!(["I1"]));
 }
 
+/// A field that varies from row to row: each row ends where a file with its field ends, in the comoving frame.
+#[test]
+fn a_field_varies_from_row_to_row() {
+    let text = text_of("tests/systems/two_spins_in_a_field.toml");
+    let folder = Folder::with(&text);
+    let names: String = (1..=6).map(|i| format!("mu_{i},")).collect();
+    let start = "1,0,0,0,0.6,0.8,";
+    folder.write("in.csv", format!("{names}B\n{start}60\n{start}-45\n"));
+    folder
+        .run("ensemble system.toml --initial in.csv --out out.csv")
+        .ok()
+        .prints(&["K = 3, exp, comoving: 2 trajectories"]);
+    for (row, field) in folder.table("out.csv")[1..].iter().zip(["60", "-45"]) {
+        folder.write("own.toml", text.replace("B = 100", &format!("B = {field}")));
+        let expected = numbers(&folder.json("simulate own.toml")["momentum"]);
+        let found = cells(&row[..6].join(","));
+        assert!(distance(&found, &expected) < 1e-10, "{found:?} {expected:?}");
+    }
+}
+
 /// What cannot vary is refused by its name, at its place.
 #[test]
 fn parameters_that_cannot_vary_are_refused() {

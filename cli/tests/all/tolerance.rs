@@ -53,7 +53,7 @@ fn the_choice_is_told() {
     };
     let run = format!("{BODY} --tolerance 1e-9 --truncation 7");
     let (said, run_step) = told(&run);
-    assert!(said.starts_with("tolerance 1e-9: K = 7, h = 0."), "{said}");
+    assert!(said.starts_with("tolerance 1e-9: K = 7, comoving, h = "), "{said}");
     assert!(said.contains("along the run, |μ| ≤ 2.29"), "{said}");
     let (said, region_step) = told(&format!("{run} --region 4"));
     assert!(said.contains("over |μ| ≤ 4"), "{said}");

@@ -9,6 +9,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, read};
+use coadjoint_program::Stepper;
 use coadjoint_tests::backends::{numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::kernels::unlimited;
