@@ -19,13 +19,16 @@ pub enum GroupChoice {
     Own(OwnAlgebra),
 }
 
+/// The components (k, c_ij^k) of a bracket.
+type Components = Vec<(usize, String)>;
+
 /// An algebra as model files have it; numbers are fractions as texts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OwnAlgebra {
     name: String,
     generators: Vec<String>,
-    /// \[e_i, e_j\] with its components (k, c_ij^k) for i < j.
-    brackets: Vec<(usize, usize, Vec<(usize, String)>)>,
+    /// \[e_i, e_j\] for i < j.
+    brackets: Vec<(usize, usize, Components)>,
     /// The matrices of the basis row by row; none where the algebra is known by its brackets alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     basis: Vec<Vec<Vec<String>>>,

@@ -272,7 +272,7 @@ impl Graph {
             for k in 2..=17 {
                 factor *= f64::from(k);
                 if k >= first && k % 2 == first % 2 {
-                    let sign = if (k - first) % 4 == 0 { 1.0 } else { -1.0 };
+                    let sign = if (k - first).is_multiple_of(4) { 1.0 } else { -1.0 };
                     list.push(sign / factor);
                 }
             }

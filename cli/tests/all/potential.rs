@@ -119,7 +119,7 @@ time = 2.0
 #[test]
 fn mistakes_have_their_places() {
     for (potential, splitting, hamiltonian, place, message) in [
-        ("g[0][3]", "rkn4", "mu[0]^2", ":3:14", "unknown variable `g[0][3]`"),
+        ("g[0][3]", "rkn4", "mu[0]^2", ":3:14", "index 3 of `g[0]` is out of range"),
         ("1/g[0][0]", "rkn4", "mu[0]^2", ":3:14", "division by the group element"),
         ("sqrt(g[0][0])", "rkn4", "mu[0]^2", ":3:14", "the potential must be one"),
         ("2", "rkn4", "mu[0]^2", ":3:13", "does not depend on the group element"),

@@ -4,13 +4,17 @@ use crate::support::{BODY, Folder, Ran};
 use serde_json::Value;
 
 const TOLD: &str = "warning: the series hardly converges";
+const INACCURATE: &str = "warning: the error at the end is about";
 
 /// The report of a command, which warns of the series this often, in the report and on the error stream.
 fn warned(ran: Ran, times: usize) -> Value {
-    assert_eq!(ran.error.matches("warning: ").count(), times, "{ran:?}");
+    // So long a step makes large errors, which are another warning.
+    let inaccurate = ran.error.matches(INACCURATE).count();
+    assert_eq!(ran.error.matches("warning: ").count(), times + inaccurate, "{ran:?}");
     assert_eq!(ran.error.matches(TOLD).count(), times, "{ran:?}");
     let report: Value = serde_json::from_str(&ran.out).unwrap();
     let kinds = report["warnings"].as_array().unwrap().iter().map(|warning| &warning["kind"]);
+    let kinds = kinds.filter(|kind| *kind != "estimated_error");
     assert_eq!(kinds.collect::<Vec<_>>(), vec!["series_ratio"; times], "{report}");
     report
 }

@@ -229,7 +229,7 @@ where
             Ending::Undefined(time, node) => return Err(self.undefined(mu, *time, node, at)),
         }
         let extent = self.group.middle_extent(&attempt.x);
-        if !(extent <= 1.0) {
+        if extent.is_nan() || extent > 1.0 {
             return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
         }
         let tail = self.tail(mu, &attempt.rates);

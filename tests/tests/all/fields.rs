@@ -89,9 +89,13 @@ const CASES: [Case; 6] = [
 fn a_field_turns_the_motion_without_it() {
     let (h, steps) = (0.2, 10);
     for (group, rest, field, xi, start) in CASES {
-        let free = problem(group, rest, "auto");
-        let free = in_other_frame(&free).unwrap_or(free);
+        let free = problem(group, rest, "fixed");
         let strong = problem(group, &format!("{rest} + {field}"), "auto");
+        // Beside the field the frame may take more, such as the spin of a symmetric top.
+        let free = match strong.generated() == free.generated() {
+            true => free,
+            false => in_other_frame(&free).unwrap_or(free),
+        };
         assert!(strong.comoving.is_some(), "{rest} + {field}");
         assert_eq!(strong.generated(), free.generated(), "{rest} + {field}");
         let (free, strong) = (end(free, h, steps, start), end(strong, h, steps, start));

@@ -148,6 +148,10 @@ fn programs_make_the_steps_of_the_runtime() {
                 }
                 let name = format!("{group}, {chart}, K = {truncation}, {solver:?}");
                 let integrator = integrator_by(solver, group, hamiltonian, chart, truncation);
+                // The runtime's function of a series knows no frame; `fields` compares steps in frames.
+                if !integrator.frame.is_empty() {
+                    continue;
+                }
                 let own = matrix_group(&algebra).unwrap();
                 let h = 0.2;
                 if cayley {
