@@ -67,8 +67,6 @@ entries! {
             "Four classical spins with exchange, anisotropy and a field, on SO(3)⁴.";
         "three-wave", "Three waves", "../../examples/three_wave.toml",
             "A pump and two daughter waves exchange energy, on su(3)*.";
-        "spin-triangle", "Triangle of spins", "../../examples/spin_triangle.toml",
-            "Three spins that cannot all point against each other, given as a list of bonds.";
         "toda-lattice", "Toda lattice", "../../examples/toda_lattice.toml",
             "The open Toda lattice of four particles in Flaschka's variables: it scatters and is gone.";
     }

@@ -43,7 +43,7 @@ fn both_solvers_make_the_same_map_that_keeps_the_laws() {
 
 #[test]
 fn what_is_too_large_to_emit_is_refused_by_its_terms_and_still_runs() {
-    let chain = chain(450);
+    let chain = chain(400);
     let emit = chain.run("emit system.toml");
     assert_eq!(emit.error.trim().lines().count(), 1, "{emit:?}");
     emit.fails(2, &["terms, more than the limit of", "coadjoint simulate"]);

@@ -11,9 +11,10 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// A potential, 192 dimensions, and steps of 61 000 operations: not for a page.
-const LEFT_OUT: [&str; 5] =
-    ["kagome_star", "satellite", "spin_chain_64", "spin_molecule", "zeitlin_5"];
+/// Lists of bonds, which the page does not copy as Rust, a potential, 192 dimensions, and steps of 61 000 operations: not
+/// for a page.
+const LEFT_OUT: [&str; 6] =
+    ["kagome_star", "satellite", "spin_chain_64", "spin_molecule", "spin_triangle", "zeitlin_5"];
 
 #[test]
 fn every_example_is_there_and_says_the_same_through_its_fields() {

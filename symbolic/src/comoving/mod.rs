@@ -26,6 +26,9 @@ pub use integrals::commuting_field;
 /// The truncation at which series are compared: brackets that vanish from S₃ are missing from all terms.
 const COMPARED: usize = 3;
 
+/// The dimension up to which candidates beside the field are compared: each costs a series.
+const SEARCHED: usize = 96;
+
 /// The summand f of H whose flow moves the frame, and what is left of H without it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -52,7 +55,7 @@ impl Frame {
 }
 
 /// Finds the frame in which the series of the rest, S₁ + S₃, has fewest terms, after the [field](commuting_field) is taken
-/// from it; `None` where there is no field and nothing else makes it shorter.
+/// from it; above 96 dimensions it has the field alone. `None` where there is no field and nothing else makes it shorter.
 ///
 /// Variables of `hamiltonian` beyond the dimension are symbols; an η that depends on them is not found.
 ///
@@ -81,6 +84,10 @@ pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) ->
     let field = commuting_field(algebra, hamiltonian);
     let mut rest = hamiltonian - &field;
     let mut fewest = length(&rest)?;
+    if dim > SEARCHED {
+        let (spin, casimirs) = (field, Polynomial::zero(hamiltonian.variables()));
+        return (rest != *hamiltonian).then_some(Frame { spin, casimirs, rest });
+    }
     // Takes the best candidate off the rest, if the rest becomes shorter by it.
     let mut take = |candidates: &dyn Fn(&Polynomial) -> Vec<Polynomial>| {
         let (monomials, left, part) = best(&rest, candidates(&rest), dim, &length)?;

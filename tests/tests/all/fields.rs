@@ -89,7 +89,7 @@ const CASES: [Case; 6] = [
 fn a_field_turns_the_motion_without_it() {
     let (h, steps) = (0.2, 10);
     for (group, rest, field, xi, start) in CASES {
-        let free = problem(group, rest, "fixed");
+        let free = problem(group, rest, "auto");
         let strong = problem(group, &format!("{rest} + {field}"), "auto");
         // Beside the field the frame may take more, such as the spin of a symmetric top.
         let free = match strong.generated() == free.generated() {
