@@ -136,7 +136,7 @@ pub(crate) struct SimulateOptions {
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
     #[arg(requires = "out", conflicts_with = "model")]
     pub at: Option<String>,
-    /// End where this function of the coordinates, g[i][j] and t changes its sign
+    /// End where this function of the coordinates, `g[i][j]` and t changes its sign
     #[arg(long, value_name = "FUNCTION", allow_hyphen_values = true, conflicts_with = "model")]
     pub until: Option<String>,
     /// Write the records as they are made, as .csv or .npy by the name (- for the standard output).

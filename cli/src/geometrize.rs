@@ -51,7 +51,7 @@ pub(crate) struct GeometrizeOptions {
     /// Pairs to test the map on
     #[arg(long, value_name = "DATA")]
     test: Option<PathBuf>,
-    /// The group of the data, by its name in the catalogue, or the system file (.toml) whose `group` or [algebra] it is
+    /// The group of the data, by its name in the catalogue, or the system file (.toml) whose `group` or `[algebra]` it is
     #[arg(long, value_name = "GROUP", default_value = "SO3")]
     group: String,
 }

@@ -75,7 +75,7 @@ pub struct LearnOptions {
     /// Pairs to test the model on
     #[arg(long, value_name = "DATA")]
     test: Option<PathBuf>,
-    /// The group, by its name in the catalogue, or the system file (.toml) whose `group` or [algebra] it is
+    /// The group, by its name in the catalogue, or the system file (.toml) whose `group` or `[algebra]` it is
     #[arg(long, value_name = "GROUP", default_value = "SO3")]
     group: String,
     /// The kind of model

@@ -124,8 +124,10 @@ impl Graph {
 
     /// The natural logarithm of a positive number's fraction, between √½ and √2, and its exponent.
     fn ln_parts(&mut self, x: Id) -> (LnOfFraction, Id) {
+        // 2⁻¹⁰⁰⁰ and 2⁶⁴.
+        let [tiny, raise] = [23, 1023 + 64].map(|exponent: u64| f64::from_bits(exponent << 52));
         let [tiny, raise, raised, root, two, half] =
-            [2.0_f64.powi(-1000), 2.0_f64.powi(64), 64.0, core::f64::consts::SQRT_2, 2.0, 0.5]
+            [tiny, raise, 64.0, core::f64::consts::SQRT_2, 2.0, 0.5]
                 .map(|value| self.constant(value));
         let zero = self.zero();
         let larger = self.mul(x, raise);

@@ -22,7 +22,7 @@ pub struct TooManyTerms {
     pub terms: usize,
     /// The terms that are left with numbers in place of the parameters, where these make it too large.
     pub with_literals: Option<usize>,
-    /// [`MOST_TERMS`] or [`MOST_DATA`].
+    /// [`MOST_TERMS`], or the limit of what is data.
     pub limit: usize,
 }
 
