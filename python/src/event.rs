@@ -15,11 +15,7 @@ impl Watched {
     /// The event, for groups of matrices of this size. The function is called with the time, g and μ.
     pub fn event(self, size: usize) -> Event {
         let Self(name, function, sign, terminal) = self;
-        let direction = match sign.signum() {
-            1 => Direction::Up,
-            -1 => Direction::Down,
-            _ => Direction::Both,
-        };
+        let direction = Direction::of_slope(sign);
         let value = move |time: f64, matrix: &[f64], mu: &[f64]| {
             let called = Python::attach(|py| {
                 let matrix = PyArray1::from_slice(py, matrix).reshape([size, size])?;

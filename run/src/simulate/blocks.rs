@@ -104,11 +104,7 @@ pub(crate) fn off_group(algebra: &LieAlgebra, blocks: &[Block], entries: &[f64])
 
 /// Whether the elements of a factor's group are orthogonal matrices.
 fn orthogonal(factor: &LieAlgebra) -> bool {
-    factor.basis().is_some_and(|basis| {
-        let mut entries =
-            basis.iter().flat_map(|matrix| matrix.entries().map(move |e| (matrix, e)));
-        entries.all(|(matrix, (i, j, value))| matrix.get(j, i) == -value.clone())
-    })
+    factor.basis().is_some_and(|basis| basis.iter().all(RationalMatrix::is_antisymmetric))
 }
 
 /// The block's entries, which lie row by row in a slice.

@@ -23,6 +23,18 @@ pub enum Direction {
     Both,
 }
 
+impl Direction {
+    /// The changes at which the function's slope has this sign, in the direction of the run; all for 0.
+    #[must_use]
+    pub fn of_slope(sign: i8) -> Self {
+        match sign.signum() {
+            1 => Self::Up,
+            -1 => Self::Down,
+            _ => Self::Both,
+        }
+    }
+}
+
 /// A function of the state that is watched for changes of sign, after every step and at equal parts of it.
 #[derive(Clone)]
 pub struct Event {
@@ -41,11 +53,7 @@ impl Event {
     #[must_use]
     pub fn of(event: system::Event) -> Self {
         let system::Event { name, function, slots, direction, stop } = event;
-        let direction = match direction {
-            1 => Direction::Up,
-            -1 => Direction::Down,
-            _ => Direction::Both,
-        };
+        let direction = Direction::of_slope(direction);
         let value = move |time: f64, matrix: &[f64], mu: &[f64]| {
             // The last input is not read.
             let inputs = [mu, matrix, &[time, 0.0]].concat();

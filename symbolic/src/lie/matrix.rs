@@ -85,6 +85,12 @@ impl RationalMatrix {
         self.entries.iter().map(|(&(i, j), value)| (i, j, value))
     }
 
+    /// Whether the transpose is the negative: of a basis of such matrices, exponentials are orthogonal.
+    #[must_use]
+    pub fn is_antisymmetric(&self) -> bool {
+        self.entries().all(|(i, j, value)| self.get(j, i) == -value.clone())
+    }
+
     /// Whether every entry is zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {

@@ -83,10 +83,7 @@ impl Tables {
             (Chart::Exponential, None) => Vec::new(),
             _ => dual_of(matrices)?.iter().map(entries).collect(),
         };
-        let antisymmetric = |matrix: &RationalMatrix| {
-            matrix.entries().all(|(i, j, value)| matrix.get(j, i) == -value.clone())
-        };
-        let orthogonal = matrices.iter().all(antisymmetric);
+        let orthogonal = matrices.iter().all(RationalMatrix::is_antisymmetric);
         Some(Self { chart, dim, size, structure, basis, dual, slope, orthogonal })
     }
 
