@@ -40,6 +40,15 @@ impl Names {
         self.known.entry(name).or_insert(meaning);
     }
 
+    /// Adds a name that messages list; nothing where it is known already.
+    #[cfg(feature = "system")]
+    pub(crate) fn known(&mut self, name: &str, meaning: Name) {
+        if !self.known.contains_key(name) {
+            self.order.push(name.to_owned());
+            self.alias(name.to_owned(), meaning);
+        }
+    }
+
     /// Adds a name, or reports that it is no name or already taken.
     pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &Diagnostics) {
         let taken = if !is_name(name) {

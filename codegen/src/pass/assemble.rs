@@ -74,19 +74,27 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
     problem.map(Box::new).map(Hamiltonian::Polynomial)
 }
 
+/// Reports coordinates of another number than the algebra has; none where they could not be read, which is a mistake already.
+fn check_dimension(
+    algebra: Option<&LieAlgebra>,
+    count: usize,
+    place: Span,
+    diagnostics: &Diagnostics,
+) {
+    let unread = count == 0 && matches!(place, Span::Whole);
+    if let Some(algebra) = algebra.filter(|algebra| algebra.dim() != count && !unread) {
+        let name = algebra.name().to_owned();
+        diagnostics.report(place, Mistake::Dimension(count, name, algebra.dim()));
+    }
+}
+
 /// The largest truncation of collocation: 8 nodes.
 const MOST_OF_COLLOCATION: usize = 15;
 
 /// The same for a Hamiltonian that is no polynomial.
 fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
     let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, choice } = draft;
-    if let Some(algebra) = &algebra
-        && coordinates.len() != algebra.dim()
-    {
-        let mistake =
-            Mistake::Dimension(coordinates.len(), algebra.name().to_owned(), algebra.dim());
-        diagnostics.report(coordinates_span, mistake);
-    }
+    check_dimension(algebra.as_ref(), coordinates.len(), coordinates_span, diagnostics);
     let given = |place| !matches!(place, Span::Whole);
     let chosen = [
         ("chart", choice.chart.0 != Chart::default() || given(choice.chart.1), choice.chart.1),
@@ -157,11 +165,8 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
     let Draft { name, algebra, coordinates, hamiltonian: energy, choice, .. } = draft;
     let count = coordinates.len();
     let (chart, chart_span) = choice.chart;
+    check_dimension(algebra.as_ref(), count, draft.coordinates_span, diagnostics);
     if let Some(algebra) = &algebra {
-        if count != algebra.dim() {
-            let mistake = Mistake::Dimension(count, algebra.name().to_owned(), algebra.dim());
-            diagnostics.report(draft.coordinates_span, mistake);
-        }
         diagnostics.check(chart_span, chart.check(algebra).map_err(Mistake::Chart));
     }
     found.into_iter().for_each(|found| diagnostics.report(found.span, found.mistake));

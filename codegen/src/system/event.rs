@@ -44,7 +44,7 @@ pub(super) fn read(
     inputs.push("t".to_owned());
     let mut names = Names::default();
     for (place, name) in inputs.iter().enumerate() {
-        names.alias(name.clone(), Name::Coordinate(place));
+        names.known(name, Name::Coordinate(place));
     }
     for i in 0..coordinates.len() {
         names.alias(format!("mu[{i}]"), Name::Coordinate(i));

@@ -4,7 +4,7 @@
 //! and if it lies in the domain: of the chart, and of a series that converges. One that may be the solution of another
 //! branch is not taken: the solution is then followed from the identity.
 
-use coadjoint_program::limits::LARGEST_RATIO;
+use coadjoint_program::limits::{LARGEST_RATIO, NEAR};
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
 use super::candidate::{Branch, CandidateOf};
@@ -31,7 +31,7 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
     if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
         return Err(StepError::NonFiniteState);
     }
-    if candidate.is_near_solution() {
+    if candidate.is_solution_within(NEAR) {
         check_domain(generating, mu, &candidate, settings)?;
         if candidate.branch == Branch::Only {
             return Ok(candidate);

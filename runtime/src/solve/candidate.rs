@@ -1,6 +1,5 @@
 //! A step as a method of solution proposes it, and the sizes by which it is judged.
 
-use coadjoint_program::limits::NEAR;
 use nalgebra::{SimdBool, SimdPartialOrd};
 
 use super::Settings;
@@ -51,9 +50,9 @@ pub(super) fn rounding<S: GeneratingFunction + ?Sized>(
 }
 
 impl<V, T: Scalar> Candidate<V, T> {
-    /// Whether the candidate solves its equation, near its first guess. What is not a number is not near.
-    pub(super) fn is_near_solution(&self) -> bool {
-        self.branch != Branch::Unknown && self.moved.simd_le(T::of(NEAR)).all()
+    /// Whether the candidate solves its equation, as near its first guess as this. A distance that is not a number is not.
+    pub(super) fn is_solution_within(&self, distance: f64) -> bool {
+        self.branch != Branch::Unknown && self.moved.simd_le(T::of(distance)).all()
     }
 }
 

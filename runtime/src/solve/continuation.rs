@@ -18,6 +18,8 @@ use crate::number::scalar::Scalar;
 const LONGEST: f64 = 0.25;
 /// The shortest stretch that is tried.
 const SHORTEST: f64 = 1.0 / 1024.0;
+/// The farthest from its extension that a solution is taken, relative to the largest coordinate of μ.
+const CORRECTED: f64 = 0.01;
 
 /// The solution for μ, or the s beyond which it could not be followed.
 pub(super) fn follow<S: Integrator + ?Sized>(
@@ -37,7 +39,7 @@ pub(super) fn follow<S: Integrator + ?Sized>(
         let scale = ScalarOf::<S>::of(next);
         let found = propose_scaled(generating, mu, scale, guess, settings);
         iterations += found.iterations;
-        if found.is_near_solution() {
+        if found.is_solution_within(CORRECTED) {
             if next >= 1.0 {
                 return Ok(CandidateOf::<S> { iterations, ..found });
             }

@@ -15,6 +15,10 @@ const MAX_ITERATIONS: u32 = 20;
 /// A correction larger than this part of the one before it ends the solve.
 const SHRINKS: f64 = 0.25;
 
+/// The largest change of ∂F/∂p between guess and solution, for the sums of rows: where it is larger, as where S has waves
+/// shorter than the way between them, small corrections do not tell that the solution next to the guess was found.
+const BENDS: f64 = 0.25;
+
 /// The solution for `scale`·S from this guess. Each correction has a Hessian of its own, and must be much smaller than the
 /// one before it; the residual is measured.
 pub(super) fn newton<S: GeneratingFunction + ?Sized>(
@@ -30,6 +34,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     let mut moved = ScalarOf::<S>::of(0.0);
     let mut allowed = ScalarOf::<S>::of(f64::MAX);
     let mut iterations = 0;
+    let mut first = None;
     loop {
         iterations += 1;
         let (x, hessian) = generating.gradient_and_hessian(&p);
@@ -41,10 +46,15 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let left = p.clone().minus(&pulled);
         let residual = left.largest_entry() * inverse_scale;
         if residual.simd_le(rounding).all() {
-            let branch = branch::<S>(dim, &derivative, jacobian);
+            let apart = first.is_some_and(|first| bends::<S>(dim, &first, &jacobian));
+            let branch = match apart {
+                true => Branch::Unknown,
+                false => branch::<S>(dim, &derivative, jacobian),
+            };
             return Candidate { x, moved, residual, branch, iterations };
         }
         let correction = VectorOf::<S>::solve(&jacobian, &left);
+        first.get_or_insert(jacobian);
         let relative = correction.largest_entry() * inverse_scale;
         moved += relative;
         if !relative.simd_le(allowed).all() || iterations == MAX_ITERATIONS {
@@ -54,6 +64,20 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         // Corrections by rounding do not shrink.
         allowed = (ScalarOf::<S>::of(SHRINKS) * relative).simd_max(rounding);
     }
+}
+
+/// Whether a lane of one matrix differs by more than [`BENDS`] from another.
+fn bends<S: GeneratingFunction + ?Sized>(
+    dim: usize,
+    first: &MatrixOf<S>,
+    last: &MatrixOf<S>,
+) -> bool {
+    let zero = ScalarOf::<S>::of(0.0);
+    (0..dim).any(|i| {
+        let change = |j| (last[(i, j)] - first[(i, j)]).simd_abs();
+        let sum = (0..dim).fold(zero, |sum, j| sum + change(j));
+        !sum.simd_le(ScalarOf::<S>::of(BENDS)).all()
+    })
 }
 
 /// What 1 − D·Hess S tells, D = ∂p/∂x.

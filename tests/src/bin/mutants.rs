@@ -46,7 +46,12 @@ const fn equivalent(mutant: Mutant, why: &'static str) -> Mutant {
 
 const MUTANTS: &[Mutant] = &[
     // The generic step.
-    mutant("generic: nearness ignored", CANDIDATE, " && self.moved.simd_le(T::of(NEAR)).all()", ""),
+    mutant(
+        "generic: nearness ignored",
+        ACCEPT,
+        "candidate.is_solution_within(NEAR)",
+        "candidate.is_solution_within(1e9)",
+    ),
     mutant("generic: branch ignored", CANDIDATE, "self.branch != Branch::Unknown && ", ""),
     mutant("generic: nearness times 10", LIMITS, "NEAR: f64 = 0.05", "NEAR: f64 = 0.5"),
     mutant(
@@ -68,6 +73,7 @@ const MUTANTS: &[Mutant] = &[
         "SHRINKS: f64 = 0.25",
         "SHRINKS: f64 = 25.0",
     ),
+    mutant("generic: Newton, bends ignored", NEWTON, "BENDS: f64 = 0.25", "BENDS: f64 = 25.0"),
     mutant(
         "generic: Newton, few iterations",
         NEWTON,
@@ -184,6 +190,12 @@ const MUTANTS: &[Mutant] = &[
         CONTINUATION,
         "LONGEST: f64 = 0.25",
         "LONGEST: f64 = 2.5",
+    ),
+    mutant(
+        "generic: long corrections of a stretch",
+        CONTINUATION,
+        "CORRECTED: f64 = 0.01",
+        "CORRECTED: f64 = 0.05",
     ),
     // Kernels.
     mutant(
