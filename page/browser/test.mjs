@@ -128,7 +128,7 @@ onPage("every control does what it says", ["#system=rigid-body&paused=1"], async
   await tab.locator("#knob-I2").fill("-50");
   assert.equal(await tab.inputValue("#parameters"), "I1 = 1, I2 = 1, I3 = 3");
   assert.equal((await about()).inverse_inertia[4], 1);
-  for (const [name, sign] of [["rust", "#[lie_poisson(group = SO3, truncation = 3, chart = cayley, frame = comoving)]"], ["file", "name = \"my body\""], ["python", "import coadjoint as ca"], ["c", "my_body_step("]]) {
+  for (const [name, sign] of [["rust", "my_body::MyBody::new(0.05)"], ["file", "name = \"my body\""], ["python", "import coadjoint as ca"], ["c", "my_body_step("]]) {
     await tab.click(`#tab-${name}`);
     assert.ok((await text(tab, "text")).includes(sign), name);
     await tab.evaluate(() => { navigator.clipboard.writeText = async (text) => { window.copied = text; }; });

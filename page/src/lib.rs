@@ -13,6 +13,5 @@ pub mod orbit;
 pub mod refusal;
 pub mod rival;
 pub mod run;
-pub mod rust;
 pub mod system;
 pub mod texts;

@@ -1,12 +1,13 @@
 //! Texts to copy: the system in each of its languages.
 
 use coadjoint_codegen::emit::c::{self, HeaderOptions};
+use coadjoint_codegen::emit::{camel_case, identifier};
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::parse;
-use coadjoint_codegen::problem::Parameter;
+use coadjoint_codegen::problem::{Parameter, Shape};
 use num_traits::ToPrimitive;
 
-use crate::rust::{self, listed};
 use crate::system::{LIMIT, System};
 
 /// A language.
@@ -14,7 +15,7 @@ use crate::system::{LIMIT, System};
 pub enum Language {
     /// The system file of the command.
     File,
-    /// The attribute.
+    /// A program, and the build script that writes its steps from the system file.
     Rust,
     /// The Python package.
     Python,
@@ -43,7 +44,7 @@ impl Language {
 pub fn text(system: &System, language: Language) -> Result<String, String> {
     match language {
         Language::File => Ok(system.file.clone()),
-        Language::Rust => rust::program(system),
+        Language::Rust => Ok(rust(system)),
         Language::Python => python(system, &system.parameters()),
         Language::C => {
             let problem = &system.integrator.problem;
@@ -65,6 +66,35 @@ pub fn text(system: &System, language: Language) -> Result<String, String> {
             named.map_or_else(valued, Ok)
         }
     }
+}
+
+fn rust(system: &System) -> String {
+    let name = &system.integrator.problem.name;
+    let (module, title) = (identifier(&c::prefix(name)), identifier(&camel_case(name)));
+    let steps = (system.time / system.h.abs()).round().clamp(1.0, 1e9);
+    let (h, momentum) = (system.h, &system.momentum);
+    format!(
+        r#"// build.rs, which needs coadjoint-codegen and the system file:
+//     fn main() -> Result<(), coadjoint_codegen::BuildError> {{
+//         let system = coadjoint_codegen::Build::new("{module}.toml").substitute_parameters();
+//         system.write("{module}.rs").map(drop)
+//     }}
+
+mod {module} {{
+    include!(concat!(env!("OUT_DIR"), "/{module}.rs"));
+}}
+
+fn main() -> Result<(), coadjoint::StepError> {{
+    let step = {module}::{title}::new({h:?})?;
+    let mut state = coadjoint::Phase::at_identity({momentum:?});
+    for _ in 0..{steps} {{
+        step.advance(&mut state)?;
+    }}
+    println!("{{:?}}", state.momentum);
+    Ok(())
+}}
+"#
+    )
 }
 
 /// Names that no keyword argument may have.
@@ -127,9 +157,18 @@ fn python(system: &System, parameters: &[Parameter]) -> Result<String, String> {
 
 /// A parameter's value: a number, a fraction as a text, or lists of these.
 fn value(parameter: &Parameter) -> String {
-    listed(parameter, |x| {
+    let one = |x: &Rational| {
         let number = x.to_f64().unwrap_or(f64::NAN);
         let exact = parse::rational(&number.to_string()).is_some_and(|back| back == *x);
         if exact { format!("{number:?}") } else { format!("\"{x}\"") }
-    })
+    };
+    let values: Vec<String> = parameter.default.iter().flatten().map(one).collect();
+    match parameter.shape {
+        Shape::Array(_) => format!("[{}]", values.join(", ")),
+        Shape::Grid(_, columns) => {
+            let rows = values.chunks(columns.max(1)).map(|row| format!("[{}]", row.join(", ")));
+            format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+        }
+        _ => values.concat(),
+    }
 }

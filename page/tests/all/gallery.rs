@@ -11,8 +11,8 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// Lists of bonds, which the page does not copy as Rust, a potential, 192 dimensions, and steps of 61 000 operations: not
-/// for a page.
+/// Lists of bonds, which a page's fields do not hold, a potential, 192 dimensions, and steps of 61 000 operations: not for
+/// a page.
 const LEFT_OUT: [&str; 6] =
     ["kagome_star", "satellite", "spin_chain_64", "spin_molecule", "spin_triangle", "zeitlin_5"];
 
