@@ -2,6 +2,7 @@
 
 mod backend;
 pub mod check;
+mod derivative;
 pub mod emit;
 pub mod engine;
 pub mod ensemble;
@@ -15,6 +16,7 @@ pub mod verify;
 use sha2::{Digest, Sha256};
 
 pub use backend::{Backend, Code, Used};
+pub use derivative::{Adjoint, Derivatives};
 pub use error::RunError;
 pub use load::{
     Accuracy, Derived, as_chosen, integrator, learned, meet_tolerance, read, read_either,

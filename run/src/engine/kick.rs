@@ -3,12 +3,12 @@
 use coadjoint::groups::Chart;
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::graph;
+use coadjoint_codegen::graph::{self, Program};
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::Splitting;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::interpreter::refusal;
 use super::{Group, Interpreter, Solves, entries_of};
@@ -112,5 +112,24 @@ impl<'a, G: Group> Torque<'a, G> {
         let mut result = vec![0.0; self.group.dim()];
         graph::run(&self.kick.torque, &entries, &self.slots, &mut Vec::new(), &mut result);
         DVector::from_vec(result)
+    }
+
+    /// The derivative of the torque in ξ = g⁻¹δg, by that of its program and the matrices of the algebra's basis.
+    pub(super) fn slope(
+        &self,
+        program: &Program,
+        generators: &[DMatrix<f64>],
+        g: &G::Element,
+    ) -> DMatrix<f64> {
+        let entries = entries_of(&self.group, g);
+        let size = self.group.matrix_size();
+        let element = DMatrix::from_row_slice(size, size, &entries);
+        let column = |generator: &DMatrix<f64>| {
+            // Row by row.
+            let change = (&element * generator).transpose();
+            let inputs = [entries.as_slice(), change.as_slice()].concat();
+            DVector::from_vec(program.run(&inputs, &self.slots))
+        };
+        DMatrix::from_columns(&generators.iter().map(column).collect::<Vec<_>>())
     }
 }

@@ -16,9 +16,11 @@ use super::compiled::{Compiled, Numbers, Solves};
 use super::group::cayley_group;
 use super::interpreter::Interpreter;
 use super::kick::{Forces, Map, map};
+use super::linear::{Differentiable, Linear};
 use super::restore::Restore;
 use super::space::{Elements, Space};
 use super::steep::Steepness;
+use super::tangent::Tangent;
 use crate::error::RunError;
 use crate::number::maximum;
 
@@ -41,6 +43,11 @@ pub trait Motion: Send + Sync {
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
+
+    /// The same steps with their derivatives, where these are known.
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        None
+    }
 
     /// The programs that move many states side by side, where there are any.
     fn lanes(&self) -> Option<&Compiled> {
@@ -151,12 +158,14 @@ struct Steps<'a, G: Restore, C> {
     shorter: Mutex<Vec<Option<Map<'a, G>>>>,
     /// The longest flow of a step, by whose series ratios are measured, once one was asked for.
     flow: OnceLock<Option<Interpreter<'a, G, C>>>,
+    /// The derivative of a step, once one was asked for.
+    tangent: OnceLock<Tangent<'a, G, C>>,
 }
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
     fn new(elements: Elements<G>, equations: Equations<'a>, size: f64) -> Self {
-        let (generic, flow, shorter) = Default::default();
-        Self { elements, equations, size, generic, shorter, flow }
+        let (generic, flow, shorter, tangent) = Default::default();
+        Self { elements, equations, size, generic, shorter, flow, tangent }
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
@@ -229,7 +238,30 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         flow.as_ref().map_or(0.0, ratio)
     }
 
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        Some(self)
+    }
+
     fn lanes(&self) -> Option<&Compiled> {
         self.elements.compiled.as_deref()
+    }
+}
+
+impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Steps<'a, G, C> {
+    fn parameters(&self) -> usize {
+        self.equations.parameters.len()
+    }
+
+    fn linear(&self, state: &Numbers) -> Result<Linear, StepError> {
+        let tangent = match self.tangent.get() {
+            Some(tangent) => tangent,
+            None => {
+                let Equations { integrator, forces, parameters } = &self.equations;
+                let group: &G = &self.elements.group;
+                let made = Tangent::new(integrator, *forces, group, self.size, parameters)?;
+                self.tangent.get_or_init(|| made)
+            }
+        };
+        tangent.linear(self.elements.phase(state))
     }
 }

@@ -2,12 +2,15 @@
 
 use core::fmt::Debug;
 
-use nalgebra::{SimdComplexField, SimdPartialOrd};
+use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use crate::group::{CayleyGroup, LieGroup};
 use crate::linear::coordinates::Coordinates;
-use crate::linear::differences;
+use crate::linear::{differences, square};
 use crate::number::scalar::Scalar;
+
+/// The most terms of a series of derivatives: enough for ‖ad_x‖ up to 50.
+const TERMS: usize = 200;
 
 type Matrix<G> = <<G as LieGroup>::Vector as Coordinates<<G as LieGroup>::Scalar>>::Matrix;
 
@@ -45,16 +48,13 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         (self.pull_back(group, x, mu), derivative)
     }
 
+    /// The same derivative to rounding, at several times the cost: derivatives of steps are made of it. Not a number for x
+    /// far beyond the chart.
+    fn pull_back_derivative(self, group: &G, x: &G::Vector, mu: &G::Vector) -> Matrix<G>;
+
     /// J_L(x, p) = (d^R τ_x)^{−T} p, the momentum on the left: the body momentum before the step.
     fn left_momentum(self, group: &G, x: &G::Vector, p: &G::Vector) -> G::Vector {
-        let dim = p.dim();
-        let mut matrix = G::Vector::zero_matrix(dim);
-        for j in 0..dim {
-            let column = self.pull_back(group, x, &G::Vector::unit(dim, j));
-            for i in 0..dim {
-                matrix[(i, j)] = column[i];
-            }
-        }
+        let matrix = columns::<G>(p.dim(), |unit| self.pull_back(group, x, unit));
         G::Vector::solve(&matrix, p)
     }
 
@@ -63,6 +63,18 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         let negative = G::Vector::from_entries(x.dim(), |i| -x[i]);
         self.left_momentum(group, &negative, p)
     }
+}
+
+/// The matrix of a linear map of vectors.
+fn columns<G: LieGroup>(dim: usize, map: impl Fn(&G::Vector) -> G::Vector) -> Matrix<G> {
+    let mut matrix = G::Vector::zero_matrix(dim);
+    for j in 0..dim {
+        let column = map(&G::Vector::unit(dim, j));
+        for i in 0..dim {
+            matrix[(i, j)] = column[i];
+        }
+    }
+    matrix
 }
 
 /// τ = exp, the default chart: at equal truncation far more accurate than Cayley.
@@ -91,6 +103,32 @@ impl<G: LieGroup> Chart<G> for Exponential {
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dexp_transpose(x, mu)
     }
+
+    /// By its series: with uₖ = (ad_xᵀ)ᵏ μ/(k+1)! it is Σ ∂uₖ, (k+1) ∂uₖ = ad_(·)ᵀ uₖ₋₁ + ad_xᵀ ∂uₖ₋₁.
+    fn pull_back_derivative(self, group: &G, x: &G::Vector, mu: &G::Vector) -> Matrix<G> {
+        let (dim, one) = (mu.dim(), G::Scalar::of(1.0));
+        let turn = columns::<G>(dim, |unit| group.ad_star(x, unit));
+        let shrinks_after = square::row_sum_norm(dim, &turn).largest_lane();
+        let rounding = G::Scalar::epsilon() * G::Scalar::of(0.125);
+        let mut power = mu.clone();
+        let (mut slope, mut sum) = (G::Vector::zero_matrix(dim), G::Vector::zero_matrix(dim));
+        for k in 1..TERMS {
+            let factor = G::Scalar::of(1.0 / (k + 1) as f64);
+            let bent = columns::<G>(dim, |unit| group.ad_star(unit, &power));
+            let turned = square::multiply(dim, &turn, &slope);
+            slope = square::scale(dim, &square::plus_scaled(dim, &bent, one, &turned), factor);
+            sum = square::plus_scaled(dim, &sum, one, &slope);
+            let turned = power.left_multiply(&turn);
+            power = G::Vector::from_entries(dim, |i| turned[i] * factor);
+            let largest = |matrix| square::largest_entry(dim, matrix);
+            let small = largest(&slope).simd_le(largest(&sum) * rounding)
+                & power.largest_entry().simd_le(mu.largest_entry() * rounding);
+            if k as f64 > shrinks_after && small.all() {
+                return sum;
+            }
+        }
+        square::scale(dim, &sum, G::Scalar::of(f64::NAN))
+    }
 }
 
 impl<G: CayleyGroup> Chart<G> for Cayley {
@@ -112,5 +150,15 @@ impl<G: CayleyGroup> Chart<G> for Cayley {
 
     fn pull_back(self, group: &G, x: &G::Vector, mu: &G::Vector) -> G::Vector {
         group.dcay_transpose(x, mu)
+    }
+
+    /// From the derivative of J_L(x, p) = μ: J_L is quadratic in x, and so its differences of any spacing are exact.
+    fn pull_back_derivative(self, group: &G, x: &G::Vector, mu: &G::Vector) -> Matrix<G> {
+        let dim = mu.dim();
+        let p = self.pull_back(group, x, mu);
+        let half = |_| G::Scalar::of(0.5);
+        let bent = differences::central(x, half, |x| self.left_momentum(group, x, &p));
+        let back = columns::<G>(dim, |unit| self.pull_back(group, x, unit));
+        square::scale(dim, &square::multiply(dim, &back, &bent), G::Scalar::of(-1.0))
     }
 }

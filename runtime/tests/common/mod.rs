@@ -160,6 +160,7 @@ where
         let p = chart.pull_back(group, &x, &mu);
         let (again, derivative) = chart.pull_back_with_derivative(group, &x, &mu);
         small("both ways", distance::<G>(&p, &again), 0.0);
+        let exact = chart.pull_back_derivative(group, &x, &mu);
         let step = 1e-3;
         for j in 0..dim {
             let at = |s: f64| {
@@ -171,6 +172,7 @@ where
                 let slope = slope / (12.0 * step);
                 let bound = 1e-9 * growth * growth;
                 small("the derivative", (slope - derivative[(i, j)]).abs(), bound);
+                small("the exact derivative", (slope - exact[(i, j)]).abs(), bound);
             }
         }
         let inverse = chart.left_momentum(group, &x, &p);
@@ -196,6 +198,7 @@ where
         let mu = G::Vector::from_entries(dim, |_| 1.0);
         let (g, _) = chart.transport(group, &x, &mu);
         let _ = (chart.pull_back_with_derivative(group, &x, &mu), chart.coordinate(group, &g));
+        let _ = chart.pull_back_derivative(group, &x, &mu);
         let _ = (chart.left_momentum(group, &x, &mu), chart.extent(group, &x));
     }
 }

@@ -74,4 +74,21 @@ impl Function {
             Self::Abs => x.abs(),
         }
     }
+
+    /// The derivative of the function at `x`.
+    #[must_use]
+    pub fn slope(self, x: f64) -> f64 {
+        match self {
+            Self::Sqrt => 0.5 / x.sqrt(),
+            Self::Sin => x.cos(),
+            Self::Cos => -x.sin(),
+            Self::Tan => 1.0 + x.tan().powi(2),
+            Self::Atan => 1.0 / (1.0 + x * x),
+            Self::Tanh => 1.0 - x.tanh().powi(2),
+            Self::Exp => x.exp(),
+            Self::Ln => 1.0 / x,
+            Self::Abs if x == 0.0 => f64::NAN,
+            Self::Abs => x.signum(),
+        }
+    }
 }

@@ -48,6 +48,25 @@ impl ParameterExpr {
         }
     }
 
+    /// The derivative of the expression along a change of the flattened parameters; NaN where it has none.
+    #[must_use]
+    pub fn slope(&self, parameters: &[f64], change: &[f64]) -> f64 {
+        let value = |e: &Self| e.evaluate(parameters);
+        let slope = |e: &Self| e.slope(parameters, change);
+        match self {
+            Self::Rational(_) => 0.0,
+            Self::Parameter(i) => change.get(*i).copied().unwrap_or(f64::NAN),
+            Self::Add(a, b) => slope(a) + slope(b),
+            Self::Sub(a, b) => slope(a) - slope(b),
+            Self::Mul(a, b) => slope(a) * value(b) + value(a) * slope(b),
+            Self::Div(a, b) => (slope(a) - value(self) * slope(b)) / value(b),
+            Self::Neg(a) => -slope(a),
+            Self::Powi(_, 0) => 0.0,
+            Self::Powi(a, n) => f64::from(*n) * value(a).powi(n - 1) * slope(a),
+            Self::Call(function, a) => function.slope(value(a)) * slope(a),
+        }
+    }
+
     /// The expression as a user would write it, with `names` for the flattened parameters.
     #[must_use]
     pub fn text(&self, names: &[String]) -> String {

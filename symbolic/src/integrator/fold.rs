@@ -148,6 +148,26 @@ impl FoldTable {
         self.len == 0
     }
 
+    /// The derivatives of the coefficients along a change of the symbols; those of the bound and of the radius, which are
+    /// not smooth, are left 0.
+    ///
+    /// # Errors
+    /// [`FoldError`] where one is not finite.
+    pub fn slope(&self, step: f64, symbols: &[f64], change: &[f64]) -> Result<Vec<f64>, FoldError> {
+        let at = |list: &[f64], i: u32| list.get(i as usize).copied().unwrap_or(f64::NAN);
+        // Coefficients are linear in the products.
+        let (mut products, mut slopes) = (vec![1.0], vec![0.0]);
+        for &(of, symbol) in &self.products {
+            let (product, slope) = (at(&products, of), at(&slopes, of));
+            products.push(product * at(symbols, symbol));
+            slopes.push(product * at(change, symbol) + slope * at(symbols, symbol));
+        }
+        let lists = Fold { bound: &[], radius: None, ..self.lists() };
+        let mut coefficients = vec![0.0; self.len];
+        lists.fold_by(step, change, |number| at(&slopes, number), &mut coefficients)?;
+        Ok(coefficients)
+    }
+
     /// All coefficients for a step size and the values of the symbols.
     ///
     /// # Errors

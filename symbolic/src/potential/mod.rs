@@ -77,8 +77,9 @@ pub fn matrix_size(algebra: &LieAlgebra) -> usize {
     algebra.basis().and_then(<[_]>::first).map_or(algebra.dim(), RationalMatrix::rows)
 }
 
-/// The matrices of the basis, or ad of it.
-fn basis(algebra: &LieAlgebra) -> Vec<RationalMatrix> {
+/// The matrices of the basis, or ad of it: those of which group elements are made.
+#[must_use]
+pub fn basis(algebra: &LieAlgebra) -> Vec<RationalMatrix> {
     if let Some(basis) = algebra.basis() {
         return basis.to_vec();
     }

@@ -1,0 +1,252 @@
+//! The derivatives of runs: forwards, backwards, over a period, and their growth.
+
+#[cfg(test)]
+mod tests;
+
+use coadjoint_program::Trajectories;
+use nalgebra::{DMatrix, DVector};
+
+use crate::engine::{Compiled, Differentiable, Linear, Motion, Numbers};
+use crate::error::RunError;
+use crate::load::Derived;
+use crate::simulate::{Schedule, Setup};
+
+/// The derivatives of a run of N steps.
+///
+/// A tangent to a state (g, μ) is the column (ξ, ν) of 2n numbers, ξ = g⁻¹δg in the basis of 𝔤 and ν = δμ; a cotangent is
+/// the column (λ, κ) of the factors of ξ and ν. q is the number of parameters that the system keeps, in their order, each
+/// flattened. The steps are those of a run to rounding, and derivatives those of the steps, not of the flow: the tangent
+/// map is symplectic to rounding.
+pub struct Derivatives<'a> {
+    motion: Box<dyn Motion + 'a>,
+    start: Numbers,
+    schedule: Schedule,
+}
+
+/// The derivatives of k numbers that depend on a run.
+#[derive(Clone, Debug)]
+pub struct Adjoint {
+    /// In the state at the start, 2n×k.
+    pub state: DMatrix<f64>,
+    /// In the parameters, q×k.
+    pub parameters: DMatrix<f64>,
+    /// The most states that were kept at a time: about 2√N.
+    pub kept: usize,
+}
+
+impl<'a> Derivatives<'a> {
+    /// Of the run of a system with these settings, of which records, events and times are not looked at.
+    ///
+    /// # Errors
+    /// Settings that make no sense.
+    pub fn new(system: &'a Derived, setup: &Setup) -> Result<Self, RunError> {
+        if setup.momentum.len() != system.integrator.problem.algebra.dim() {
+            return Err(RunError::Option("the momentum does not fit the group".to_owned()));
+        }
+        let Schedule { step, steps, .. } = setup.schedule;
+        let (backend, kept) = (setup.backend, &system.kept);
+        let (expected, one) = (steps as f64, Trajectories::One);
+        let compiled = Compiled::new(&system.integrator, step, backend, expected, one, kept)?;
+        let motion = system.charted()?.steps(system.equations(), step, compiled);
+        let start = setup.start(&system.file, motion.space())?;
+        Ok(Self { motion, start, schedule: setup.schedule })
+    }
+
+    fn steps(&self) -> Result<&dyn Differentiable, RunError> {
+        let what = "these steps have no derivatives: those of systems known as text have";
+        self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
+    }
+
+    /// n, the dimension of the group.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.start.mu.len()
+    }
+
+    /// q, the number of parameters.
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        self.motion.differentiable().map_or(0, Differentiable::parameters)
+    }
+
+    /// The error of a step after `done` steps.
+    fn failed(&self, done: u64, error: &coadjoint::StepError) -> RunError {
+        let time = self.schedule.time(done);
+        RunError::Run { time, step: done + 1, what: error.to_string() }
+    }
+
+    /// Makes `count` steps after `done`.
+    fn advance(&self, state: &mut Numbers, done: u64, count: u64) -> Result<(), RunError> {
+        let made = self.motion.advance(state, count);
+        made.map(drop).map_err(|(more, error)| self.failed(done + more, &error))
+    }
+
+    /// The derivative of the step after `done`, from the state before it.
+    fn linear(&self, done: u64, state: &Numbers) -> Result<Linear, RunError> {
+        let linear = self.steps()?.linear(state).map_err(|error| self.failed(done, &error))?;
+        self.finite(done, [&linear.state, &linear.parameters])?;
+        Ok(linear)
+    }
+
+    /// # Errors
+    /// Where a number is not finite after `done` steps.
+    fn finite(&self, done: u64, numbers: [&DMatrix<f64>; 2]) -> Result<(), RunError> {
+        if numbers.into_iter().flatten().all(|number| number.is_finite()) {
+            return Ok(());
+        }
+        let what = "a derivative is not finite: take a shorter run".to_owned();
+        Err(RunError::Run { time: self.schedule.time(done), step: done + 1, what })
+    }
+
+    /// Follows `count` steps of the run; `each` is given the derivative of each.
+    fn follow(&self, count: u64, mut each: impl FnMut(u64, &Linear)) -> Result<(), RunError> {
+        let mut state = self.start.clone();
+        for done in 0..count {
+            each(done, &self.linear(done, &state)?);
+            self.advance(&mut state, done, 1)?;
+        }
+        Ok(())
+    }
+
+    /// # Errors
+    /// Where numbers of steps do not ascend, or the last is not in the run.
+    fn ascending(&self, at: impl Iterator<Item = u64> + Clone) -> Result<(), RunError> {
+        let in_run = at.clone().all(|step| step <= self.schedule.steps);
+        if in_run && at.clone().zip(at.skip(1)).all(|(a, b)| a < b) {
+            return Ok(());
+        }
+        let what = format!("numbers of steps must ascend from 0 to {}", self.schedule.steps);
+        Err(RunError::Option(what))
+    }
+
+    /// The tangents (2n×k) after these numbers of steps, which ascend, of tangents at the start (2n×k) and changes of the
+    /// parameters (q×k).
+    ///
+    /// # Errors
+    /// Where the shapes do not fit, and why the run stopped.
+    pub fn forward(
+        &self,
+        tangents: &DMatrix<f64>,
+        parameters: &DMatrix<f64>,
+        at: &[u64],
+    ) -> Result<Vec<DMatrix<f64>>, RunError> {
+        let (n, q, k) = (self.dim(), self.parameters(), tangents.ncols());
+        if tangents.nrows() != 2 * n || parameters.shape() != (q, k) {
+            return Err(RunError::Option(format!(
+                "{k} tangents are {}×{k} numbers of the state and {q}×{k} of the parameters",
+                2 * n
+            )));
+        }
+        self.ascending(at.iter().copied())?;
+        let mut now = tangents.clone();
+        let mut found = Vec::new();
+        let mut note = |done: u64, now: &DMatrix<f64>| {
+            if at.get(found.len()) == Some(&done) {
+                found.push(now.clone());
+            }
+        };
+        note(0, &now);
+        let last = at.last().copied().unwrap_or(0);
+        self.follow(last, |done, linear| {
+            now = &linear.state * &now + &linear.parameters * parameters;
+            note(done + 1, &now);
+        })?;
+        self.finite(last, [&now, parameters])?;
+        Ok(found)
+    }
+
+    /// The adjoint: the derivatives, in the start and in the parameters, of k sums over the run, given as cotangents (2n×k)
+    /// of the states after these numbers of steps, which ascend.
+    ///
+    /// Of the states every ⌊√N⌋th is kept, and those between two of them while they are gone through: steps are made
+    /// twice.
+    ///
+    /// # Errors
+    /// Where the shapes do not fit, and why the run stopped.
+    pub fn backward(&self, cotangents: &[(u64, DMatrix<f64>)]) -> Result<Adjoint, RunError> {
+        let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
+        let k = cotangents.first().map_or(0, |(_, first)| first.ncols());
+        if cotangents.iter().any(|(_, own)| own.shape() != (2 * n, k)) {
+            return Err(RunError::Option(format!("cotangents are {}×{k} numbers each", 2 * n)));
+        }
+        self.ascending(cotangents.iter().map(|&(step, _)| step))?;
+        let stretch = count.isqrt().max(1);
+        let mut checkpoints = Vec::new();
+        let mut state = self.start.clone();
+        for first in (0..count).step_by(stretch as usize) {
+            checkpoints.push(state.clone());
+            if first + stretch < count {
+                self.advance(&mut state, first, stretch)?;
+            }
+        }
+        let (mut left, mut kept) = (cotangents.iter().rev().peekable(), 0);
+        let mut now = DMatrix::zeros(2 * n, k);
+        let mut parameters = DMatrix::zeros(self.parameters(), k);
+        while let Some(mut state) = checkpoints.pop() {
+            let first = checkpoints.len() as u64 * stretch;
+            let last = count.min(first + stretch);
+            let mut states = Vec::new();
+            for done in first..last {
+                states.push(state.clone());
+                if done + 1 < last {
+                    self.advance(&mut state, done, 1)?;
+                }
+            }
+            kept = kept.max(checkpoints.len() + states.len());
+            for (number, state) in states.iter().enumerate().rev() {
+                let done = first + number as u64;
+                if let Some((_, own)) = left.next_if(|(step, _)| *step == done + 1) {
+                    now += own;
+                }
+                let linear = self.linear(done, state)?;
+                parameters += linear.parameters.tr_mul(&now);
+                now = linear.state.tr_mul(&now);
+            }
+        }
+        if let Some((_, own)) = left.next() {
+            now += own;
+        }
+        self.finite(0, [&now, &parameters])?;
+        Ok(Adjoint { state: now, parameters, kept })
+    }
+
+    /// The monodromy matrix (2n×2n): the derivative of the state at the end in that at the start. Along a periodic or
+    /// relatively periodic motion its eigenvalues are the Floquet multipliers.
+    ///
+    /// # Errors
+    /// Why the run stopped.
+    pub fn monodromy(&self) -> Result<DMatrix<f64>, RunError> {
+        let n = 2 * self.dim();
+        let none = DMatrix::zeros(self.parameters(), n);
+        let found = self.forward(&DMatrix::identity(n, n), &none, &[self.schedule.steps])?;
+        Ok(found.into_iter().next().unwrap_or_default())
+    }
+
+    /// The largest Lyapunov exponent, in 1/time: the mean growth of a tangent, whose length becomes one after each step,
+    /// without the first `transient` steps, in which it turns into the direction that grows most (Benettin, Galgani,
+    /// Giorgilli, Strelcyn, *Meccanica* 15 (1980) 9–30). It converges as the logarithm of the time over the time.
+    ///
+    /// # Errors
+    /// Where no steps are left, and why the run stopped.
+    pub fn largest_exponent(&self, transient: u64) -> Result<f64, RunError> {
+        let Schedule { steps, step, .. } = self.schedule;
+        if transient >= steps {
+            let what = format!("a transient of {transient} steps leaves none of {steps}");
+            return Err(RunError::Option(what));
+        }
+        // A direction without symmetry, so that it has a part in every other.
+        let mut now =
+            DVector::from_fn(2 * self.dim(), |i, _| 1.0 + (1.0 + i as f64).sqrt().fract());
+        now /= now.norm();
+        let mut growth = 0.0;
+        self.follow(steps, |done, linear| {
+            now = &linear.state * &now;
+            let length = now.norm();
+            now /= length;
+            if done >= transient {
+                growth += length.ln();
+            }
+        })?;
+        Ok(growth / ((steps - transient) as f64 * step.abs()))
+    }
+}

@@ -1,0 +1,320 @@
+#![allow(clippy::unwrap_used)]
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::judge::{DoubleDouble, Judge};
+use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::potential::basis;
+use coadjoint_codegen::system::Options;
+use num_traits::ToPrimitive;
+
+use super::*;
+use crate::engine::Equations;
+use crate::load::read_varying;
+
+/// A system, the parameters in which it is differentiated, a momentum, and a step.
+struct Case {
+    text: &'static str,
+    varied: &'static [&'static str],
+    momentum: &'static [f64],
+    step: f64,
+}
+
+const BODY: Case = Case {
+    text: "group = 'SO3'\nhamiltonian = 'a*mu[0]^2 + mu[1]^2/(2*b) + c[0]*mu[2]^2 + c[1]*mu[0]*mu[1]*mu[2]'\n\
+           [parameters]\na = 0.3125\nb = 2\nc = [0.1875, 0.03125]\n[integrator]\ntruncation = 5",
+    varied: &["a", "b", "c"],
+    momentum: &[2.0, 0.5, 1.0],
+    step: 0.25,
+};
+
+const CASES: [Case; 5] = [
+    BODY,
+    Case {
+        text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
+               [parameters]\nf = 0.75\n[integrator]\ntruncation = 5\nchart = 'cayley'",
+        varied: &["f"],
+        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
+        step: 0.125,
+    },
+    // A frame that turns by more than once in a step.
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'a*(mu[0]^2 + mu[1]^2) + 2*a*mu[2]^2 + b*mu[2]'\n\
+               [parameters]\na = 0.25\nb = 40\n[integrator]\nframe = 'comoving'",
+        varied: &["a", "b"],
+        momentum: &[1.0, 0.5, 0.75],
+        step: 0.25,
+    },
+    // Two groups, one of which is not compact.
+    Case {
+        text: "group = 'SL2 * SO3'\nhamiltonian = 'mu[0]^2/2 + a*mu[1]*mu[2] + mu[0]*mu[3]/2 + mu[3]^2/3 + mu[4]^2/4'\n\
+               [parameters]\na = 0.5\n[integrator]\ntruncation = 3",
+        varied: &["a"],
+        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
+        step: 0.25,
+    },
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4'\npotential = 'g[2][2] + g[0][1]^2/3'\n\
+               [integrator]\ntruncation = 5",
+        varied: &[],
+        momentum: &[0.5, 0.25, 1.0],
+        step: 0.25,
+    },
+];
+
+impl Case {
+    fn system(&self) -> Derived {
+        let varied: Vec<String> = self.varied.iter().map(|&name| name.to_owned()).collect();
+        Derived::of(read_varying("case", self.text, Options::default(), &varied).unwrap()).unwrap()
+    }
+
+    fn setup(&self, steps: u64) -> Setup {
+        let schedule = Schedule::of(self.step, self.step * steps as f64).unwrap();
+        Setup {
+            backend: crate::Backend::Interpreter,
+            ..Setup::new(schedule, self.momentum.to_vec())
+        }
+    }
+}
+
+/// The eighth-order central difference of f at 0, and where it evaluates f.
+fn difference<T>(
+    spacing: f64,
+    f: impl Fn(f64) -> T,
+    less: impl Fn(&T, &T) -> DVector<f64>,
+) -> DVector<f64> {
+    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let terms = weights.iter().zip(1..).map(|(&weight, k)| {
+        let at = spacing * f64::from(k);
+        less(&f(at), &f(-at)) * (weight / spacing)
+    });
+    terms.reduce(|a, b| a + b).unwrap()
+}
+
+/// The coordinates of g⁻¹ δg, both by rows.
+fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> {
+    let generators: Vec<Vec<f64>> = basis(algebra)
+        .iter()
+        .map(|e| {
+            let places = (0..e.rows()).flat_map(|i| (0..e.columns()).map(move |j| (i, j)));
+            places.map(|(i, j)| e.get(i, j).to_f64().unwrap()).collect()
+        })
+        .collect();
+    let size = g.len().isqrt();
+    let body = DMatrix::from_row_slice(size, size, g).try_inverse().unwrap()
+        * DMatrix::from_row_slice(size, size, change);
+    let rows = DVector::from_vec(body.transpose().as_slice().to_vec());
+    let generators = DMatrix::from_fn(size * size, generators.len(), |i, j| generators[j][i]);
+    let gram = generators.tr_mul(&generators);
+    gram.try_inverse().unwrap() * generators.tr_mul(&rows)
+}
+
+/// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
+fn end(case: &Case, system: &Derived, parameters: Vec<f64>, start: Numbers, steps: u64) -> Numbers {
+    let equations = Equations { parameters, ..system.equations() };
+    let motion = system.charted().unwrap().steps(equations, case.step, None);
+    let mut state = start;
+    motion.advance(&mut state, steps).unwrap();
+    state
+}
+
+/// All columns of tangents: those of the state, then those of the parameters.
+fn whole(derivatives: &Derivatives<'_>) -> DMatrix<f64> {
+    let (n, q) = (2 * derivatives.dim(), derivatives.parameters());
+    let parameters = DMatrix::from_fn(q, n + q, |i, j| if n + i == j { 1.0 } else { 0.0 });
+    let end = [derivatives.schedule.steps];
+    derivatives.forward(&DMatrix::identity(n, n + q), &parameters, &end).unwrap().remove(0)
+}
+
+#[test]
+fn tangents_are_the_derivatives_of_runs() {
+    for case in &CASES {
+        let system = case.system();
+        let algebra = &system.integrator.problem.algebra;
+        let (theta, n) = (system.equations().parameters, algebra.dim());
+        let mut derivatives = Derivatives::new(&system, &case.setup(4)).unwrap();
+        // From an attitude other than the identity.
+        let mut moved = derivatives.start.clone();
+        derivatives.motion.advance(&mut moved, 3).unwrap();
+        let matrix = derivatives.motion.space().matrix(&moved.g);
+        derivatives.start = moved.clone();
+        let size = matrix.len().isqrt();
+        let found = whole(&derivatives);
+        let at = |column: usize, s: f64| {
+            let (mut theta, mut mu) = (theta.clone(), moved.mu.clone());
+            let mut g = DMatrix::from_row_slice(size, size, &matrix);
+            match column {
+                j if j < n => {
+                    let e = &basis(algebra)[j];
+                    g *= DMatrix::from_fn(size, size, |a, b| s * e.get(a, b).to_f64().unwrap())
+                        .exp();
+                }
+                j if j < 2 * n => mu[j - n] += s,
+                j => theta[j - 2 * n] += s,
+            }
+            let g = g.transpose().as_slice().to_vec();
+            end(case, &system, theta, Numbers { g, mu }, 4)
+        };
+        let here = at(0, 0.0);
+        for (column, found) in found.column_iter().enumerate() {
+            let less = |a: &Numbers, b: &Numbers| {
+                let (a, b) = ([&a.g[..], &a.mu].concat(), [&b.g[..], &b.mu].concat());
+                DVector::from_vec(a) - DVector::from_vec(b)
+            };
+            let change = difference(0.005, |s| at(column, s), less);
+            let (entries, nu) = change.as_slice().split_at(size * size);
+            let xi = coordinates(algebra, &here.g, entries);
+            let wanted = DVector::from_iterator(2 * n, xi.iter().chain(nu).copied());
+            let off = (found - &wanted).amax() / (1.0 + wanted.amax());
+            assert!(off < 1e-12, "{}, column {column}: {off:e}", case.text);
+        }
+    }
+}
+
+#[test]
+fn tangents_of_a_step_are_those_in_doubled_precision() {
+    for case in &CASES[..2] {
+        let system = case.system();
+        let problem = &system.integrator.problem;
+        let (theta, n) = (system.equations().parameters, problem.algebra.dim());
+        let judge = Judge::of_problem(problem, TermLimit::default()).unwrap();
+        let at = |column: usize, s: f64| {
+            let (mut theta, mut mu) = (theta.clone(), case.momentum.to_vec());
+            match column {
+                j if j < n => mu[j] += s,
+                j => theta[j - n] += s,
+            }
+            let symbols: Vec<f64> =
+                problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&theta)).collect();
+            let mut setting = judge.at(case.step, &symbols).unwrap();
+            let step = setting.step(&mu).unwrap();
+            let end = step.end(&step.right_solution().unwrap(), f64::EPSILON).unwrap();
+            let momentum = end.momentum.iter().map(|mu| mu.scaled(end.scale));
+            let entries = end.element.transpose();
+            entries.iter().copied().chain(momentum).collect::<Vec<DoubleDouble>>()
+        };
+        let here: Vec<f64> = at(0, 0.0).iter().map(|number| number.to_f64()).collect();
+        let found = whole(&Derivatives::new(&system, &case.setup(1)).unwrap());
+        for (column, found) in found.column_iter().skip(n).enumerate() {
+            let less = |a: &Vec<DoubleDouble>, b: &Vec<DoubleDouble>| {
+                DVector::from_iterator(a.len(), a.iter().zip(b).map(|(&a, &b)| (a - b).to_f64()))
+            };
+            let change = difference(1.0 / 64.0, |s| at(column, s), less);
+            let (entries, nu) = change.as_slice().split_at(change.len() - n);
+            let xi = coordinates(&problem.algebra, &here[..entries.len()], entries);
+            let wanted = DVector::from_iterator(2 * n, xi.iter().chain(nu).copied());
+            let off = (found - &wanted).amax() / (1.0 + wanted.amax());
+            assert!(off < 1e-13, "{}, column {column}: {off:e}", case.text);
+        }
+    }
+}
+
+/// ω((ξ, ν), (ξ′, ν′)) = ⟨ν′, ξ⟩ − ⟨ν, ξ′⟩ + ⟨μ, [ξ, ξ′]⟩ as a matrix.
+fn symplectic_form(algebra: &LieAlgebra, mu: &[f64]) -> DMatrix<f64> {
+    let n = algebra.dim();
+    let mut form = DMatrix::zeros(2 * n, 2 * n);
+    for i in 0..n {
+        form[(i, n + i)] = 1.0;
+        form[(n + i, i)] = -1.0;
+    }
+    for c in algebra.structure() {
+        form[(c.i, c.j)] += c.value.to_f64().unwrap() * mu[c.k];
+    }
+    form
+}
+
+#[test]
+fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
+    for case in &CASES {
+        let system = case.system();
+        let steps = 20;
+        let derivatives = Derivatives::new(&system, &case.setup(steps)).unwrap();
+        let (n, q) = (derivatives.dim(), derivatives.parameters());
+        let found = whole(&derivatives);
+        // Sums over three states.
+        let weights = |at: u64| {
+            DMatrix::from_fn(2 * n, 3, |i, j| ((1 + 3 * i + 7 * j) as f64 + at as f64).sin())
+        };
+        let at = [0, 7, steps];
+        let adjoint = derivatives.backward(&at.map(|at| (at, weights(at)))).unwrap();
+        let identity = DMatrix::identity(2 * n, 2 * n + q);
+        let change = DMatrix::from_fn(q, 2 * n + q, |i, j| if 2 * n + i == j { 1.0 } else { 0.0 });
+        let tangents = derivatives.forward(&identity, &change, &at).unwrap();
+        let sums = tangents.iter().zip(at).map(|(tangent, at)| tangent.tr_mul(&weights(at)));
+        let wanted = sums.reduce(|a, b| a + b).unwrap();
+        let off = (adjoint.state - wanted.rows(0, 2 * n)).amax() / wanted.amax();
+        assert!(off < 1e-13, "{}: {off:e}", case.text);
+        if q > 0 {
+            let off = (adjoint.parameters - wanted.rows(2 * n, q)).amax() / wanted.amax();
+            assert!(off < 1e-13, "{}: {off:e}", case.text);
+        }
+        assert!(adjoint.kept as u64 <= 2 * steps.isqrt() + 2, "{} states", adjoint.kept);
+
+        let algebra = &system.integrator.problem.algebra;
+        let mut state = derivatives.start.clone();
+        derivatives.motion.advance(&mut state, steps).unwrap();
+        let tangent = found.columns(0, 2 * n).into_owned();
+        let after = tangent.tr_mul(&(symplectic_form(algebra, &state.mu) * &tangent));
+        let before = symplectic_form(algebra, &derivatives.start.mu);
+        let off = (after - before).amax() / (1.0 + tangent.amax().powi(2));
+        assert!(off < 1e-13, "{}: {off:e}", case.text);
+    }
+}
+
+/// Moments of inertia 1, 2 and 4.
+const FREE: Case = Case {
+    text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/8'\n[integrator]\ntruncation = 9",
+    varied: &[],
+    momentum: &[0.0, 2.0, 0.0],
+    step: 0.05,
+};
+
+#[test]
+fn a_body_leaves_its_middle_axis_at_the_known_rate() {
+    let system = FREE.system();
+    let derivatives = Derivatives::new(&system, &FREE.setup(1000)).unwrap();
+    let exponent = derivatives.largest_exponent(900).unwrap();
+    let rate = (1.0 * 2.0 / (1.0 * 4.0_f64)).sqrt();
+    assert!((exponent - rate).abs() < 1e-10, "{:e}", exponent - rate);
+    assert!(matches!(derivatives.largest_exponent(1000), Err(RunError::Option(_))));
+}
+
+#[test]
+fn multipliers_of_a_steady_rotation_are_known() {
+    let case = Case { momentum: &[0.0, 0.0, 5.0], ..FREE };
+    let (velocity, time) = (1.25, 2.0);
+    let system = case.system();
+    let derivatives = Derivatives::new(&system, &case.setup(40)).unwrap();
+    let monodromy = derivatives.monodromy().unwrap();
+    // The body's motion about the steady rotation, and the rotation itself; 1 twice, with one eigenvector.
+    let wobble = velocity * (3.0 * 2.0 / (1.0 * 2.0_f64)).sqrt();
+    let mut power = monodromy.clone();
+    for k in 1..=3 {
+        let angle = f64::from(k) * time;
+        let wanted = 2.0 + 2.0 * (angle * wobble).cos() + 2.0 * (angle * velocity).cos();
+        let off = power.trace() - wanted;
+        assert!(off.abs() < 1e-11, "power {k}: {off:e}");
+        power *= &monodromy;
+    }
+}
+
+#[test]
+fn shapes_that_do_not_fit_and_runs_that_stop_are_told() {
+    let system = BODY.system();
+    let derivatives = Derivatives::new(&system, &BODY.setup(4)).unwrap();
+    let [zeros, none, fits] = [5, 4, 6].map(|rows| DMatrix::zeros(rows, 1));
+    for failed in [
+        derivatives.forward(&zeros, &none, &[4]).map(drop),
+        derivatives.forward(&fits, &zeros, &[4]).map(drop),
+        derivatives.forward(&fits, &none, &[4, 2]).map(drop),
+        derivatives.forward(&fits, &none, &[5]).map(drop),
+        derivatives.backward(&[(4, zeros.clone())]).map(drop),
+        derivatives.backward(&[(5, fits.clone())]).map(drop),
+    ] {
+        assert!(matches!(failed, Err(RunError::Option(_))));
+    }
+    let far = Case { momentum: &[40.0, 10.0, 20.0], ..BODY };
+    let derivatives = Derivatives::new(&system, &far.setup(4)).unwrap();
+    let stopped = derivatives.monodromy();
+    assert!(matches!(stopped, Err(RunError::Run { step: 1, .. })));
+    assert!(matches!(derivatives.backward(&[(4, fits)]), Err(RunError::Run { .. })));
+}

@@ -1,0 +1,177 @@
+//! The derivatives of steps of a series: of their flows, kicks and frames.
+
+use coadjoint::groups::{Chart, Exponential};
+use coadjoint::solve::solve;
+use coadjoint::{GeneratingFunction, Phase, StepError};
+use coadjoint_codegen::graph::Program;
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::potential::basis;
+use coadjoint_program::Argument;
+use nalgebra::{DMatrix, DVector};
+use num_traits::ToPrimitive;
+
+use super::Group;
+use super::interpreter::{Interpreter, refusal, symbols};
+use super::kick::{Forces, Torque};
+use super::linear::{Linear, columns};
+
+/// The parts of a step of one size, with what their derivatives need.
+pub struct Tangent<'a, G, C> {
+    flows: Vec<Flow<'a, G, C>>,
+    kicks: Option<Kicks<'a, G>>,
+    /// p, v ↦ S_pp v.
+    hessian: Program,
+    /// For each motion of a comoving frame μ, v ↦ ∂y/∂μ v.
+    frame: Vec<Program>,
+}
+
+/// A flow and, since its programs are linear in their coefficients, its derivative in each parameter.
+struct Flow<'a, G, C> {
+    function: Interpreter<'a, G, C>,
+    by_parameters: Vec<Interpreter<'a, G, C>>,
+}
+
+/// The kicks of a step.
+struct Kicks<'a, G> {
+    torque: Torque<'a, G>,
+    /// Entries of g, their change ↦ the change of the torque.
+    slope: Program,
+    /// The matrices of the algebra's basis.
+    generators: Vec<DMatrix<f64>>,
+    lengths: Vec<f64>,
+}
+
+/// The derivative of a program in all of its inputs.
+fn push_forward(program: &Program) -> Program {
+    let inputs: Vec<Argument> = (0..program.inputs()).map(Argument::Input).collect();
+    program.push_forward(&inputs)
+}
+
+/// A matrix of `dim` rows with these columns, of which there may be none.
+fn matrix(dim: usize, columns: impl Iterator<Item = DVector<f64>>) -> DMatrix<f64> {
+    let entries: Vec<f64> = columns.flat_map(|column| column.as_slice().to_vec()).collect();
+    DMatrix::from_column_slice(dim, entries.len() / dim, &entries)
+}
+
+impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
+    /// For a step of this size; arguments as those of [`map`](super::kick::map).
+    ///
+    /// # Errors
+    /// Where a coefficient is not finite.
+    pub fn new(
+        integrator: &'a Integrator,
+        forces: Option<&'a Forces>,
+        group: &G,
+        size: f64,
+        parameters: &[f64],
+    ) -> Result<Self, StepError> {
+        let problem = &integrator.problem;
+        let values = symbols(problem, parameters);
+        let flow = |part: f64| -> Result<Flow<'a, G, C>, StepError> {
+            let step = size * part;
+            let function = Interpreter::new(integrator, group.clone(), step, parameters)?;
+            let by_parameter = |number: usize| {
+                let mut change = vec![0.0; parameters.len()];
+                change[number] = 1.0;
+                let slope = |symbol: &coadjoint_codegen::problem::Symbol| {
+                    symbol.expr.slope(parameters, &change)
+                };
+                let change: Vec<f64> = problem.symbols.iter().map(slope).collect();
+                let slots = integrator.fold_table().slope(step, &values, &change);
+                let slots = slots.map_err(|error| refusal(error, step, &change))?;
+                Ok(Interpreter::folded(integrator, group.clone(), slots))
+            };
+            let by_parameters: Result<_, StepError> =
+                (0..parameters.len()).map(by_parameter).collect();
+            Ok(Flow { function, by_parameters: by_parameters? })
+        };
+        let parts = forces.map_or_else(|| vec![1.0], |forces| forces.splitting.flows());
+        let flows: Result<Vec<_>, StepError> = parts.into_iter().map(flow).collect();
+        let kicks = forces.map(|forces| Kicks::new(forces, group, size)).transpose()?;
+        let hessian = push_forward(&integrator.gradient);
+        let frame = integrator.frame.iter().map(push_forward).collect();
+        Ok(Self { flows: flows?, kicks, hessian, frame })
+    }
+
+    /// The derivative of the step from a state.
+    ///
+    /// # Errors
+    /// Where there is no step.
+    pub fn linear(&self, mut phase: Phase<G>) -> Result<Linear, StepError> {
+        let parameters = self.flows.first().map_or(0, |flow| flow.by_parameters.len());
+        let mut total = Linear::identity(phase.momentum.len(), parameters);
+        for (number, flow) in self.flows.iter().enumerate() {
+            if let Some(kicks) = &self.kicks {
+                total = total.then(&kicks.linear(number, &mut phase, parameters));
+            }
+            total = total.then(&self.flow(flow, &mut phase)?);
+        }
+        if let Some(kicks) = &self.kicks {
+            total = total.then(&kicks.linear(self.flows.len(), &mut phase, parameters));
+        }
+        Ok(total)
+    }
+
+    /// The derivative of a flow, with the motion of the frame after it.
+    fn flow(&self, flow: &Flow<'a, G, C>, phase: &mut Phase<G>) -> Result<Linear, StepError> {
+        let Flow { function, by_parameters } = flow;
+        let (place, dim) = ((C::default(), &function.group), phase.momentum.len());
+        let along = |program: &Program, at: &DVector<f64>, direction: &DVector<f64>| {
+            let inputs = [at.as_slice(), direction.as_slice()].concat();
+            DVector::from_vec(program.run(&inputs, &function.slots))
+        };
+        let mu = &phase.momentum;
+        let x = solve(function, mu)?.x;
+        let p = place.0.pull_back(place.1, &x, mu);
+        let hessian = columns(dim, |unit| along(&self.hessian, &p, unit));
+        let mixed = matrix(dim, by_parameters.iter().map(|slope| slope.gradient(&p)));
+        let response = Linear::response(place, &x, mu, [&hessian, &mixed])?;
+        let mut linear = moved(place, &x, phase, &response);
+        for (number, program) in self.frame.iter().enumerate() {
+            let mu = &phase.momentum;
+            let Some(y) = function.frame(number, mu) else { break };
+            let slopes = by_parameters.iter().filter_map(|slope| slope.frame(number, mu));
+            let response = [columns(dim, |unit| along(program, mu, unit)), matrix(dim, slopes)];
+            linear = linear.then(&moved((Exponential, place.1), &y, phase, &response));
+        }
+        Ok(linear)
+    }
+}
+
+/// Moves a state by τ(x); the derivative of that.
+fn moved<G: Group, C: Chart<G>>(
+    (chart, group): (C, &G),
+    x: &DVector<f64>,
+    phase: &mut Phase<G>,
+    response: &[DMatrix<f64>; 2],
+) -> Linear {
+    let (increment, after) = chart.transport(group, x, &phase.momentum);
+    let linear = Linear::of_motion((chart, group), x, &after, response);
+    phase.group_element = group.compose(&phase.group_element, &increment);
+    phase.momentum = after;
+    linear
+}
+
+impl<'a, G: Group> Kicks<'a, G> {
+    fn new(forces: &'a Forces, group: &G, size: f64) -> Result<Self, StepError> {
+        let torque = Torque::new(&forces.kick, group.clone())?;
+        let generator = |matrix: &coadjoint_codegen::lie::RationalMatrix| {
+            DMatrix::from_fn(matrix.rows(), matrix.columns(), |i, j| {
+                matrix.get(i, j).to_f64().unwrap_or(f64::NAN)
+            })
+        };
+        let generators = basis(&forces.kick.potential.algebra).iter().map(generator).collect();
+        let lengths = forces.splitting.kicks().into_iter().map(|part| part * size).collect();
+        let slope = push_forward(&forces.kick.torque);
+        Ok(Self { torque, slope, generators, lengths })
+    }
+
+    /// Makes kick `number`; its derivative.
+    fn linear(&self, number: usize, phase: &mut Phase<G>, parameters: usize) -> Linear {
+        let (g, length) = (&phase.group_element, self.lengths[number]);
+        let slope = self.torque.slope(&self.slope, &self.generators, g);
+        let torque = self.torque.torque(g);
+        phase.momentum += torque * length;
+        Linear::of_kick(&slope, length, parameters)
+    }
+}
