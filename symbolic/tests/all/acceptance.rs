@@ -17,6 +17,42 @@ use coadjoint_symbolic::step::Step;
 /// 60 c of a body.
 const BODY: [i64; 3] = [40, 30, 24];
 
+/// With pᵢ⁴/8 more.
+#[cfg(feature = "judge")]
+fn quartic(i: usize, mut problem: Problem) -> Problem {
+    let square = Polynomial::variable(problem.algebra.dim(), i).pow(2);
+    let fourth = (&square * &square).scale(&ratio(1, 8));
+    problem.hamiltonian = &problem.hamiltonian + &fourth;
+    problem
+}
+
+/// Newton's method from a guess of this degree.
+#[cfg(feature = "judge")]
+fn poor(degree: usize, hessian_truncation: usize) -> Option<Plan> {
+    let (solver, predictor) = (Solver::Newton, Predictor::Explicit(degree));
+    Some(Plan { solver, predictor, hessian_truncation })
+}
+
+/// The step of a problem with this plan, its coefficients at step size 1, and the judge of the problem.
+#[cfg(feature = "judge")]
+fn judged(problem: Problem, plan: Option<Plan>) -> (Step, Vec<f64>, Judge) {
+    let Problem { algebra, truncation, chart, hamiltonian, .. } = &problem;
+    let limit = TermLimit::default();
+    let series = derive(algebra, *chart, hamiltonian, *truncation, limit).unwrap();
+    let judge = Judge::of_problem(&problem, limit).unwrap();
+    let step = Step::build(&Integrator::with_plan(problem, series, plan, limit).unwrap()).unwrap();
+    let coefficients = step.fold(1.0, &[]).unwrap();
+    (step, coefficients, judge)
+}
+
+/// A momentum of many, up to this size.
+#[cfg(feature = "judge")]
+fn momentum(dim: usize, k: u32, size: f64) -> Vec<f64> {
+    let k = f64::from(k);
+    let size = size * (0.5 + 0.5 * (0.77 * k).sin());
+    (0..dim).map(|i| size * ((1.3 + i as f64) * k + 0.2 * i as f64).sin()).collect()
+}
+
 /// ½ Σ cᵢ pᵢ², 60 c being these in turn.
 fn problem(group: &str, squares: [i64; 3], truncation: usize, solver: Option<Solver>) -> Problem {
     let algebra = catalogue::lookup(group).unwrap();
@@ -123,13 +159,18 @@ fn a_series_that_ends_has_no_limit_of_the_rate() {
 /// A coordinate of which S knows nothing.
 #[test]
 fn a_coordinate_that_is_not_finite_is_not_hidden_by_others() {
-    let mut problem = problem("SO3*R1", BODY, 3, Some(Solver::FixedPoint));
-    let last = Polynomial::variable(4, 3).pow(2).scale(&ratio(BODY[0], 120));
-    problem.hamiltonian = &problem.hamiltonian - &last;
-    let step = built(problem);
-    let accepted =
-        |last| step.kernel().attempt(&folded(&step, 1e3), &[0.1, 0.2, 0.3, last]).accepted;
-    assert!(accepted(0.4) && !accepted(f64::NAN) && !accepted(f64::INFINITY));
+    for (group, place) in [("SO3*R1", 3), ("R1*SO3", 0)] {
+        let mut problem = problem(group, BODY, 3, Some(Solver::FixedPoint));
+        let unknown = Polynomial::variable(4, place).pow(2).scale(&ratio(BODY[place % 3], 120));
+        problem.hamiltonian = &problem.hamiltonian - &unknown;
+        let step = built(problem);
+        let accepted = |unknown| {
+            let mut mu = [0.1, 0.2, 0.3, 0.15];
+            mu[place] = unknown;
+            step.kernel().attempt(&folded(&step, 1e3), &mu).accepted
+        };
+        assert!(accepted(0.4) && !accepted(f64::NAN) && !accepted(f64::INFINITY), "{group}");
+    }
 }
 
 /// What a kernel estimates of a residual is enough: each increment that it accepts solves its equation to rounding. By
@@ -137,20 +178,10 @@ fn a_coordinate_that_is_not_finite_is_not_hidden_by_others() {
 #[cfg(feature = "judge")]
 #[test]
 fn accepted_increments_solve_their_equation() {
-    let quartic = |i: usize, mut problem: Problem| {
-        let square = Polynomial::variable(problem.algebra.dim(), i).pow(2);
-        let fourth = (&square * &square).scale(&ratio(1, 8));
-        problem.hamiltonian = &problem.hamiltonian + &fourth;
-        problem
-    };
     let cayley = |problem: Problem| Problem { chart: Chart::Cayley, ..problem };
     let of = |group, truncation, solver| problem(group, BODY, truncation, solver);
     let flat = |truncation| problem("SO3", [40, 30, 0], truncation, None);
     let fixed = Some(Solver::FixedPoint);
-    let poor = |degree, hessian_truncation| {
-        let (solver, predictor) = (Solver::Newton, Predictor::Explicit(degree));
-        Some(Plan { solver, predictor, hessian_truncation })
-    };
     let problems = [
         (of("SO3", 7, None), None),
         (of("SO3", 7, None), poor(2, 7)),
@@ -175,19 +206,12 @@ fn accepted_increments_solve_their_equation() {
     for (problem, plan) in problems {
         let Problem { algebra, truncation, chart, .. } = &problem;
         let name = format!("{} {truncation} {chart:?} {plan:?}", algebra.name());
-        let (dim, limit) = (algebra.dim(), TermLimit::default());
-        let series = derive(algebra, *chart, &problem.hamiltonian, *truncation, limit).unwrap();
-        let judge = Judge::of_problem(&problem, limit).unwrap();
+        let dim = algebra.dim();
+        let (step, coefficients, judge) = judged(problem, plan);
         let mut setting = judge.at(1.0, &[]).unwrap();
-        let integrator = Integrator::with_plan(problem, series, plan, limit).unwrap();
-        let step = Step::build(&integrator).unwrap();
-        let coefficients = step.fold(1.0, &[]).unwrap();
         let (mut accepted, mut worst) = (0, 0.0_f64);
         for k in 0..400 {
-            let k = f64::from(k);
-            let size = 1.8 * (0.5 + 0.5 * (0.77 * k).sin());
-            let entry = |i: usize| size * ((1.3 + i as f64) * k + 0.2 * i as f64).sin();
-            let mu: Vec<f64> = (0..dim).map(entry).collect();
+            let mu = momentum(dim, k, 1.8);
             let found = step.kernel().attempt(&coefficients, &mu);
             if found.accepted {
                 accepted += 1;
@@ -201,5 +225,74 @@ fn accepted_increments_solve_their_equation() {
             accepted > 50 && worst <= 1.0,
             "{name}: {accepted} of 400, {worst:.3} of the bound"
         );
+    }
+}
+
+/// Next to a solution the bound that a correction gives its residual holds, however far away it began: by Newton's method
+/// and by chords, and where the Hessian knows nothing of the correction, as that of p₃⁴ does not at p₃ = 0.
+#[cfg(feature = "judge")]
+#[test]
+fn the_residual_of_a_correction_is_within_its_acceptance_bound() {
+    let of = |group, truncation| problem(group, BODY, truncation, None);
+    let flat = |truncation| quartic(2, problem("SO3", [40, 30, 0], truncation, None));
+    let problems = [
+        (of("SO3", 7), None),
+        (of("SO3", 7), poor(2, 7)),
+        (quartic(0, of("SO3", 5)), None),
+        (flat(3), None),
+        (flat(5), poor(2, 5)),
+        (of("SE3", 3), poor(2, 3)),
+        (of("SO4", 3), None),
+    ];
+    for (problem, plan) in problems {
+        let name = format!("{} {} {plan:?}", problem.algebra.name(), problem.truncation);
+        let dim = problem.algebra.dim();
+        let (step, coefficients, judge) = judged(problem, plan);
+        let mut setting = judge.at(1.0, &[]).unwrap();
+        let programs = step.kernel().programs();
+        let mut seen = 0;
+        for k in 0..100 {
+            let mut mu = momentum(dim, k, 1.2);
+            mu[2] *= 0.03;
+            if !step.kernel().attempt(&coefficients, &mu).accepted {
+                continue;
+            }
+            let scale = mu.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+            let guess = programs.guess.run(&mu, &coefficients);
+            let (guess, constants) = guess.split_at(dim);
+            let correct =
+                |p: &[f64]| programs.correct.run(&[p, &mu, constants].concat(), &coefficients);
+            let solved = (0..8).fold(guess.to_vec(), |p, _| correct(&p)[..dim].to_vec());
+            let moved = |distance: f64| {
+                let by = |i: usize| ((0.7 + 2.1 * i as f64) * f64::from(k) + 1.0).sin();
+                (0..dim).map(|i| solved[i] + distance * scale * by(i)).collect::<Vec<f64>>()
+            };
+            let mut flat = solved.clone();
+            flat[2] = 0.0;
+            // Nearer to it a correction within the flat direction is trusted, which no guess has left.
+            let is_far = solved[2].abs() > 2e-3 * scale;
+            let starts = [1e-6, 1e-4, 9e-4, 1e-2, 4e-2].map(moved);
+            for p in starts.iter().chain(is_far.then_some(&flat)) {
+                let corrected = correct(p);
+                let judged = setting.step(&mu).unwrap();
+                let left =
+                    judged.at(&corrected[dim..2 * dim]).unwrap().residual(0.5 * f64::EPSILON);
+                let bound = 2.0 * corrected[2 * dim] + left.bound;
+                assert!(left.residual <= bound, "{name}: {left:?}, {bound:e} at {p:?} for {mu:?}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 200, "{name}: {seen}");
+    }
+}
+
+/// A poor guess is corrected as often as it takes.
+#[cfg(feature = "judge")]
+#[test]
+fn acceptance_waits_for_corrections() {
+    let (step, coefficients, _) = judged(problem("SO3", BODY, 7, None), poor(2, 7));
+    let (near, far) = ([1e-3, 2e-3, 1e-3], [0.5, 0.6, 0.4]);
+    for mu in [near, far] {
+        assert!(step.kernel().attempt(&coefficients, &mu).accepted, "{mu:?}");
     }
 }
