@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::dispatch;
 use crate::node::Node;
 use crate::number::Number;
 use crate::program::Program;
@@ -50,7 +51,11 @@ impl Program {
     pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
         let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
         let mut nodes = Vec::new();
-        self.evaluate(|i| read(inputs, i), |i| read(slots, i), &mut nodes);
+        if inputs.len() >= self.inputs() && slots.len() >= self.slots() {
+            dispatch::evaluate(self, inputs, slots, &mut nodes);
+        } else {
+            self.evaluate(|i| read(inputs, i), |i| read(slots, i), &mut nodes);
+        }
         self.outputs().iter().map(|id| nodes[id.index()]).collect()
     }
 }

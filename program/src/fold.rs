@@ -4,6 +4,50 @@ use core::fmt;
 
 use crate::limits::LARGEST_RATIO;
 
+/// The numbers that are folded: one, or those of several rows side by side, each with the bits that it has alone.
+pub trait Values: Copy {
+    /// The numbers that `of` gives, lane by lane.
+    fn each(of: impl Fn(usize) -> f64) -> Self;
+    /// The number of a lane.
+    fn lane(&self, lane: usize) -> f64;
+    /// Whether this holds for the number of each lane.
+    fn all(&self, holds: impl Fn(f64) -> bool) -> bool;
+}
+
+impl Values for f64 {
+    #[inline(always)]
+    fn each(of: impl Fn(usize) -> f64) -> Self {
+        of(0)
+    }
+    #[inline(always)]
+    fn lane(&self, _: usize) -> f64 {
+        *self
+    }
+    #[inline(always)]
+    fn all(&self, holds: impl Fn(f64) -> bool) -> bool {
+        holds(*self)
+    }
+}
+
+impl<const L: usize> Values for [f64; L] {
+    #[inline(always)]
+    fn each(of: impl Fn(usize) -> f64) -> Self {
+        let mut lanes = [0.0; L];
+        for (lane, value) in lanes.iter_mut().enumerate() {
+            *value = of(lane);
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self[lane]
+    }
+    #[inline(always)]
+    fn all(&self, holds: impl Fn(f64) -> bool) -> bool {
+        self.iter().all(|&value| holds(value))
+    }
+}
+
 /// The coefficients of a step as data.
 ///
 /// A *base* is a sum of *parts*, a part a power of h times a sum of *terms* factor · product, a product one of powers of
@@ -76,43 +120,47 @@ impl Fold<'_> {
         self.fold_by(step, symbols, |number| self.product(number, symbols), coefficients)
     }
 
-    /// The same where the products of symbols are known: [`Fold::products`] says how they are made.
+    /// The same where the products of symbols are known, for rows side by side: [`Fold::products`] says how they are made.
+    /// Which lane is not finite, only folding it alone tells.
     ///
     /// # Errors
     /// As [`Fold::fold`].
-    pub fn fold_by(
+    pub fn fold_by<T: Values>(
         &self,
         step: f64,
-        symbols: &[f64],
-        product: impl Fn(u32) -> f64,
-        coefficients: &mut [f64],
+        symbols: &[T],
+        product: impl Fn(u32) -> T,
+        coefficients: &mut [T],
     ) -> Result<(), FoldError> {
         if step == 0.0 || !step.is_finite() {
             return Err(FoldError::Step);
         }
-        if let Some(symbol) = symbols.iter().position(|value| !value.is_finite()) {
+        if let Some(symbol) = symbols.iter().position(|value| !value.all(f64::is_finite)) {
             return Err(FoldError::Symbol(symbol));
         }
+        let zero = T::each(|_| 0.0);
         for &(.., place) in self.bound {
-            set(coefficients, place, 0.0);
+            set(coefficients, place, zero);
         }
         let (mut slots, mut bound) = (self.slots.iter().peekable(), self.bound.iter().peekable());
         let mut part = 0;
         for (base, &end) in (0..).zip(self.bases) {
-            let mut value = 0.0;
+            let mut value = zero;
             while part < end as usize {
-                value += self.part(part, step, &product);
+                let own = self.part(part, step, &product);
+                value = T::each(|l| value.lane(l) + own.lane(l));
                 part += 1;
             }
-            if !value.is_finite() {
-                return Err(FoldError::Coefficient(value));
+            if !value.all(f64::is_finite) {
+                return Err(FoldError::Coefficient(value.lane(0)));
             }
             while let Some(&(_, scale, place)) = slots.next_if(|slot| slot.0 == base) {
-                set(coefficients, place, value * f64::from(scale));
+                set(coefficients, place, T::each(|l| value.lane(l) * f64::from(scale)));
             }
             while let Some(&(_, weight, place)) = bound.next_if(|term| term.0 == base) {
-                let sum = coefficients.get(place as usize).copied().unwrap_or(0.0);
-                set(coefficients, place, sum + value.abs() * weight);
+                let sum = coefficients.get(place as usize).copied().unwrap_or(zero);
+                let sum = T::each(|l| sum.lane(l) + value.lane(l).abs() * weight);
+                set(coefficients, place, sum);
             }
         }
         for &(part, place) in self.kept {
@@ -120,19 +168,25 @@ impl Fold<'_> {
         }
         if let Some(place) = self.radius {
             let radius = self.radius_by(step, &product, LARGEST_RATIO);
-            set(coefficients, place, radius * radius);
+            set(coefficients, place, T::each(|l| radius.lane(l) * radius.lane(l)));
         }
         Ok(())
     }
 
     /// The value of a part.
-    fn part(&self, number: usize, step: f64, product: &impl Fn(u32) -> f64) -> f64 {
-        let Some(&(power, end)) = self.parts.get(number) else { return 0.0 };
+    #[inline(always)]
+    fn part<T: Values>(&self, number: usize, step: f64, product: &impl Fn(u32) -> T) -> T {
+        let zero = T::each(|_| 0.0);
+        let Some(&(power, end)) = self.parts.get(number) else { return zero };
         let start = number.checked_sub(1).and_then(|before| self.parts.get(before));
         let start = start.map_or(0, |&(_, end)| end as usize);
         let terms = self.terms.get(start..end as usize).unwrap_or(&[]);
-        let sum = terms.iter().fold(0.0, |sum, &(factor, number)| sum + factor * product(number));
-        sum * (0..power).fold(1.0, |product, _| product * step)
+        let sum = terms.iter().fold(zero, |sum, &(factor, number)| {
+            let product = product(number);
+            T::each(|l| sum.lane(l) + factor * product.lane(l))
+        });
+        let power = (0..power).fold(1.0, |product, _| product * step);
+        T::each(|l| sum.lane(l) * power)
     }
 
     /// The value of a product of symbols.
@@ -148,16 +202,18 @@ impl Fold<'_> {
     /// every direction.
     #[must_use]
     pub fn radius(&self, step: f64, symbols: &[f64], ratio: f64) -> f64 {
-        self.radius_by(step, &|number| self.product(number, symbols), ratio)
+        self.radius_by(step, |number| self.product(number, symbols), ratio)
     }
 
-    fn radius_by(&self, step: f64, product: &impl Fn(u32) -> f64, ratio: f64) -> f64 {
-        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, product);
+    /// The same where the products of symbols are known, for rows side by side.
+    #[must_use]
+    pub fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
+        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, &product);
         radius(self.last.iter().map(|term| (value(term), *term)), ratio)
     }
 }
 
-fn set(coefficients: &mut [f64], place: u32, value: f64) {
+fn set<T>(coefficients: &mut [T], place: u32, value: T) {
     if let Some(coefficient) = coefficients.get_mut(place as usize) {
         *coefficient = value;
     }
@@ -195,49 +251,56 @@ pub fn gradient_bound(
 
 /// The |p| of each direct factor of the group up to which the last two terms of a series have at most this ratio in every
 /// direction, given the coefficients of their monomials.
-pub fn radius(terms: impl Iterator<Item = (f64, LastTerm)> + Clone, ratio: f64) -> f64 {
+pub fn radius<T: Values>(terms: impl Iterator<Item = (T, LastTerm)> + Clone, ratio: f64) -> T {
     let factors = terms.clone().map(|(_, term)| term.1 + 1).max().unwrap_or(0);
+    let zero = T::each(|_| 0.0);
     let of_factor = |factor: u32| {
         // By the degree of the gradient: of S_K, and of S_{K−2}.
-        let (mut last, mut before) = ([0.0; DEGREES], [0.0; DEGREES]);
+        let (mut last, mut before) = ([zero; DEGREES], [zero; DEGREES]);
         for (value, (_, own, highest, degree, weight)) in terms.clone() {
             let of = if highest { &mut last } else { &mut before };
             match of.get_mut(degree as usize) {
                 _ if own != factor => {}
-                Some(sum) => *sum += value.abs() * weight,
-                None => return 0.0,
+                Some(sum) => *sum = T::each(|l| sum.lane(l) + value.lane(l).abs() * weight),
+                None => return zero,
             }
         }
         within(&last, &before, ratio)
     };
-    (0..factors).map(of_factor).fold(f64::MAX, f64::min)
+    let nearer = |a: T, b: T| T::each(|l| a.lane(l).min(b.lane(l)));
+    (0..factors).map(of_factor).fold(T::each(|_| f64::MAX), nearer)
 }
 
 /// The largest r up to which the polynomial with the coefficients `last` is at most `ratio` times that with the
 /// coefficients `before`; neither has a negative one.
-fn within(last: &[f64; DEGREES], before: &[f64; DEGREES], ratio: f64) -> f64 {
-    let whole = |of: &[f64; DEGREES]| of.iter().rposition(|&c| c != 0.0).map_or(0, |top| top + 1);
+fn within<T: Values>(last: &[T; DEGREES], before: &[T; DEGREES], ratio: f64) -> T {
+    let whole =
+        |of: &[T; DEGREES]| of.iter().rposition(|c| !c.all(|c| c == 0.0)).map_or(0, |top| top + 1);
     let (last, before) = (last.split_at(whole(last)).0, before.split_at(whole(before)).0);
-    let polynomial = |of: &[f64], r: f64| of.iter().rev().fold(0.0, |sum, &c| sum * r + c);
-    let holds = |r: f64| {
-        let (size, whole) = (polynomial(last, r), polynomial(before, r));
-        // Without a term to compare with there is no ratio, and that of rounding, which is what is left of a term that
-        // cancels (of a spherical body, say), means nothing.
-        let nothing = whole <= 0.0 || size <= 16.0 * f64::EPSILON;
-        (size <= ratio * whole || nothing) && size <= f64::MAX
+    let polynomial = |of: &[T], r: &T| {
+        of.iter()
+            .rev()
+            .fold(T::each(|_| 0.0), |sum, c| T::each(|l| sum.lane(l) * r.lane(l) + c.lane(l)))
     };
-    if polynomial(last, 1.0) == 0.0 {
-        return f64::MAX;
-    }
+    // r where it holds for it, else `otherwise`.
+    let where_it_holds = |r: &T, otherwise: &T| {
+        let (size, whole) = (polynomial(last, r), polynomial(before, r));
+        T::each(|l| {
+            let (size, whole) = (size.lane(l), whole.lane(l));
+            // Without a term to compare with there is no ratio, and that of rounding, which is what is left of a term that
+            // cancels (of a spherical body, say), means nothing.
+            let nothing = whole <= 0.0 || size <= 16.0 * f64::EPSILON;
+            let holds = (size <= ratio * whole || nothing) && size <= f64::MAX;
+            if holds { r.lane(l) } else { otherwise.lane(l) }
+        })
+    };
     // The ratio grows with r; by powers of two, then of their roots.
-    let smallest = f64::from(f32::MIN_POSITIVE);
-    let mut r = if holds(smallest) { smallest } else { 0.0 };
+    let mut r = where_it_holds(&T::each(|_| f64::from(f32::MIN_POSITIVE)), &T::each(|_| 0.0));
     for factor in LONGER {
-        if holds(r * factor) {
-            r *= factor;
-        }
+        r = where_it_holds(&T::each(|l| r.lane(l) * factor), &r);
     }
-    r
+    let one = polynomial(last, &T::each(|_| 1.0));
+    T::each(|l| if one.lane(l) == 0.0 { f64::MAX } else { r.lane(l) })
 }
 
 /// The factors by which a radius is made longer, one after the other: 2^512 … 2, and three roots of 2.

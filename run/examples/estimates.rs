@@ -1,18 +1,16 @@
 //! `cargo run --release -p coadjoint-run --example estimates -- examples/*.toml tests/systems/estimates/*.toml`
 //!
 //! How near the error estimated at the end of a run is to the truth: for these system files, and for thirty random systems
-//! on twelve groups. The truth is the difference from the same run with steps of a quarter of the size. Also the time that an
-//! estimate takes, as a share of that of a run of ten thousand steps. Prints the tables of `docs/measurements/estimates.md`, and
-//! ends with 1 where fewer than nine of ten estimates are within a factor of 10.
+//! on twelve groups. The truth is the difference from the same run with steps of a quarter of the size. Prints the table of
+//! `docs/measurements/estimates.md`, and ends with 1 where fewer than nine of ten estimates are within a factor of 10.
 
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::Instant;
 
 use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::system::System;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Halt, Outcome, Resume, Schedule, Setup, Sink, run};
+use coadjoint_run::simulate::{Outcome, Schedule, Setup, run};
 use coadjoint_run::{Derived, RunError, meet_tolerance, read};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -62,51 +60,21 @@ fn text(number: usize, random: &mut ChaCha8Rng) -> Option<String> {
     ))
 }
 
-/// The time at the last step.
-struct Clock(Instant);
-
-impl Sink for Clock {
-    fn pause(&mut self, _: u64, _: bool, _: &dyn Fn() -> Resume) -> Result<(), Halt> {
-        self.0 = Instant::now();
-        Ok(())
-    }
-}
-
-/// The first files, which are `examples/`, are also timed.
-const TIMED: usize = 21;
-/// The steps of a run by which the time of an estimate is judged.
-const LONG: f64 = 1e4;
-
-/// The run of a system, the same with steps of a quarter of the size, and, where it is timed, the share of time that an
-/// estimate takes.
-fn runs(
-    file: &str,
-    mut system: System,
-    timed: bool,
-) -> Result<(Schedule, usize, [Outcome; 2], f64), RunError> {
+/// The run of a system, and the same with steps of a quarter of the size.
+fn runs(file: &str, mut system: System) -> Result<(Schedule, usize, [Outcome; 2]), RunError> {
     let path = Path::new(file);
     meet_tolerance(path, &mut system, &coadjoint_run::Accuracy::default())?;
     let (given, truncation) = (system.run.clone(), system.problem.truncation);
     let schedule = Schedule::new(path, None, None, &given)?;
     let momentum = given.momentum.clone().unwrap_or_default();
     let derived = Derived::of_file(path, system)?;
-    let run = |step, time, sink: &mut dyn Sink| {
+    let run = |step| {
+        let schedule = Schedule::of(step, schedule.end.abs())?;
         let group_element = given.group_element.clone();
-        let setup =
-            Setup { group_element, ..Setup::new(Schedule::of(step, time)?, momentum.clone()) };
-        run(&derived, &setup, sink)
+        let setup = Setup { group_element, ..Setup::new(schedule, momentum.clone()) };
+        run(&derived, &setup, &mut ())
     };
-    let time = schedule.end.abs();
-    let both = [run(schedule.step, time, &mut ())?, run(schedule.step * 0.25, time, &mut ())?];
-    if !timed {
-        return Ok((schedule, truncation, both, f64::NAN));
-    }
-    let begun = Instant::now();
-    let mut clock = Clock(begun);
-    // Numbers may grow beyond all bounds after the file's own time.
-    let long = run(schedule.step, LONG * schedule.step.abs(), &mut clock);
-    let share = clock.0.elapsed().as_secs_f64() / (clock.0 - begun).as_secs_f64();
-    Ok((schedule, truncation, both, long.map_or(f64::NAN, |_| share)))
+    Ok((schedule, truncation, [run(schedule.step)?, run(schedule.step * 0.25)?]))
 }
 
 /// The difference of two vectors, relative to the second.
@@ -127,24 +95,21 @@ fn main() -> ExitCode {
             }
         }
     }
-    let timed = TIMED.min(texts.len());
     let mut random = ChaCha8Rng::seed_from_u64(33);
     texts.extend((0..RANDOM).filter_map(|number| {
         let text = text(number, &mut random)?;
         Some((format!("random {number}, {}", GROUPS[number % GROUPS.len()].0), text))
     }));
-    println!(
-        "| system | K | h | steps | estimate | truth | share of time |\n|---|---|---|---|---|---|---|"
-    );
+    println!("| system | K | h | steps | estimate | truth |\n|---|---|---|---|---|---|");
     let (mut judged, mut good) = (0, 0);
-    for (number, (name, text)) in texts.into_iter().enumerate() {
-        let found = read(&name, &text).and_then(|system| runs(&name, system, number < timed));
-        let (schedule, truncation, [coarse, fine], share) = match found {
+    for (name, text) in texts {
+        let found = read(&name, &text).and_then(|system| runs(&name, system));
+        let (schedule, truncation, [coarse, fine]) = match found {
             Ok(found) => found,
             Err(error) => {
                 let line = error.to_string();
                 let line = line.split([';', '\n']).next().unwrap_or_default();
-                println!("| {name} | | | | {line} | | |");
+                println!("| {name} | | | | {line} | |");
                 continue;
             }
         };
@@ -157,12 +122,11 @@ fn main() -> ExitCode {
         judged += 1;
         good += usize::from(near);
         println!(
-            "| {name} | {truncation} | {} | {} | {} | {truth:.1e}{} | {} |",
+            "| {name} | {truncation} | {} | {} | {} | {truth:.1e}{} |",
             shortest((schedule.step * 1e4).round() / 1e4),
             schedule.steps,
             estimate.map_or_else(str::to_owned, |found| format!("{found:.1e}")),
             if near { "" } else { " ✗" },
-            if share.is_finite() { format!("{:.1} %", share * 100.0) } else { "–".to_owned() },
         );
     }
     println!("\n{good} of {judged} estimates are within a factor of {FACTOR} of the truth.");

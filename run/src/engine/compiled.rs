@@ -1,5 +1,6 @@
 //! Steps as straight-line programs: evaluated, or as machine code.
 
+use std::array::from_fn;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
@@ -9,7 +10,7 @@ use coadjoint_codegen::step::{Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
 use num_traits::ToPrimitive;
 
-use super::interpreter::{coefficients, refusal, symbols};
+use super::interpreter::{STEEP, coefficients, refusal, symbols};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
@@ -78,13 +79,20 @@ impl Kept {
     }
 }
 
+/// What the programs of a step read for one size and one set of parameters.
+#[derive(Clone, Debug)]
+pub struct Folded {
+    /// The coefficients.
+    slots: Vec<f64>,
+    /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`]; 0 where it is not known.
+    quiet: f64,
+}
+
 /// Steps as straight-line programs.
+#[derive(Clone)]
 pub struct Compiled {
     programs: Arc<Programs>,
-    /// The coefficients of the programs, and behind them those of the series where parameters vary.
-    slots: Vec<f64>,
-    /// How many of them the programs read.
-    read: usize,
+    folded: Folded,
     code: Arc<Running>,
     /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
@@ -143,9 +151,8 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let parameters = defaults(&integrator.problem);
-        let slots = coefficients(integrator, step, size, &parameters)
-            .map_err(|source| RunError::Step { time: 0.0, source })?;
+        let folded = fold(integrator, step, size, &defaults(&integrator.problem));
+        let folded = folded.map_err(|source| RunError::Step { time: 0.0, source })?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
@@ -156,39 +163,62 @@ impl Compiled {
             }
         };
         let code = Arc::new(Running(code));
-        let read = slots.len();
-        Ok(Some(Arc::new(Self { programs, slots, read, code, framed })))
+        Ok(Some(Arc::new(Self { programs, folded, code, framed })))
     }
 
-    /// The same steps for another size or other values of the parameters.
+    /// The same steps with what is folded for another size or other values of the parameters.
+    pub fn with(&mut self, folded: Folded) {
+        self.folded = folded;
+    }
+
+    /// What the programs read for another size or other values of the parameters.
     ///
     /// # Errors
     /// Where a coefficient is not finite.
-    pub fn varied(
+    pub fn fold(
         &self,
         integrator: &Integrator,
         size: f64,
         parameters: &[f64],
-    ) -> Result<Self, StepError> {
-        let Self { programs, code, framed, read, .. } = self;
-        let slots = if integrator.kicks.is_some() {
-            coefficients(integrator, &programs.step, size, parameters)?
-        } else {
-            let symbols = symbols(&integrator.problem, parameters);
-            let slots = integrator.fold_table().fold(size, &symbols);
-            slots.map_err(|error| refusal(error, size, &symbols))?
-        };
-        let (programs, code) = (programs.clone(), code.clone());
-        Ok(Self { programs, slots, read: *read, code, framed: *framed })
+    ) -> Result<Folded, StepError> {
+        fold(integrator, &self.programs.step, size, parameters)
     }
 
-    /// All coefficients of the integrator, where they were made for values of its parameters.
-    pub(super) fn of_series(&self) -> Option<&[f64]> {
-        (self.slots.len() > self.read).then_some(&self.slots)
+    /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
+    pub fn fold_rows(
+        &self,
+        integrator: &Integrator,
+        size: f64,
+        parameters: &[Vec<f64>],
+    ) -> Vec<Result<Folded, StepError>> {
+        let step = &self.programs.step;
+        // Lanes without a row have the numbers of the first one.
+        let of = |lane: usize| parameters.get(lane).or_else(|| parameters.first());
+        let count = parameters.first().map_or(0, Vec::len);
+        let beside = |i: usize| from_fn(|lane| of(lane).map_or(f64::NAN, |own| own[i]));
+        let beside: Vec<[f64; WIDTH]> = (0..count).map(beside).collect();
+        let symbols = integrator.problem.symbols.iter();
+        let symbols: Vec<_> = symbols.map(|symbol| symbol.expr.evaluate_rows(&beside)).collect();
+        match step.fold_rows(size, &symbols, Some(STEEP)) {
+            Ok((slots, quiet)) => {
+                let own = |lane: usize| Folded {
+                    slots: slots.iter().map(|slot| slot[lane]).collect(),
+                    quiet: quiet.map_or(0.0, |quiet| quiet[lane]),
+                };
+                (0..parameters.len()).map(|lane| Ok(own(lane))).collect()
+            }
+            // Of one row, perhaps.
+            Err(_) => parameters.iter().map(|own| self.fold(integrator, size, own)).collect(),
+        }
+    }
+
+    /// Whether the ratio of the last two terms of the series is known to be at most [`STEEP`] at this momentum.
+    pub(super) fn is_quiet(&self, mu: &[f64]) -> bool {
+        mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt() <= self.folded.quiet
     }
 
     fn coefficients(&self) -> &[f64] {
-        &self.slots[..self.read]
+        &self.folded.slots
     }
 
     /// The backend that makes the steps.
@@ -262,6 +292,21 @@ impl Compiled {
     ) -> [u64; WIDTH] {
         self.code().stepper(self.kernel()).advance_lanes(self.coefficients(), g, mu, steps, live)
     }
+}
+
+fn fold(
+    integrator: &Integrator,
+    step: &Step,
+    size: f64,
+    parameters: &[f64],
+) -> Result<Folded, StepError> {
+    if integrator.kicks.is_some() {
+        return Ok(Folded { slots: coefficients(integrator, step, size, parameters)?, quiet: 0.0 });
+    }
+    let symbols = symbols(&integrator.problem, parameters);
+    let folded = step.fold_rows(size, &symbols, Some(STEEP));
+    let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
+    Ok(Folded { slots, quiet: quiet.unwrap_or(0.0) })
 }
 
 /// The values that the parameters of a problem have in its file.

@@ -15,13 +15,13 @@ mod tangent;
 
 pub use advise::advise;
 pub use card::{card, device_text};
-pub use compiled::{Compiled, Kept, Numbers, Solves, defaults};
+pub use compiled::{Compiled, Folded, Kept, Numbers, Solves, defaults};
 pub use group::{cayley_group, product_group, whole_group};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;
 pub use kick::{Forces, Map, Torque};
 pub use linear::{Differentiable, Linear};
-pub use motion::{Charted, Equations, Motion, one_by_one};
+pub use motion::{Charted, Equations, Motion, Varied, one_by_one};
 pub use restore::{Restore, entries_of, phase_of};
 pub use space::{Elements, Space, identity};
 pub(crate) use steep::Steepness;

@@ -12,7 +12,7 @@ use coadjoint_codegen::lie;
 use nalgebra::DVector;
 
 use super::advise::advise;
-use super::compiled::{Compiled, Numbers, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Solves};
 use super::group::cayley_group;
 use super::interpreter::Interpreter;
 use super::kick::{Forces, Map, map};
@@ -53,6 +53,12 @@ pub trait Motion: Send + Sync {
     fn lanes(&self) -> Option<&Compiled> {
         None
     }
+}
+
+/// A motion whose parameters may take other values.
+pub trait Varied: Motion {
+    /// Takes these values, and what its programs read for them, where it has any.
+    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>);
 }
 
 /// Makes steps one by one with `step`, which leaves a state that it cannot move as it is.
@@ -121,9 +127,11 @@ impl Charted {
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Motion + 'a>, StepError> {
         let Equations { integrator, parameters, .. } = &equations;
-        let compiled = compiled.map(|compiled| compiled.varied(integrator, size, parameters));
-        let compiled = compiled.transpose()?.map(Arc::new);
-        Ok(self.steps(equations, size, compiled))
+        let folded = compiled.map(|compiled| compiled.fold(integrator, size, parameters));
+        let (folded, parameters) = (folded.transpose()?, parameters.clone());
+        let mut steps = self.steps(equations, size, compiled.cloned());
+        steps.vary(&parameters, folded);
+        Ok(steps)
     }
 
     /// The steps of this size: by programs where there are any.
@@ -132,7 +140,7 @@ impl Charted {
         equations: Equations<'a>,
         size: f64,
         compiled: Option<Arc<Compiled>>,
-    ) -> Box<dyn Motion + 'a> {
+    ) -> Box<dyn Varied + 'a> {
         match self {
             Self::Exponential(group) => {
                 let elements = Elements { group: group.clone(), compiled };
@@ -225,14 +233,15 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
     }
 
     fn ratio(&self, mu: &[f64]) -> f64 {
+        let Equations { integrator, forces, parameters } = &self.equations;
+        let quiet = self.elements.compiled.as_ref().is_some_and(|compiled| compiled.is_quiet(mu));
+        if quiet && integrator.largest_rate.is_none() {
+            return 0.0;
+        }
         let flow = self.flow.get_or_init(|| {
-            let Equations { integrator, forces, parameters } = &self.equations;
             let longest = self.size * forces.map_or(1.0, Forces::longest_flow);
             let group = (*self.elements.group).clone();
-            match self.elements.compiled.as_ref().and_then(|compiled| compiled.of_series()) {
-                Some(slots) => Some(Interpreter::folded(integrator, group, slots.to_vec())),
-                None => Interpreter::new(integrator, group, longest, parameters).ok(),
-            }
+            Interpreter::new(integrator, group, longest, parameters).ok()
         });
         let ratio = |flow| Steepness::new(flow).ratio(&DVector::from_column_slice(mu));
         flow.as_ref().map_or(0.0, ratio)
@@ -263,5 +272,17 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Ste
             }
         };
         tangent.linear(self.elements.phase(state))
+    }
+}
+
+impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Varied for Steps<'a, G, C> {
+    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
+        self.equations.parameters.clear();
+        self.equations.parameters.extend_from_slice(parameters);
+        // These are of other values.
+        (self.generic, self.flow, self.shorter, self.tangent) = Default::default();
+        if let (Some(compiled), Some(folded)) = (&mut self.elements.compiled, folded) {
+            Arc::make_mut(compiled).with(folded);
+        }
     }
 }

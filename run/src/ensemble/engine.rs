@@ -12,10 +12,10 @@ use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
 use super::drift::{Drift, larger};
-use super::layout::{Layout, Shape};
+use super::layout::{Attitude, Layout, Shape};
 use super::march::{March, STRETCH, Way};
 use crate::backend::Backend;
-use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, card, identity};
+use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, Varied, card, identity};
 use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Stop, estimate};
@@ -367,23 +367,26 @@ impl<'a> Engine<'a> {
         let mut row = vec![0.0; layout.state()];
         let (mu, attitude) = row.split_at_mut(state.mu.len());
         mu.copy_from_slice(&state.mu);
-        if !attitude.is_empty() {
+        if layout.attitude == Attitude::Quaternion && state.g.len() == attitude.len() {
+            attitude.copy_from_slice(&state.g);
+        } else if !attitude.is_empty() {
             layout.write_attitude(&self.motion.space().matrix(&state.g), attitude);
         }
         check(layout, &row)?;
         Ok(row)
     }
 
-    /// The equations with these values of the parameters that vary.
-    fn equations_of(&self, layout: &Layout, own: &[f64]) -> Equations<'a> {
-        let mut equations = self.equations.clone();
-        let scalars =
-            equations.integrator.problem.parameters.iter().flat_map(Parameter::scalar_names);
-        for (scalar, value) in scalars.zip(&mut equations.parameters) {
-            let place = layout.parameters.iter().position(|name| *name == scalar);
-            place.iter().for_each(|&place| *value = own[place]);
-        }
-        equations
+    /// The place of each parameter among the columns of those that vary, where it does.
+    fn places(&self, layout: &Layout) -> Vec<Option<usize>> {
+        let parameters = &self.equations.integrator.problem.parameters;
+        let names = parameters.iter().flat_map(Parameter::scalar_names);
+        names.map(|name| layout.parameters.iter().position(|column| *column == name)).collect()
+    }
+
+    /// The values of all parameters with those of a row.
+    fn parameters(&self, places: &[Option<usize>], own: &[f64]) -> Vec<f64> {
+        let values = self.equations.parameters.iter().zip(places);
+        values.map(|(&value, place)| place.map_or(value, |place| own[place])).collect()
     }
 
     /// The errors at the end of these rows, estimated as those of runs are; or why a row has none.
@@ -393,9 +396,11 @@ impl<'a> Engine<'a> {
         steps: u64,
         rows: &[&[f64]],
     ) -> Vec<Result<f64, String>> {
+        let places = self.places(layout);
         let estimate = |row: &&[f64]| {
             let start = self.read(layout, row)?;
-            let equations = self.equations_of(layout, &row[layout.state()..]);
+            let parameters = self.parameters(&places, &row[layout.state()..]);
+            let equations = Equations { parameters, ..self.equations.clone() };
             let of = |size| self.group.anew(equations.clone(), size, self.compiled.as_ref());
             let motion = of(self.step).map_err(|error| error.to_string())?;
             let mut end = start.clone();
@@ -409,13 +414,10 @@ impl<'a> Engine<'a> {
     }
 
     /// The shorter steps to each stop, where there is one.
-    fn shorter(
-        &self,
-        equations: &Equations<'a>,
-        course: &Course,
-    ) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
+    fn shorter(&self, course: &Course) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
         let shorter = |stop: &Stop| {
-            let motion = || self.group.anew(equations.clone(), stop.part, self.compiled.as_ref());
+            let equations = self.equations.clone();
+            let motion = || self.group.anew(equations, stop.part, self.compiled.as_ref());
             (stop.part != 0.0).then(motion).transpose()
         };
         course.stops.iter().map(shorter).collect()
@@ -426,13 +428,21 @@ impl<'a> Engine<'a> {
         check(layout, row)?;
         let (mu, attitude) = row[..layout.state()].split_at(layout.shape.dim);
         let space = self.motion.space();
-        let g = match layout.read_attitude(attitude)? {
-            None => self.identity.clone(),
-            // Quaternions and rotations have been put on the group.
-            Some(matrix) if layout.shape.quaternions => space.numbers(&matrix),
-            Some(matrix) => {
+        let g = match layout.attitude {
+            Attitude::None => self.identity.clone(),
+            // Rotations are put on the group; programs have them as quaternions.
+            _ if layout.shape.quaternions => {
+                let rotation = layout.read_rotation(attitude)?;
+                match self.identity.len() {
+                    4 => vec![rotation.w, rotation.i, rotation.j, rotation.k],
+                    _ => {
+                        space.numbers(rotation.to_rotation_matrix().transpose().matrix().as_slice())
+                    }
+                }
+            }
+            _ => {
                 let off = |_| "the attitude is no element of the group".to_owned();
-                space.numbers(&space.nearest(&matrix).map_err(off)?)
+                space.numbers(&space.nearest(attitude).map_err(off)?)
             }
         };
         Ok(Numbers { g, mu: mu.to_vec() })
@@ -462,7 +472,7 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Result<Vec<Way>, RunError> {
-        let shorter = self.shorter(&self.equations, course);
+        let shorter = self.shorter(course);
         let shorter = shorter.map_err(|source| RunError::Step { time: 0.0, source })?;
         let march = March { motion: self.motion.as_ref(), stop: watch.stop };
         let mut ways: Vec<Way> = states.into_par_iter().map(|state| march.way(state)).collect();
@@ -494,43 +504,77 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Vec<Way> {
-        let follow = |(state, own): (Numbers, &&[f64])| {
-            let equations = self.equations_of(layout, own);
-            let made = self.group.anew(equations.clone(), self.step, self.compiled.as_ref());
-            let made = made.and_then(|motion| Ok((motion, self.shorter(&equations, course)?)));
-            let (motion, shorter) = match made {
-                Ok(made) => made,
-                Err(error) => {
-                    let values = layout.parameters.iter().zip(*own);
-                    let values: Vec<String> = values.map(|(n, x)| format!("{n} = {x}")).collect();
-                    let why = format!("with {}: {error}", values.join(", "));
-                    let stopped = Some((0, why));
-                    return Way { state, stopped, ratio: 0.0, kept: Vec::new() };
-                }
-            };
-            let march = March { motion: motion.as_ref(), stop: watch.stop };
-            let mut way = march.way(state);
-            for (first, end, stop) in course.legs() {
-                let mut done = first;
-                while done < end && way.stopped.is_none() && !watch.stop.load(Ordering::Relaxed) {
-                    let next = end.min(done + STRETCH);
-                    march.alone(&mut way, done, next);
-                    done = next;
-                }
-                stop.iter().for_each(|&stop| March::keep(&mut way, end, shorter[stop].as_deref()));
-            }
-            way
+        let (integrator, places) = (self.equations.integrator, self.places(layout));
+        let parts = course.stops.iter().map(|stop| stop.part);
+        let sizes: Vec<f64> = [self.step].into_iter().chain(parts).collect();
+        // The steps, and the shorter ones to each stop, where there are any.
+        let motions = || {
+            let steps =
+                |&size| self.group.steps(self.equations.clone(), size, self.compiled.clone());
+            sizes.iter().map(steps).collect::<Vec<Box<dyn Varied>>>()
         };
-        let mut ways = Vec::with_capacity(states.len());
-        let count = states.len() as u64;
-        let mut states = states.into_iter().zip(own);
-        while ways.len() < count as usize {
-            let some: Vec<_> = states.by_ref().take(ROWS).collect();
-            ways.par_extend(some.into_par_iter().map(follow));
+        let stop = watch.stop;
+        let advance = |motions: &mut Vec<Box<dyn Varied>>, (ways, own): (&mut [Way], &[&[f64]])| {
+            let parameters = own.iter().map(|own| self.parameters(&places, own));
+            let parameters: Vec<Vec<f64>> = parameters.collect();
+            let mut folded: Vec<_> = ways.iter().map(|_| Vec::new()).collect();
+            for &size in &sizes {
+                let compiled = self.compiled.as_ref().filter(|_| size != 0.0);
+                let made = compiled.map(|own| own.fold_rows(integrator, size, &parameters));
+                let made =
+                    made.into_iter().flatten().map(Some).chain(std::iter::repeat_with(|| None));
+                folded.iter_mut().zip(made).for_each(|(row, made)| row.push(made.transpose()));
+            }
+            for (((way, own), parameters), folded) in
+                ways.iter_mut().zip(own).zip(&parameters).zip(folded)
+            {
+                for (motion, folded) in motions.iter_mut().zip(folded) {
+                    match folded {
+                        Ok(folded) => motion.vary(parameters, folded),
+                        Err(error) => {
+                            let values = layout.parameters.iter().zip(*own);
+                            let values: Vec<String> =
+                                values.map(|(name, x)| format!("{name} = {x}")).collect();
+                            let why = format!("with {}: {error}", values.join(", "));
+                            way.stopped = Some((0, why));
+                        }
+                    }
+                }
+                if way.stopped.is_none() {
+                    follow(motions, way, course, stop);
+                }
+            }
+        };
+        let way = |state| Way { state, stopped: None, ratio: 0.0, kept: Vec::new() };
+        let mut ways: Vec<Way> = states.into_iter().map(way).collect();
+        let (count, mut made) = (ways.len() as u64, 0);
+        for (ways, own) in ways.chunks_mut(ROWS).zip(own.chunks(ROWS)) {
+            made += ways.len() as u64;
+            let pieces = ways.par_chunks_mut(WIDTH).zip(own.par_chunks(WIDTH));
+            pieces.for_each_init(motions, advance);
             // As many steps as all rows had made if they had gone together.
-            (watch.made)(course.steps * ways.len() as u64 / count);
+            (watch.made)(course.steps * made / count);
         }
         ways
+    }
+}
+
+/// Makes the steps of a row alone; `motions` are the steps and the shorter ones to each stop.
+fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop: &AtomicBool) {
+    let Some((motion, shorter)) = motions.split_first() else { return };
+    let march = March { motion: motion.as_ref(), stop };
+    way.ratio = motion.ratio(&way.state.mu);
+    for (first, end, place) in course.legs() {
+        let mut done = first;
+        while done < end && way.stopped.is_none() && !stop.load(Ordering::Relaxed) {
+            let next = end.min(done + STRETCH);
+            march.alone(way, done, next);
+            done = next;
+        }
+        let Some(place) = place else { continue };
+        let whole = course.stops[place].part == 0.0;
+        let shorter: Option<&dyn Motion> = if whole { None } else { Some(shorter[place].as_ref()) };
+        March::keep(way, end, shorter);
     }
 }
 
@@ -545,7 +589,6 @@ fn check(layout: &Layout, row: &[f64]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::Attitude;
     use super::*;
 
     #[test]

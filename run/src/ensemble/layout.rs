@@ -6,7 +6,8 @@ use coadjoint::{LieGroup, SO3};
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
 use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_codegen::system::System;
-use coadjoint_learn::{DataGroup, matrix_of};
+use coadjoint_learn::DataGroup;
+use nalgebra::UnitQuaternion;
 
 use crate::error::RunError;
 
@@ -291,22 +292,14 @@ impl Layout {
         names
     }
 
-    /// The matrix, row by row, that the columns of an attitude name; none where there are none. Rotations are put on the
-    /// group.
+    /// The rotation that the columns of an attitude name.
     ///
     /// # Errors
     /// The defect.
-    pub(super) fn read_attitude(&self, columns: &[f64]) -> Result<Option<Vec<f64>>, String> {
-        let rotations = SO3::<f64>::new();
-        let quaternion = match self.attitude {
-            Attitude::None => return Ok(None),
-            Attitude::Matrix if !self.shape.quaternions => return Ok(Some(columns.to_vec())),
-            form => form == Attitude::Quaternion,
-        };
-        match rotations.element_of_columns(columns, quaternion) {
-            (Some(g), distance) if distance <= TOLERANCE => {
-                Ok(Some(matrix_of(&rotations, &g).transpose().as_slice().to_vec()))
-            }
+    pub(super) fn read_rotation(&self, columns: &[f64]) -> Result<UnitQuaternion<f64>, String> {
+        let quaternion = self.attitude == Attitude::Quaternion;
+        match SO3::<f64>::new().element_of_columns(columns, quaternion) {
+            (Some(g), distance) if distance <= TOLERANCE => Ok(g),
             (Some(_), distance) => Err(format!("the attitude is off the group by {distance:.1e}")),
             (None, _) => Err("the attitude is no element of the group".into()),
         }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use num_traits::{One, Signed, ToPrimitive};
+use coadjoint_program::fold::Values;
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::expr::Function;
 use crate::number::Rational;
@@ -34,17 +35,69 @@ impl ParameterExpr {
     /// The value of the expression for given values of the flattened parameters; a missing one counts as NaN.
     #[must_use]
     pub fn evaluate(&self, parameters: &[f64]) -> f64 {
-        let value = |e: &Self| e.evaluate(parameters);
+        self.evaluate_rows(parameters)
+    }
+
+    /// The same for rows of values side by side.
+    #[must_use]
+    pub fn evaluate_rows<T: Values>(&self, parameters: &[T]) -> T {
+        let all = |x: f64| T::each(|_| x);
+        let one = |a: &Self, of: &dyn Fn(f64) -> f64| {
+            let a = a.evaluate_rows(parameters);
+            T::each(|l| of(a.lane(l)))
+        };
+        let two = |a: &Self, b: &Self, of: &dyn Fn(f64, f64) -> f64| {
+            let (a, b) = (a.evaluate_rows(parameters), b.evaluate_rows(parameters));
+            T::each(|l| of(a.lane(l), b.lane(l)))
+        };
         match self {
-            Self::Rational(q) => q.to_f64().unwrap_or(f64::NAN),
-            Self::Parameter(i) => parameters.get(*i).copied().unwrap_or(f64::NAN),
-            Self::Add(a, b) => value(a) + value(b),
-            Self::Sub(a, b) => value(a) - value(b),
-            Self::Mul(a, b) => value(a) * value(b),
-            Self::Div(a, b) => value(a) / value(b),
-            Self::Neg(a) => -value(a),
-            Self::Powi(a, n) => value(a).powi(*n),
-            Self::Call(function, a) => function.apply(value(a)),
+            Self::Rational(q) => all(q.to_f64().unwrap_or(f64::NAN)),
+            Self::Parameter(i) => parameters.get(*i).copied().unwrap_or(all(f64::NAN)),
+            Self::Add(a, b) => two(a, b, &|a, b| a + b),
+            Self::Sub(a, b) => two(a, b, &|a, b| a - b),
+            Self::Mul(a, b) => two(a, b, &|a, b| a * b),
+            Self::Div(a, b) => two(a, b, &|a, b| a / b),
+            Self::Neg(a) => one(a, &|a| -a),
+            Self::Powi(a, n) => one(a, &|a| a.powi(*n)),
+            Self::Call(function, a) => one(a, &|a| function.apply(a)),
+        }
+    }
+
+    /// The same with these exact values put in for parameters that have one, and numbers computed where they are exact.
+    #[must_use]
+    pub fn with_values(&self, values: &[Option<Rational>]) -> Self {
+        let within = |a: &Self| Box::new(a.with_values(values));
+        match self {
+            Self::Rational(_) => self.clone(),
+            Self::Parameter(i) => {
+                let value = values.get(*i).cloned().flatten();
+                value.map_or_else(|| self.clone(), Self::Rational)
+            }
+            Self::Add(a, b) => match (*within(a), *within(b)) {
+                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a + b),
+                (a, b) => Self::Add(Box::new(a), Box::new(b)),
+            },
+            Self::Sub(a, b) => match (*within(a), *within(b)) {
+                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a - b),
+                (a, b) => Self::Sub(Box::new(a), Box::new(b)),
+            },
+            Self::Mul(a, b) => match (*within(a), *within(b)) {
+                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a * b),
+                (a, b) => Self::Mul(Box::new(a), Box::new(b)),
+            },
+            Self::Div(a, b) => match (*within(a), *within(b)) {
+                (Self::Rational(a), Self::Rational(b)) if !b.is_zero() => Self::Rational(a / b),
+                (a, b) => Self::Div(Box::new(a), Box::new(b)),
+            },
+            Self::Neg(a) => match *within(a) {
+                Self::Rational(a) => Self::Rational(-a),
+                a => Self::Neg(Box::new(a)),
+            },
+            Self::Powi(a, n) => match *within(a) {
+                Self::Rational(a) if *n >= 0 || !a.is_zero() => Self::Rational(a.pow(*n)),
+                a => Self::Powi(Box::new(a), *n),
+            },
+            Self::Call(function, a) => Self::Call(*function, within(a)),
         }
     }
 

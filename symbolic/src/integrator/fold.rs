@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use coadjoint_program::fold::{Fold, FoldError, LastTerm, gradient_bound};
+use coadjoint_program::fold::{Fold, FoldError, LastTerm, Values, gradient_bound};
 
 use super::coefficients::Coefficients;
 use super::{Integrator, Kick};
@@ -173,16 +173,34 @@ impl FoldTable {
     /// # Errors
     /// [`FoldError`] where one is not finite.
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
-        let mut coefficients = vec![0.0; self.len];
+        self.fold_rows(step, symbols, None).map(|(coefficients, _)| coefficients)
+    }
+
+    /// The same for rows side by side. Also the |p| up to which the last two terms of the series have at most this ratio,
+    /// where one is asked for.
+    ///
+    /// # Errors
+    /// As [`FoldTable::fold`].
+    pub fn fold_rows<T: Values>(
+        &self,
+        step: f64,
+        symbols: &[T],
+        ratio: Option<f64>,
+    ) -> Result<(Vec<T>, Option<T>), FoldError> {
+        let [nothing, zero, one] = [f64::NAN, 0.0, 1.0].map(|value| T::each(|_| value));
+        let mut coefficients = vec![zero; self.len];
         // Each is made of an earlier one, once.
-        let mut products = vec![1.0];
+        let mut products = Vec::with_capacity(self.products.len() + 1);
+        products.push(one);
         for &(of, symbol) in &self.products {
-            let value = symbols.get(symbol as usize).copied().unwrap_or(f64::NAN);
-            products.push(products[of as usize] * value);
+            let value = symbols.get(symbol as usize).copied().unwrap_or(nothing);
+            let product = products[of as usize];
+            products.push(T::each(|l| product.lane(l) * value.lane(l)));
         }
-        let product = |number: u32| products.get(number as usize).copied().unwrap_or(f64::NAN);
+        let product = |number: u32| products.get(number as usize).copied().unwrap_or(nothing);
         self.lists().fold_by(step, symbols, product, &mut coefficients)?;
-        Ok(coefficients)
+        let radius = ratio.map(|ratio| self.lists().radius_by(step, product, ratio));
+        Ok((coefficients, radius))
     }
 }
 

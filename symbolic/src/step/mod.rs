@@ -23,7 +23,7 @@ mod translations;
 mod unitriangular;
 mod vector;
 
-use coadjoint_program::fold::FoldError;
+use coadjoint_program::fold::{FoldError, Values};
 use coadjoint_program::{Kernel, Precision};
 
 use crate::expr::ParameterExpr;
@@ -128,6 +128,20 @@ impl Step {
             all.push(step * kick);
         }
         Ok(all)
+    }
+
+    /// The coefficients of flows, each of rows side by side, for the values of the symbols; and the |μ| up to which the
+    /// last two terms of the series have at most this ratio, where one is asked for.
+    ///
+    /// # Errors
+    /// As [`Step::fold`].
+    pub fn fold_rows<T: Values>(
+        &self,
+        step: f64,
+        symbols: &[T],
+        ratio: Option<f64>,
+    ) -> Result<(Vec<T>, Option<T>), FoldError> {
+        self.fold.fold_rows(step, symbols, ratio)
     }
 
     /// The place among the coefficients of the square of the |μ| up to which the series can be trusted.
