@@ -6,7 +6,7 @@ use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{as_chosen, meet_tolerance as meet, read_group, read_varying, read_with};
+use coadjoint_run::{meet_tolerance as meet, read_group, read_varying, read_with};
 
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
@@ -35,14 +35,9 @@ pub(crate) fn system_file(group: &str) -> Option<&Path> {
     (path.extension()? == "toml").then_some(path)
 }
 
-/// Reads the system of a command again, with what was chosen for its tolerance, where the parameters with these names vary.
-pub(crate) fn varying(
-    source: &Source,
-    choice: Option<&Choice>,
-    names: &[String],
-) -> Result<System, CliError> {
-    let path = &source.file;
-    let options = as_chosen(choice, source.options(Parameters::Substituted));
+/// Reads the system of a command, where the parameters with these names vary.
+pub(crate) fn varying(source: &Source, names: &[String]) -> Result<System, CliError> {
+    let (path, options) = (&source.file, source.options(Parameters::Substituted));
     Ok(read_varying(&path.display().to_string(), &text(path)?, options, names)?)
 }
 
@@ -61,7 +56,8 @@ pub(crate) fn meet_tolerance(
     time: Option<f64>,
 ) -> Result<Option<Choice>, CliError> {
     let Accuracy { step, tolerance, region } = *asked;
-    let asked = coadjoint_run::Accuracy { step, tolerance, region, truncation, time };
+    let comoving = None;
+    let asked = coadjoint_run::Accuracy { step, tolerance, region, truncation, time, comoving };
     let choice = meet(path, system, &asked)?;
     choice.iter().for_each(|choice| eprintln!("{choice}"));
     Ok(choice)
@@ -74,7 +70,7 @@ pub(crate) fn settled(
     step: Option<f64>,
     parameters: Parameters,
 ) -> Result<(System, Option<Choice>), CliError> {
-    let mut system = source(given, Parameters::Substituted)?;
+    let mut system = source(given, parameters)?;
     let run = &system.run;
     let missing = if run.time.is_none() {
         Some("`[run] time`")
@@ -101,10 +97,5 @@ pub(crate) fn settled(
     if let Some(choice) = &choice {
         eprintln!("{choice}");
     }
-    if parameters == Parameters::Substituted {
-        return Ok((system, choice));
-    }
-    let mut kept = file(&given.file, as_chosen(choice.as_ref(), given.options(parameters)))?;
-    kept.run.step = system.run.step;
-    Ok((kept, choice))
+    Ok((system, choice))
 }

@@ -14,6 +14,7 @@ mod derive;
 mod emit;
 mod ensemble;
 mod error;
+mod form;
 mod geometrize;
 mod groups;
 mod learn;

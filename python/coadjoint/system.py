@@ -563,6 +563,7 @@ class System:
             "tolerance": real(tolerance, "tolerance"),
             "region": real(region, "region", self._facts["units"]),
             "truncation": None if truncation is None else _arrays.count(truncation, "truncation"),
+            "frame": None,
         }
 
     def _find(self, names: list[str]) -> tuple[list[int | None], list[str]]:

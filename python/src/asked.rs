@@ -31,6 +31,7 @@ pub struct Asked {
     region: Option<f64>,
     truncation: Option<usize>,
     time: Option<f64>,
+    frame: Option<String>,
 }
 
 impl Asked {
@@ -39,7 +40,8 @@ impl Asked {
     /// # Errors
     /// Where that cannot be.
     pub fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
-        let Self { step, tolerance, region, truncation, time } = *self;
+        let Self { step, tolerance, region, truncation, time, .. } = *self;
+        let comoving = self.frame.as_ref().map(|frame| frame == "comoving");
         if let Some(k) = truncation
             && (k % 2 == 0 || k > 63)
         {
@@ -49,6 +51,6 @@ impl Asked {
         if step.is_some() && tolerance.is_some() {
             return Err(refused(py, "give step or tolerance, not both".to_owned()));
         }
-        Ok(Accuracy { step, tolerance, region, truncation, time })
+        Ok(Accuracy { step, tolerance, region, truncation, time, comoving })
     }
 }

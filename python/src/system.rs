@@ -15,7 +15,7 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, as_chosen, check, emit, meet_tolerance, read, read_varying,
+    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying,
     series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -45,7 +45,15 @@ pub struct Core {
     system: System,
     /// The integrators derived so far.
     derived: Cache,
+    /// The last choice for a tolerance, for calls that ask for the same.
+    chosen: Arc<Mutex<Option<Chosen>>>,
 }
+
+/// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
+type Ensemble = (Vec<String>, Option<Vec<f64>>);
+
+/// What was asked for, and what was chosen for it.
+type Chosen = (Accuracy, Option<Ensemble>, System, Option<Choice>);
 
 /// What a system is derived for: a truncation, a frame, and, for ensembles, the parameters that vary.
 type Purpose = (usize, &'static str, Option<Vec<String>>);
@@ -80,21 +88,40 @@ impl Core {
     /// The same text, with nothing derived yet, for another thread.
     fn here(&self) -> Self {
         let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
-        Self { name, text, system, derived: Cache::default() }
+        Self { name, text, system, derived: Cache::default(), chosen: self.chosen.clone() }
     }
 
     /// A system that is known as text elsewhere.
     pub(crate) fn of(name: String, text: Arc<str>, system: System) -> Self {
-        Self { name, text, system, derived: Cache::default() }
+        let (derived, chosen) = Default::default();
+        Self { name, text, system, derived, chosen }
     }
 
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
-    fn accurate(&self, accuracy: &Accuracy) -> Result<(System, Option<Choice>), RunError> {
-        let mut system = self.system.clone();
+    fn accurate(
+        &self,
+        accuracy: &Accuracy,
+        ensemble: Option<Ensemble>,
+    ) -> Result<(System, Option<Choice>), RunError> {
+        let mut chosen = self.chosen.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((known, of, system, choice)) = &*chosen
+            && (known, of) == (accuracy, &ensemble)
+        {
+            return Ok((system.clone(), choice.clone()));
+        }
+        let mut system = match &ensemble {
+            Some((varied, _)) if !varied.is_empty() => {
+                read_varying(&self.name, &self.text, Options::default(), varied)?
+            }
+            _ => self.system.clone(),
+        };
+        let start = ensemble.iter().find_map(|(_, start)| start.clone());
+        system.run.momentum = system.run.momentum.or(start);
         if let Some(truncation) = accuracy.truncation {
             system.problem.truncation = truncation;
         }
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
+        *chosen = Some((*accuracy, ensemble, system.clone(), choice.clone()));
         Ok((system, choice))
     }
 
@@ -109,7 +136,7 @@ impl Core {
     /// The truncation and the step that the system's own tolerance asks for, if it has one.
     fn choice(&self, py: Python<'_>) -> PyResult<Option<(usize, f64)>> {
         let here = self.here();
-        let made = work(py, None, move |_| here.accurate(&Accuracy::default()))?;
+        let made = work(py, None, move |_| here.accurate(&Accuracy::default(), None))?;
         let (_, choice) = made.map_err(|error| raised(py, &error))?;
         Ok(choice.map(|choice| (choice.truncation, choice.step)))
     }
@@ -119,7 +146,7 @@ impl Core {
     fn new(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
         let made = work(py, None, move |_| {
             let system = read(&name, &text)?;
-            Ok(Self { name, text: text.into(), system, derived: Cache::default() })
+            Ok(Self::of(name, text.into(), system))
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }
@@ -207,7 +234,7 @@ impl Core {
         // Derived integrators stay for the next run.
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
-            let (system, choice) = here.accurate(&accuracy)?;
+            let (system, choice) = here.accurate(&accuracy, None)?;
             let schedule =
                 Schedule::new(Path::new(&here.name), accuracy.step, accuracy.time, &system.run)?;
             let at = at.map(|at| Times::new(at, &schedule)).transpose();
@@ -277,7 +304,21 @@ impl Core {
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
-            let (system, choice) = here.accurate(&accuracy)?;
+            let layout = Found::of(
+                here.shape(),
+                &Known::default(),
+                &[],
+                width.saturating_sub(parameters.len()),
+            )?;
+            let layout = Layout { parameters, ..layout.layout };
+            let varied = layout.varied();
+            // The largest one is in the fastest motion.
+            let momenta = values.chunks(width.max(1)).map(|row| &row[..here.shape().dim.min(width)]);
+            let size = |momentum: &&[f64]| momentum.iter().map(|mu| mu * mu).sum::<f64>();
+            let finite = momenta.filter(|momentum| size(momentum).is_finite());
+            let fastest = finite.max_by(|a, b| size(a).total_cmp(&size(b)));
+            let fastest = fastest.map(<[f64]>::to_vec);
+            let (system, choice) = here.accurate(&accuracy, Some((varied.clone(), fastest)))?;
             let schedule = Schedule::new(path, accuracy.step, accuracy.time, &system.run)?;
             let at = at.map(|at| Times::new(at, &schedule)).transpose();
             let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
@@ -292,21 +333,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.truncation;
-            let layout = Found::of(
-                here.shape(),
-                &Known::default(),
-                &[],
-                width.saturating_sub(parameters.len()),
-            )?;
-            let layout = Layout { parameters, ..layout.layout };
-            let varied = layout.varied();
-            let system = if varied.is_empty() {
-                system
-            } else {
-                let options = Options { truncation: Some(truncation), ..Options::default() };
-                let options = as_chosen(choice.as_ref(), options);
-                read_varying(&here.name, &here.text, options, &varied)?
-            };
+            let frame = system.problem.frame_name();
             let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
@@ -330,7 +357,7 @@ impl Core {
                 notes,
                 layout.names().into_iter().take(layout.state()).collect::<Vec<_>>(),
                 schedule,
-                truncation,
+                (truncation, frame),
                 choice,
             ))
         })?;
@@ -342,7 +369,7 @@ impl Core {
             notes,
             names,
             schedule,
-            truncation,
+            (truncation, frame),
             choice,
         ) = result.map_err(|error: RunError| raised(py, &error))?;
         let rows = values.len().checked_div(width).unwrap_or(0);
@@ -362,6 +389,7 @@ impl Core {
         facts.set_item("time", schedule.end)?;
         facts.set_item("announcement", schedule.announcement())?;
         facts.set_item("truncation", truncation)?;
+        facts.set_item("frame", frame)?;
         facts.set_item("choice", choice.map(|choice| choice.to_string()))?;
         Ok((array, failed, facts))
     }
@@ -424,7 +452,7 @@ impl Core {
         let (here, cache) = (self.here(), self.derived.clone());
         let dimension = self.system.problem.algebra.dim();
         let made = work(py, None, move |_| {
-            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
@@ -474,7 +502,7 @@ impl Core {
     ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
         let (here, cache) = (self.here(), self.derived.clone());
         let made = work(py, None, move |_| {
-            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let trial = check::Trial::new(step, &system.run, points, seed)?;
             let derived = derive(&cache, &here.name, system, None)?;
             let (laws, steep) = check::check(&derived, &trial)?;
@@ -544,7 +572,7 @@ impl Core {
     ) -> PyResult<String> {
         let (here, language) = (self.here(), language.to_owned());
         let made = work(py, None, move |_| {
-            let (system, choice) = here.accurate(&Accuracy { step, ..Accuracy::default() })?;
+            let (system, choice) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let source = emit::Source::System(Box::new(system), choice);
             emitted(&here.name, source, &language, prefix, step, single)
         })?;

@@ -19,8 +19,8 @@ pub use backend::{Backend, Code, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use error::RunError;
 pub use load::{
-    Accuracy, Derived, as_chosen, integrator, learned, meet_tolerance, read, read_either,
-    read_group, read_varying, read_with,
+    Accuracy, Derived, integrator, learned, meet_tolerance, read, read_either, read_group,
+    read_varying, read_with,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

@@ -7,7 +7,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
-use coadjoint_codegen::problem::{FrameChoice, Problem};
+use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::Invariants;
 use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
@@ -194,7 +194,7 @@ impl Derived {
 const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
 
 /// The accuracy asked for.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accuracy {
     /// The step size.
     pub step: Option<f64>,
@@ -206,18 +206,13 @@ pub struct Accuracy {
     pub truncation: Option<usize>,
     /// The duration, where it is not that of the text.
     pub time: Option<f64>,
-}
-
-/// The options by which a text is read again with the truncation and the frame that were chosen for its tolerance.
-#[must_use]
-pub fn as_chosen(choice: Option<&Choice>, options: Options) -> Options {
-    let Some(choice) = choice else { return options };
-    let frame = if choice.comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
-    Options { truncation: Some(choice.truncation), frame: Some(frame), ..options }
+    /// Whether the frame is the comoving one, where it is not that of the text nor to be picked.
+    pub comoving: Option<bool>,
 }
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
-/// or in the text, and puts them into the system; what was picked.
+/// or in the text, and puts them into the system; what was picked. Parameters that are kept have the values of the text for
+/// that, in a frame that there is for all values.
 ///
 /// # Errors
 /// Where nothing can be picked.
@@ -226,6 +221,11 @@ pub fn meet_tolerance(
     System { problem, potential, run, .. }: &mut System,
     asked: &Accuracy,
 ) -> Result<Option<Choice>, RunError> {
+    let other =
+        in_other_frame(problem).filter(|other| asked.comoving == Some(other.comoving.is_some()));
+    if let Some(other) = other {
+        *problem = other;
+    }
     let replaced = asked.tolerance.is_none() && asked.step.is_some();
     let Some(tolerance) = asked.tolerance.or(run.tolerance).filter(|_| !replaced) else {
         return Ok(None);
@@ -249,7 +249,7 @@ pub fn meet_tolerance(
         truncation: asked.truncation.or(run.truncation),
     };
     let choose = |problem: Problem| {
-        let choice = tolerance::choose(&problem, &target, AFFORDABLE);
+        let choice = tolerance::choose(&problem.with_defaults(), &target, AFFORDABLE);
         choice.map(|choice| (Problem { truncation: choice.truncation, ..problem }, choice))
     };
     // Of the frames that the system leaves the choice of, the one in which steps are cheaper.

@@ -193,6 +193,45 @@ impl Problem {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
+    /// The same problem, in the same frame, with the values put in that its parameters have by default; exactly, where
+    /// the coefficients are rational then.
+    #[must_use]
+    pub fn with_defaults(&self) -> Self {
+        let dim = self.algebra.dim();
+        let values = |parameter: &Parameter| match &parameter.default {
+            Some(values) => values.iter().cloned().map(Some).collect(),
+            None => vec![None; parameter.shape.len()],
+        };
+        let values: Vec<Option<Rational>> = self.parameters.iter().flat_map(values).collect();
+        let with_values =
+            |symbol: &Symbol| Symbol { expr: symbol.expr.with_values(&values), ..symbol.clone() };
+        let symbols: Vec<Symbol> = self.symbols.iter().map(with_values).collect();
+        let put_in = |polynomial: &Polynomial| {
+            let term = |(factors, mut value): (Vec<(u32, u32)>, Rational)| {
+                let mut left = Vec::new();
+                for (variable, power) in factors {
+                    let symbol = (variable as usize).checked_sub(dim).and_then(|i| symbols.get(i));
+                    match symbol.map(|symbol| &symbol.expr) {
+                        Some(ParameterExpr::Rational(own)) => {
+                            value = (0..power).fold(value, |value, _| value * own);
+                        }
+                        _ => left.push((variable, power)),
+                    }
+                }
+                (left, value)
+            };
+            let terms: Vec<_> = polynomial.factors().map(term).collect();
+            Polynomial::from_factors(polynomial.variables(), terms)
+        };
+        let comoving = self.comoving.as_ref().map(|frame| Frame {
+            spin: put_in(&frame.spin),
+            casimirs: put_in(&frame.casimirs),
+            rest: put_in(&frame.rest),
+        });
+        let (hamiltonian, parameters) = (put_in(&self.hamiltonian), Vec::new());
+        Self { hamiltonian, symbols, parameters, comoving, ..self.clone() }
+    }
+
     /// The name of the frame in which S generates the motion, `fixed` or `comoving`.
     #[must_use]
     pub fn frame_name(&self) -> &'static str {

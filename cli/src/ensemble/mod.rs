@@ -20,11 +20,12 @@ use coadjoint_run::{Derived, learned};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
+use crate::form::Form;
 use crate::note::Identity;
 use crate::{load, simulate};
 use journal::fingerprint;
 use run::Job;
-use states::{Form, States};
+use states::States;
 
 /// Reads, advances and writes.
 pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
@@ -33,29 +34,21 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let path = options.input.model.as_deref().unwrap_or(path);
     let inputs: [&Path; 2] = [path, initial];
     let accuracy = &options.accuracy;
-    let (mut system, attitude, schedule, choice) = match &options.input.model {
+    // A learned model has its schedule with it.
+    let (mut system, attitude, schedule) = match &options.input.model {
         Some(path) => {
             let (model, schedule) = simulate::model(path, accuracy, options.time)?;
-            (learned(&model)?, model.attitude, schedule, None)
+            (learned(&model)?, model.attitude, Some(schedule))
         }
-        None => {
-            let mut system = load::source(&source, Parameters::Substituted)?;
-            let truncation = source.truncation;
-            let choice =
-                load::meet_tolerance(path, &mut system, accuracy, truncation, options.time)?;
-            let schedule = simulate::schedule(path, accuracy.step, options.time, &system.run)?;
-            (system, true, schedule, choice)
-        }
+        None => (load::source(&source, Parameters::Substituted)?, true, None),
     };
     let known = Known::of(&system.problem, &system.parameters);
-    let (step, steps) = (schedule.step, schedule.steps);
-    let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     // Refused before the derivation, which may take long.
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
     options.threads.map_or(Ok(()), check_threads)?;
-    let times = at.as_ref().map(|times| times.0.clone());
-    let states = States::open(initial, form, times, Shape::of_system(&system), &known)?;
+    let paths = options.at.is_some();
+    let mut states = States::open(initial, form, paths, Shape::of_system(&system), &known)?;
     if !attitude && states.found.layout.attitude != Attitude::None {
         return Err(CliError::Option(format!(
             "{}: the model was learned from momenta alone, so it says nothing about attitudes: leave their columns out",
@@ -64,8 +57,19 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     }
     let varied = states.found.layout.varied();
     if !varied.is_empty() {
-        system = load::varying(&source, choice.as_ref(), &varied)?;
+        system = load::varying(&source, &varied)?;
     }
+    let schedule = match schedule {
+        Some(schedule) => schedule,
+        None => {
+            let truncation = source.truncation;
+            load::meet_tolerance(path, &mut system, accuracy, truncation, options.time)?;
+            simulate::schedule(path, accuracy.step, options.time, &system.run)?
+        }
+    };
+    let (step, steps) = (schedule.step, schedule.steps);
+    let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
+    states.times = at.as_ref().map(|times| times.0.clone());
     let derived = Derived::of_file(path, in_lanes(system)?)?;
     let integrator = &derived.integrator;
     let precision = options.precision;

@@ -11,8 +11,9 @@ use coadjoint_codegen::file::{self, Extent, Output, beside, passing};
 use coadjoint_run::ensemble::{Course, Drift, Engine, Rejected, Watch};
 
 use super::journal::{ANEW, Finished, Journal};
-use super::states::{Form, Piece, States};
+use super::states::{Piece, States};
 use crate::error::{CliError, unwritten};
+use crate::form::Form;
 use crate::note::{self, Identity};
 use crate::progress;
 
@@ -269,7 +270,7 @@ impl Run<'_> {
                 let written = Output::open_as(out, parquet, &self.job.inputs);
                 let written = written.and_then(|mut to| {
                     self.output.sync()?;
-                    self.job.states.convert(&passing(out), &mut to)?;
+                    crate::form::to_parquet(&passing(out), &self.job.states.names(), &mut to)?;
                     Ok(to.extent())
                 });
                 written.map_err(unwritten(parquet))?

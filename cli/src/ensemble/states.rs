@@ -2,45 +2,16 @@
 
 use std::path::Path;
 
-use coadjoint_learn::npy_header;
 use coadjoint_learn::table::{Row, Table, csv_lines};
 use coadjoint_run::ensemble::{Found, Known, Rejected, Rows, Shape};
+use coadjoint_run::number::shortest;
 use rayon::prelude::*;
 
 use crate::error::CliError;
+use crate::form::Form;
 
 /// Rows turned into text at a time.
 const PIECE: usize = 256;
-
-/// The format of a file, by the ending of its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
-    /// Names, then a line per row, in the shortest decimals that read back as the same numbers.
-    Csv,
-    /// One matrix of 64-bit floats.
-    Npy,
-    /// Columns of 64-bit floats; kept as bare numbers until all are there.
-    #[cfg(feature = "parquet")]
-    Parquet,
-}
-
-impl Form {
-    /// By the ending of the name that `option` gives.
-    pub(crate) fn of(path: &Path, option: &str) -> Result<Self, CliError> {
-        let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        match ending.as_deref() {
-            Some("csv") => Ok(Self::Csv),
-            Some("npy") => Ok(Self::Npy),
-            #[cfg(feature = "parquet")]
-            Some("parquet") => Ok(Self::Parquet),
-            _ => Err(CliError::Option(format!(
-                "{option} {}: the name must end in .csv or .npy, or in .parquet where the program \
-                 was built with the feature `parquet`",
-                path.display()
-            ))),
-        }
-    }
-}
 
 /// A piece of an ensemble.
 #[derive(Clone, Debug, Default)]
@@ -60,20 +31,20 @@ pub(crate) struct States {
     written: Vec<(String, Option<usize>)>,
     form: Form,
     /// The times of trajectories, where these are written.
-    times: Option<Vec<f64>>,
+    pub times: Option<Vec<f64>>,
 }
 
 impl States {
-    /// Opens a file; the states at the end, or at these times, are going to be written in this form.
+    /// Opens a file; the states at the end, or trajectories, are going to be written in this form.
     pub(crate) fn open(
         path: &Path,
         form: Form,
-        times: Option<Vec<f64>>,
+        trajectories: bool,
         shape: Shape,
         known: &Known,
     ) -> Result<Self, CliError> {
         Form::of(path, "--initial")?;
-        if form == Form::Csv && times.is_some() {
+        if form == Form::Csv && trajectories {
             let what = "--at: trajectories have rows, times and columns, which --out takes as .npy or .parquet";
             return Err(CliError::Option(what.to_owned()));
         }
@@ -95,7 +66,7 @@ impl States {
                 left.join(", ")
             );
         }
-        Ok(Self { table, found, written, form, times })
+        Ok(Self { table, found, written, form, times: None })
     }
 
     /// The number of rows.
@@ -148,68 +119,58 @@ impl States {
 
     /// The bytes before the first of `count` rows that are written.
     pub(crate) fn header(&self, count: u64) -> Vec<u8> {
-        match self.form {
-            Form::Csv => csv_lines([self.written.iter().map(|(name, _)| name)]),
-            Form::Npy => {
-                let times = self.times.iter().map(|times| times.len() as u64);
-                let width = self.found.layout.width() as u64;
-                npy_header(&[count].into_iter().chain(times).chain([width]).collect::<Vec<_>>())
-            }
-            #[cfg(feature = "parquet")]
-            Form::Parquet => Vec::new(),
-        }
+        let names: Vec<String> = self.written.iter().map(|(name, _)| name.clone()).collect();
+        let times = self.times.iter().map(|times| times.len() as u64);
+        let width = self.found.layout.width() as u64;
+        let shape: Vec<u64> = [count].into_iter().chain(times).chain([width]).collect();
+        self.form.head(&names, &shape)
+    }
+
+    /// The names of the columns of numbers, in files that name them.
+    #[cfg(feature = "parquet")]
+    pub(crate) fn names(&self) -> Vec<String> {
+        let places = self.times.iter().flat_map(|_| ["row".to_owned(), "time".to_owned()]);
+        places.chain(self.found.layout.names()).collect()
     }
 
     /// The bytes of rows.
     pub(crate) fn encode(&self, piece: &Piece) -> Vec<u8> {
+        let (form, width, values) = (self.form, self.found.layout.width(), &piece.rows.values);
         // Tables are not shared between threads.
-        let (written, width) = (&self.written, self.found.layout.width());
-        if let (false, Some(times)) = (matches!(self.form, Form::Csv | Form::Npy), &self.times) {
-            let states = piece.rows.values.chunks(width).enumerate();
-            let numbers = states.flat_map(|(place, state)| {
-                let row = (piece.rows.first + (place / times.len()) as u64) as f64;
-                [row, times[place % times.len()]].into_iter().chain(state.iter().copied())
-            });
-            return numbers.flat_map(f64::to_le_bytes).collect();
+        let written = &self.written;
+        match &self.times {
+            Some(times) if form != Form::Npy => {
+                let states = values.chunks(width).enumerate();
+                let numbers = states.flat_map(|(place, state)| {
+                    let row = (piece.rows.first + (place / times.len()) as u64) as f64;
+                    [row, times[place % times.len()]].into_iter().chain(state.iter().copied())
+                });
+                form.rows(&numbers.collect::<Vec<_>>(), width + 2)
+            }
+            _ if form != Form::Csv => form.rows(values, width),
+            // Pieces of fixed size, joined in order: the same bytes whatever the threads.
+            _ => {
+                let pieces = values.par_chunks(PIECE * width).enumerate();
+                let pieces = pieces.map(|(number, values)| {
+                    let cells = piece.cells.get(number * PIECE..).unwrap_or(&[]);
+                    lines(written, values.chunks(width), cells)
+                });
+                pieces.collect::<Vec<_>>().concat()
+            }
         }
-        if self.form != Form::Csv {
-            return piece.rows.values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        }
-        // Pieces of fixed size, joined in order: the same bytes whatever the threads.
-        let pieces = piece.rows.values.par_chunks(PIECE * width).enumerate();
-        let pieces = pieces.map(|(number, values)| {
-            csv_lines(values.chunks(width).enumerate().map(|(place, row)| {
-                let cells = piece.cells.get(number * PIECE + place);
-                written.iter().enumerate().map(move |(cell, (_, own))| match own {
-                    Some(column) => row[*column].to_string().into_bytes(),
-                    None => cells.map_or_else(Vec::new, |cells| cells.cell(cell).to_vec()),
-                })
-            }))
-        });
-        pieces.collect::<Vec<_>>().concat()
     }
+}
 
-    /// Makes the file that is to be there of the one that has the rows' bytes, where these are two.
-    #[cfg(feature = "parquet")]
-    pub fn convert(
-        &self,
-        from: &Path,
-        to: &mut coadjoint_codegen::file::Output,
-    ) -> std::io::Result<()> {
-        use std::io::Read;
-        /// Rows of a row group.
-        const GROUP: usize = 1 << 17;
-        let places = self.times.iter().flat_map(|_| ["row".to_owned(), "time".to_owned()]);
-        let names: Vec<String> = places.chain(self.found.layout.names()).collect();
-        let mut source = std::io::BufReader::new(std::fs::File::open(from)?);
-        to.begin(&[])?;
-        let next = || {
-            let mut raw = Vec::new();
-            source.by_ref().take((GROUP * names.len() * 8) as u64).read_to_end(&mut raw)?;
-            Ok(raw.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
-        };
-        coadjoint_learn::table::write_parquet(&mut *to, &names, next)
-            .map_err(std::io::Error::other)?;
-        to.sync()
-    }
+/// Lines of rows, with the cells that are carried through between their numbers.
+fn lines<'a>(
+    written: &[(String, Option<usize>)],
+    rows: impl Iterator<Item = &'a [f64]>,
+    cells: &[Row],
+) -> Vec<u8> {
+    csv_lines(rows.enumerate().map(|(place, row)| {
+        written.iter().enumerate().map(move |(cell, (_, own))| match own {
+            Some(column) => shortest(row[*column]).into_bytes(),
+            None => cells.get(place).map_or_else(Vec::new, |cells| cells.cell(cell).to_vec()),
+        })
+    }))
 }

@@ -5,17 +5,17 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::file::{self, Extent, Output};
-use coadjoint_learn::npy_header;
-use coadjoint_learn::table::csv_lines;
-use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::Resume;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::samples::Samples;
 use super::settings::Header;
-use super::target::{Form, Place, Target, paths};
+use super::target::{Place, Target, paths};
 use crate::error::{CliError, unwritten};
+use crate::form::Form;
+#[cfg(feature = "parquet")]
+use crate::form::to_parquet;
 use crate::note::Identity;
 
 /// Bytes kept in memory before they are written.
@@ -86,22 +86,18 @@ impl Records {
             waiting: 0,
             flushed: Instant::now(),
         };
-        let head = match target.form {
-            Form::Csv => Vec::new(),
-            Form::Npy => records.npy_header(),
-        };
+        let head = if target.form == Form::Csv { Vec::new() } else { records.array_head() };
         let Some(found) = found else {
             if let Some(output) = &mut records.output {
                 output.begin(&head).map_err(unwritten(&target.part()))?;
             }
-            match target.form {
-                Form::Csv => {
-                    for line in records.header.lines() {
-                        records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
-                    }
-                    records.buffer.extend(csv_lines([&records.names]));
+            if target.form == Form::Csv {
+                for line in records.header.lines() {
+                    records.buffer.extend_from_slice(format!("# {line}\n").as_bytes());
                 }
-                Form::Npy => records.describe(false)?,
+                records.buffer.extend(target.form.head(&records.names, &[]));
+            } else {
+                records.describe(false)?;
             }
             records.flush()?;
             return Ok(records);
@@ -133,14 +129,8 @@ impl Records {
 
     /// Adds a record.
     pub(crate) fn row(&mut self, values: impl Iterator<Item = f64>) -> Result<(), CliError> {
-        match self.target.form {
-            Form::Csv => {
-                let cells: Vec<String> = values.map(shortest).collect();
-                self.buffer.extend_from_slice(cells.join(",").as_bytes());
-                self.buffer.push(b'\n');
-            }
-            Form::Npy => values.for_each(|value| self.buffer.extend(value.to_le_bytes())),
-        }
+        let values: Vec<f64> = values.collect();
+        self.buffer.extend(self.target.form.rows(&values, values.len()));
         self.waiting += 1;
         if self.buffer.len() >= BUFFER { self.flush() } else { Ok(()) }
     }
@@ -192,19 +182,19 @@ impl Records {
             Form::Csv => {
                 self.buffer.split_inclusive(|byte| *byte == b'\n').take_while(fits).count()
             }
-            Form::Npy => self.buffer.chunks(8 * self.names.len().max(1)).take_while(fits).count(),
+            _ => self.buffer.chunks(8 * self.names.len().max(1)).take_while(fits).count(),
         };
         (kept as u64).min(self.waiting)
     }
 
-    /// The head of a matrix; its length does not depend on the number of records.
-    fn npy_header(&self) -> Vec<u8> {
-        npy_header(&[self.written, self.names.len() as u64])
+    /// The head of an array; its length does not depend on the number of records.
+    fn array_head(&self) -> Vec<u8> {
+        self.target.form.head(&self.names, &[self.written, self.names.len() as u64])
     }
 
     /// Brings the number of records in the head of a matrix up to date.
     fn head(&mut self) -> Result<(), CliError> {
-        let head = self.npy_header();
+        let head = self.array_head();
         let (Form::Npy, Some(output)) = (self.target.form, &mut self.output) else { return Ok(()) };
         output.set_head(&head).map_err(|error| self.failed(error))
     }
@@ -225,11 +215,26 @@ impl Records {
 
     /// Gives a complete file its name.
     pub(crate) fn publish(mut self) -> Result<(), CliError> {
-        if self.target.form == Form::Npy && self.output.is_some() {
+        if self.target.form != Form::Csv && self.output.is_some() {
             self.describe(true)?;
         }
         let Some(output) = &mut self.output else { return Ok(()) };
-        output.publish().map_err(unwritten(&self.target.path))
+        match self.target.form {
+            #[cfg(feature = "parquet")]
+            Form::Parquet => {
+                let Target { path, inputs, .. } = &self.target;
+                let whole = Output::open_as(path, &self.target.parquet(), &paths(inputs));
+                let written = whole.and_then(|mut whole| {
+                    to_parquet(&self.target.part(), &self.names, &mut whole)?;
+                    whole.publish()
+                });
+                written.map_err(unwritten(path))?;
+                // The numbers have served.
+                output.discard();
+                Ok(())
+            }
+            _ => output.publish().map_err(unwritten(&self.target.path)),
+        }
     }
 
     /// Ends a file that stays a part, as well as can be, and says why.

@@ -5,15 +5,7 @@ use std::path::{Path, PathBuf};
 use coadjoint_codegen::file::{self, Output, beside, passing};
 
 use crate::error::{CliError, unwritten};
-
-/// The format of a file of records.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
-    /// Comment lines, a line of names, a line for each record, a closing comment line.
-    Csv,
-    /// A matrix of 64-bit floats; what CSV has in comments and names is in a JSON file beside it.
-    Npy,
-}
+use crate::form::Form;
 
 /// The kind of place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,24 +37,15 @@ impl Target {
         let special = std::fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
         let (form, place) = if path == Path::new("-") {
             (Form::Csv, Place::Standard)
-        } else if special && ending == Some("npy") {
+        } else if special && matches!(ending, Some("npy" | "parquet")) {
             return Err(refuse(
-                ".npy needs a file whose beginning can be written last; this is a device or a pipe: write .csv",
+                ".npy and .parquet need a file that can be written again; this is a device or a pipe: write .csv",
             ));
         } else if special {
             (Form::Csv, Place::Device)
         } else {
             file::check(path, &[]).map_err(unwritten(path))?;
-            match ending {
-                Some("csv") => (Form::Csv, Place::File),
-                Some("npy") => (Form::Npy, Place::File),
-                _ => {
-                    let what = "the name must end in .csv or .npy (or be - for the standard output); for .parquet, \
-                         read the .npy with its columns and write it by another program, \
-                         or give the start to `ensemble --at`, built with the feature `parquet`";
-                    return Err(refuse(what));
-                }
-            }
+            (Form::of(path, "--out")?, Place::File)
         };
         Self { path: path.to_owned(), form, place, inputs: inputs.to_vec() }.checked()
     }
@@ -94,7 +77,7 @@ impl Target {
     pub(crate) fn names(&self) -> Vec<PathBuf> {
         match (self.place, self.form) {
             (Place::File, Form::Csv) => vec![self.path.clone(), self.part()],
-            (Place::File, Form::Npy) => vec![self.path.clone(), self.part(), self.description()],
+            (Place::File, _) => vec![self.path.clone(), self.part(), self.description()],
             _ => Vec::new(),
         }
     }
@@ -112,7 +95,13 @@ impl Target {
         if self.place == Place::File { passing(&self.path) } else { self.path.clone() }
     }
 
-    /// The JSON file beside a matrix.
+    /// The file that becomes Parquet when all records are there.
+    #[cfg(feature = "parquet")]
+    pub(crate) fn parquet(&self) -> PathBuf {
+        passing(&beside(&self.path, ".parquet"))
+    }
+
+    /// The JSON file beside a matrix or a Parquet file.
     pub(crate) fn description(&self) -> PathBuf {
         beside(&self.path, ".json")
     }

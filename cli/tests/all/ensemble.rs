@@ -364,6 +364,44 @@ fn trajectories_are_those_of_simulate() {
     ]);
 }
 
+/// In Parquet a trajectory has a line for each of its times, with the numbers of the array; records of `simulate` are those of
+/// `.npy`.
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_has_the_numbers_of_arrays() {
+    let rows = |folder: &Folder, name: &str| {
+        let mut table = coadjoint_learn::table::Table::open(&folder.at(name)).unwrap();
+        let (names, mut row) = (table.names().join(","), coadjoint_learn::table::Row::default());
+        let mut all = Vec::new();
+        while table.read(&mut row).unwrap() {
+            all.push(row.numbers());
+        }
+        (names, all)
+    };
+    let folder = Folder::with(&body("3"));
+    folder.write("in.csv", "I1,mu_1,mu_2,mu_3\n4,1,2,3\nnan,1,2,3\n");
+    for out in ["out.npy", "out.parquet"] {
+        let ran = format!("ensemble system.toml --initial in.csv --out {out} --at 0,3.14,10");
+        folder.run(&ran).ok();
+    }
+    let (_, expected) = array(&folder.bytes("out.npy"));
+    let (names, found) = rows(&folder, "out.parquet");
+    assert_eq!(names, "row,time,mu_1,mu_2,mu_3,I1");
+    let places: Vec<&[f64]> = found.iter().map(|line| &line[..2]).collect();
+    let times = [0.0, 3.14, 10.0];
+    let all = [1.0, 2.0].into_iter().flat_map(|row| times.map(|time| [row, time]));
+    assert!(places.into_iter().eq(all.collect::<Vec<_>>().iter().map(|place| &place[..])));
+    let states = found.iter().flat_map(|line| &line[2..]);
+    assert!(states.map(|x| x.to_bits()).eq(expected.iter().map(|x| x.to_bits())));
+
+    for out in ["run.npy", "run.parquet"] {
+        folder.run(&format!("simulate {BODY} --time 2 --out {out}")).ok();
+    }
+    assert_eq!(rows(&folder, "run.npy").1, rows(&folder, "run.parquet").1);
+    assert_eq!(rows(&folder, "run.parquet").0.split(',').next(), Some("time"));
+    nothing_left_over(&folder);
+}
+
 /// Of some rows the error at the end is estimated, near the truth.
 #[test]
 fn errors_of_a_sample_are_estimated() {
@@ -426,6 +464,22 @@ fn a_column_named_after_a_parameter_varies_it() {
     assert_eq!(folder.text("one.csv.out.csv"), folder.text("one.npy.out.csv"));
     let report = folder.json("ensemble system.toml --initial in.csv --out out.csv");
     assert_eq!(report["parameters"], serde_json::json!(["I1"]));
+}
+
+/// A body that is symmetric by its file has a comoving frame for a tolerance, which its rows do not: they meet the tolerance in
+/// a frame that all of them have.
+#[test]
+fn a_tolerance_is_met_in_a_frame_that_all_rows_have() {
+    let text = body("4").replace("step = 0.1", "tolerance = 1e-8").replace("x^2/I1", "x^2/I1 + z");
+    let folder = Folder::with(&(text + "[initial]\nmomentum = [1, 2, 3]\n"));
+    folder.write("in.csv", "mu_1,mu_2,mu_3\n1,2,3\n");
+    let run = "ensemble system.toml --initial in.csv --out";
+    folder.run(&format!("{run} one.csv")).ok().prints(&["comoving: 1"]);
+    folder.write("in.csv", "mu_1,mu_2,mu_3,I1\n1,2,3,4\n");
+    folder.run(&format!("{run} own.csv")).ok();
+    let [one, own] = ["one.csv", "own.csv"].map(|name| cells(&folder.table(name)[1].join(",")));
+    assert!(distance(&one, &own[..3]) < 1e-7, "{one:?} {own:?}");
+    folder.run("emit system.toml --language c --keep-parameters").ok();
 }
 
 /// A field that varies from row to row: each row ends where a file with its field ends, in the comoving frame.

@@ -11,18 +11,19 @@ from typing import Any
 import numpy as np
 import pyarrow
 
-from .._arrays import Backend, Floats, text
+from .._arrays import Backend, Floats, Numbers, text
 from .._core import Core, __version__
 from ..system import System, hardly_converges
 from .errors import InputError, ShardError
 
 #: What a run does, whatever its rows are.
-_SCHEDULE = ("time", "step", "steps", "truncation")
+_SCHEDULE = ("time", "step", "steps", "truncation", "frame")
 
 
 @dataclass(frozen=True)
 class Made:
-    """Rows at the end: NaN where there is no end state, and (index, step, reason) for each of these."""
+    """Rows at the end, or at each time one after the other: NaN where there is no state, and (index, step, reason) for each of
+    these rows."""
 
     states: Floats
     bad: list[tuple[int, int, str]]
@@ -39,23 +40,32 @@ def versions() -> dict[str, str]:
     return {"coadjoint": __version__, "pyarrow": pyarrow.__version__, "processor": platform.machine()}
 
 
-def pin(system: System, asked: dict[str, Any], backend: Backend) -> dict[str, Any]:
-    """The run in text and numbers: what a tolerance picks is picked here, once."""
-    if not isinstance(system, System):
-        raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
+def pin(
+    system: System, asked: dict[str, Any], backend: Backend, at: Numbers | None, parameters: list[str]
+) -> dict[str, Any]:
+    """The run in text and numbers, with these columns of parameters: what a tolerance picks is picked here, once."""
     core = _core(system.text)
-    none = np.empty((0, system.dimension))
-    asked = system._asked(**asked)
-    _, _, facts = core.ensemble(none, asked, parameters=[], at=None, backend=text(backend, "backend"), threads=1, progress=None)
-    return {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
+    none = np.empty((0, system.dimension + len(parameters)))
+    asked, times = system._asked(**asked), system._times(at)
+    _, _, facts = core.ensemble(
+        none, asked, parameters=parameters, at=times, backend=text(backend, "backend"), threads=1, progress=None
+    )
+    job = {"text": system.text, "backend": backend} | {key: facts[key] for key in _SCHEDULE}
+    if parameters:
+        job["parameters"] = parameters
+    if times is not None:
+        job["at"] = times.tolist()
+    return job
 
 
-def columns(job: dict[str, Any], available: Sequence[str] | int) -> tuple[list[str], list[str], list[str]]:
+def columns(system: System, available: Sequence[str] | int) -> tuple[list[str], list[str], list[str]]:
     """The columns of a state among those of a file, in the order in which the steps want them, the others, and those of the
     first that are parameters. A file without names has a width, which says what it holds."""
+    if not isinstance(system, System):
+        raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
     if isinstance(available, int):
-        return _core(job["text"]).columns(None, available)[0], [], []
-    names, places, others, varied = _core(job["text"]).columns(list(available), len(available))
+        return _core(system.text).columns(None, available)[0], [], []
+    names, places, others, varied = _core(system.text).columns(list(available), len(available))
     missing = [name for name, place in zip(names, places, strict=True) if place is None]
     if missing:
         raise InputError(f"column {missing[0]} is missing: files of states have all entries of the matrix, also zeros")
@@ -64,9 +74,10 @@ def columns(job: dict[str, Any], available: Sequence[str] | int) -> tuple[list[s
 
 def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     """Advances rows."""
-    asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation")}
+    asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation", "frame")}
+    at = np.array(job["at"]) if "at" in job else None
     states, failed, facts = _core(job["text"]).ensemble(
-        numbers, asked, parameters=job.get("parameters", []), at=None, backend=job["backend"], threads=threads, progress=None
+        numbers, asked, parameters=job.get("parameters", []), at=at, backend=job["backend"], threads=threads, progress=None
     )
     for key in _SCHEDULE:
         if facts[key] != job[key]:

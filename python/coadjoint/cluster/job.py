@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from .._arrays import Backend, listed, unused
+from .._arrays import Backend, Numbers, listed, unused
 from ..system import System
 from . import core, manifest, result, shard, states
 from .drive import Engine, drive
@@ -47,15 +47,14 @@ class Job:
         share: tuple[int, int] | None,
         keep: Sequence[str],
         storage_options: dict[str, Any] | None,
+        at: Numbers | None,
     ) -> None:
         self.options = storage_options
         self.folder = Folder(absolute(out), storage_options)
         self.states = states.inspect(names, storage_options)
+        self.columns, others, parameters = core.columns(system, self.states.columns)
         # Everything that workers need to make the same steps, as text and numbers.
-        self.core = core.pin(system, asked, backend)
-        self.columns, others, parameters = core.columns(self.core, self.states.columns)
-        if parameters:
-            self.core["parameters"] = parameters
+        self.core = core.pin(system, asked, backend, at, parameters)
         for name in self.columns:
             if name in self.states.others:
                 raise InputError(f"column {name} is of the type {self.states.others[name]}; numbers are needed")

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .._arrays import Backend, Real, count, flag
+from .._arrays import Backend, Numbers, Real, count, flag
 from ..system import System
 from . import local
 from .drive import Engine
@@ -26,6 +26,7 @@ def run(
     tolerance: Real | None = None,
     region: Real | None = None,
     truncation: int | None = None,
+    at: Numbers | None = None,
     backend: Backend = "auto",
     client: Any = None,
     workers: int | None = None,
@@ -61,6 +62,9 @@ def run(
         The norm of momenta up to which the tolerance is to hold; along the system's own run if not given.
     truncation : int, optional
         S₁ … S_K are kept, K odd; the system's own if not given.
+    at : list of times, optional
+        Trajectories in place of end states: for every row of ``states`` a row at each time, with the columns ``row``
+        (counted from 0) and ``time`` in front.
     backend : str
         What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
     client : optional
@@ -99,7 +103,7 @@ def run(
         Where not a single row reaches the end.
     """
     asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
-    job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options)
+    job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options, at)
     attempts, threads = count(attempts, "attempts", 1), count(threads, "threads", 1)
     restart, verify = flag(restart, "restart"), flag(verify, "verify")
     if restart and share is not None:

@@ -151,24 +151,31 @@ def _make(task: Task, folder: Folder, notes: list[str]) -> dict[str, Any]:
     # As text: a shard may have a million of them.
     rejected: list[bytes] = []
     drift: dict[str, float] = {}
-    width = len(task.columns)
+    width, at = len(task.columns), task.job.get("at")
+    places = [] if at is None else ["row", "time"]
+    names, count = places + task.columns, len(at or [0])
 
     def fill(file: Any) -> None:
         sink = None
         row = task.start
-        for numbers, kept in _groups(task, group_rows(width)):
+        for numbers, kept in _groups(task, group_rows(width * count)):
             made = core.advance(task.job, numbers, task.threads)
             for index, step, reason in made.bad:
                 line = {"row": row + index, "step": step, "reason": reason}
                 rejected.append(json.dumps(line, ensure_ascii=False).encode() + b"\n")
             raise_to(drift, made.drift)
             notes.extend(text for text in made.notes if text not in notes)
-            table = parquet.table(task.columns, made.states, kept)
+            states = made.states
+            if at is not None:
+                lines = np.arange(len(states)) // count
+                kept = None if kept is None else kept.take(lines)
+                states = np.column_stack([row + lines, np.tile(at, len(numbers)), states])
+            table = parquet.table(names, states, kept)
             sink = sink or parquet.writer(file, table.schema)
             sink.write_table(table, row_group_size=max(table.num_rows, 1))
             row += len(numbers)
         if sink is None:
-            table = parquet.table(task.columns, np.empty((0, width)), parquet.no_rows(task.keep))
+            table = parquet.table(names, np.empty((0, len(names))), parquet.no_rows(task.keep))
             sink = parquet.writer(file, table.schema)
             sink.write_table(table)
         sink.close()

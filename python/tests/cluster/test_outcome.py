@@ -2,6 +2,7 @@
 
 import json
 
+import coadjoint as ca
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -174,3 +175,23 @@ def test_progress_counts_up_to_the_whole(serial, tmp_path):
     assert seen[-1].rows_done == support.ROWS and seen[-1].bad == 3
     assert all(p.rows_per_second > 0 and p.workers == 1 for p in seen)
     assert "8/8 shards, 3,000 of 3,000 rows" in str(seen[-1])
+
+
+def test_trajectories_are_those_of_one_call_of_the_package(tmp_path):
+    body = ca.System(
+        "SO3", "x^2/(2*I1) + y^2/4 + z^2/5", coordinates="x y z", parameters={"I1": 1.5}, momentum=[2, 0.5, 1]
+    )
+    states = {"I1": [1.5, 1.6, 1.7], "x": [2.0, 2.0, 2.0], "y": [0.5, 0.5, 0.5], "z": [1.0, 1.0, 1.0], "id": [7, 8, 9]}
+    pq.write_table(pa.table(states), tmp_path / "states.parquet")
+    asked = {"time": 3, "tolerance": 1e-8, "at": [0, 0.55, 3]}
+    options = {"system": body, "keep": ["id"], "rows_per_shard": 2, "step": None} | asked
+    run(tmp_path / "states.parquet", tmp_path / "out", **options)
+    cluster.join(tmp_path / "out", tmp_path / "all.parquet")
+    found = pq.read_table(tmp_path / "all.parquet")
+    states.pop("id")
+    expected = body.ensemble(states, **asked)
+    assert found["row"].to_pylist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    assert found["time"].to_pylist() == [0, 0.55, 3] * 3
+    assert found["id"].to_pylist() == [7, 7, 7, 8, 8, 8, 9, 9, 9]
+    momenta = np.column_stack([found[name] for name in "xyz"]).reshape(3, 3, 3)
+    assert (momenta == np.asarray(expected)).all()
