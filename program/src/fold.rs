@@ -125,6 +125,7 @@ impl Fold<'_> {
     ///
     /// # Errors
     /// As [`Fold::fold`].
+    #[inline(always)]
     pub fn fold_by<T: Values>(
         &self,
         step: f64,
@@ -205,8 +206,24 @@ impl Fold<'_> {
         self.radius_by(step, |number| self.product(number, symbols), ratio)
     }
 
-    /// The same where the products of symbols are known, for rows side by side.
+    /// The coefficients of rows side by side, whose products of symbols are known, and the radius for this ratio.
+    ///
+    /// # Errors
+    /// As [`Fold::fold`].
+    #[cfg(feature = "programs")]
+    pub fn fold_rows<T: Values>(
+        &self,
+        step: f64,
+        known: (&[T], &[T]),
+        ratio: f64,
+        coefficients: &mut [T],
+    ) -> Result<T, FoldError> {
+        crate::dispatch::fold(self, step, known, ratio, coefficients)
+    }
+
+    /// The radius where the products of symbols are known, for rows side by side.
     #[must_use]
+    #[inline(always)]
     pub fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
         let value = |&(part, ..): &LastTerm| self.part(part as usize, step, &product);
         radius(self.last.iter().map(|term| (value(term), *term)), ratio)
@@ -251,6 +268,7 @@ pub fn gradient_bound(
 
 /// The |p| of each direct factor of the group up to which the last two terms of a series have at most this ratio in every
 /// direction, given the coefficients of their monomials.
+#[inline(always)]
 pub fn radius<T: Values>(terms: impl Iterator<Item = (T, LastTerm)> + Clone, ratio: f64) -> T {
     let factors = terms.clone().map(|(_, term)| term.1 + 1).max().unwrap_or(0);
     let zero = T::each(|_| 0.0);
@@ -273,6 +291,7 @@ pub fn radius<T: Values>(terms: impl Iterator<Item = (T, LastTerm)> + Clone, rat
 
 /// The largest r up to which the polynomial with the coefficients `last` is at most `ratio` times that with the
 /// coefficients `before`; neither has a negative one.
+#[inline(always)]
 fn within<T: Values>(last: &[T; DEGREES], before: &[T; DEGREES], ratio: f64) -> T {
     let whole =
         |of: &[T; DEGREES]| of.iter().rposition(|c| !c.all(|c| c == 0.0)).map_or(0, |top| top + 1);

@@ -199,11 +199,11 @@ impl Compiled {
         let beside: Vec<[f64; WIDTH]> = (0..count).map(beside).collect();
         let symbols = integrator.problem.symbols.iter();
         let symbols: Vec<_> = symbols.map(|symbol| symbol.expr.evaluate_rows(&beside)).collect();
-        match step.fold_rows(size, &symbols, Some(STEEP)) {
+        match step.fold_rows(size, &symbols, STEEP) {
             Ok((slots, quiet)) => {
                 let own = |lane: usize| Folded {
                     slots: slots.iter().map(|slot| slot[lane]).collect(),
-                    quiet: quiet.map_or(0.0, |quiet| quiet[lane]),
+                    quiet: quiet[lane],
                 };
                 (0..parameters.len()).map(|lane| Ok(own(lane))).collect()
             }
@@ -304,9 +304,9 @@ fn fold(
         return Ok(Folded { slots: coefficients(integrator, step, size, parameters)?, quiet: 0.0 });
     }
     let symbols = symbols(&integrator.problem, parameters);
-    let folded = step.fold_rows(size, &symbols, Some(STEEP));
+    let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
-    Ok(Folded { slots, quiet: quiet.unwrap_or(0.0) })
+    Ok(Folded { slots, quiet })
 }
 
 /// The values that the parameters of a problem have in its file.

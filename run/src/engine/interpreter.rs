@@ -86,6 +86,11 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
         Ok(Self { integrator, group, slots, quiet, chart: PhantomData })
     }
 
+    /// With these coefficients of [`Integrator::fold_table`].
+    pub fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
+        Self { integrator, group, slots, quiet: 0.0, chart: PhantomData }
+    }
+
     /// The coefficients after those of the programs, from the square of the radius on.
     fn of_series(&self) -> &[f64] {
         self.slots.get(FoldTable::radius_at(self.integrator)..).unwrap_or(&[])

@@ -517,19 +517,15 @@ impl<'a> Engine<'a> {
         let advance = |motions: &mut Vec<Box<dyn Varied>>, (ways, own): (&mut [Way], &[&[f64]])| {
             let parameters = own.iter().map(|own| self.parameters(&places, own));
             let parameters: Vec<Vec<f64>> = parameters.collect();
-            let mut folded: Vec<_> = ways.iter().map(|_| Vec::new()).collect();
-            for &size in &sizes {
+            let fold = |&size: &f64| {
                 let compiled = self.compiled.as_ref().filter(|_| size != 0.0);
-                let made = compiled.map(|own| own.fold_rows(integrator, size, &parameters));
-                let made =
-                    made.into_iter().flatten().map(Some).chain(std::iter::repeat_with(|| None));
-                folded.iter_mut().zip(made).for_each(|(row, made)| row.push(made.transpose()));
-            }
-            for (((way, own), parameters), folded) in
-                ways.iter_mut().zip(own).zip(&parameters).zip(folded)
-            {
-                for (motion, folded) in motions.iter_mut().zip(folded) {
-                    match folded {
+                let rows = compiled.map(|own| own.fold_rows(integrator, size, &parameters));
+                rows.unwrap_or_default().into_iter()
+            };
+            let mut folded: Vec<_> = sizes.iter().map(fold).collect();
+            for ((way, own), parameters) in ways.iter_mut().zip(own).zip(&parameters) {
+                for (motion, folded) in motions.iter_mut().zip(&mut folded) {
+                    match folded.next().transpose() {
                         Ok(folded) => motion.vary(parameters, folded),
                         Err(error) => {
                             let values = layout.parameters.iter().zip(*own);

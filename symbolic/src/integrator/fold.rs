@@ -173,11 +173,10 @@ impl FoldTable {
     /// # Errors
     /// [`FoldError`] where one is not finite.
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
-        self.fold_rows(step, symbols, None).map(|(coefficients, _)| coefficients)
+        self.fold_rows(step, symbols, 1.0).map(|(coefficients, _)| coefficients)
     }
 
-    /// The same for rows side by side. Also the |p| up to which the last two terms of the series have at most this ratio,
-    /// where one is asked for.
+    /// The same for rows side by side; also the |p| up to which the last two terms of the series have at most this ratio.
     ///
     /// # Errors
     /// As [`FoldTable::fold`].
@@ -185,8 +184,8 @@ impl FoldTable {
         &self,
         step: f64,
         symbols: &[T],
-        ratio: Option<f64>,
-    ) -> Result<(Vec<T>, Option<T>), FoldError> {
+        ratio: f64,
+    ) -> Result<(Vec<T>, T), FoldError> {
         let [nothing, zero, one] = [f64::NAN, 0.0, 1.0].map(|value| T::each(|_| value));
         let mut coefficients = vec![zero; self.len];
         // Each is made of an earlier one, once.
@@ -197,9 +196,8 @@ impl FoldTable {
             let product = products[of as usize];
             products.push(T::each(|l| product.lane(l) * value.lane(l)));
         }
-        let product = |number: u32| products.get(number as usize).copied().unwrap_or(nothing);
-        self.lists().fold_by(step, symbols, product, &mut coefficients)?;
-        let radius = ratio.map(|ratio| self.lists().radius_by(step, product, ratio));
+        let known = (symbols, &products[..]);
+        let radius = self.lists().fold_rows(step, known, ratio, &mut coefficients)?;
         Ok((coefficients, radius))
     }
 }

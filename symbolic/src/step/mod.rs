@@ -130,8 +130,8 @@ impl Step {
         Ok(all)
     }
 
-    /// The coefficients of flows, each of rows side by side, for the values of the symbols; and the |μ| up to which the
-    /// last two terms of the series have at most this ratio, where one is asked for.
+    /// The coefficients of a flow, of rows side by side, for the values of the symbols; and the |μ| up to which the last two
+    /// terms of the series have at most this ratio.
     ///
     /// # Errors
     /// As [`Step::fold`].
@@ -139,8 +139,8 @@ impl Step {
         &self,
         step: f64,
         symbols: &[T],
-        ratio: Option<f64>,
-    ) -> Result<(Vec<T>, Option<T>), FoldError> {
+        ratio: f64,
+    ) -> Result<(Vec<T>, T), FoldError> {
         self.fold.fold_rows(step, symbols, ratio)
     }
 
