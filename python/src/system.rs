@@ -15,8 +15,7 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying,
-    series, verify,
+    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -313,7 +312,8 @@ impl Core {
             let layout = Layout { parameters, ..layout.layout };
             let varied = layout.varied();
             // The largest one is in the fastest motion.
-            let momenta = values.chunks(width.max(1)).map(|row| &row[..here.shape().dim.min(width)]);
+            let momenta =
+                values.chunks(width.max(1)).map(|row| &row[..here.shape().dim.min(width)]);
             let size = |momentum: &&[f64]| momentum.iter().map(|mu| mu * mu).sum::<f64>();
             let finite = momenta.filter(|momentum| size(momentum).is_finite());
             let fastest = finite.max_by(|a, b| size(a).total_cmp(&size(b)));
@@ -572,7 +572,8 @@ impl Core {
     ) -> PyResult<String> {
         let (here, language) = (self.here(), language.to_owned());
         let made = work(py, None, move |_| {
-            let (system, choice) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
+            let (system, choice) =
+                here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let source = emit::Source::System(Box::new(system), choice);
             emitted(&here.name, source, &language, prefix, step, single)
         })?;
