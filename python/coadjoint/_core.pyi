@@ -5,7 +5,19 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Core", "ModelCore", "Stepper", "__version__", "learn", "read_text", "write_text"]
+__all__ = [
+    "Core",
+    "ModelCore",
+    "Stepper",
+    "__version__",
+    "backward",
+    "forward",
+    "largest_exponent",
+    "learn",
+    "parameters",
+    "read_text",
+    "write_text",
+]
 
 __version__: str
 
@@ -81,6 +93,17 @@ class Stepper:
         steps: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
+def forward(
+    run: dict[str, Any],
+    tangents: NDArray[np.float64],
+    parameters: NDArray[np.float64],
+    at: list[int],
+) -> NDArray[np.float64]: ...
+def backward(
+    run: dict[str, Any], cotangents: NDArray[np.float64], at: list[int]
+) -> NDArray[np.float64]: ...
+def largest_exponent(run: dict[str, Any], transient: int) -> float: ...
+def parameters(name: str, text: str) -> list[tuple[str, list[int]]]: ...
 def read_text(path: str | os.PathLike[str]) -> str: ...
 def write_text(path: str | os.PathLike[str], text: str) -> None: ...
 def learn(

@@ -311,6 +311,11 @@ class System:
             )
         for text in found["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
+        found["start"] = {
+            "momentum": None if start is None else start.tolist(),
+            "group_element": None if element is None else element.tolist(),
+            "backend": backend,
+        }
         return Run(found, self)
 
     def _times(self, at: Numbers | None) -> Floats | None:

@@ -4,6 +4,7 @@
 
 mod asked;
 mod control;
+mod derivative;
 mod emit;
 mod error;
 mod event;
@@ -19,6 +20,8 @@ use pyo3::prelude::*;
 /// The extension module.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::derivative::{backward, forward, largest_exponent, parameters};
     #[pymodule_export]
     use super::files::{read_text, write_text};
     #[pymodule_export]

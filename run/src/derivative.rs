@@ -53,7 +53,7 @@ impl<'a> Derivatives<'a> {
     }
 
     fn steps(&self) -> Result<&dyn Differentiable, RunError> {
-        let what = "these steps have no derivatives: those of systems known as text have";
+        let what = "no derivatives are known of steps that are not made by a series";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 

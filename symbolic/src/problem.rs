@@ -37,14 +37,20 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// Its lengths: none of a scalar, one of a list, two of a matrix.
+    #[must_use]
+    pub fn lengths(&self) -> Vec<usize> {
+        match self {
+            Self::Scalar => Vec::new(),
+            Self::Array(n) | Self::Vector(n) => vec![*n],
+            Self::Grid(rows, columns) | Self::Matrix(rows, columns) => vec![*rows, *columns],
+        }
+    }
+
     /// The number of scalars it holds.
     #[must_use]
     pub fn len(&self) -> usize {
-        match self {
-            Self::Scalar => 1,
-            Self::Array(n) | Self::Vector(n) => *n,
-            Self::Grid(rows, columns) | Self::Matrix(rows, columns) => rows * columns,
-        }
+        self.lengths().iter().product()
     }
 
     /// Whether it holds no scalars.

@@ -1,0 +1,136 @@
+"""The derivatives of runs, forwards and backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _arrays, _core
+from ._arrays import Floats
+from .errors import InputError
+
+if TYPE_CHECKING:
+    from .results import Run
+
+__all__ = ["Gradient", "Tangent", "forward", "backward", "largest_exponent", "monodromy"]
+
+#: A record may be this far, relatively, from a whole number of steps.
+_SLACK = 1e-9
+
+
+class Tangent(NamedTuple):
+    """The changes of the records of a run, to first order."""
+
+    #: ξ = g⁻¹δg in the basis of the Lie algebra, (N, n): for rotations δg by a small angle about the body's axes.
+    group_element: Floats
+    #: δμ, (N, n).
+    momentum: Floats
+
+
+class Gradient(NamedTuple):
+    """The derivatives of one number in what a run begins with."""
+
+    #: In ξ = g⁻¹δg of the group element, (n,).
+    group_element: Floats
+    #: In the momentum, (n,).
+    momentum: Floats
+    #: In each of the parameters asked for, an array of its shape.
+    parameters: dict[str, Floats]
+
+
+def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tuple[int, ...]]]:
+    """The run as the core asks for it, and the shapes of the parameters in the order in which it has them."""
+    source, start = run._source, run._found.get("start")
+    if start is None:
+        raise InputError("a learned map has no derivatives: those are of systems known as text")
+    if getattr(source, "_functions", None) is not None:
+        raise InputError("a Hamiltonian that is a function has no derivatives: give it as an expression")
+    known = {name: tuple(shape) for name, shape in _core.parameters(source.name, source.text)}
+    wanted = [_arrays.text(name, "parameters") for name in names]
+    for name in wanted:
+        if name not in known:
+            listed = ", ".join(known) or "none"
+            raise InputError(f"parameters: the system has no parameter {name!r}; there are: {listed}")
+    shapes = {name: shape for name, shape in known.items() if name in wanted}
+    asked = {
+        **start,
+        "name": source.name,
+        "text": source.text,
+        "step": run.step,
+        "steps": run.steps,
+        "truncation": run.truncation,
+        "comoving": "comoving" in run.label,
+        "parameters": list(shapes),
+    }
+    return asked, shapes
+
+
+def _steps(run: Run) -> list[int]:
+    """The number of steps made up to each record."""
+    steps = np.rint(run.time / run.step)
+    if (np.abs(run.time - steps * run.step) > _SLACK * (np.abs(run.time) + abs(run.step))).any():
+        raise InputError("derivatives are of whole steps: record every n-th step, or times that are multiples of the step")
+    return [int(step) for step in steps]
+
+
+def forward(run: Run, momentum: Any, group_element: Any, parameters: Mapping[str, Any] | None) -> Tangent:
+    """:meth:`Run.jvp`."""
+    given = {} if parameters is None else dict(parameters)
+    asked, shapes = _asked(run, given)
+    n = run.momentum.shape[1]
+
+    def vector(value: Any, what: str) -> Floats:
+        return np.zeros(n) if value is None else _arrays.vector(value, what, n)
+
+    changes = [np.zeros(0)]
+    for name, shape in shapes.items():
+        change = _arrays.floats(given[name], f"parameters[{name!r}]")
+        if change.shape != shape:
+            raise InputError(f"parameters[{name!r}] has the shape {change.shape}; the parameter has {shape}")
+        changes.append(change.ravel())
+    state = np.concatenate([vector(group_element, "group_element"), vector(momentum, "momentum")])
+    change = np.concatenate(changes)
+    found = _core.forward(asked, state[:, np.newaxis], change[:, np.newaxis], _steps(run))
+    both = found.reshape(len(run), 2, n)
+    return Tangent(both[:, 0], both[:, 1])
+
+
+def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[str]) -> Gradient:
+    """:meth:`Run.vjp`."""
+    asked, shapes = _asked(run, [parameters] if isinstance(parameters, str) else parameters)
+    count, n = run.momentum.shape
+
+    def rows(value: Any, what: str) -> Floats:
+        if value is None:
+            return np.zeros((count, n))
+        array = _arrays.floats(value, what)
+        if array.shape != (count, n):
+            raise InputError(f"{what} has the shape {array.shape}: give a row for each record, {(count, n)}")
+        return array
+
+    both = np.hstack([rows(group_element, "group_element"), rows(momentum, "momentum")])
+    found = _core.backward(asked, both, _steps(run))
+    named: dict[str, Floats] = {}
+    place = 2 * n
+    for name, shape in shapes.items():
+        size = int(np.prod(shape))
+        named[name] = found[place : place + size].reshape(shape)
+        place += size
+    return Gradient(found[:n], found[n : 2 * n], named)
+
+
+def monodromy(run: Run) -> Floats:
+    """:meth:`Run.monodromy`."""
+    asked, _ = _asked(run, ())
+    size = 2 * len(run.final_momentum)
+    steps = _steps(run)[-1:]
+    found = _core.forward(asked, np.eye(size), np.zeros((0, size)), steps)
+    return found.reshape(size, size).T
+
+
+def largest_exponent(run: Run, transient: Any) -> float:
+    """:meth:`Run.largest_exponent`."""
+    asked, _ = _asked(run, ())
+    return _core.largest_exponent(asked, _arrays.count(transient, "transient"))

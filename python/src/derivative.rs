@@ -1,0 +1,133 @@
+//! The derivatives of runs.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use coadjoint_codegen::problem::FrameChoice;
+use coadjoint_codegen::system::Options;
+use coadjoint_run::simulate::{Schedule, Setup};
+use coadjoint_run::{Derivatives, Derived, RunError, read, read_varying};
+use nalgebra::DMatrix;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::asked::backend_of;
+use crate::control::work;
+use crate::error::raised;
+
+/// A run, and the parameters that its derivatives are taken in.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Run {
+    name: String,
+    text: String,
+    truncation: Option<usize>,
+    comoving: bool,
+    parameters: Vec<String>,
+    step: f64,
+    steps: u64,
+    momentum: Option<Vec<f64>>,
+    group_element: Option<Vec<Vec<f64>>>,
+    backend: String,
+}
+
+/// A text and what it was derived for: the truncation, the frame, the parameters.
+type Purpose = (String, Option<usize>, bool, Vec<String>);
+
+/// The system derived last: the derivatives of a run are often asked for one after the other.
+static LAST: Mutex<Option<(Purpose, Arc<Derived>)>> = Mutex::new(None);
+
+/// The system of a run as it was derived for it, with the parameters kept.
+fn derived(name: &str, purpose: Purpose) -> Result<Arc<Derived>, RunError> {
+    // A thread that panicked has left a whole system, if any.
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = last.as_ref().filter(|(known, _)| *known == purpose) {
+        return Ok(known.clone());
+    }
+    let (text, truncation, comoving, parameters) = &purpose;
+    let frame = if *comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
+    let options = Options { truncation: *truncation, frame: Some(frame), ..Options::default() };
+    let system = read_varying(name, text, options, &[])?;
+    if !parameters.is_empty() && system.potential.is_some() {
+        let what = "runs with a potential have no derivatives in parameters so far";
+        return Err(RunError::Option(what.to_owned()));
+    }
+    let system = read_varying(name, text, options, parameters)?;
+    let made = Arc::new(Derived::of_file(Path::new(name), system)?);
+    *last = Some((purpose, made.clone()));
+    Ok(made)
+}
+
+/// Does something with the derivatives of a run.
+fn with<T: Send + 'static>(
+    py: Python<'_>,
+    run: Run,
+    job: impl FnOnce(&Derivatives<'_>) -> Result<T, RunError> + Send + 'static,
+) -> PyResult<T> {
+    let backend = backend_of(py, &run.backend)?;
+    let result = work(py, None, move |_| {
+        let Run { name, text, truncation, comoving, parameters, step, steps, .. } = run;
+        let given = read(&name, &text)?.run;
+        let (momentum, group_element) =
+            (run.momentum.or(given.momentum), run.group_element.or(given.group_element));
+        let derived = derived(&name, (text, truncation, comoving, parameters))?;
+        let schedule = Schedule { asked: step, step, steps, end: step * steps as f64 };
+        let setup = Setup::new(schedule, momentum.unwrap_or_default());
+        let setup = Setup { backend, group_element, ..setup };
+        job(&Derivatives::new(&derived, &setup)?)
+    })?;
+    result.map_err(|error: RunError| raised(py, &error))
+}
+
+/// The parameters of a system known as text, each with its lengths: none of a number, two of a matrix.
+#[pyfunction]
+pub fn parameters(py: Python<'_>, name: &str, text: &str) -> PyResult<Vec<(String, Vec<usize>)>> {
+    let system = read(name, text).map_err(|error| raised(py, &error))?;
+    let parameters = system.parameters.into_iter();
+    Ok(parameters.map(|parameter| (parameter.name, parameter.shape.lengths())).collect())
+}
+
+fn matrix(array: &PyReadonlyArray2<'_, f64>) -> DMatrix<f64> {
+    let array = array.as_array();
+    DMatrix::from_fn(array.nrows(), array.ncols(), |i, j| array[(i, j)])
+}
+
+/// The tangents after these numbers of steps, of k columns of (ξ, ν) at the start and of changes of the parameters: column
+/// after column, step after step.
+#[pyfunction]
+pub fn forward<'py>(
+    py: Python<'py>,
+    run: Run,
+    tangents: PyReadonlyArray2<'py, f64>,
+    parameters: PyReadonlyArray2<'py, f64>,
+    at: Vec<u64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (tangents, parameters) = (matrix(&tangents), matrix(&parameters));
+    let job = move |run: &Derivatives<'_>| run.forward(&tangents, &parameters, &at);
+    let found = with(py, run, job)?;
+    Ok(found.iter().flatten().copied().collect::<Vec<f64>>().into_pyarray(py))
+}
+
+/// The derivatives in (ξ, ν) at the start, and after them in the parameters, of a sum given by a cotangent, a row (λ, κ),
+/// for each of these numbers of steps.
+#[pyfunction]
+pub fn backward<'py>(
+    py: Python<'py>,
+    run: Run,
+    cotangents: PyReadonlyArray2<'py, f64>,
+    at: Vec<u64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let array = cotangents.as_array();
+    let rows = array.rows().into_iter();
+    let rows = rows.map(|row| DMatrix::from_iterator(row.len(), 1, row.iter().copied()));
+    let cotangents: Vec<(u64, DMatrix<f64>)> = at.into_iter().zip(rows).collect();
+    let found = with(py, run, move |run| run.backward(&cotangents))?;
+    let numbers: Vec<f64> = found.state.iter().chain(found.parameters.iter()).copied().collect();
+    Ok(numbers.into_pyarray(py))
+}
+
+/// The largest Lyapunov exponent, without the first steps.
+#[pyfunction]
+pub fn largest_exponent(py: Python<'_>, run: Run, transient: u64) -> PyResult<f64> {
+    with(py, run, move |run| run.largest_exponent(transient))
+}
