@@ -46,9 +46,10 @@ pub(crate) fn items(
 /// Arguments with which the expansion may succeed: all, or those that say most, or with the group that
 /// was probably meant.
 fn attempts(arguments: TokenStream) -> impl Iterator<Item = TokenStream> {
-    let group_and_chart = only(&arguments, &["group", "chart"]);
-    let group = only(&arguments, &["group"]);
-    let name: String = group.clone().into_iter().skip(2).map(|token| token.to_string()).collect();
+    let group_and_chart = only(&arguments, &["group", "chart", "time"]);
+    let group = only(&arguments, &["group", "time"]);
+    let name = only(&arguments, &["group"]);
+    let name: String = name.into_iter().skip(2).map(|token| token.to_string()).collect();
     let name = name.trim_matches(['"', ',']).to_owned();
     let meant =
         nearest(&name, catalogue::names().iter().copied()).map(|name| quote!(group = #name));

@@ -249,7 +249,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut state = Numbers { g: identity.clone(), mu: mu.clone() };
-        let made = motion.advance(&mut state, 1).is_ok();
+        let made = motion.advance(&mut state, 0, 1).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);

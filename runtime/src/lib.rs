@@ -119,7 +119,8 @@ mod table;
 /// A polynomial in the momentum has a series. With functions (`sqrt`, `exp`, `ln`, `sin`, `cos`, `tan`, `atan`,
 /// `tanh`, real powers) or quotients of the momentum it has none, and steps are made by [`collocation`], in `f64`
 /// and in the chart that this has for the group: the struct's `advance` then takes `&mut self`, since a step begins
-/// with a guess from those before it.
+/// with a guess from those before it. With `time = t` the argument `t: f64` is the time; `advance`, `advance_by` and
+/// `energy` then take that of the state.
 ///
 /// ```
 /// use coadjoint::{Phase, SO3, lie_poisson};

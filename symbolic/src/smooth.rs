@@ -1,4 +1,4 @@
-//! A Lie–Poisson system whose Hamiltonian is no polynomial: programs, for steps that need its gradient alone.
+//! A Lie–Poisson system whose Hamiltonian is no polynomial, or moves in time: programs, for steps that need its gradient alone.
 
 use coadjoint_program::Program;
 
@@ -16,6 +16,8 @@ pub struct Smooth {
     pub algebra: LieAlgebra,
     /// The names of the momentum's coordinates, dual to the basis of 𝔤.
     pub coordinates: Vec<String>,
+    /// Whether H depends on the time.
+    pub moves: bool,
     /// H.
     pub value: Program,
     /// ∂H/∂μ, n outputs.
@@ -77,7 +79,7 @@ impl Smooth {
 pub enum Hamiltonian {
     /// A polynomial, whose generating function is a series.
     Polynomial(Box<Problem>),
-    /// A smooth function, whose steps are made by collocation.
+    /// A smooth function, of the time too, whose steps are made by collocation.
     Smooth(Box<Smooth>),
 }
 

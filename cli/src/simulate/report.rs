@@ -208,8 +208,6 @@ fn text(run: &Trajectory, units: &Units) -> String {
     let names = ["spatial momentum", &casimirs, "energy"];
     for (i, (name, drift)) in names.iter().zip(drifts).enumerate() {
         let _ = match (end.unknown[i], drift) {
-            // Learned maps have no energy, of which nothing is said.
-            (Some(_), _) if i == 2 => Ok(()),
             (Some(why), _) => writeln!(out, "    {name:<16} {why}"),
             (None, None) => writeln!(out, "    {name:<16} not measurable"),
             (None, Some(drift)) => {

@@ -28,7 +28,7 @@ pub(crate) enum Mistake {
     NumberSize(String),
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
-    #[error("unknown variable `{0}`: a system file cannot depend on time")]
+    #[error("unknown variable `{0}`: only Hamiltonians and events depend on time, which is called t")]
     Time(String),
     #[error("`{0}` is not known")]
     Inverse(String),
@@ -63,6 +63,8 @@ pub(crate) enum Mistake {
     UnknownPower,
     #[error("the momentum stands in an exponent: the Hamiltonian must be a polynomial in it")]
     MomentumInExponent,
+    #[error("the Hamiltonian depends on the time t")]
+    MovesInTime,
     #[error("the power {0} is too large; at most {1} is allowed")]
     LargePower(String, u32),
     #[error("division by zero")]
@@ -181,6 +183,7 @@ impl Mistake {
                 | Self::FractionalPower(_)
                 | Self::UnknownPower
                 | Self::MomentumInExponent
+                | Self::MovesInTime
         )
     }
 
@@ -228,8 +231,8 @@ impl Mistake {
                 return Some(format!("known here: {}", list(known)));
             }
             Self::Time(_) => {
-                "drive the system from Rust or Python: kicks between steps or parameters changed from step to step, \
-                 see docs/book/src/forces.md; a constant torque is a potential that is linear on R1"
+                "write `t` in the Hamiltonian or in an event; a potential can move as in docs/book/src/forces.md, and a \
+                 constant torque is a potential that is linear on R1"
             }
             Self::Inverse(_) => {
                 "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \

@@ -45,6 +45,12 @@ pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
     let values = smooth.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = smooth.symbols.iter().map(|s| &s.text);
     let allow = allow();
+    // Where H depends on the time, methods take that of the state.
+    let argument = smooth.moves.then(|| quote!(time: f64,));
+    let now = if smooth.moves { quote!(time) } else { quote!(0.0) };
+    let of = if smooth.moves { "(t, μ)" } else { "(μ)" };
+    let reduced =
+        format!(" The reduced Hamiltonian H_red{of}, with the parameters given at construction.");
     let constructor = over_f64(quote! {
         /// Steps of size `step` (negative: backwards in time) with these parameters.
         ///
@@ -108,8 +114,9 @@ pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
                 pub fn advance(
                     &mut self,
                     phase: &mut #krate::Phase<#group>,
+                    #argument
                 ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::StepError> {
-                    self.collocation.advance(phase, 0.0)
+                    self.collocation.advance(phase, #now)
                 }
 
                 /// Advances (g, μ) by `steps` steps; the report is of the worst of them, and on error `phase` is left
@@ -120,15 +127,16 @@ pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
                 pub fn advance_by(
                     &mut self,
                     phase: &mut #krate::Phase<#group>,
+                    #argument
                     steps: u64,
                 ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::steps::Stopped> {
-                    self.collocation.advance_by(phase, 0.0, steps)
+                    self.collocation.advance_by(phase, #now, steps)
                 }
 
-                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
+                #[doc = #reduced]
                 #[inline]
-                pub fn energy(&self, mu: &#vector) -> f64 {
-                    #krate::collocation::Energy::value(self.collocation.energy(), 0.0, mu)
+                pub fn energy(&self, #argument mu: &#vector) -> f64 {
+                    #krate::collocation::Energy::value(self.collocation.energy(), #now, mu)
                 }
             }
         };

@@ -25,6 +25,8 @@ pub enum Node {
     Coordinate(usize),
     /// A scalar parameter, by its index among all parameters flattened.
     Parameter(usize),
+    /// The time t.
+    Time,
     /// −a.
     Neg(ExprId),
     /// a + b.
@@ -47,9 +49,11 @@ impl Node {
     /// The operands of the node: two, one, or none.
     pub(crate) fn operands(&self) -> [Option<ExprId>; 2] {
         match *self {
-            Self::Number(_) | Self::Coordinate(_) | Self::Parameter(_) | Self::Wrong => {
-                [None, None]
-            }
+            Self::Number(_)
+            | Self::Coordinate(_)
+            | Self::Parameter(_)
+            | Self::Time
+            | Self::Wrong => [None, None],
             Self::Neg(a) | Self::Call(_, a) => [Some(a), None],
             Self::Add(a, b)
             | Self::Sub(a, b)

@@ -15,6 +15,8 @@ pub enum Name {
     Parameter(usize),
     /// A number.
     Number(Rational),
+    /// The time t.
+    Time,
 }
 
 impl Name {
@@ -22,6 +24,7 @@ impl Name {
         match self {
             Self::Coordinate(_) => "a coordinate of the momentum",
             Self::Parameter(_) | Self::Number(_) => "a parameter",
+            Self::Time => "the time",
         }
     }
 }

@@ -200,6 +200,7 @@ impl Parser<'_> {
             Ok(Name::Coordinate(i)) => Node::Coordinate(i),
             Ok(Name::Parameter(i)) => Node::Parameter(i),
             Ok(Name::Number(value)) => Node::Number(value),
+            Ok(Name::Time) => Node::Time,
             Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
@@ -250,7 +251,9 @@ impl Parser<'_> {
             }
             None => Err("its range is none of integers".to_owned()),
         };
-        let taken = self.scope.get(&form.index).is_ok() || Function::lookup(&form.index).is_some();
+        let known = self.scope.get(&form.index);
+        let taken = known.is_ok_and(|meaning| meaning != Name::Time)
+            || Function::lookup(&form.index).is_some();
         let reason = match &bounds {
             _ if !is_word(&form.index) => "its index is no name",
             _ if self.scope.indices.len() >= sum::MOST_NESTED => "more than 64 sums are nested",

@@ -6,7 +6,7 @@ use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::lower;
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
-use crate::expr::{Arena, ExprId};
+use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
@@ -42,6 +42,11 @@ impl Energy {
         sum
     }
 
+    /// Whether it is a function of the time too.
+    fn moves(&self) -> bool {
+        self.arena.iter().any(|(_, node, _)| *node == Node::Time)
+    }
+
     fn scalar_names(&self) -> Vec<String> {
         self.parameters.iter().flat_map(Parameter::scalar_names).collect()
     }
@@ -61,11 +66,12 @@ pub(crate) struct Draft {
     pub choice: Choice,
 }
 
-/// Checks what was read and turns it into a problem, or into programs where the Hamiltonian is smooth but no polynomial;
-/// `None` where something is wrong, which has then been reported.
+/// Checks what was read and turns it into a problem, or into programs where the Hamiltonian is smooth but no polynomial, or
+/// depends on time; `None` where something is wrong, which has then been reported.
 pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option<Hamiltonian> {
     let read = Read::new(&draft.hamiltonian);
-    if read.found.iter().any(|found| found.mistake.is_of_series()) {
+    let of_series = |found: &Diagnostic| found.mistake.is_of_series();
+    if draft.hamiltonian.moves() || read.found.iter().any(of_series) {
         let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
         others.for_each(|found| diagnostics.report(found.span, found.mistake));
         return assemble_smooth(draft, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
@@ -115,6 +121,7 @@ fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
         return None;
     }
     let (root, place) = energy.root?;
+    let moves = energy.moves();
     let mut table = Table::new();
     let names = (&coordinates[..], &energy.scalar_names()[..]);
     let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
@@ -123,6 +130,7 @@ fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
         return None;
     }
     Some(Smooth {
+        moves,
         name,
         algebra: algebra?,
         coordinates,
@@ -202,8 +210,8 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
     }
 }
 
-/// The program of a function of coordinates with these names, without parameters, and its slots; `None` where something is
-/// wrong, which has then been reported. The program has one more input, which it does not read.
+/// The program of a function of coordinates with these names and the time, without parameters, and its slots; `None` where
+/// something is wrong, which has then been reported.
 #[cfg(feature = "system")]
 pub(crate) fn function(
     energy: &Energy,

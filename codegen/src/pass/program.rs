@@ -43,6 +43,7 @@ pub(super) fn lower(
 ) -> Option<Lowered> {
     let needed = needed(arena, root);
     let mut pass = Pass {
+        time: coordinates.len(),
         table,
         diagnostics,
         graph: Graph::new(),
@@ -94,6 +95,8 @@ fn needed(arena: &Arena, root: ExprId) -> Vec<bool> {
 }
 
 struct Pass<'a> {
+    /// The number of the input that is the time.
+    time: usize,
     table: &'a mut Table,
     diagnostics: &'a Diagnostics,
     graph: Graph,
@@ -144,6 +147,7 @@ impl Pass<'_> {
                 let value = self.table.parameter(i);
                 return self.constant(span, value);
             }
+            Node::Time => Number(self.graph.input(self.time)),
             Node::Neg(a) => match self.take(a)? {
                 Constant(mut a) => {
                     a.negate();
@@ -319,6 +323,7 @@ fn texts(arena: &Arena, coordinates: &[String], scalars: &[String]) -> Vec<(Stri
             Node::Number(ref value) => (value.to_string(), 2),
             Node::Coordinate(i) => (name(coordinates, i), 4),
             Node::Parameter(i) => (name(scalars, i), 4),
+            Node::Time => ("t".to_owned(), 4),
             Node::Neg(a) => (format!("-{}", operand(a, 2)), 1),
             Node::Add(a, b) => binary(a, " + ", b, [1, 1, 1]),
             Node::Sub(a, b) => binary(a, " - ", b, [1, 2, 1]),

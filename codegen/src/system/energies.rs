@@ -26,6 +26,8 @@ pub(super) fn hamiltonian(
         let dim = algebra.map_or(0, LieAlgebra::dim);
         (0..dim).for_each(|i| names.alias(format!("mu[{i}]"), Name::Coordinate(i)));
     }
+    // Parameters and coordinates of this name come first.
+    names.alias("t".to_owned(), Name::Time);
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);
     }

@@ -41,7 +41,6 @@ pub(super) fn read(
     let entries = (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size));
     let mut inputs = coordinates.to_vec();
     inputs.extend(entries);
-    inputs.push("t".to_owned());
     let mut names = Names::default();
     for (place, name) in inputs.iter().enumerate() {
         names.known(name, Name::Coordinate(place));
@@ -50,6 +49,7 @@ pub(super) fn read(
         names.alias(format!("mu[{i}]"), Name::Coordinate(i));
     }
     names.include(root.constants);
+    names.alias("t".to_owned(), Name::Time);
     let tables = list.into_iter().filter_map(|value| root.entry("event", value, EVENT));
     tables.filter_map(|table| event(&table, &names, &inputs)).collect()
 }

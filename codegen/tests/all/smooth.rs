@@ -3,6 +3,7 @@
 
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
+use coadjoint_codegen::system::{Options, read_either};
 
 fn read(arguments: &str, function: &str) -> Result<Hamiltonian, String> {
     let arguments = arguments.parse().unwrap();
@@ -92,6 +93,53 @@ same_as_rust! {
         let first = (a * x).sin() * y.cos() + (x * y).tan() + z.atan() - (x + z).tanh();
         let second = (1.0 + y * y).ln() * z.exp() + x.powf(1.0 / 3.0) - z.powf(-1.5);
         first + second + x.powf(n) * y.powi(-2) + a.powf(z) / (x + y) + y.powf(x)
+    }
+}
+
+#[test]
+fn the_time_is_the_argument_said_to_be_it() {
+    let body = "fn h(mu: [f64; 3], a: f64, s: f64) -> f64 { (a * s).sin() * mu[0] + mu[2] }";
+    let smooth = smooth("SO3, time = s", body);
+    assert!(smooth.moves && smooth.parameters.len() == 1);
+    let value = smooth.energy(&[2.0], 0.7, &[0.4, 0.0, 1.0]);
+    assert!((value - (1.0 + 1.4_f64.sin() * 0.4)).abs() < 1e-15, "{value}");
+    // Otherwise `t` is a parameter like any other.
+    let body = "fn h(mu: [f64; 3], t: f64) -> f64 { t * mu[0].powi(2) }";
+    assert!(matches!(read("group = SO3", body), Ok(Hamiltonian::Polynomial(_))));
+    for (time, expected) in [("u", "no argument `u`"), ("mu", "no argument `mu`")] {
+        let error = read(&format!("group = SO3, time = {time}"), body).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+    let body = "fn h(mu: [f64; 3], t: [f64; 2]) -> f64 { t[0] * mu[0] }";
+    let error = read("group = SO3, time = t", body).unwrap_err();
+    assert!(error.contains("the time is a number"), "{error}");
+}
+
+/// Parameters, coordinates and indices of sums come before the time.
+#[test]
+fn t_is_the_time_where_a_file_does_not_say_otherwise() {
+    let read = |coordinates: &str, hamiltonian: &str, parameters: &str| {
+        let text = format!(
+            "group = \"SO3\"\ncoordinates = [{coordinates}]\nhamiltonian = \"{hamiltonian}\"\n[parameters]\n{parameters}"
+        );
+        read_either(&text, Options::default(), &[]).unwrap().problem
+    };
+    let xyz = "\"x\", \"y\", \"z\"";
+    match read(xyz, "cos(w*t)*x^2 + y^2", "w = 2") {
+        Hamiltonian::Smooth(smooth) => {
+            assert!(smooth.moves);
+            let value = smooth.energy(&[], 0.3, &[1.0, 2.0, 0.0]);
+            assert!((value - 4.0 - 0.6_f64.cos()).abs() < 1e-15, "{value}");
+        }
+        Hamiltonian::Polynomial(_) => panic!("a polynomial"),
+    }
+    for (coordinates, hamiltonian, parameters) in [
+        (xyz, "t*x^2 + y", "t = 2"),
+        ("\"t\", \"u\", \"v\"", "t^2 + u*v", ""),
+        (xyz, "sum(t, 0..3, mu[t]^2)", ""),
+    ] {
+        let found = read(coordinates, hamiltonian, parameters);
+        assert!(matches!(found, Hamiltonian::Polynomial(_)), "{hamiltonian}");
     }
 }
 

@@ -147,7 +147,7 @@ fn mistakes() {
         "hamiltonian = \"a\"\n[algebra]\nbrackets = [\"[a, b] = a\"]\ngenerator = [\"a\", \"b\"]",
         "group = \"SO3\"\nhamiltonian = \"a\"\n[algebra]\nbrackets = []",
         "group = \"SO3\"\ncoordinates = [\"px\", \"py\", \"pz\"]\nhamiltonian = \"px\"\n[units]\ntimes = \"s\"\npy = 3\npz = \" \"\nmomentum = \"the unit in which this momentum was measured\"",
-        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"log(x) + t*y + t*z\"",
+        "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"log(x) + time*y + time*z\"",
         "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2\"\npotential = \"-m*gee*g[2][2]\"\n[parameters]\nm = 1",
         "group = \"SO3^6\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"sum(b, 0..9, Jx*x[P[b]]*x[Q[b]] + y[P[b]]*y[Q[b]] + z[P[b]])\"",
         "hamiltonian = \"x\"\n[algebra]\ngenerators = [\"x\", \"y\"]\nbrackets = [\"[x, y] = x*y\"]",

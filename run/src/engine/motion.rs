@@ -29,17 +29,23 @@ pub trait Motion: Send + Sync {
     /// The group that the states belong to.
     fn space(&self) -> &dyn Space;
 
-    /// Makes `count` steps. The state that comes of them does not depend on how many are made at a time.
+    /// Makes `count` steps of a state that `first` steps from time 0 have reached. The state that comes of them does not
+    /// depend on how many are made at a time.
     ///
     /// # Errors
     /// How many were made, and why the next one was not; the state is then that before it.
-    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)>;
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)>;
 
-    /// The state after one step of another size.
+    /// The state after one step of another size from this time.
     ///
     /// # Errors
     /// Where there is none.
-    fn beside(&self, state: &Numbers, size: f64) -> Result<Numbers, StepError>;
+    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError>;
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
@@ -217,7 +223,12 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         &self.elements
     }
 
-    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)> {
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        _: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
         let Some(compiled) = &self.elements.compiled else {
             return one_by_one(count, || self.rescue(state));
         };
@@ -226,7 +237,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
     }
 
-    fn beside(&self, state: &Numbers, size: f64) -> Result<Numbers, StepError> {
+    fn beside(&self, state: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
         let mut phase = self.elements.phase(state);
         self.map(size)?(&mut phase)?;
         Ok(self.elements.state(&phase))

@@ -404,7 +404,7 @@ impl<'a> Engine<'a> {
             let of = |size| self.group.anew(equations.clone(), size, self.compiled.as_ref());
             let motion = of(self.step).map_err(|error| error.to_string())?;
             let mut end = start.clone();
-            let made = motion.advance(&mut end, steps);
+            let made = motion.advance(&mut end, 0, steps);
             made.map_err(|(_, error)| error.to_string())?;
             let other = |size| of(self.step * size);
             let found = estimate(motion.as_ref(), other, [&start, &end], steps, self.order);

@@ -45,7 +45,7 @@ impl March<'_> {
 
     /// Makes steps `first` to `end` of a trajectory by itself.
     pub(super) fn alone(&self, way: &mut Way, first: u64, end: u64) {
-        let made = self.motion.advance(&mut way.state, end - first);
+        let made = self.motion.advance(&mut way.state, first, end - first);
         way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
         way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
     }
@@ -102,7 +102,7 @@ impl March<'_> {
             return;
         }
         let mut state = way.state.clone();
-        let made = shorter.map_or(Ok(None), |shorter| shorter.advance(&mut state, 1));
+        let made = shorter.map_or(Ok(None), |shorter| shorter.advance(&mut state, 0, 1));
         match made {
             Ok(_) => way.kept.push(state),
             Err((_, error)) => way.stopped = Some((step + 1, error.to_string())),

@@ -83,8 +83,9 @@ impl Beside<'_> {
     /// The error at the end of a run that is followed as a whole.
     fn whole(&self, start: &Numbers, end: &Numbers, steps: u64) -> Result<f64, (u64, StepError)> {
         let mut beside = start.clone();
-        self.motion.advance(&mut beside, steps % self.own)?;
-        self.follow(&mut beside, steps / self.own * self.others)?;
+        let left = steps % self.own;
+        self.follow(&mut beside, 0, steps / self.own * self.others)?;
+        self.motion.advance(&mut beside, steps - left, left)?;
         Ok(self.error(end, &beside, steps))
     }
 
@@ -94,9 +95,10 @@ impl Beside<'_> {
         let (mut here, mut beside) = (start.clone(), start.clone());
         let (mut half, mut whole) = (0.0, 0.0);
         for number in 1..=PARTS {
-            self.motion.advance(&mut here, part * self.own)?;
-            self.follow(&mut beside, part * self.others)?;
-            whole = self.error(&here, &beside, number * part * self.own).max(whole);
+            let (own, others) = (part * self.own, part * self.others);
+            self.motion.advance(&mut here, (number - 1) * own, own)?;
+            self.follow(&mut beside, (number - 1) * others, others)?;
+            whole = self.error(&here, &beside, number * own).max(whole);
             if 2 * number == PARTS {
                 half = whole;
             }
@@ -108,13 +110,13 @@ impl Beside<'_> {
     }
 
     /// Makes steps of the other size; long ones that programs refuse are not made by other means, which would take long.
-    fn follow(&self, state: &mut Numbers, count: u64) -> Result<(), (u64, StepError)> {
+    fn follow(&self, state: &mut Numbers, first: u64, count: u64) -> Result<(), (u64, StepError)> {
         match self.other.lanes() {
             Some(programs) if self.own > self.others => {
                 let refused = |_: &mut Numbers| Err(StepError::InvalidStep { step: f64::NAN });
                 programs.advance(state, count, refused).map(drop)
             }
-            _ => self.other.advance(state, count).map(drop),
+            _ => self.other.advance(state, first, count).map(drop),
         }
     }
 

@@ -55,8 +55,7 @@ impl Event {
         let system::Event { name, function, slots, direction, stop } = event;
         let direction = Direction::of_slope(direction);
         let value = move |time: f64, matrix: &[f64], mu: &[f64]| {
-            // The last input is not read.
-            let inputs = [mu, matrix, &[time, 0.0]].concat();
+            let inputs = [mu, matrix, &[time]].concat();
             function.run(&inputs, &slots).first().copied().ok_or_else(|| "no value".to_owned())
         };
         Self { name, function: Arc::new(value), direction, terminal: stop }
@@ -140,7 +139,7 @@ impl Lookout<'_> {
     /// # Errors
     /// Why there is none.
     pub fn state(&self, start: &Numbers, share: f64) -> Result<Numbers, StepError> {
-        self.motion.beside(start, share * self.step)
+        self.motion.beside(start, self.time, share * self.step)
     }
 
     /// A change of sign between two moments, by false position with the weights of Illinois (M. Dowell and P. Jarratt, BIT

@@ -71,7 +71,12 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
         &self.elements
     }
 
-    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)> {
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        _: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
         one_by_one(count, || {
             let mut phase = self.elements.phase(state);
             let report = advance(&self.map, &mut phase)?;
@@ -81,7 +86,7 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
     }
 
     /// A learned map has one step.
-    fn beside(&self, _: &Numbers, size: f64) -> Result<Numbers, StepError> {
+    fn beside(&self, _: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
         Err(StepError::InvalidStep { step: size })
     }
 

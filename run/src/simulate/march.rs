@@ -165,7 +165,7 @@ impl March<'_> {
         let ratio = if self.watched() { self.motion.ratio(&self.state.mu) } else { 0.0 };
         // Where records come more often than the driver must, none of its time goes into clocks.
         let begun = (count == pace.0).then(Instant::now);
-        let made = self.motion.advance(&mut self.state, count);
+        let made = self.motion.advance(&mut self.state, first, count);
         let made = made.map_err(|(done, source)| RunError::Run {
             time: schedule.time(first + done),
             step: first + done + 1,
@@ -254,7 +254,7 @@ impl March<'_> {
         let (direction, every) = (self.setup.schedule.step, self.setup.every);
         self.ended = Some(time);
         while let Some(earlier) = self.next_time().filter(|at| (time - at) * direction > 0.0) {
-            let between = self.motion.beside(before, earlier - here);
+            let between = self.motion.beside(before, here, earlier - here);
             let between = between.map_err(|error| self.stuck(error.to_string()))?;
             let moment = self.recorder.measure(space, &between);
             let moment = moment.map_err(|what| self.stuck(what))?;
@@ -316,7 +316,7 @@ impl March<'_> {
                     self.write(time, None)?;
                 }
                 let failed = |time, what| RunError::Run { time, step: n, what };
-                let state = self.motion.beside(&self.state, part);
+                let state = self.motion.beside(&self.state, here, part);
                 let state = state
                     .map_err(|source| failed(here, format!("the record at {time}: {source}")))?;
                 let moment = self.recorder.measure(self.motion.space(), &state);

@@ -73,14 +73,14 @@ pub struct Watched<'a> {
 impl Watched<'_> {
     /// The reasons for drifts that there are not.
     fn unknown(&self) -> [Option<&'static str>; 3] {
-        let Invariants { directions, casimirs, hamiltonian, potential } = self.invariants;
+        let Invariants { directions, casimirs, hamiltonian, no_energy, potential } = self.invariants;
         let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
             Some([]) => Some("not conserved: the potential breaks the symmetry"),
             _ => None,
         };
         let none = if potential.is_some() { "none that the kicks keep" } else { "none known" };
-        let energy = "not known: a learned map has no Hamiltonian";
+        let energy = no_energy.unwrap_or("not known: a learned map has no Hamiltonian");
         [spatial, casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy)]
     }
 }

@@ -75,7 +75,7 @@ impl<S: AsRef<Derived>> Single<S> {
     ) -> Result<(), (u64, StepError)> {
         let motion = self.motion();
         let mut state = Numbers { g: motion.space().numbers(matrix), mu: mu.to_vec() };
-        let made = motion.advance(&mut state, steps);
+        let made = motion.advance(&mut state, 0, steps);
         matrix.copy_from_slice(&motion.space().matrix(&state.g));
         mu.copy_from_slice(&state.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, error))

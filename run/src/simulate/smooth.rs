@@ -127,14 +127,15 @@ impl<'a, const M: usize> Collocated<'a, M> {
         Ok(Self { elements, step })
     }
 
-    /// One step of another size, which knows no steps before it.
+    /// One step of another size from this time, which knows no steps before it.
     fn alone(
         step: &Collocation<Group, Interpreted<'a>, M>,
         phase: &mut Phase<Group>,
+        time: f64,
         size: f64,
     ) -> Result<(), StepError> {
         let mut step = Collocation::<_, _, M>::new(step.group().clone(), *step.energy(), size)?;
-        step.advance(phase, 0.0).map(|_| ())
+        step.advance(phase, time).map(|_| ())
     }
 }
 
@@ -143,14 +144,22 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         &self.elements
     }
 
-    fn advance(&self, state: &mut Numbers, count: u64) -> Result<Solves, (u64, StepError)> {
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
         // A thread that panicked has left whole steps, if any.
         let mut step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut number = first;
         one_by_one(count, || {
             let mut phase = self.elements.phase(state);
-            let report = step.advance(&mut phase, 0.0).map_err(|error| {
+            let time = number as f64 * step.step();
+            number += 1;
+            let report = step.advance(&mut phase, time).map_err(|error| {
                 let works =
-                    |size| Self::alone(&step, &mut self.elements.phase(state), size).is_ok();
+                    |size| Self::alone(&step, &mut self.elements.phase(state), time, size).is_ok();
                 advise(error, step.step(), works)
             })?;
             *state = self.elements.state(&phase);
@@ -158,10 +167,10 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         })
     }
 
-    fn beside(&self, state: &Numbers, size: f64) -> Result<Numbers, StepError> {
+    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
         let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
         let mut phase = self.elements.phase(state);
-        Self::alone(&step, &mut phase, size)?;
+        Self::alone(&step, &mut phase, time, size)?;
         Ok(self.elements.state(&phase))
     }
 

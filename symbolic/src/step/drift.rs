@@ -56,7 +56,7 @@ pub enum Energy {
 }
 
 impl Energy {
-    /// The value at μ; at time 0 where it moves in time.
+    /// The value at μ.
     #[must_use]
     pub fn value(&self, mu: &[f64]) -> f64 {
         match self {
@@ -91,8 +91,10 @@ pub struct Invariants {
     pub directions: Option<Vec<Vec<f64>>>,
     /// The Casimirs of low degree that are conserved.
     pub casimirs: Vec<Numeric>,
-    /// H_red(μ), where an energy is known.
+    /// H_red(μ), where an energy is known and conserved.
     pub hamiltonian: Option<Energy>,
+    /// Why an energy that is known is not conserved.
+    pub no_energy: Option<&'static str>,
     /// V(g), as a function of the entries of the matrix of g.
     pub potential: Option<Numeric>,
 }
@@ -109,8 +111,13 @@ impl Invariants {
     /// Of the motion in this smooth system, whose symbols have these values.
     #[must_use]
     pub fn of_smooth(smooth: &Smooth, symbols: Vec<f64>) -> Self {
+        let of_algebra = Self::of(&smooth.algebra);
+        if smooth.moves {
+            let why = "not conserved: the Hamiltonian depends on time";
+            return Self { no_energy: Some(why), ..of_algebra };
+        }
         let energy = Energy::Smooth(Box::new(smooth.clone()), symbols);
-        Self { hamiltonian: Some(energy), ..Self::of(&smooth.algebra) }
+        Self { hamiltonian: Some(energy), ..of_algebra }
     }
 
     /// Of the motion in this problem, with the kicks of a potential if there is one.
@@ -133,6 +140,7 @@ impl Invariants {
             directions: Some(potential.symmetries().into_iter().map(direction).collect()),
             casimirs: kept.map(|casimir| Numeric::new(&casimir, dim, &[])).collect(),
             hamiltonian: Some(hamiltonian),
+            no_energy: None,
             potential: Some(Numeric::new(
                 &potential.energy,
                 potential.size().pow(2),

@@ -27,6 +27,28 @@ fn well(mu: [f64; 3], height: f64) -> f64 {
     (height - mu[0]).ln() + mu[1] * mu[1] + 0.1 * mu[2].tanh()
 }
 
+/// A twist about the third axis whose rate grows; the time is not the last argument.
+#[lie_poisson(group = SO3, truncation = 9, time = s)]
+fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
+    0.5 * mu[2] * mu[2] * (rate * s).exp()
+}
+
+/// ∂H/∂μ stays on the third axis, and turns μ backwards by its integral.
+#[test]
+fn the_time_is_an_argument_of_steps() {
+    let (rate, start) = (0.3, [0.8, -0.5, 1.2]);
+    let mut steps = Twist::new(0.1, rate).unwrap();
+    let mut phase = Phase::<SO3>::at_identity(start);
+    steps.advance_by(&mut phase, 0.0, 30).unwrap();
+    steps.advance(&mut phase, 3.0).unwrap();
+    let angle = 1.2 * ((rate * 3.1).exp() - 1.0) / rate;
+    let (sin, cos) = angle.sin_cos();
+    let expected = Vector3::new(0.8 * cos - 0.5 * sin, -0.8 * sin - 0.5 * cos, 1.2);
+    assert!((phase.momentum - expected).norm() < 1e-12, "{}", phase.momentum - expected);
+    let energy = steps.energy(3.1, &phase.momentum);
+    assert!((energy - twist(expected.into(), 3.1, rate)).abs() < 1e-14);
+}
+
 #[test]
 fn steps_are_those_of_closures() {
     let inertia = [1.5, 2.0, 2.5];

@@ -7,16 +7,16 @@ use crate::lie::{LieAlgebra, catalogue};
 use crate::pass::Choice;
 
 /// `crate` is taken out by the attributes before.
-const OF_SYSTEM: [&str; 6] = ["group", "truncation", "chart", "solver", "frame", "crate"];
+const OF_SYSTEM: [&str; 7] = ["group", "truncation", "chart", "solver", "frame", "time", "crate"];
 const OF_POTENTIAL: [&str; 2] = ["group", "crate"];
 
-/// Reads `group = SO3, truncation = 7, chart = exp`. The algebra is `None` where it was missing or wrong, which is
-/// reported.
+/// Reads `group = SO3, truncation = 7, chart = exp`: the algebra, `None` where it was missing or wrong, which is reported;
+/// the method; and the name of the argument that is the time, and its place.
 pub(super) fn lie_poisson(
     tokens: TokenStream,
     diagnostics: &Diagnostics,
-) -> (Option<LieAlgebra>, Choice) {
-    let (mut algebra, mut choice) = (None, Choice::default());
+) -> (Option<LieAlgebra>, Choice, Option<(String, Span)>) {
+    let (mut algebra, mut choice, mut time) = (None, Choice::default(), None);
     let owner = "#[lie_poisson(…)]";
     read(tokens, owner, &OF_SYSTEM, diagnostics, |key, value, place| match key {
         "group" => algebra = group(value, place, diagnostics),
@@ -27,10 +27,11 @@ pub(super) fn lie_poisson(
                 diagnostics.report(place, Mistake::TruncationNumber);
             }
         },
+        "time" => time = Some((text(value), place)),
         "crate" => {}
         _ => choice.set_named(key, &text(value), place, diagnostics),
     });
-    (algebra, choice)
+    (algebra, choice, time)
 }
 
 /// Reads `group = SO3`, all that a potential needs.

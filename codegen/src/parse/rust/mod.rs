@@ -52,8 +52,8 @@ fn assembled<T>(
     assemble: fn(Draft, &Diagnostics) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
-    let (algebra, choice) = arguments::lie_poisson(arguments, &diagnostics);
-    let (variable, hamiltonian) = read(function, Variable::Momentum, &diagnostics);
+    let (algebra, choice, time) = arguments::lie_poisson(arguments, &diagnostics);
+    let (variable, hamiltonian) = read(function, Variable::Momentum, time, &diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
     let name = function.sig.ident.to_string();
@@ -69,7 +69,7 @@ fn assembled<T>(
 pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let algebra = arguments::potential(arguments, &diagnostics);
-    let (variable, energy) = read(function, Variable::Element, &diagnostics);
+    let (variable, energy) = read(function, Variable::Element, None, &diagnostics);
     let Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) = variable
     else {
         return Err(diagnostics);
@@ -79,14 +79,16 @@ pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential,
     diagnostics.into_result(potential)
 }
 
-/// The shape of a function's first argument, the names of its entries, and where; and the energy that it computes.
+/// The shape of a function's first argument, the names of its entries, and where; and the energy that it computes. `time` is
+/// the name of the argument that is the time, and where it is said.
 fn read(
     function: &ItemFn,
     variable: Variable,
+    time: Option<(String, Span)>,
     diagnostics: &Diagnostics,
 ) -> (Option<(Shape, Vec<String>, Span)>, Energy) {
     let mut evaluator = Evaluator::new(diagnostics);
-    let (variable, parameters) = signature::read(&function.sig, variable, &mut evaluator);
+    let (variable, parameters) = signature::read(&function.sig, variable, time, &mut evaluator);
     // Without its variable every name of the body would be unknown.
     let root = variable.is_some().then(|| evaluator.body(&function.block)).flatten();
     let source = function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" ");

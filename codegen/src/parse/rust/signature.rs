@@ -46,10 +46,11 @@ impl Variable {
 type Variables = (Shape, Vec<String>, Span);
 
 /// Reads a signature and binds its arguments: the shape of the first one, the names of its entries, and where, `None` if it
-/// is not usable; and the parameters.
+/// is not usable; and the parameters. `time` is the name of the argument that is the time, and where it is said.
 pub(super) fn read(
     signature: &syn::Signature,
     variable: Variable,
+    mut time: Option<(String, Span)>,
     evaluator: &mut Evaluator<'_>,
 ) -> (Option<Variables>, Vec<Parameter>) {
     qualifiers(signature, evaluator);
@@ -87,6 +88,14 @@ pub(super) fn read(
             let taken = "the step size, the first argument of the integrator's `new`".to_owned();
             evaluator.wrong(place, Mistake::NameTaken(name.clone(), taken));
         }
+        if time.take_if(|(time, _)| *time == name).is_some() {
+            let value = match shape {
+                Some(Shape::Scalar) => evaluator.push(Node::Time, place),
+                _ => evaluator.unsupported(span, "the time is a number", "write for example t: f64"),
+            };
+            evaluator.bind(&typed.pat, value);
+            continue;
+        }
         let value = match &shape {
             Some(shape) => shaped(shape, |i| evaluator.push(Node::Parameter(scalars + i), place)),
             None => {
@@ -101,6 +110,10 @@ pub(super) fn read(
             scalars += shape.len();
             parameters.push(Parameter { name, shape, default: None });
         }
+    }
+    if let Some((name, place)) = time {
+        let what = format!("the function has no argument `{name}` after the first to be the time");
+        evaluator.unsupported(place, &what, "write for example time = t, with an argument t: f64");
     }
     if signature.inputs.is_empty() {
         let (what, help) = match variable {
