@@ -77,7 +77,7 @@ impl<'a> Derivatives<'a> {
 
     /// Makes `count` steps after `done`.
     fn advance(&self, state: &mut Numbers, done: u64, count: u64) -> Result<(), RunError> {
-        let made = self.motion.advance(state, count);
+        let made = self.motion.advance(state, done, count);
         made.map(drop).map_err(|(more, error)| self.failed(done + more, &error))
     }
 

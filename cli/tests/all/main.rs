@@ -22,6 +22,7 @@ mod simulate;
 mod simulate_records;
 mod size;
 mod smooth;
+mod smooth_examples;
 mod support;
 mod tolerance;
 mod verify;

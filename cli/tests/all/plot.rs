@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::support::{Folder, json, root, run, text_of};
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::system::{Options, read_either};
 
 /// The picture of a run.
 fn picture(arguments: &str) -> String {
@@ -222,17 +223,20 @@ fn every_example_has_its_picture() {
             continue;
         }
         let example = std::fs::read_to_string(&path).unwrap();
-        let system = read(&example, Options::default()).unwrap();
+        let system = read_either(&example, Options::default(), &[]).unwrap();
         let stem = path.file_stem().unwrap().to_str().unwrap();
         let svg = text_of(&format!("docs/images/{stem}.svg"));
-        let problem = &system.problem;
-        assert_ne!(problem.name, "system", "{stem} has no name");
+        let (name, group) = match &system.problem {
+            Hamiltonian::Polynomial(problem) => (&problem.name, problem.algebra.name()),
+            Hamiltonian::Smooth(smooth) => (&smooth.name, smooth.algebra.name()),
+        };
+        assert_ne!(name, "system", "{stem} has no name");
         let unit = system.units.time.map(|unit| format!(" {unit}")).unwrap_or_default();
         contains(
             &svg,
             &[
-                &format!(">{}</text>", problem.name),
-                &format!(">group {}</text>", problem.algebra.name()),
+                &format!(">{name}</text>"),
+                &format!(">group {group}</text>"),
                 &format!(">h = {}{unit}</text>", system.run.step.unwrap()),
                 &format!(">T = {}{unit}</text>", system.run.time.unwrap()),
             ],

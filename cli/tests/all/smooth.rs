@@ -114,9 +114,8 @@ fn driven(t: f64) -> [f64; 3] {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         axis[j] * start[k] - axis[k] * start[j]
     };
-    let [x, y, z] = [0, 1, 2].map(|i| {
-        cos * start[i] + sin * cross(i) + (1.0 - cos) * along * axis[i]
-    });
+    let [x, y, z] =
+        [0, 1, 2].map(|i| cos * start[i] + sin * cross(i) + (1.0 - cos) * along * axis[i]);
     let (sin, cos) = (w * t).sin_cos();
     [cos * x - sin * y, sin * x + cos * y, z]
 }

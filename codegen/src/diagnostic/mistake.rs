@@ -28,7 +28,9 @@ pub(crate) enum Mistake {
     NumberSize(String),
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
-    #[error("unknown variable `{0}`: only Hamiltonians and events depend on time, which is called t")]
+    #[error(
+        "unknown variable `{0}`: only Hamiltonians and events depend on time, which is called t"
+    )]
     Time(String),
     #[error("`{0}` is not known")]
     Inverse(String),

@@ -11,10 +11,21 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// Lists of bonds, which a page's fields do not hold, a potential, 192 dimensions, and steps of 61 000 operations: not for
-/// a page.
-const LEFT_OUT: [&str; 6] =
-    ["kagome_star", "satellite", "spin_chain_64", "spin_molecule", "spin_triangle", "zeitlin_5"];
+/// Lists of bonds, which a page's fields do not hold, a potential, Hamiltonians that are no polynomials, 192 dimensions,
+/// and steps of 61 000 operations: not for a page.
+const LEFT_OUT: [&str; 11] = [
+    "driven_qubit",
+    "exponential_spin",
+    "kagome_star",
+    "relativistic_body",
+    "satellite",
+    "screened_top",
+    "sphere_vortices",
+    "spin_chain_64",
+    "spin_molecule",
+    "spin_triangle",
+    "zeitlin_5",
+];
 
 #[test]
 fn every_example_is_there_and_says_the_same_through_its_fields() {

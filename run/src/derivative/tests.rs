@@ -113,7 +113,7 @@ fn end(case: &Case, system: &Derived, parameters: Vec<f64>, start: Numbers, step
     let equations = Equations { parameters, ..system.equations() };
     let motion = system.charted().unwrap().steps(equations, case.step, None);
     let mut state = start;
-    motion.advance(&mut state, steps).unwrap();
+    motion.advance(&mut state, 0, steps).unwrap();
     state
 }
 
@@ -134,7 +134,7 @@ fn tangents_are_the_derivatives_of_runs() {
         let mut derivatives = Derivatives::new(&system, &case.setup(4)).unwrap();
         // From an attitude other than the identity.
         let mut moved = derivatives.start.clone();
-        derivatives.motion.advance(&mut moved, 3).unwrap();
+        derivatives.motion.advance(&mut moved, 0, 3).unwrap();
         let matrix = derivatives.motion.space().matrix(&moved.g);
         derivatives.start = moved.clone();
         let size = matrix.len().isqrt();
@@ -251,7 +251,7 @@ fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
 
         let algebra = &system.integrator.problem.algebra;
         let mut state = derivatives.start.clone();
-        derivatives.motion.advance(&mut state, steps).unwrap();
+        derivatives.motion.advance(&mut state, 0, steps).unwrap();
         let tangent = found.columns(0, 2 * n).into_owned();
         let after = tangent.tr_mul(&(symplectic_form(algebra, &state.mu) * &tangent));
         let before = symplectic_form(algebra, &derivatives.start.mu);

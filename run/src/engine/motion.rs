@@ -223,12 +223,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         &self.elements
     }
 
-    fn advance(
-        &self,
-        state: &mut Numbers,
-        _: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
+    fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
         let Some(compiled) = &self.elements.compiled else {
             return one_by_one(count, || self.rescue(state));
         };

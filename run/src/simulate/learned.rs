@@ -71,12 +71,7 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
         &self.elements
     }
 
-    fn advance(
-        &self,
-        state: &mut Numbers,
-        _: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
+    fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
         one_by_one(count, || {
             let mut phase = self.elements.phase(state);
             let report = advance(&self.map, &mut phase)?;

@@ -73,7 +73,8 @@ pub struct Watched<'a> {
 impl Watched<'_> {
     /// The reasons for drifts that there are not.
     fn unknown(&self) -> [Option<&'static str>; 3] {
-        let Invariants { directions, casimirs, hamiltonian, no_energy, potential } = self.invariants;
+        let Invariants { directions, casimirs, hamiltonian, no_energy, potential } =
+            self.invariants;
         let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
             Some([]) => Some("not conserved: the potential breaks the symmetry"),

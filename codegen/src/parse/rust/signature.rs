@@ -91,7 +91,9 @@ pub(super) fn read(
         if time.take_if(|(time, _)| *time == name).is_some() {
             let value = match shape {
                 Some(Shape::Scalar) => evaluator.push(Node::Time, place),
-                _ => evaluator.unsupported(span, "the time is a number", "write for example t: f64"),
+                _ => {
+                    evaluator.unsupported(span, "the time is a number", "write for example t: f64")
+                }
             };
             evaluator.bind(&typed.pat, value);
             continue;
