@@ -1,39 +1,59 @@
 //! The families there are.
 
-use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint::generating::PolynomialFunction;
+use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_codegen::judge::Judge;
+use coadjoint_codegen::lie::{Chart, LieAlgebra};
+use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::poly::Polynomial;
 
 use super::family::Energy::{Body, Squares, Tensor, Top};
-use super::family::{Family, Recipe};
+use super::family::{Family, Made, Maker, Recipe};
+use super::random::Random;
 use super::runtime::{
-    Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Steps,
-    Terms, polynomial,
+    Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Terms,
+    polynomial,
 };
 use super::{collocation, generated, kernels};
 use crate::bridge::matrix_group;
 
-type Made = Box<dyn Steps>;
-type Maker = fn(&LieAlgebra, Terms) -> Made;
-
-fn table(algebra: &LieAlgebra, terms: Terms) -> Made {
+fn table(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
     let group = matrix_group(algebra).expect("a group");
-    Box::new(Runner::new(polynomial(group, Exponential, terms)))
+    Some(Made::series(Runner::new(polynomial(group, Exponential, terms))))
 }
 
-fn table_cayley(algebra: &LieAlgebra, terms: Terms) -> Made {
+fn table_cayley(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
     let group = matrix_group(algebra).expect("a group").into_cayley().expect("a Cayley map");
-    Box::new(Runner::new(polynomial(group, Cayley, terms)))
+    Some(Made::series(Runner::new(polynomial(group, Cayley, terms))))
 }
 
-fn fixed_point(_: &LieAlgebra, terms: Terms) -> Made {
-    Box::new(Runner::new(MatrixFree(polynomial(SO3::<f64>::new(), Exponential, terms))))
+fn fixed_point(_: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
+    let steps = MatrixFree(polynomial(SO3::<f64>::new(), Exponential, terms));
+    Some(Made::series(Runner::new(steps)))
+}
+
+/// An S that is no truncated series: one with every coefficient changed at random by the same share at most.
+fn any_function(algebra: &LieAlgebra, terms: Terms, h: f64, random: &mut Random) -> Option<Made> {
+    let share = 10_f64.powf(random.between(-9.0, -0.5));
+    let change = |(_, c, monomial)| (c * (1.0 + share * random.between(-1.0, 1.0)), monomial);
+    let terms: Vec<_> = terms.into_iter().map(change).collect();
+    // The judge's S is h times a Hamiltonian.
+    let exact = |value: f64| Rational::from_float(value).expect("finite");
+    let all = terms.iter().map(|(c, monomial): &(f64, Vec<(usize, u32)>)| {
+        let factors = monomial.iter().map(|&(i, power)| (i as u32, power));
+        (factors.collect(), exact(*c) / exact(h))
+    });
+    let energy = Polynomial::from_factors(algebra.dim(), all);
+    let series = derive(algebra, Chart::Exponential, &energy, 1, TermLimit::default()).ok()?;
+    let judge = Some(Judge::new(algebra, &series).ok()?);
+    let steps = PolynomialFunction::new(SO3::<f64>::new(), Exponential, terms).ok()?;
+    Some(Made { steps: Box::new(Runner::new(steps)), judge })
 }
 
 /// The steps of a group that the compiler knows.
 macro_rules! known {
     ($group:expr, $chart:expr) => {
-        |_: &LieAlgebra, terms: Terms| -> Made {
-            Box::new(Runner::new(polynomial($group, $chart, terms)))
-        }
+        |_, terms, _, _| Some(Made::series(Runner::new(polynomial($group, $chart, terms))))
     };
 }
 
@@ -47,6 +67,7 @@ fn polynomials() -> Vec<(Recipe, Maker)> {
         (of("so3-promise", "SO3", Body, &[5, 7, 9]).models(8).weight(256).promise(), so3),
         (of("so3-promise-long", "SO3", Body, &[11, 13]).models(4).promise(), so3),
         (of("so3-exp-tensor", "SO3", Tensor, &[5, 7]), so3),
+        (of("so3-any", "SO3", Body, &[7]).weight(8), any_function),
         (of("so3-exp-fixed-point", "SO3", Body, &[3, 7]), fixed_point),
         (of("so3-cayley", "SO3", Body, &[1, 3, 5, 7]).cayley(), known!(SO3::<f64>::new(), Cayley)),
         (

@@ -55,6 +55,9 @@ impl Made {
     }
 }
 
+/// Makes steps from the algebra, the terms of S, and the step size that these have been folded for.
+pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Made>;
+
 /// Systems of one kind.
 pub struct Family {
     /// Its name.
@@ -263,20 +266,17 @@ pub fn algebra(name: &str) -> LieAlgebra {
 }
 
 impl Recipe {
-    /// The family whose steps are made by `steps` from the algebra and the terms of S.
+    /// The family whose steps are made by `steps`.
     ///
     /// # Panics
     /// If a series cannot be derived.
-    pub fn family<F>(&self, seed: u64, steps: F) -> Family
-    where
-        F: Fn(&LieAlgebra, Terms) -> Box<dyn Steps> + Clone + Send + Sync + 'static,
-    {
+    pub fn family(&self, seed: u64, steps: Maker) -> Family {
         let algebra = algebra(self.group);
         let mut random = Random::new(seed);
         let mut models = Vec::new();
         for &truncation in self.truncations {
             for _ in 0..self.models {
-                models.push(self.model(&algebra, truncation, &mut random, steps.clone()));
+                models.push(self.model(&algebra, truncation, &mut random, steps));
             }
         }
         let (decades, weight, promise) = (self.decades, self.weight, self.promise);
@@ -284,16 +284,13 @@ impl Recipe {
         Family { name, models, decades, weight, promise, instance }
     }
 
-    fn model<F>(
+    fn model(
         &self,
         algebra: &LieAlgebra,
         truncation: usize,
         random: &mut Random,
-        make: F,
-    ) -> Model
-    where
-        F: Fn(&LieAlgebra, Terms) -> Box<dyn Steps> + Clone + Send + Sync + 'static,
-    {
+        make: Maker,
+    ) -> Model {
         let (h, least) = energy(self.energy, algebra.dim(), random);
         let series =
             derive(algebra, self.chart, &h, truncation, TermLimit::default()).expect("a series");
@@ -306,10 +303,9 @@ impl Recipe {
         let homogeneous = h.factors().all(|(f, _)| f.iter().map(|f| f.1).sum::<u32>() == 2);
         let promised = least.filter(|_| self.must_accept && truncation >= 5);
         let draw = move |_: &mut Random| {
-            let (orders, algebra, make) = (Arc::clone(&orders), algebra.clone(), make.clone());
-            let steps = move |step: f64, _: &mut Random| {
-                let terms = folded(&orders, step, single)?;
-                Some(Made { steps: make(&algebra, terms), judge: None })
+            let (orders, algebra) = (Arc::clone(&orders), algebra.clone());
+            let steps = move |step: f64, random: &mut Random| {
+                make(&algebra, folded(&orders, step, single)?, step, random)
             };
             System {
                 text: text.clone(),
