@@ -7,10 +7,10 @@
 use coadjoint_program::limits::{LARGEST_RATIO, NEAR};
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
+use super::Integrator;
 use super::candidate::{Branch, CandidateOf};
 use super::continuation::follow;
 use super::rate::estimated_ratio;
-use super::{Integrator, Settings};
 use crate::chart::Chart;
 use crate::error::{Circumstances, StepError};
 use crate::generating::{ScalarOf, VectorOf};
@@ -26,13 +26,12 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: CandidateOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> Result<CandidateOf<S>, StepError> {
     if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
         return Err(StepError::NonFiniteState);
     }
     if candidate.is_solution_within(NEAR) {
-        check_domain(generating, mu, &candidate, settings)?;
+        check_domain(generating, mu, &candidate)?;
         if candidate.branch == Branch::Only {
             return Ok(candidate);
         }
@@ -42,10 +41,10 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
         let not_solved = |at| StepError::NotConverged { iterations, residual, at };
         return Err(refuse(generating, mu, &candidate, not_solved));
     }
-    let followed = follow(generating, mu, settings).map_err(|reached| {
+    let followed = follow(generating, mu).map_err(|reached| {
         refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
     })?;
-    check_domain(generating, mu, &followed, settings)?;
+    check_domain(generating, mu, &followed)?;
     Ok(followed)
 }
 
@@ -57,7 +56,6 @@ fn check_domain<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     candidate: &CandidateOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> Result<(), StepError> {
     let extent = S::Chart::default().extent(generating.group(), &candidate.x);
     if !extent.simd_le(ScalarOf::<S>::of(1.0)).all() {
@@ -71,7 +69,7 @@ fn check_domain<S: Integrator + ?Sized>(
     let within = mu.pairing(mu).simd_le(radius * radius);
     let of_terms = ScalarOf::<S>::of(0.0).select(within, generating.series_ratio(&p));
     let ratio = of_terms.worse(estimated_ratio(generating, mu, &candidate.x));
-    if !settings.takes_any_ratio() && !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
+    if !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {
         return Err(refuse(generating, mu, candidate, |at| StepError::SeriesDiverges { at }));
     }
     Ok(())

@@ -1,8 +1,7 @@
 //! A step as a method of solution proposes it, and the sizes by which it is judged.
 
-use nalgebra::{SimdBool, SimdPartialOrd};
+use nalgebra::SimdBool;
 
-use super::Settings;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
@@ -40,13 +39,10 @@ pub type CandidateOf<S> = Candidate<VectorOf<S>, ScalarOf<S>>;
 
 /// The residual of a solved equation, relative to the largest coordinate of μ: rounding of many coordinates may stay above
 /// four units of it, and S may have more of its own.
-pub(super) fn rounding<S: GeneratingFunction + ?Sized>(
-    generating: &S,
-    settings: Settings<ScalarOf<S>>,
-) -> ScalarOf<S> {
+pub(super) fn rounding<S: GeneratingFunction + ?Sized>(generating: &S) -> ScalarOf<S> {
     let dim = generating.group().dim();
     let units = (4.0 * dim as f64).min(32.0) * generating.rounding();
-    (ScalarOf::<S>::of(units) * ScalarOf::<S>::epsilon()).simd_max(settings.tolerance())
+    ScalarOf::<S>::of(units.max(4.0)) * ScalarOf::<S>::epsilon()
 }
 
 impl<V, T: Scalar> Candidate<V, T> {

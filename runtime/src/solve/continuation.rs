@@ -8,7 +8,7 @@
 //! below [`SHORTEST`].
 
 use super::candidate::CandidateOf;
-use super::{Integrator, Settings, propose_scaled};
+use super::{Integrator, propose_scaled};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -25,7 +25,6 @@ const CORRECTED: f64 = 0.01;
 pub(super) fn follow<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> Result<CandidateOf<S>, f64> {
     let dim = mu.dim();
     let (group, chart) = (generating.group(), S::Chart::default());
@@ -37,7 +36,7 @@ pub(super) fn follow<S: Integrator + ?Sized>(
         let way = ScalarOf::<S>::of(next - reached);
         let guess = VectorOf::<S>::from_entries(dim, |i| slope[i].times_plus(way, p[i]));
         let scale = ScalarOf::<S>::of(next);
-        let found = propose_scaled(generating, mu, scale, guess, settings);
+        let found = propose_scaled(generating, mu, scale, guess);
         iterations += found.iterations;
         if found.is_solution_within(CORRECTED) {
             if next >= 1.0 {

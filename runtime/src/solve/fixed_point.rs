@@ -4,7 +4,6 @@ use coadjoint_program::limits::NEAR;
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
 use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
-use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -24,11 +23,10 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
     mu: &VectorOf<S>,
     scale: ScalarOf<S>,
     guess: VectorOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
     let (near, zero) = (ScalarOf::<S>::of(NEAR), ScalarOf::<S>::of(0.0));
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating, settings));
+    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating));
 
     let disturbance = ScalarOf::<S>::of(DISTURBANCE) / inverse_scale;
     let mut p = VectorOf::<S>::from_entries(dim, |i| {

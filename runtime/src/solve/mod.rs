@@ -11,9 +11,6 @@ mod fixed_point;
 mod newton;
 mod plain;
 mod rate;
-mod settings;
-
-pub use settings::Settings;
 
 pub(crate) use accept::accept;
 pub(crate) use candidate::{Candidate, CandidateOf};
@@ -125,9 +122,8 @@ pub fn solve_from<S: Integrator + ?Sized>(
     mu: &VectorOf<S>,
     guess: VectorOf<S>,
 ) -> Result<Solution<VectorOf<S>, ScalarOf<S>>, StepError> {
-    let settings = Settings::default();
-    let candidate = propose(generating, mu, guess, settings);
-    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate, settings)?;
+    let candidate = propose(generating, mu, guess);
+    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate)?;
     let p = S::Chart::default().pull_back(generating.group(), &x, mu);
     Ok(Solution { p, x, iterations, residual })
 }
@@ -137,9 +133,8 @@ pub(crate) fn propose<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
     guess: VectorOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
-    propose_scaled(generating, mu, Scalar::of(1.0), guess, settings)
+    propose_scaled(generating, mu, Scalar::of(1.0), guess)
 }
 
 /// The same for `scale`·S, as a continuation asks for it.
@@ -148,10 +143,9 @@ fn propose_scaled<S: Integrator + ?Sized>(
     mu: &VectorOf<S>,
     scale: ScalarOf<S>,
     guess: VectorOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     match generating.solver() {
-        Solver::Newton => newton::newton(generating, mu, scale, guess, settings),
-        Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess, settings),
+        Solver::Newton => newton::newton(generating, mu, scale, guess),
+        Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess),
     }
 }

@@ -3,7 +3,6 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
-use super::settings::Settings;
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -26,10 +25,9 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     mu: &VectorOf<S>,
     scale: ScalarOf<S>,
     guess: VectorOf<S>,
-    settings: Settings<ScalarOf<S>>,
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating, settings));
+    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating));
     let mut p = guess;
     let mut moved = ScalarOf::<S>::of(0.0);
     let mut allowed = ScalarOf::<S>::of(f64::MAX);

@@ -15,7 +15,7 @@ use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
-use crate::solve::{Candidate, Integrator, Settings, accept, propose};
+use crate::solve::{Candidate, Integrator, accept, propose};
 
 /// How the solve of one step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,25 +94,13 @@ pub fn advance_by<S: Integrator + ?Sized>(
         done += driven.steps;
         note(driven.iterations, driven.residual);
         if done < steps {
-            let report = by_hand(generating, phase, driven.refused, Settings::default())
+            let report = by_hand(generating, phase, driven.refused)
                 .map_err(|error| Stopped { steps: done, error })?;
             note(report.iterations, report.residual);
             done += 1;
         }
     }
     Ok(worst)
-}
-
-/// As [`advance`], with settings of one's own; never by programs, whose settings are the default.
-///
-/// # Errors
-/// As [`advance`].
-pub fn advance_with<S: Integrator + ?Sized>(
-    generating: &S,
-    phase: &mut Phase<S::Group>,
-    settings: Settings<ScalarOf<S>>,
-) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    by_hand(generating, phase, None, settings)
 }
 
 /// One step without programs, or from the x that programs have found and refused, and its distance from their guess.
@@ -125,7 +113,6 @@ fn by_hand<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     refused: Option<(VectorOf<S>, ScalarOf<S>)>,
-    settings: Settings<ScalarOf<S>>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
     let mu = &phase.momentum;
     let (guess, distance) = match refused {
@@ -134,9 +121,9 @@ fn by_hand<S: Integrator + ?Sized>(
         }
         None => (generating.predict(mu), ScalarOf::<S>::of(0.0)),
     };
-    let mut candidate = propose(generating, mu, guess, settings);
+    let mut candidate = propose(generating, mu, guess);
     candidate.moved += distance;
-    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate, settings)?;
+    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate)?;
     reconstruct(generating, phase, &x)?;
     Ok(StepReport { iterations, residual })
 }

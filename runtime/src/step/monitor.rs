@@ -73,14 +73,6 @@ impl<G: LieGroup> Monitor<G> {
         }
     }
 
-    /// Measures energy drift relative to `scale` instead of the first energy, which may be small
-    /// by cancellation.
-    #[must_use]
-    pub fn with_energy_scale(mut self, scale: G::Scalar) -> Self {
-        self.energy_scale = or_one(scale.simd_abs());
-        self
-    }
-
     /// Takes a state of the run into account.
     pub fn observe(&mut self, state: &Phase<G>, energy: G::Scalar) {
         let spatial = state.spatial_momentum(&self.group);

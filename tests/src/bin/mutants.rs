@@ -153,7 +153,6 @@ const MUTANTS: &[Mutant] = &[
         "LARGEST_RATIO: f64 = 0.5",
         "LARGEST_RATIO: f64 = 5.0",
     ),
-    mutant("generic: no ratio is too large", ACCEPT, "!settings.takes_any_ratio() && ", ""),
     mutant(
         "generic: momenta that are not finite",
         ACCEPT,

@@ -4,10 +4,8 @@ use coadjoint::generating::VectorOf;
 use coadjoint::lanes::Lanes;
 use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::nalgebra::{SVector, Vector6};
-use coadjoint::solve::Integrator;
-use coadjoint::solve::Settings;
-use coadjoint::steps::advance_with;
-use coadjoint::steps::{advance, advance_by, poisson_map};
+use coadjoint::solve::{Integrator, solve};
+use coadjoint::steps::{advance, advance_by, poisson_map, reconstruct};
 use coadjoint::{LieGroup, Phase, SE3, StepError, lie_poisson};
 
 #[lie_poisson(group = SE3, truncation = 7)]
@@ -54,7 +52,8 @@ where
         };
         made += 1;
         let mut reference = Phase::<S::Group>::new(step.group().identity(), mu);
-        advance_with(step, &mut reference, Settings::default())?;
+        let found = solve(step, &mu)?;
+        reconstruct(step, &mut reference, &found.x)?;
         worst = f64::max(worst, (moved - reference.momentum).amax());
     }
     assert!(made >= 10, "{made} of 20 steps");
