@@ -4,14 +4,12 @@
 //! |---|---|---|
 //! | [`SO3`], [`SU2`] | unit quaternions | 3 |
 //! | [`SE2`], [`SE3`] | rotation and translation | 3, 6 |
-//! | [`Heisenberg`] | three numbers | 3 |
-//! | [`SO4`], [`SO5`], [`SU3`], [`SU4`], [`U2`], [`U3`], [`SL2`], [`Aff1`] | matrices | 2 to 15 |
+//! | [`SO4`], [`SO5`], [`SU3`], [`SU4`], [`U2`], [`U3`], [`SL2`], [`Aff1`], [`Heisenberg`] | matrices | 2 to 15 |
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
 pub use crate::chart::{Cayley, Chart, Exponential};
 pub use crate::group::element_error::ElementError;
-pub use crate::group::heisenberg::Heisenberg;
 #[cfg(feature = "alloc")]
 pub use crate::group::product::DirectProduct;
 pub use crate::group::product::{Power, Product};
@@ -19,9 +17,9 @@ pub use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
 pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{
-    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Rotations, SL2, SL2Algebra, SO4,
-    SO5, SU3, SU4, SpecialUnitary, StaticAlgebra, StaticMatrixGroup, StructureConstant, TableGroup,
-    U2, U3, Unitary,
+    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Heisenberg, HeisenbergAlgebra,
+    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, StaticAlgebra,
+    StaticMatrixGroup, StructureConstant, TableGroup, U2, U3, Unitary,
 };
 #[cfg(feature = "alloc")]
 pub use crate::table::{CayleyMatrixGroup, MatrixGroup, TableError};

@@ -1,7 +1,5 @@
 //! The runtime type of a problem's group.
 
-use std::collections::BTreeSet;
-
 use coadjoint_program::quoting::rust_comment;
 use num_traits::ToPrimitive;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -11,10 +9,11 @@ use super::number::exact;
 use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
 
 /// Groups the runtime has closed forms for, under the catalogue's name.
-const CLOSED_FORMS: [&str; 5] = ["SO3", "SE3", "SU2", "SE2", "Heisenberg"];
+const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
 
 /// Groups the runtime has tables for, under the catalogue's name.
-pub const RUNTIME_TABLES: [&str; 8] = ["Aff1", "SL2", "SO4", "SO5", "SU3", "SU4", "U2", "U3"];
+pub const RUNTIME_TABLES: [&str; 9] =
+    ["Aff1", "Heisenberg", "SL2", "SO4", "SO5", "SU3", "SU4", "U2", "U3"];
 
 /// How generated code names the group.
 pub(crate) struct GroupType {
@@ -102,9 +101,9 @@ fn own_tables(
 ) -> (TokenStream, TokenStream) {
     let n = algebra.dim();
     let basis = algebra.basis();
-    let size = basis.and_then(<[_]>::first).map_or(n, |matrix| matrix.rows());
-    let structure = structure(algebra).into_iter().map(|(i, j, k, value)| {
-        let (i, j, k) = (index(i), index(j), index(k));
+    let size = algebra.matrix_size();
+    let structure = algebra.structure().iter().map(|c| {
+        let (i, j, k, value) = (index(c.i), index(c.j), index(c.k), exact(&c.value));
         quote!((#i, #j, #k, #value))
     });
     let basis = match basis {
@@ -164,22 +163,6 @@ fn own_tables(
         #cayley
     };
     (definition, tables)
-}
-
-/// The structure constants with both orders of every bracket, sorted.
-fn structure(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, TokenStream)> {
-    let mut seen = BTreeSet::new();
-    let mut all = Vec::new();
-    for constant in algebra.structure() {
-        let (i, j, k) = (constant.i, constant.j, constant.k);
-        for (i, j, value) in [(i, j, constant.value.clone()), (j, i, -constant.value.clone())] {
-            if seen.insert((i, j, k)) {
-                all.push((i, j, k, exact(&value)));
-            }
-        }
-    }
-    all.sort_by_key(|&(i, j, k, _)| (i, j, k));
-    all
 }
 
 fn index(value: usize) -> Literal {

@@ -2,7 +2,6 @@
 
 pub(crate) mod element_error;
 pub(crate) mod entire;
-pub(crate) mod heisenberg;
 pub(crate) mod middle;
 mod nodes;
 pub(crate) mod phase;

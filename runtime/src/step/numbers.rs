@@ -4,7 +4,6 @@ use nalgebra::{Isometry2, Isometry3, Translation2, Translation3};
 use nalgebra::{Quaternion, UnitComplex, UnitQuaternion, Vector3};
 
 use crate::group::LieGroup;
-use crate::group::heisenberg::Heisenberg;
 use crate::group::product::{Power, Product};
 use crate::group::se2::SE2;
 use crate::group::se3::SE3;
@@ -104,22 +103,6 @@ impl<T: Scalar> ElementNumbers for SE2<T> {
         let rotation =
             UnitComplex::new_unchecked(nalgebra::Complex::new((w - k) * (w + k), (w + w) * k));
         Isometry2::from_parts(Translation2::new(n[2], n[3]), rotation)
-    }
-}
-
-impl<T: Scalar> ElementNumbers for Heisenberg<T> {
-    const COUNT: usize = 3;
-
-    #[inline(always)]
-    fn write(g: &Self::Element, numbers: &mut [T]) {
-        for i in 0..3 {
-            numbers[i] = g[i];
-        }
-    }
-
-    #[inline(always)]
-    fn read(n: &[T]) -> Self::Element {
-        Vector3::new(n[0], n[1], n[2])
     }
 }
 

@@ -21,6 +21,9 @@ pub type SL2<T = f64> = StaticMatrixGroup<SL2Algebra, 3, 2, T>;
 /// The group Aff1: affine maps of the line, as 2×2 matrices. Basis: the scaling E_11 and the translation E_12. Both
 /// charts; it has no polynomial Casimir.
 pub type Aff1<T = f64> = StaticMatrixGroup<Aff1Algebra, 2, 2, T>;
+/// The Heisenberg group: upper 3×3 matrices with diagonal 1. Basis: E_12, E_23 and their bracket E_13, the centre. Both
+/// charts, which agree, since cubes of the basis' matrices vanish.
+pub type Heisenberg<T = f64> = StaticMatrixGroup<HeisenbergAlgebra, 3, 3, T>;
 
 /// 𝔰𝔬(`D`). Basis: E_ba − E_ab for a < b, in lexicographic order.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +45,10 @@ pub struct SL2Algebra;
 /// The Lie algebra of [`Aff1`].
 #[derive(Clone, Copy, Debug)]
 pub struct Aff1Algebra;
+
+/// The Lie algebra of [`Heisenberg`].
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergAlgebra;
 
 impl<const D: usize> StaticAlgebra for Rotations<D> {
     const DIM: usize = D * (D - 1) / 2;
@@ -97,15 +104,28 @@ impl StaticAlgebra for Aff1Algebra {
     const CASIMIRS: &'static [&'static [CasimirTerm]] = &[];
 }
 
+impl StaticAlgebra for HeisenbergAlgebra {
+    const DIM: usize = 3;
+    const MATRIX_SIZE: usize = 3;
+    const STRUCTURE: &'static [StructureConstant] =
+        const { &brackets(&HEISENBERG_BASIS) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(HEISENBERG_BASIS.entries());
+    const CASIMIRS: &'static [&'static [CasimirTerm]] = &[&[(1.0, &[(2, 1)])]];
+}
+
 impl<const D: usize> CayleyAlgebra for Rotations<D> {}
 impl<const N: usize> CayleyAlgebra for Unitary<N> {}
 impl CayleyAlgebra for SL2Algebra {}
 impl CayleyAlgebra for Aff1Algebra {}
+impl CayleyAlgebra for HeisenbergAlgebra {}
 
 static SL2_BASIS: Entries =
     Entries::EMPTY.with(0, 0, 0, 1.0).with(0, 1, 1, -1.0).with(1, 0, 1, 1.0).with(2, 1, 0, 1.0);
 
 static AFF1_BASIS: Entries = Entries::EMPTY.with(0, 0, 0, 1.0).with(1, 0, 1, 1.0);
+
+static HEISENBERG_BASIS: Entries =
+    Entries::EMPTY.with(0, 0, 1, 1.0).with(1, 1, 2, 1.0).with(2, 0, 2, 1.0);
 
 /// Room for the structure constants of SU4, the largest table here; a larger one does not compile.
 const CAPACITY: usize = 192;

@@ -1,7 +1,7 @@
 //! A whole step as straight-line programs, ready for any target.
 //!
 //! [`Step::build`] puts an integrator's gradient, Hessian and first guess together with the formulas of its group and
-//! chart: closed forms for SO(3), SU(2), SE(2), SE(3), the Heisenberg group and translations, series by tables for all
+//! chart: closed forms for SO(3), SU(2), SE(2), SE(3) and translations, series by tables for all
 //! others, products factor by factor. The test that accepts a step is the runtime's (`docs/book/src/guarantee.md`), with
 //! sufficient conditions in place of eigenvalues: what the programs refuse may still be a right step, which whoever drives
 //! them finds by other means.
@@ -20,7 +20,6 @@ mod solving;
 mod spatial;
 mod tables;
 mod translations;
-mod unitriangular;
 mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};
@@ -43,7 +42,6 @@ use solving::Scheme;
 pub use spatial::Spatial;
 use tables::Tables;
 use translations::Translations;
-use unitriangular::Unitriangular;
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]
@@ -197,9 +195,6 @@ fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Pa
     }
     if is("SE2") {
         return Ok(Box::new(Plane { chart }));
-    }
-    if is("Heisenberg") {
-        return Ok(Box::new(Unitriangular));
     }
     if is(&format!("R{}", algebra.dim())) {
         return Ok(Box::new(Translations { dim: algebra.dim() }));

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use coadjoint::groups::{
-    Aff1Algebra, CayleyAlgebra, Rotations, SL2Algebra, SO4, SpecialUnitary, StaticAlgebra, Unitary,
+    Aff1Algebra, CayleyAlgebra, HeisenbergAlgebra, Rotations, SL2Algebra, SO4, SpecialUnitary,
+    StaticAlgebra, Unitary,
 };
 use coadjoint::{Phase, StepError, lie_poisson};
 use coadjoint_codegen::emit;
@@ -84,6 +85,7 @@ fn agrees_with_cayley<A: CayleyAlgebra>(name: &str) -> Result<(), Box<dyn std::e
 #[test]
 fn the_runtimes_tables_are_the_catalogues() -> Result<(), Box<dyn std::error::Error>> {
     agrees_with_cayley::<Aff1Algebra>("Aff1")?;
+    agrees_with_cayley::<HeisenbergAlgebra>("Heisenberg")?;
     agrees_with_cayley::<SL2Algebra>("SL2")?;
     agrees_with_cayley::<Rotations<4>>("SO4")?;
     agrees_with_cayley::<Rotations<5>>("SO5")?;
@@ -93,7 +95,7 @@ fn the_runtimes_tables_are_the_catalogues() -> Result<(), Box<dyn std::error::Er
     assert!(Chart::Cayley.check(&lookup("SU4")?).is_err());
     agrees::<SpecialUnitary<3>>("SU3")?;
     agrees::<SpecialUnitary<4>>("SU4")?;
-    assert_eq!(emit::RUNTIME_TABLES.len(), 8);
+    assert_eq!(emit::RUNTIME_TABLES.len(), 9);
     Ok(())
 }
 
