@@ -25,12 +25,6 @@ const MODELS: &Names<Kind> = &[
     ("hybrid", "A quadratic polynomial and a network", Kind::Hybrid),
 ];
 
-/// The loss that is minimised; whether it measures distances on the group.
-const LOSSES: &Names<bool> = &[
-    ("chart", "Differences of chart coordinates", false),
-    ("group", "Distances on the group", true),
-];
-
 /// The options that `learn` and `geometrize` share.
 #[derive(Args, Debug)]
 pub struct Fit {
@@ -84,9 +78,6 @@ pub struct LearnOptions {
     /// The ridge of a polynomial of given degree
     #[arg(long, default_value_t = 0.0)]
     ridge: f64,
-    /// The loss that is minimised
-    #[arg(long, value_parser = named(LOSSES), default_value = "chart")]
-    loss: bool,
     /// Widths of the hidden layers of a network
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [500, 500])]
     widths: Vec<usize>,
@@ -177,7 +168,6 @@ pub fn run(options: &LearnOptions) -> Result<(), CliError> {
     let request = Request {
         kind: options.model,
         ridge: options.ridge,
-        group_loss: options.loss,
         tolerances,
         network,
         ..options.fit.request(load::group(&options.group)?)

@@ -1,7 +1,7 @@
 //! Trivialised derivatives of a chart as matrices, from what [`Chart`] offers.
 
 use coadjoint::LieGroup;
-use coadjoint::groups::{Chart, Coordinates, Exponential};
+use coadjoint::groups::{Chart, Coordinates};
 use nalgebra::DMatrix;
 
 use crate::function::{entries, vector};
@@ -27,16 +27,6 @@ where
     let rows: Vec<f64> =
         units::<G>(dim).flat_map(|e| entries(&chart.pull_back(group, &minus, &e))).collect();
     DMatrix::from_row_slice(dim, dim, &rows)
-}
-
-/// (d^L exp_x)⁻¹; not finite where there is none.
-pub(crate) fn left_exp_derivative_inverse<G>(group: &G, x: &G::Vector) -> DMatrix<f64>
-where
-    G: LieGroup<Scalar = f64>,
-{
-    let dim = x.dim();
-    let inverse = left_derivative(group, Exponential, x).try_inverse();
-    inverse.unwrap_or_else(|| DMatrix::from_element(dim, dim, f64::NAN))
 }
 
 /// The matrix of ξ ↦ ad\*_ξ μ.

@@ -292,7 +292,6 @@ def learn(
     model: str = "auto",
     degree: int | None = None,
     ridge: Real = 0.0,
-    loss: str = "chart",
     tolerance: Real = 1e-6,
     drop_bad_rows: bool = False,
     test: Any = None,
@@ -313,7 +312,7 @@ def learn(
     ``before`` and ``after`` are momenta, (N, n); ``attitudes`` a pair of arrays of matrices, (N, d, d), or of quaternions
     w, x, y, z. A data frame or a dictionary with the columns ``mu_1`` …, ``mu_next_1`` … takes the place of both.
     ``test`` is a pair of arrays (with ``attitudes``, four), or a frame. ``model`` is ``"auto"`` (what cross-validates
-    best), ``"polynomial"``, ``"gp"``, ``"network"`` or ``"hybrid"``; ``loss`` is ``"chart"`` or ``"group"``.
+    best), ``"polynomial"``, ``"gp"``, ``"network"`` or ``"hybrid"``.
     ``tolerance`` is how far attitudes may be off the group and momenta off conservation; ``inf`` for noisy data.
     """
     data, others = _data(before, after, attitudes, "data")
@@ -331,7 +330,6 @@ def learn(
         "kind": text(model, "model"),
         "degree": None if degree is None else count(degree, "degree"),
         "ridge": real(ridge, "ridge"),
-        "group_loss": text(loss, "loss", ("chart", "group")) == "group",
         "tolerance": real(tolerance, "tolerance"),
         "drop": flag(drop_bad_rows, "drop_bad_rows"),
         "momenta_only": _momenta_only,

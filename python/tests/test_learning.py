@@ -79,7 +79,6 @@ def test_data_that_make_no_sense_are_refused(body: ca.System) -> None:
     for settings, message in [
         (dict(model="forest"), "forest"),
         (dict(chart="polar"), "polar"),
-        (dict(loss="l1"), "l1"),
         (dict(group="SO99x"), "SO99x"),
         (dict(attitudes=g), "pair"),
         (dict(attitudes=(g, 2 * g_next)), "group|row"),

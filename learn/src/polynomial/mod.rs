@@ -2,13 +2,11 @@
 
 mod basis;
 mod fit;
-mod group_loss;
 mod model;
 mod select;
 
 pub use basis::{Basis, Scaling};
 pub use fit::{fit_gradients, fit_polynomial};
-pub use group_loss::fit_group_loss;
 pub use model::PolynomialModel;
 pub use select::{Candidate, Selection, select_polynomial};
 pub(crate) use select::{folds, gradient_error, split};

@@ -1,18 +1,14 @@
 //! Which model is fitted, and why.
 
-use coadjoint::groups::Chart;
-
 use super::neural::train;
 use super::request::{Kind, Request};
 use crate::data::ReducedData;
 use crate::error::LearnError;
 use crate::gaussian_process::fit_gaussian_process;
-use crate::group::DataGroup;
 use crate::model::Model;
 use crate::network::Progress;
 use crate::polynomial::{
-    Candidate, Selection, fit_group_loss, fit_polynomial, folds, gradient_error, select_polynomial,
-    split,
+    Candidate, Selection, fit_polynomial, folds, gradient_error, select_polynomial, split,
 };
 use crate::save::TrainingRecord;
 
@@ -23,16 +19,15 @@ const BEYOND_NETWORKS: f64 = 1e-16;
 const LARGEST_PROCESS: usize = 300;
 
 /// Fits the kind of model asked for.
-pub(super) fn fit<G: DataGroup, C: Chart<G>>(
+pub(super) fn fit(
     request: &Request,
-    group: &G,
     data: &ReducedData,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Model, TrainingRecord), LearnError> {
     let mut record =
         TrainingRecord { samples: data.len(), seed: request.seed, ..TrainingRecord::default() };
     let selection = || select_polynomial(data, 2..=10, request.seed);
-    let mut model = match request.kind {
+    let model = match request.kind {
         Kind::Polynomial | Kind::Auto if request.degree.is_some() => {
             let degree = request.degree.unwrap_or(2);
             record.choice = format!("polynomial degree {degree}, as asked");
@@ -57,17 +52,6 @@ pub(super) fn fit<G: DataGroup, C: Chart<G>>(
             model
         }
     };
-    if request.group_loss {
-        let Model::Polynomial(start) = &model else {
-            let requirement = "the distance on the group is minimised for polynomials only";
-            return Err(LearnError::option("loss", "group", requirement));
-        };
-        let options = crate::GaussNewton { iterations: 20, relative_decrease: 1e-6, ridge: 1e-15 };
-        let (refined, history) = fit_group_loss::<G, C>(group, data, start, &options)?;
-        record.choice += "; refined by the distance on the group";
-        record.history = history;
-        model = Model::Polynomial(refined);
-    }
     Ok((model, record))
 }
 

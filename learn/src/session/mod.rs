@@ -101,7 +101,7 @@ impl Visitor for Learner<'_> {
         let (rows, reduction) = pairs(&recording)?;
         let test = test.as_ref().map(pairs).transpose()?;
         let data = &reduction.data;
-        let (model, record) = choose::fit::<G, C>(request, &group, data, progress)?;
+        let (model, record) = choose::fit(request, data, progress)?;
         let map = Generating::<G, C, &dyn MomentumFunction>::new(group.clone(), &model);
         let train = evaluate(&map, &group, &rows, data);
         let test = test.map(|(rows, reduction)| evaluate(&map, &group, &rows, &reduction.data));

@@ -54,8 +54,6 @@ pub struct Request {
     pub degree: Option<usize>,
     /// The ridge of a polynomial of given degree.
     pub ridge: f64,
-    /// Refine by the distance on the group (polynomials only).
-    pub group_loss: bool,
     /// How far attitudes may be off the group, and momenta from being conserved.
     pub tolerances: Tolerances,
     /// Whether rows that cannot be used are an error or left out.

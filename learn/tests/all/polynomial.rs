@@ -3,11 +3,10 @@
 
 use coadjoint::SO3;
 use coadjoint::groups::{Cayley, Chart, Exponential};
-use coadjoint_learn::MomentumFunction;
 use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
-use coadjoint_learn::polynomial::{fit_group_loss, fit_polynomial, select_polynomial};
+use coadjoint_learn::polynomial::{fit_polynomial, select_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
-use coadjoint_learn::{GaussNewton, LearnError};
+use coadjoint_learn::{LearnError, MomentumFunction};
 
 fn reduced<C: Chart<SO3>>(count: usize, seed: u64, noise: f64) -> ReducedData {
     let group = SO3::new();
@@ -51,20 +50,6 @@ fn cross_validation_takes_a_high_degree_for_exact_data_and_a_low_one_for_noise()
     assert!(noisy.best.degree <= 3, "{:?}", noisy.best);
     // The noise of an increment is √2·0.05 a coordinate; the model averages it out.
     assert!(error(&noisy.model, &reduced::<Exponential>(100, 2, 0.0)) < 1e-4);
-}
-
-#[test]
-fn the_group_loss_agrees_where_data_are_exact_and_lowers_the_group_error_where_not() {
-    let group = SO3::new();
-    let options = GaussNewton { iterations: 10, relative_decrease: 1e-12, ridge: 1e-15 };
-    let train = reduced::<Cayley>(150, 1, 0.02);
-    let start = fit_polynomial(&train, 2, 0.0).unwrap();
-    let (_, history) = fit_group_loss::<SO3, Cayley>(&group, &train, &start, &options).unwrap();
-    assert!(history.last().unwrap() < &history[0]);
-    let train = reduced::<Cayley>(150, 1, 0.0);
-    let start = fit_polynomial(&train, 4, 0.0).unwrap();
-    let (model, _) = fit_group_loss::<SO3, Cayley>(&group, &train, &start, &options).unwrap();
-    assert!(error(&model, &reduced::<Cayley>(100, 2, 0.0)) < 1e-7);
 }
 
 #[test]
